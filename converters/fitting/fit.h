@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Local implicit modelling: a blobby model for every centerline node (thesis chapter 4; design notes section 2).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converters/common/progress.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// Defaults are those of thesis table 4.5. The lengths marked * are tied to a 0.2 mm voxel there; left
+/// empty, they scale with the case's voxel size.
+struct FitOptions {
+  formats::Kernel kernel = formats::Kernel::Cauchy;
+  std::optional<double> kernelParameter;  ///< Cauchy s^2 (1/5), Gaussian a^2 (1/2)
+  double cohesionWeight = 1e-5;           ///< alpha, of the Lennard-Jones energy
+  double curvatureWeight = 1e-3;          ///< beta, of the mean-curvature energy
+  double cohesionScale = 2.0;             ///< s, of the Lennard-Jones energy
+  int maxSubdivisions = 100;              ///< N_s
+  int neighbourhood = 2;                  ///< topological distance of the nodes whose points are fitted
+  std::optional<double> isoLevel;         ///< T, mm *: half a voxel
+  std::optional<double> accuracy;         ///< t_g, mm *: 1.5 voxels
+  std::optional<double> maxDistance;      ///< blobs farther than this from their node are dropped, mm *: 100 voxels
+  std::optional<double> minWidth;         ///< narrower blobs are dropped, mm *: 0.1 voxel
+
+  /// The same with every optional value set. Throws Error(InvalidInput) for values out of range.
+  [[nodiscard]] FitOptions resolved(double voxelSize) const;
+  /// Every value by its option's name, as a case stores it.
+  [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
+};
+
+/// Adds (or replaces) the blobby models of a case that has wall points, and appends the "fit" step to
+/// its metadata. Nodes whose neighbourhood has too few points get the two starting blobs. The result does not depend on
+/// the number of threads. Throws Error(InvalidInput) if the case has no points or no voxel size while a
+/// voxel-scaled option is left empty, and Error(Cancelled).
+void fit(formats::Case& target, const FitOptions& options, Progress& progress);
+
+}  // namespace lumen::convert

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Volume files to and from memory, through ITK.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "converters/common/progress.h"
+#include "converters/volume/volume.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// A box in index space, both corners included.
+struct IndexBox {
+  std::array<int, 3> low{}, high{};
+};
+
+struct ReadVolumeOptions {
+  std::string series;            ///< DICOM series instance UID, or its 1-based number in the listing; "" = the only one
+  std::optional<IndexBox> crop;  ///< keep only this box; the origin moves with it
+};
+
+/// Reads NIfTI, NRRD, MetaImage, or a DICOM series (a directory), 3-D, scalar, of any pixel type.
+/// Throws Error(InvalidInput) for a file that is missing, truncated, not 3-D, multi-component, constant,
+/// has a spacing that is not positive or a crop box outside of it, or for an ambiguous DICOM series
+/// (the message lists them); Error(Unsupported) for another file type.
+Volume readVolume(const std::filesystem::path& path, const ReadVolumeOptions& options,
+                  const Progress& progress);
+
+/// True if `path` looks like a volume by its name: .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd, or a directory.
+bool isVolumePath(const std::filesystem::path& path);
+
+/// Writes .nii, .nii.gz, .nrrd or .mha, atomically; compressed where the format allows it.
+void writeVolume(const Volume& volume, const std::filesystem::path& path);
+
+/// The record of `volume` that a case keeps. The digest is SHA-256 over the voxels, x fastest, in the
+/// in-memory pixel type, little-endian.
+formats::SourceVolume describeSource(const Volume& volume);
+
+}  // namespace lumen::convert

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernels and the implicit function that they sum to: the scalar double-precision reference.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "formats/case/case.h"
+
+namespace lumen::formats {
+
+/// phi and its first three derivatives with respect to x = r^2 (r in units of the width), x >= 0.
+struct KernelValue {
+  double phi, d1, d2, d3;
+};
+
+/// Kernels of thesis table 4.1. At the edge of a compact kernel (x = 1) the outer value, zero, is given.
+KernelValue evaluateKernel(Kernel kernel, double parameter, double x);
+
+/// The kernel's default parameter: Cauchy s^2 = 1/5, Gaussian a^2 = 1/2 (inflection at r = 1 in both);
+/// 0 for the kernels without one.
+double defaultKernelParameter(Kernel kernel);
+
+/// The r >= 0, mm, at which width * phi(r^2 / width^2) = level; 0 if the blob never reaches the level.
+double isoRadius(Kernel kernel, double parameter, double width, double level);
+
+/// The width w of `count` equal blobs in one place whose surface w * count * phi(r^2/w^2) = level has radius r.
+/// Always solvable for r > 0, level > 0; of several solutions the widest that is not wider than needed: the one nearest r.
+double widthForRadius(Kernel kernel, double parameter, double radius, double level, int count = 1);
+
+struct Vec3d {
+  double x = 0, y = 0, z = 0;
+};
+
+struct FieldValue {
+  double f = 0;        ///< mm
+  Vec3d gradient;      ///< dimensionless
+};
+
+/// f and its gradient for the model of `node`, at a point in mm, LPS.
+FieldValue evaluateField(const BlobbyModels& models, std::uint32_t node, const Vec3d& point);
+
+}  // namespace lumen::formats

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walking a centerline tree.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "formats/case/case.h"
+
+namespace lumen::formats {
+
+/// Topological neighbours (parent and children) of every node, in CSR form, ascending within a node.
+class Neighbours {
+public:
+  explicit Neighbours(const CenterlineTree& tree);
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t node) const {
+    return std::span(m_node).subspan(m_offset[node], m_offset[node + 1] - m_offset[node]);
+  }
+  /// Nodes within `distance` edges of `node`, itself first, then by distance.
+  [[nodiscard]] std::vector<std::uint32_t> within(std::uint32_t node, int distance) const;
+
+private:
+  std::vector<std::uint32_t> m_offset, m_node;
+};
+
+/// Length of a branch, mm: its nodes' polyline, and the link to its parent node beyond that node's radius.
+double branchLength(const CenterlineTree& tree, const Branch& branch);
+
+}  // namespace lumen::formats
