@@ -10,34 +10,44 @@
 namespace lumen::formats {
 
 /// phi and its first three derivatives with respect to x = r^2 (r in units of the width), x >= 0.
+/// All functions of this header give the same bits on every machine with IEEE 754 doubles.
 struct KernelValue {
   double phi, d1, d2, d3;
 };
 
-/// Kernels of thesis table 4.1. At the edge of a compact kernel (x = 1) the outer value, zero, is given.
+/// Kernels of thesis table 4.1. At the edge of a compact kernel (x = 1) the outer value, zero, is
+/// given.
 KernelValue evaluateKernel(Kernel kernel, double parameter, double x);
 
-/// The kernel's default parameter: Cauchy s^2 = 1/5, Gaussian a^2 = 1/2 (inflection at r = 1 in both);
-/// 0 for the kernels without one.
+/// The kernel's default parameter: Cauchy s^2 = 1/5, Gaussian a^2 = 1/2 (inflection at r = 1 in
+/// both); 0 for the kernels without one.
 double defaultKernelParameter(Kernel kernel);
 
-/// The r >= 0, mm, at which width * phi(r^2 / width^2) = level; 0 if the blob never reaches the level.
+/// The r >= 0, mm, at which width * phi(r^2 / width^2) = level; 0 if the blob never exceeds the
+/// level. level > 0. The level at the result is right to a relative 1e-11.
 double isoRadius(Kernel kernel, double parameter, double width, double level);
 
-/// The width w of `count` equal blobs in one place whose surface w * count * phi(r^2/w^2) = level has radius r.
-/// Always solvable for r > 0, level > 0; of several solutions the widest that is not wider than needed: the one nearest r.
+/// The width w of `count` equal blobs in one place whose surface w * count * phi(r^2/w^2) = level
+/// has radius r. For radius >= 0, level > 0 and count > 0 there is exactly one, because the left
+/// side grows with w from zero without bound; it is found to a relative 1e-12. Otherwise NaN.
 double widthForRadius(Kernel kernel, double parameter, double radius, double level, int count = 1);
+
+/// exp and log with the same bits on every machine, which the C library does not promise; their
+/// error is about one unit in the last place. repeatableLog() needs x > 0.
+double repeatableExp(double x);
+double repeatableLog(double x);
 
 struct Vec3d {
   double x = 0, y = 0, z = 0;
 };
 
 struct FieldValue {
-  double f = 0;        ///< mm
-  Vec3d gradient;      ///< dimensionless
+  double f = 0;    ///< mm
+  Vec3d gradient;  ///< dimensionless
 };
 
-/// f and its gradient for the model of `node`, at a point in mm, LPS.
+/// f and its gradient for the model of `node`, at a point in mm, LPS; zero for a node without
+/// blobs.
 FieldValue evaluateField(const BlobbyModels& models, std::uint32_t node, const Vec3d& point);
 
 }  // namespace lumen::formats

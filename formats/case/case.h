@@ -12,7 +12,8 @@
 
 namespace lumen::formats {
 
-/// A position (mm) or a unit direction in LPS patient coordinates: +x left, +y posterior, +z superior.
+/// A position (mm) or a unit direction in LPS patient coordinates: +x left, +y posterior, +z
+/// superior.
 struct Vec3f {
   float x = 0, y = 0, z = 0;
   friend bool operator==(const Vec3f&, const Vec3f&) = default;
@@ -33,7 +34,8 @@ enum class StopReason : std::uint8_t {
 
 constexpr std::int32_t kNoParent = -1;
 
-/// A contiguous range of nodes [firstNode, firstNode + nodeCount), each the child of the one before.
+/// A contiguous range of nodes [firstNode, firstNode + nodeCount), each the child of the one
+/// before.
 struct Branch {
   std::string label;  ///< unique in its case, UTF-8
   BranchKind kind = BranchKind::Vessel;
@@ -46,15 +48,16 @@ struct Branch {
 };
 
 /// Nodes as a structure of arrays (all of nodeCount() entries; inlierRate may be empty), and their
-/// branches in node order. A node's parent has a smaller index, so a tree is acyclic by construction.
+/// branches in node order. A node's parent has a smaller index, so a tree is acyclic by
+/// construction.
 struct CenterlineTree {
-  std::vector<Vec3f> centre;             ///< mm, LPS
-  std::vector<Vec3f> direction;          ///< unit vector along the vessel, away from the parent
-  std::vector<float> radius;             ///< mm, > 0
-  std::vector<float> height;             ///< mm, >= 0: length of the node's cylinder along `direction`
-  std::vector<std::int32_t> parent;      ///< node index, or kNoParent
-  std::vector<std::uint32_t> branch;     ///< index into `branches`
-  std::vector<float> inlierRate;         ///< in [0, 1]; empty if unknown
+  std::vector<Vec3f> centre;          ///< mm, LPS
+  std::vector<Vec3f> direction;       ///< unit vector along the vessel, away from the parent
+  std::vector<float> radius;          ///< mm, > 0
+  std::vector<float> height;          ///< mm, >= 0: length of the node's cylinder along `direction`
+  std::vector<std::int32_t> parent;   ///< node index, or kNoParent
+  std::vector<std::uint32_t> branch;  ///< index into `branches`
+  std::vector<float> inlierRate;      ///< in [0, 1]; empty if unknown
   std::vector<Branch> branches;
 
   [[nodiscard]] std::size_t nodeCount() const { return centre.size(); }
@@ -70,8 +73,8 @@ struct PointSets {
 
 enum class Kernel : std::uint8_t { Cauchy = 0, Gaussian = 1, Quartic = 2, SoftObject = 3 };
 
-/// One implicit surface f(X) = T per node, f(X) = sum_j width_j * phi(|X - centre_j|^2 / width_j^2),
-/// inside where f > T. Node i owns the blobs offset[i] .. offset[i + 1] - 1.
+/// One implicit surface f(X) = T per node, f(X) = sum_j width_j * phi(|X - centre_j|^2 /
+/// width_j^2), inside where f > T. Node i owns the blobs offset[i] .. offset[i + 1] - 1.
 struct BlobbyModels {
   Kernel kernel = Kernel::Cauchy;
   double kernelParameter = 0.2;  ///< Cauchy: s^2; Gaussian: a^2; ignored by the compact kernels
@@ -87,8 +90,8 @@ struct SourceVolume {
   std::array<std::uint32_t, 3> size{};  ///< voxels along i, j, k
   std::array<double, 3> spacing{};      ///< mm along i, j, k
   std::array<double, 3> origin{};       ///< centre of voxel (0,0,0), mm, LPS
-  std::array<double, 9> direction{};    ///< row-major; column a is the LPS direction of index axis a
-  std::string sha256;                   ///< lower-case hex digest of the voxels (see the specification)
+  std::array<double, 9> direction{};  ///< row-major; column a is the LPS direction of index axis a
+  std::string sha256;  ///< lower-case hex digest of the voxels (see the specification)
   friend bool operator==(const SourceVolume&, const SourceVolume&) = default;
 };
 

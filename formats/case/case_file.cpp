@@ -1,1 +1,109 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "formats/case/case_file.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "formats/case/error_text.h"
+#include "formats/container/container.h"
+
+namespace lumen::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OpenFile {
+public:
+  explicit OpenFile(const fs::path& file)
+      // not blocking: opening a pipe that nobody writes to must not hang
+      : m_descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+  ~OpenFile() {
+    if (m_descriptor >= 0) ::close(m_descriptor);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  [[nodiscard]] int descriptor() const { return m_descriptor; }
+
+private:
+  int m_descriptor;
+};
+
+FormatError ioError(ErrorCode code, const fs::path& file, const std::string& what) {
+  return makeError(code, "file", file.string() + ": " + what);
+}
+
+Result<std::vector<std::byte>> readBytes(const fs::path& file) {
+  const OpenFile open(file);
+  const auto reason = [] { return std::generic_category().message(errno); };
+  if (open.descriptor() < 0)
+    return ioError(errno == ENOENT || errno == ENOTDIR ? ErrorCode::IoMissing : ErrorCode::IoRead,
+                   file, reason());
+  struct stat info {};
+  if (::fstat(open.descriptor(), &info) != 0) return ioError(ErrorCode::IoRead, file, reason());
+  if (!S_ISREG(info.st_mode))
+    return ioError(ErrorCode::IoNotAFile, file,
+                   S_ISDIR(info.st_mode) ? "is a directory, expected a .lumen or .lumen.json file"
+                                         : "is not a regular file");
+  std::vector<std::byte> bytes(static_cast<std::size_t>(info.st_size));
+  std::size_t got = 0;
+  while (got < bytes.size()) {
+    const ssize_t count = ::read(open.descriptor(), bytes.data() + got, bytes.size() - got);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return ioError(ErrorCode::IoRead, file, reason());
+    if (count == 0) break;  // it shrank while being read; decoding will tell
+    got += static_cast<std::size_t>(count);
+  }
+  bytes.resize(got);
+  if (bytes.empty()) return ioError(ErrorCode::IoEmpty, file, "the file is empty");
+  return bytes;
+}
+
+std::string_view asText(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool startsLikeJson(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos &&
+         (text[first] == '{' || text.starts_with("\xef\xbb\xbf"));
+}
+
+// Damaged signatures too: the decoder says what is wrong with them.
+bool startsLikeContainer(std::string_view text) {
+  return text.starts_with("\x8c") || text.substr(0, 8).find("LUMEN") != std::string_view::npos;
+}
+
+Result<Case> decode(const std::vector<std::byte>& bytes) {
+  const std::string_view text = asText(bytes);
+  if (startsLikeContainer(text)) return decodeBinary(bytes);
+  if (startsLikeJson(text)) return decodeJson(text);
+  return makeError(ErrorCode::NotLumen, bytePlace(0),
+                   "neither the signature of .lumen nor the brace of .lumen.json");
+}
+
+}  // namespace
+
+Result<Case> readCaseFile(const fs::path& file) {
+  const auto bytes = readBytes(file);
+  if (!bytes) return bytes.error();
+  auto value = decode(*bytes);
+  if (value) return value;
+  FormatError error = value.error();
+  error.message = file.string() + ": " + error.message;
+  return error;
+}
+
+Result<bool> writeCaseFile(const Case& value, const fs::path& file) {
+  if (auto valid = validate(value); !valid) return valid;
+  if (file.extension() == ".json") {
+    const std::string text = encodeJson(value);
+    return writeFileAtomically(std::as_bytes(std::span(text)), file);
+  }
+  return writeFileAtomically(encodeBinary(value), file);
+}
+
+}  // namespace lumen::formats

@@ -10,7 +10,8 @@
 
 namespace lumen::formats {
 
-/// Topological neighbours (parent and children) of every node, in CSR form, ascending within a node.
+/// Topological neighbours (parent and children) of every node, in CSR form, ascending within a
+/// node.
 class Neighbours {
 public:
   explicit Neighbours(const CenterlineTree& tree);
@@ -24,7 +25,8 @@ private:
   std::vector<std::uint32_t> m_offset, m_node;
 };
 
-/// Length of a branch, mm: its nodes' polyline, and the link to its parent node beyond that node's radius.
+/// Length of a branch, mm: its nodes' polyline, and the link to its parent node beyond that node's
+/// radius.
 double branchLength(const CenterlineTree& tree, const Branch& branch);
 
 }  // namespace lumen::formats

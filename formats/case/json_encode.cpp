@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <variant>
+
+#include "formats/case/case_file.h"
+#include "formats/case/enum_names.h"
+#include "formats/case/json_writer.h"
+#include "formats/case/metadata_json.h"
+#include "formats/container/container.h"
+
+namespace lumen::formats {
+namespace {
+
+void writeSource(JsonWriter& json, const SourceVolume& source) {
+  json.beginObject();
+  json.key("size");
+  json.beginArray(true);
+  for (const std::uint32_t count : source.size) json.integer(count);
+  json.end();
+  json.key("spacing");
+  json.array(source.spacing);
+  json.key("origin");
+  json.array(source.origin);
+  json.key("direction");
+  json.array(source.direction);
+  json.key("sha256");
+  json.text(source.sha256);
+  json.end();
+}
+
+struct ParameterWriter {
+  JsonWriter& json;
+  void operator()(bool value) const { json.boolean(value); }
+  void operator()(std::int64_t value) const { json.integer(value); }
+  void operator()(double value) const { json.real(value); }
+  void operator()(const std::string& value) const { json.text(value); }
+};
+
+void writeStep(JsonWriter& json, const Step& step) {
+  json.beginObject();
+  json.key("name");
+  json.text(step.name);
+  json.key("tool");
+  json.text(step.tool);
+  json.key("parameters");
+  json.beginObject();
+  for (const auto& [name, value] : step.parameters) {
+    json.key(name);
+    std::visit(ParameterWriter{json}, value);
+  }
+  json.end();
+  json.end();
+}
+
+void writeBranch(JsonWriter& json, const Branch& branch) {
+  json.beginObject(true);
+  json.key("label");
+  json.text(branch.label);
+  json.key("kind");
+  json.text(enumName(kBranchKindNames, branch.kind));
+  json.key("parentNode");
+  json.integer(branch.parentNode);
+  json.key("firstNode");
+  json.integer(branch.firstNode);
+  json.key("nodeCount");
+  json.integer(branch.nodeCount);
+  json.key("stopReason");
+  json.text(enumName(kStopReasonNames, branch.stopReason));
+  if (branch.meanInlierRate) {
+    json.key("meanInlierRate");
+    json.real(*branch.meanInlierRate);
+  }
+  json.end();
+}
+
+template <class Value>
+void writeArray(JsonWriter& json, std::string_view name, const std::vector<Value>& values) {
+  json.key(name);
+  json.array(std::span<const Value>(values));
+}
+
+void writeTree(JsonWriter& json, const CenterlineTree& tree) {
+  json.beginObject();
+  json.key("branches");
+  json.beginArray();
+  for (const Branch& branch : tree.branches) writeBranch(json, branch);
+  json.end();
+  writeArray(json, "centre", tree.centre);
+  writeArray(json, "direction", tree.direction);
+  writeArray(json, "radius", tree.radius);
+  writeArray(json, "height", tree.height);
+  writeArray(json, "parent", tree.parent);
+  writeArray(json, "branch", tree.branch);
+  if (!tree.inlierRate.empty()) writeArray(json, "inlierRate", tree.inlierRate);
+  json.end();
+}
+
+void writePoints(JsonWriter& json, const PointSets& points) {
+  json.beginObject();
+  writeArray(json, "offset", points.offset);
+  writeArray(json, "position", points.position);
+  json.end();
+}
+
+void writeModels(JsonWriter& json, const BlobbyModels& models) {
+  json.beginObject();
+  json.key("kernel");
+  json.text(enumName(kKernelNames, models.kernel));
+  json.key("kernelParameter");
+  json.real(models.kernelParameter);
+  json.key("isoLevel");
+  json.real(models.isoLevel);
+  writeArray(json, "offset", models.offset);
+  writeArray(json, "centre", models.centre);
+  writeArray(json, "width", models.width);
+  json.end();
+}
+
+}  // namespace
+
+void writeMetadata(JsonWriter& json, const Metadata& metadata) {
+  json.beginObject();
+  json.key("coordinateSystem");
+  json.text(kCoordinateSystem);
+  json.key("units");
+  json.text(kUnits);
+  if (metadata.voxelSize) {
+    json.key("voxelSize");
+    json.real(*metadata.voxelSize);
+  }
+  if (metadata.source) {
+    json.key("source");
+    writeSource(json, *metadata.source);
+  }
+  json.key("steps");
+  json.beginArray();
+  for (const Step& step : metadata.steps) writeStep(json, step);
+  json.end();
+  json.end();
+}
+
+std::string metadataJson(const Metadata& metadata) {
+  JsonWriter json(JsonStyle::Compact);
+  writeMetadata(json, metadata);
+  return json.take();
+}
+
+std::string encodeJson(const Case& value) {
+  const std::string version =
+      std::to_string(kFormatVersion.major) + "." + std::to_string(kFormatVersion.minor);
+  JsonWriter json(JsonStyle::Readable);
+  json.beginObject();
+  json.key("format");
+  json.text("lumen");
+  json.key("version");
+  json.text(version);
+  json.key("minimumReader");
+  json.text(version);
+  json.key("metadata");
+  writeMetadata(json, value.metadata);
+  json.key("tree");
+  writeTree(json, value.tree);
+  if (value.points) {
+    json.key("points");
+    writePoints(json, *value.points);
+  }
+  if (value.models) {
+    json.key("models");
+    writeModels(json, *value.models);
+  }
+  json.end();
+  return json.take() + "\n";
+}
+
+}  // namespace lumen::formats

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/case/json_fields.h"
+
+namespace lumen::formats {
+
+using nlohmann::json;
+
+JsonFields::JsonFields(const json& value, std::string place, JsonReadState& state)
+    : m_object(value), m_place(std::move(place)), m_state(state) {
+  if (!value.is_object())
+    m_state.fail(ErrorCode::JsonType, m_place,
+                 std::string("found ") + value.type_name() + ", expected an object");
+}
+
+const json* JsonFields::find(std::string_view key) {
+  m_known.push_back(key);
+  if (!m_object.is_object()) return nullptr;
+  const auto found = m_object.find(key);
+  return found == m_object.end() ? nullptr : &*found;
+}
+
+const json* JsonFields::require(std::string_view key) {
+  const json* value = find(key);
+  if (value == nullptr)
+    m_state.fail(ErrorCode::JsonKeyMissing, m_place,
+                 "the object has no \"" + std::string(key) + "\"");
+  return value;
+}
+
+double JsonFields::toReal(const json& value, const std::string& place) {
+  if (value.is_number()) return value.get<double>();
+  m_state.fail(ErrorCode::JsonType, place,
+               std::string("found ") + value.type_name() + ", expected a number");
+  return 0.0;
+}
+
+double JsonFields::real(std::string_view key) {
+  const json* value = require(key);
+  return value == nullptr ? 0.0 : toReal(*value, placeOf(key));
+}
+
+std::string JsonFields::text(std::string_view key) {
+  const json* value = require(key);
+  if (value == nullptr) return {};
+  if (value->is_string()) return value->get<std::string>();
+  m_state.fail(ErrorCode::JsonType, placeOf(key),
+               std::string("found ") + value->type_name() + ", expected a string");
+  return {};
+}
+
+const json* JsonFields::arrayOf(std::string_view key, std::size_t size) {
+  const json* value = require(key);
+  if (value == nullptr) return nullptr;
+  if (value->is_array() && value->size() == size) return value;
+  m_state.fail(ErrorCode::JsonType, placeOf(key),
+               std::string("found ") + value->type_name() + " of size " +
+                   std::to_string(value->size()) + ", expected an array of " +
+                   std::to_string(size) + " numbers");
+  return nullptr;
+}
+
+void JsonFields::reals(std::string_view key, std::span<double> to) {
+  if (const json* values = arrayOf(key, to.size()))
+    for (std::size_t i = 0; i < to.size(); ++i)
+      to[i] = toReal((*values)[i], placeOf(key) + "/" + std::to_string(i));
+}
+
+void JsonFields::counts(std::string_view key, std::span<std::uint32_t> to) {
+  if (const json* values = arrayOf(key, to.size()))
+    for (std::size_t i = 0; i < to.size(); ++i)
+      to[i] = toInteger<std::uint32_t>((*values)[i], placeOf(key) + "/" + std::to_string(i));
+}
+
+void JsonFields::finish() {
+  if (!m_state.fullyKnown || !m_object.is_object()) return;
+  for (const auto& [key, value] : m_object.items())
+    if (!key.starts_with("x-") && std::find(m_known.begin(), m_known.end(), key) == m_known.end())
+      m_state.fail(ErrorCode::JsonKeyUnknown, placeOf(key.substr(0, 80)),
+                   "the format does not define this key; keys of others start with \"x-\"");
+}
+
+}  // namespace lumen::formats

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading the members of JSON objects into fields, strictly.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/case/enum_names.h"
+#include "formats/case/error_text.h"
+
+namespace lumen::formats {
+
+/// Shared by all readers of one text. Keeps the first error, after which reads give defaults.
+struct JsonReadState {
+  bool fullyKnown = true;  ///< false: unknown keys are those of a newer version and ignored
+  std::optional<FormatError> error;
+
+  void fail(ErrorCode code, std::string place, std::string message) {
+    if (!error) error = makeError(code, std::move(place), std::move(message));
+  }
+};
+
+/// One object. Every key must be asked for, start with "x-", or belong to a newer version.
+class JsonFields {
+public:
+  JsonFields(const nlohmann::json& value, std::string place, JsonReadState& state);
+
+  /// The member, or nullptr; the key is known from then on.
+  const nlohmann::json* find(std::string_view key);
+  /// The member; JSON_KEY_MISSING without it.
+  const nlohmann::json* require(std::string_view key);
+
+  double real(std::string_view key);
+  std::string text(std::string_view key);
+  void reals(std::string_view key, std::span<double> to);
+  void counts(std::string_view key, std::span<std::uint32_t> to);
+
+  template <class Integer>
+  Integer integer(std::string_view key) {
+    const nlohmann::json* value = require(key);
+    return value == nullptr ? Integer{} : toInteger<Integer>(*value, placeOf(key));
+  }
+
+  template <class Enum>
+  Enum enumeration(std::string_view key, std::span<const std::string_view> names) {
+    const std::string name = text(key);
+    if (const auto value = enumFromName<Enum>(names, name)) return *value;
+    m_state.fail(ErrorCode::EnumValue, placeOf(key), "found \"" + name.substr(0, 80) + "\"");
+    return Enum{};
+  }
+
+  /// Reports the keys that nobody asked for. Call it last.
+  void finish();
+
+  [[nodiscard]] std::string placeOf(std::string_view key) const {
+    return m_place + "/" + jsonPointerToken(key);
+  }
+  [[nodiscard]] JsonReadState& state() const { return m_state; }
+
+private:
+  double toReal(const nlohmann::json& value, const std::string& place);
+
+  template <class Integer>
+  Integer toInteger(const nlohmann::json& value, const std::string& place) {
+    if (!value.is_number_integer()) {
+      m_state.fail(ErrorCode::JsonType, place,
+                   std::string("found ") + value.type_name() + ", expected an integer");
+      return Integer{};
+    }
+    const auto number = value.get<std::int64_t>();
+    if (std::in_range<Integer>(number)) return static_cast<Integer>(number);
+    m_state.fail(ErrorCode::NumberRange, place,
+                 "found " + std::to_string(number) + ", which does not fit its field");
+    return Integer{};
+  }
+
+  // The array of exactly `size` values at `key`, or nullptr.
+  const nlohmann::json* arrayOf(std::string_view key, std::size_t size);
+
+  const nlohmann::json& m_object;
+  std::string m_place;
+  JsonReadState& m_state;
+  std::vector<std::string_view> m_known;
+};
+
+}  // namespace lumen::formats

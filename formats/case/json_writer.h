@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Canonical JSON text: one value has one text.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/case/case.h"
+
+namespace lumen::formats {
+
+/// Compact: no white space. Readable: indented by two, with arrays of numbers on lines of about 100
+/// bytes.
+enum class JsonStyle { Compact, Readable };
+
+/// Numbers are the shortest text that reads back the same (doubles always with '.' or an exponent,
+/// so that they differ from integers; floats in arrays without). Negative zero is written as zero.
+/// The caller keeps to JSON's grammar; texts must be UTF-8 and numbers finite.
+class JsonWriter {
+public:
+  explicit JsonWriter(JsonStyle style) : m_style(style) {}
+
+  void beginObject(bool oneLine = false);
+  void beginArray(bool oneLine = false);
+  void end();
+  void key(std::string_view name);
+  void text(std::string_view value);
+  void boolean(bool value);
+  void integer(std::int64_t value);
+  void real(double value);
+  void real(float value);
+  void array(std::span<const float> values);
+  void array(std::span<const Vec3f> values);
+  void array(std::span<const std::int32_t> values);
+  void array(std::span<const std::uint32_t> values);
+  void array(std::span<const double> values);  ///< on one line
+
+  /// The text so far, which is complete once every begin has its end.
+  std::string take() { return std::move(m_text); }
+
+private:
+  struct Level {
+    char close;
+    bool oneLine;
+    bool empty = true;
+  };
+  void begin(char open, char close, bool oneLine);
+  void separate();
+  void breakLine();
+  template <class Value, class Append>
+  void wrapped(std::span<const Value> values, Append append);
+
+  JsonStyle m_style;
+  std::string m_text;
+  std::vector<Level> m_levels;
+  bool m_afterKey = false;
+};
+
+}  // namespace lumen::formats

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Typed, checksummed, aligned pieces of bytes in one file: the outer layer of `.lumen`. See
+// spec/lumen.md, "Container". Standard library only; no exception for bad input, no output.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/container/error_code.h"
+#include "formats/container/expected.h"
+
+namespace lumen::formats {
+
+struct FormatVersion {
+  std::uint8_t major = 0, minor = 0;
+  friend auto operator<=>(const FormatVersion&, const FormatVersion&) = default;
+};
+
+/// What this code writes, and the newest that it reads in full.
+constexpr FormatVersion kFormatVersion{1, 0};
+
+/// Every chunk starts at a multiple of this, in bytes, and so may be used in place in a mapped
+/// file.
+constexpr std::size_t kChunkAlignment = 64;
+constexpr std::size_t kHeaderSize = 64;
+constexpr std::size_t kTableEntrySize = 64;
+constexpr std::size_t kMaxChunks = 4096;
+
+/// Four ASCII letters or digits, the first in the lowest byte.
+using ChunkType = std::uint32_t;
+
+constexpr ChunkType chunkType(const char (&name)[5]) {
+  ChunkType type = 0;
+  for (int i = 3; i >= 0; --i) type = (type << 8) | static_cast<unsigned char>(name[i]);
+  return type;
+}
+std::string chunkName(ChunkType type);
+
+enum class ChunkEncoding : std::uint8_t { Raw = 0 };
+
+/// One piece of a file that was read. `stored` points into the bytes that were given to
+/// readContainer().
+struct Chunk {
+  ChunkType type = 0;
+  std::uint16_t version = 0;
+  bool critical = false;       ///< a reader that does not know the type must refuse the file
+  std::uint8_t encoding = 0;   ///< of `stored`; may be one that this code does not know
+  std::uint32_t checksum = 0;  ///< CRC-32C of `stored`, not yet verified
+  std::uint64_t offset = 0;    ///< of `stored` in the file, bytes
+  std::uint64_t rawSize = 0;   ///< bytes once decoded
+  std::span<const std::byte> stored;
+};
+
+struct ContainerError {
+  ErrorCode code;
+  std::uint64_t offset = 0;  ///< bytes from the start of the file
+  std::string message;       ///< what was found and what was expected
+};
+
+/// A view: it owns nothing but the list of chunks.
+struct Container {
+  FormatVersion version;
+  std::vector<Chunk> chunks;  ///< in file order
+
+  /// False if a newer writer may have put something here that this code does not know.
+  [[nodiscard]] bool fullyKnown() const { return version <= kFormatVersion; }
+};
+
+/// True if `bytes` start with the signature, whatever follows.
+bool hasContainerMagic(std::span<const std::byte> bytes);
+
+/// Checks all that lies between the chunks: header, table, order, alignment and padding. It reads
+/// the header, the table and the last line of each chunk, so opening a mapped file is cheap; the
+/// chunks themselves are verified by verifyChunk(). The number of chunks is the only thing that is
+/// allocated for.
+Expected<Container, ContainerError> readContainer(std::span<const std::byte> bytes);
+
+/// True, or CHUNK_CHECKSUM. Reads the whole chunk.
+Expected<bool, ContainerError> verifyChunk(const Chunk& chunk);
+
+/// A chunk to be written.
+struct ChunkSource {
+  ChunkType type = 0;
+  std::uint16_t version = 1;
+  bool critical = false;
+  std::vector<std::byte> bytes;
+};
+
+/// The file that holds `chunks` in that order, unencoded. At most kMaxChunks.
+std::vector<std::byte> writeContainer(std::span<const ChunkSource> chunks);
+
+}  // namespace lumen::formats

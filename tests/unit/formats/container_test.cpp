@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/container/container.h"
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "formats/container/bytes.h"
+#include "unit/formats/sample_case.h"
+
+namespace lumen::formats {
+namespace {
+
+using test::Bytes;
+
+Bytes bytesOf(std::initializer_list<int> values) {
+  Bytes bytes;
+  for (const int value : values) bytes.push_back(static_cast<std::byte>(value));
+  return bytes;
+}
+
+Bytes twoChunks() {
+  const std::vector<ChunkSource> chunks = {{chunkType("AAAA"), 1, true, bytesOf({1, 2, 3})},
+                                           {chunkType("b999"), 7, false, Bytes(64, std::byte{9})}};
+  return writeContainer(chunks);
+}
+
+std::string errorOf(std::span<const std::byte> bytes) {
+  const auto container = readContainer(bytes);
+  return container ? "OK" : errorName(container.error().code);
+}
+
+TEST(ByteCursor, GivesZeroAndStaysFailedPastTheEnd) {
+  const Bytes bytes = bytesOf({1, 0, 2});
+  ByteCursor cursor(bytes);
+  EXPECT_EQ(cursor.read<std::uint16_t>(), 1);
+  EXPECT_EQ(cursor.read<std::uint16_t>(), 0);
+  EXPECT_EQ(cursor.read<std::uint8_t>(), 0);
+  EXPECT_TRUE(cursor.failed());
+}
+
+TEST(ByteCursor, TakesNoMoreThanThereIs) {
+  const Bytes bytes = bytesOf({1, 2});
+  ByteCursor cursor(bytes);
+  EXPECT_TRUE(cursor.take(std::size_t{0} - 1).empty());
+  EXPECT_TRUE(cursor.failed());
+}
+
+TEST(LittleEndian, IsLowByteFirst) {
+  Bytes bytes;
+  appendLittle(bytes, std::uint32_t{0x04030201});
+  appendLittle(bytes, 1.0f);
+  EXPECT_EQ(bytes, bytesOf({1, 2, 3, 4, 0, 0, 0x80, 0x3f}));
+  EXPECT_EQ(loadLittle<std::int16_t>(bytesOf({0xfe, 0xff}).data()), -2);
+}
+
+TEST(Container, StartsWithTheSignatureAndTheVersion) {
+  const Bytes file = twoChunks();
+  EXPECT_EQ(Bytes(file.begin(), file.begin() + 16),
+            bytesOf({0x8c, 'L', 'U', 'M', 'E', 'N', 13, 10, 26, 10, 1, 0, 1, 0, 64, 0}));
+}
+
+TEST(Container, AlignsEveryChunkAndFillsUpWithZeros) {
+  const Bytes file = twoChunks();
+  ASSERT_EQ(file.size(), 320u);  // header 64, two entries 128, 3 bytes in 64, 64 bytes
+  EXPECT_EQ(loadLittle<std::uint64_t>(&file[16]), 320u);
+  EXPECT_EQ(file[192], std::byte{1});
+  EXPECT_EQ(file[195], std::byte{0});
+  EXPECT_EQ(file[256], std::byte{9});
+}
+
+TEST(Container, GivesBackWhatWasWritten) {
+  const Bytes file = twoChunks();
+  const auto container = readContainer(file);
+  ASSERT_TRUE(container);
+  ASSERT_EQ(container->chunks.size(), 2u);
+  const Chunk& second = container->chunks[1];
+  EXPECT_EQ(chunkName(second.type), "b999");
+  EXPECT_EQ(second.version, 7);
+  EXPECT_FALSE(second.critical);
+  EXPECT_TRUE(container->chunks[0].critical);
+  EXPECT_EQ(second.stored.data(), file.data() + 256);
+  EXPECT_EQ(second.stored.size(), 64u);
+  EXPECT_TRUE(verifyChunk(second));
+}
+
+TEST(Container, MayHoldNoChunkOrAnEmptyOne) {
+  EXPECT_EQ(errorOf(writeContainer({})), "OK");
+  const std::vector<ChunkSource> empty = {{chunkType("NONE"), 1, false, {}}};
+  EXPECT_EQ(writeContainer(empty).size(), 128u);
+  EXPECT_EQ(errorOf(writeContainer(empty)), "OK");
+}
+
+TEST(Container, FindsAChangedChunkOnlyWhenAskedToVerifyIt) {
+  Bytes file = twoChunks();
+  file[300] = std::byte{8};
+  const auto container = readContainer(file);
+  ASSERT_TRUE(container);
+  EXPECT_TRUE(verifyChunk(container->chunks[0]));
+  const auto verified = verifyChunk(container->chunks[1]);
+  ASSERT_FALSE(verified);
+  EXPECT_EQ(verified.error().code, ErrorCode::ChunkChecksum);
+  EXPECT_EQ(verified.error().offset, 256u);
+}
+
+TEST(Container, IsRefusedAtEveryTruncation) {
+  const Bytes file = twoChunks();
+  for (std::size_t size = 0; size < file.size(); ++size) {
+    const auto exact = std::make_unique<std::byte[]>(size);
+    std::copy_n(file.begin(), size, exact.get());
+    EXPECT_EQ(errorOf({exact.get(), size}), "TRUNCATED") << size;
+  }
+}
+
+TEST(Container, IsRefusedWithAByteTooMany) {
+  Bytes file = twoChunks();
+  file.push_back(std::byte{0});
+  EXPECT_EQ(errorOf(file), "TRAILING_BYTES");
+}
+
+TEST(Container, NamesALineEndConversionAsAWrongSignature) {
+  Bytes file = twoChunks();
+  file.erase(file.begin() + 6);  // CR LF became LF
+  EXPECT_EQ(errorOf(file), "MAGIC");
+}
+
+// One fault, signed again so that only the rule itself can find it.
+struct Fault {
+  const char* name;
+  std::size_t at;
+  std::uint64_t value;
+  std::size_t size;
+  const char* code;
+};
+
+class ContainerFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(ContainerFault, IsFound) {
+  const Fault& fault = GetParam();
+  Bytes file = twoChunks();
+  for (std::size_t i = 0; i < fault.size; ++i)
+    file[fault.at + i] = static_cast<std::byte>(fault.value >> (8 * i));
+  test::resign(file);
+  EXPECT_EQ(errorOf(file), fault.code);
+}
+
+constexpr std::uint64_t kHuge = 0xffffffffffffffffu;
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ContainerFault,
+    testing::Values(Fault{"magic", 0, 'L', 1, "MAGIC"},
+                    Fault{"major_version_zero", 10, 0, 1, "VERSION"},
+                    Fault{"newer_minimum_reader", 10, 0x01020102, 4, "VERSION"},
+                    Fault{"newer_major_version", 10, 0x00020002, 4, "VERSION"},
+                    Fault{"minimum_reader_above_version", 13, 1, 1, "VERSION"},
+                    Fault{"header_size", 14, 128, 2, "HEADER_FIELD"},
+                    Fault{"reserved_header_byte", 40, 1, 1, "HEADER_FIELD"},
+                    Fault{"length_beyond_file", 16, 384, 8, "TRUNCATED"},
+                    Fault{"length_huge", 16, kHuge, 8, "TRUNCATED"},
+                    Fault{"length_short", 16, 256, 8, "TRAILING_BYTES"},
+                    Fault{"chunk_count_beyond_file", 24, 5, 4, "CHUNK_COUNT"},
+                    Fault{"chunk_count_huge", 24, 0xffffffff, 4, "CHUNK_COUNT"},
+                    Fault{"one_chunk_less", 24, 1, 4, "CHUNK_OFFSET"},
+                    Fault{"type_with_space", 64, ' ', 1, "CHUNK_TYPE"},
+                    Fault{"reserved_flag", 70, 3, 1, "CHUNK_FIELD"},
+                    Fault{"reserved_entry_byte", 64 + 63, 1, 1, "CHUNK_FIELD"},
+                    Fault{"hole", 72, 256, 8, "CHUNK_OFFSET"},
+                    Fault{"overlap", 128 + 8, 192, 8, "CHUNK_OFFSET"},
+                    Fault{"unaligned", 72, 193, 8, "CHUNK_OFFSET"},
+                    Fault{"offset_huge", 72, kHuge, 8, "CHUNK_OFFSET"},
+                    Fault{"size_huge", 80, kHuge, 8, "CHUNK_SIZE"},
+                    Fault{"size_beyond_file", 128 + 16, 65, 8, "CHUNK_SIZE"},
+                    Fault{"raw_size_differs", 88, 4, 8, "CHUNK_SIZE"},
+                    Fault{"padding", 192 + 63, 1, 1, "CHUNK_PADDING"}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(Container, IsRefusedIfItsLastChunkEndsBeforeItDoes) {
+  Bytes file = twoChunks();
+  storeLittle(&file[128 + 16], std::uint64_t{0});  // both sizes of the second chunk
+  storeLittle(&file[128 + 24], std::uint64_t{0});
+  test::resign(file);
+  EXPECT_EQ(errorOf(file), "TRAILING_BYTES");
+}
+
+TEST(Container, FindsWrongHeaderAndTableChecksums) {
+  Bytes header = twoChunks(), table = twoChunks();
+  header[60] ^= std::byte{1};
+  EXPECT_EQ(errorOf(header), "HEADER_CHECKSUM");
+  table[64] ^= std::byte{1};
+  EXPECT_EQ(errorOf(table), "TABLE_CHECKSUM");
+}
+
+TEST(Container, IgnoresReservedBytesOfANewerMinorVersion) {
+  Bytes file = twoChunks();
+  file[11] = std::byte{1};   // version 1.1, readable from 1.0 on
+  file[40] = std::byte{5};   // reserved in the header
+  file[100] = std::byte{5};  // reserved in an entry
+  test::resign(file);
+  const auto container = readContainer(file);
+  ASSERT_TRUE(container);
+  EXPECT_FALSE(container->fullyKnown());
+}
+
+TEST(ErrorRules, HaveDifferentNames) {
+  std::set<std::string> names;
+  for (const ErrorRule& rule : errorRules()) EXPECT_TRUE(names.insert(rule.name).second);
+  EXPECT_STREQ(errorName(ErrorCode::IoWrite), "IO_WRITE");
+}
+
+}  // namespace
+}  // namespace lumen::formats

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "unit/formats/sample_case.h"
+
+namespace lumen::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using test::codeOf;
+
+// The superuser may write everywhere, so tests of permissions act as another user, who gets
+// `directory`.
+class WithoutPrivileges {
+public:
+  explicit WithoutPrivileges(const fs::path& directory) {
+    if (!m_superuser) return;
+    EXPECT_EQ(::chown(directory.c_str(), kNobody, static_cast<gid_t>(-1)), 0);
+    EXPECT_EQ(::seteuid(kNobody), 0);
+  }
+  ~WithoutPrivileges() {
+    if (m_superuser) {
+      EXPECT_EQ(::seteuid(0), 0);
+    }
+  }
+  WithoutPrivileges(const WithoutPrivileges&) = delete;
+  WithoutPrivileges& operator=(const WithoutPrivileges&) = delete;
+
+private:
+  static constexpr uid_t kNobody = 65534;
+  const bool m_superuser = ::geteuid() == 0;
+};
+
+class CaseFile : public testing::Test {
+protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "lumen-test-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    m_directory = name;
+  }
+  void TearDown() override {
+    fs::permissions(m_directory, fs::perms::owner_all);
+    fs::remove_all(m_directory);
+  }
+  [[nodiscard]] fs::path path(const std::string& name) const { return m_directory / name; }
+  void put(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+  }
+  [[nodiscard]] std::string get(const std::string& name) const {
+    std::ifstream in(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  // Names of what is in the directory, sorted.
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator(m_directory))
+      found.push_back(entry.path().filename().string());
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  [[nodiscard]] Result<bool> write(const std::string& name, const std::string& content) const {
+    return writeFileAtomically(std::as_bytes(std::span(content)), path(name));
+  }
+  [[nodiscard]] mode_t modeOf(const std::string& name) const {
+    struct stat info {};
+    EXPECT_EQ(::stat(path(name).c_str(), &info), 0);
+    return info.st_mode & 07777;
+  }
+
+private:
+  fs::path m_directory;
+};
+
+TEST_F(CaseFile, IsReadBackInBothEncodings) {
+  for (const char* name : {"a.lumen", "a.lumen.json"}) {
+    ASSERT_EQ(codeOf(writeCaseFile(test::richCase(), path(name))), "OK");
+    const auto value = readCaseFile(path(name));
+    ASSERT_TRUE(value) << value.error().text();
+    EXPECT_EQ(*value, test::richCase());
+  }
+  EXPECT_EQ(get("a.lumen").substr(1, 5), "LUMEN");
+  EXPECT_EQ(get("a.lumen.json").front(), '{');
+}
+
+TEST_F(CaseFile, IsRecognisedByItsBytesAndNotItsName) {
+  put("text.lumen", "\n  " + encodeJson(test::smallestCase()));
+  EXPECT_EQ(codeOf(readCaseFile(path("text.lumen"))), "OK");
+}
+
+TEST_F(CaseFile, ThatCannotBeReadIsNamedWithItsReason) {
+  put("empty.lumen", "");
+  put("other.lumen", "solid cube");
+  put("bom.json", "\xef\xbb\xbf{}");
+  put("crlf.lumen", "\x8cLUMEN\n\x1a\n rest");
+  EXPECT_EQ(codeOf(readCaseFile(path("absent.lumen"))), "IO_MISSING");
+  EXPECT_EQ(codeOf(readCaseFile(path("empty.lumen/x"))), "IO_MISSING");
+  EXPECT_EQ(codeOf(readCaseFile(path(""))), "IO_NOT_A_FILE");
+  EXPECT_EQ(codeOf(readCaseFile("/dev/zero")), "IO_NOT_A_FILE");
+  EXPECT_EQ(codeOf(readCaseFile(path("empty.lumen"))), "IO_EMPTY");
+  EXPECT_EQ(codeOf(readCaseFile(path("other.lumen"))), "NOT_LUMEN");
+  EXPECT_EQ(codeOf(readCaseFile(path("bom.json"))), "JSON_SYNTAX");
+  EXPECT_EQ(codeOf(readCaseFile(path("crlf.lumen"))), "MAGIC");
+  EXPECT_NE(readCaseFile(path("other.lumen")).error().message.find("other.lumen"),
+            std::string::npos);
+}
+
+TEST_F(CaseFile, DoesNotHangOnAPipe) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(codeOf(readCaseFile(path("pipe"))), "IO_NOT_A_FILE");
+  EXPECT_EQ(codeOf(write("pipe", "x")), "IO_NOT_A_FILE");
+}
+
+TEST_F(CaseFile, IsNotWrittenForAnInvalidCase) {
+  Case value = test::smallestCase();
+  value.tree.radius[0] = -1;
+  EXPECT_EQ(codeOf(writeCaseFile(value, path("a.lumen"))), "RADIUS_RANGE");
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(CaseFile, ReplacesAnOldFileAndLeavesNothingElse) {
+  put("a", "old");
+  EXPECT_EQ(codeOf(write("a", "new")), "OK");
+  EXPECT_EQ(get("a"), "new");
+  EXPECT_EQ(names(), std::vector<std::string>{"a"});
+}
+
+TEST_F(CaseFile, MayBeEmptyOrLarge) {
+  const std::string large(5'000'000, 'x');
+  EXPECT_EQ(codeOf(write("a", "")), "OK");
+  EXPECT_EQ(get("a"), "");
+  EXPECT_EQ(codeOf(write("a", large)), "OK");
+  EXPECT_EQ(get("a"), large);
+}
+
+TEST_F(CaseFile, HasThePermissionsOfAnyNewFile) {
+  const mode_t old = ::umask(027);
+  EXPECT_EQ(codeOf(write("a", "x")), "OK");
+  ::umask(old);
+  EXPECT_EQ(modeOf("a"), 0640u);
+}
+
+TEST_F(CaseFile, KeepsThePermissionsOfTheFileThatItReplaces) {
+  put("a", "old");
+  ASSERT_EQ(::chmod(path("a").c_str(), 0600), 0);
+  EXPECT_EQ(codeOf(write("a", "new")), "OK");
+  EXPECT_EQ(modeOf("a"), 0600u);
+}
+
+TEST_F(CaseFile, IsWrittenThroughASymbolicLink) {
+  fs::create_directory(path("sub"));
+  put("sub/target", "old");
+  fs::create_symlink("sub/target", path("link"));
+  fs::create_symlink("sub/new", path("dangling"));
+  EXPECT_EQ(codeOf(write("link", "new")), "OK");
+  EXPECT_EQ(codeOf(write("dangling", "made")), "OK");
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(get("sub/target"), "new");
+  EXPECT_EQ(get("sub/new"), "made");
+}
+
+TEST_F(CaseFile, IsNotWrittenThroughALoopOfLinks) {
+  fs::create_symlink("b", path("a"));
+  fs::create_symlink("a", path("b"));
+  EXPECT_EQ(codeOf(write("a", "x")), "IO_WRITE");
+}
+
+TEST_F(CaseFile, IsNotWrittenOverADirectoryOrADevice) {
+  fs::create_directory(path("sub"));
+  EXPECT_EQ(codeOf(write("sub", "x")), "IO_NOT_A_FILE");
+  EXPECT_EQ(codeOf(writeFileAtomically({}, "/dev/null")), "IO_NOT_A_FILE");
+  EXPECT_EQ(codeOf(write("absent/a", "x")), "IO_WRITE");
+  EXPECT_EQ(names(), std::vector<std::string>{"sub"});
+}
+
+// Limits the size of files, so that a write fails half way as on a full disk.
+TEST_F(CaseFile, StaysTheOldOneWhenTheDiskIsFull) {
+  put("a", "old");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{4096, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto result = write("a", std::string(10000, 'x'));
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(codeOf(result), "IO_WRITE");
+  EXPECT_EQ(get("a"), "old");
+  EXPECT_EQ(names(), std::vector<std::string>{"a"});
+}
+
+TEST_F(CaseFile, StaysTheOldOneInADirectoryThatCannotBeWritten) {
+  const WithoutPrivileges guard(path(""));
+  put("a", "old");
+  fs::permissions(path(""), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(codeOf(write("a", "new")), "IO_WRITE");
+  EXPECT_EQ(get("a"), "old");
+}
+
+TEST_F(CaseFile, IsNotReplacedIfItIsReadOnly) {
+  const WithoutPrivileges guard(path(""));
+  put("a", "old");
+  ASSERT_EQ(::chmod(path("a").c_str(), 0444), 0);
+  EXPECT_EQ(codeOf(write("a", "new")), "IO_WRITE");
+  EXPECT_EQ(get("a"), "old");
+}
+
+}  // namespace
+}  // namespace lumen::formats

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cases and damaged files that the tests of this folder share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "formats/case/case_file.h"
+#include "formats/container/container.h"
+
+namespace lumen::formats::test {
+
+using Bytes = std::vector<std::byte>;
+
+/// One node at (1, 2, 3) along z, radius 1 mm, in the branch "a": the smallest case.
+Case smallestCase();
+
+/// Two vessels and an aneurysm, six nodes, points, Cauchy models and every kind of metadata.
+Case richCase();
+
+/// A straight case of `nodes` nodes with so many points and blobs each, for the benchmark.
+Case longCase(std::size_t nodes, std::size_t pointsPerNode, std::size_t blobsPerNode);
+
+/// Offset of the table entry of the chunk named `type`; fails the test if there is none.
+std::size_t entryOf(const Bytes& file, const std::string& type);
+/// Offset of that chunk's bytes.
+std::size_t dataOf(const Bytes& file, const std::string& type);
+
+/// Makes all three kinds of checksums right again after `file` was changed, as a hostile writer
+/// would.
+void resign(Bytes& file);
+
+/// The sample file with `change` applied and all checksums made right again.
+Bytes tampered(const std::function<void(Bytes&)>& change);
+
+/// The code of the error that reading gives, or "OK".
+std::string codeOf(const Result<Case>& result);
+std::string codeOf(const Result<bool>& result);
+
+}  // namespace lumen::formats::test
