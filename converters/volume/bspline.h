@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cubic B-spline interpolation of a volume, with coefficients computed brick by brick when first needed.
+// Cubic B-spline interpolation of a volume, with coefficients computed brick by brick when first
+// needed.
 #pragma once
 
-#include <Eigen/Core>
 #include <atomic>
 #include <cstddef>
 #include <memory>
 #include <span>
 
+#include <Eigen/Core>
+
 #include "converters/volume/volume.h"
 
 namespace lumen::convert {
 
-/// The cubic B-spline that interpolates the voxels (Unser, "Splines: a perfect fit for signal and image
-/// processing", 1999), mirrored at the volume's faces. Sampling is thread-safe; the values do not depend
-/// on the order of calls. The volume must outlive the sampler. Memory: one 4-byte coefficient for each
-/// voxel of the bricks that were touched, and about a third for their shared rims.
+/// The cubic B-spline that interpolates the voxels (Unser, "Splines: a perfect fit for signal and
+/// image processing", 1999), mirrored at the volume's faces. Sampling is thread-safe; the values do
+/// not depend on the order of calls. The volume must outlive the sampler. Memory: one 4-byte
+/// coefficient for each voxel of the bricks that were touched, and about a third for their shared
+/// rims.
 class BsplineVolume {
 public:
   explicit BsplineVolume(const Volume& volume);
@@ -25,8 +28,8 @@ public:
 
   [[nodiscard]] const VolumeGeometry& geometry() const;
 
-  /// Values at index positions start + n * step for n = 0 .. out.size() - 1, in the voxels' units; NaN
-  /// where the position lies outside the voxel centres' box. SIMD by run-time dispatch.
+  /// Values at index positions start + n * step for n = 0 .. out.size() - 1, in the voxels' units;
+  /// NaN where the position lies outside the voxel centres' box. SIMD by run-time dispatch.
   void sampleLine(const Eigen::Vector3d& startIndex, const Eigen::Vector3d& stepIndex,
                   std::span<float> out) const;
   /// The scalar reference for sampleLine: the same values to float rounding.

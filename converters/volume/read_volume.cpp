@@ -1,1 +1,118 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/volume/read_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "converters/volume/itk_image.h"
+#include "converters/volume/nifti_file.h"
+#include "converters/volume/volume_header.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+Volume readFile(const fs::path& path, const Progress& progress) {
+  const VolumeFormat format = volumeFormat(path);
+  const auto io = makeImageIo(format);
+  if (!io)
+    throw unsupported(path.string() +
+                      ": is not a volume file by its name; expected .nii, .nii.gz, .nrrd, .nhdr, "
+                      ".mha, .mhd or a directory of DICOM files");
+  if (format == VolumeFormat::Nifti)
+    checkNiftiHeader(path);
+  else
+    checkTextHeader(path, format, progress);
+  io->SetFileName(path.string());
+  Volume volume;
+  try {
+    io->ReadImageInformation();
+  } catch (const itk::ExceptionObject& exception) {
+    throw invalidInput(path.string() + ": its header cannot be read (" + oneLine(exception) + ")");
+  }
+  volume.geometry = checkedGeometry(*io, path);
+  progress.check();
+  volume.voxels = format == VolumeFormat::Nifti
+                      ? readNiftiVoxels(path, volume.geometry.voxelCount(), progress)
+                      : readVoxels(*io, path);
+  return volume;
+}
+
+/// Refuses values that are not finite, and a volume in which nothing can be found.
+template <class T>
+void checkValues(const std::vector<T>& voxels, const fs::path& path) {
+  if constexpr (std::is_floating_point_v<T>) {
+    const auto bad =
+        std::count_if(voxels.begin(), voxels.end(), [](T v) { return !std::isfinite(v); });
+    if (bad > 0)
+      throw invalidInput(path.string() + ": " + std::to_string(bad) +
+                         " of its voxels are not finite; expected numbers within a float's range");
+  }
+  const bool constant = std::all_of(voxels.begin(), voxels.end(),
+                                    [&](T v) { return !(v < voxels[0]) && !(v > voxels[0]); });
+  if (constant) {
+    std::ostringstream text;
+    text << path.string() << ": every voxel is " << +voxels[0]
+         << "; expected an image with vessels in it";
+    throw invalidInput(text.str());
+  }
+}
+
+template <class T>
+std::vector<T> cropped(const std::vector<T>& from, const std::array<int, 3>& size,
+                       const IndexBox& box) {
+  const auto at = [](int v) { return static_cast<std::size_t>(v); };
+  std::vector<T> to;
+  to.reserve(at(box.high[0] - box.low[0] + 1) * at(box.high[1] - box.low[1] + 1) *
+             at(box.high[2] - box.low[2] + 1));
+  for (int k = box.low[2]; k <= box.high[2]; ++k)
+    for (int j = box.low[1]; j <= box.high[1]; ++j) {
+      const T* row = from.data() + (at(k) * at(size[1]) + at(j)) * at(size[0]);
+      to.insert(to.end(), row + box.low[0], row + box.high[0] + 1);
+    }
+  return to;
+}
+
+void crop(Volume& volume, const IndexBox& box, const fs::path& path) {
+  auto& size = volume.geometry.size;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box.low[a] < 0 || box.high[a] >= size[a] || box.high[a] <= box.low[a])
+      throw invalidInput(path.string() + ": the crop box goes from " + std::to_string(box.low[a]) +
+                         " to " + std::to_string(box.high[a]) + " along axis " +
+                         std::to_string(a + 1) + "; expected at least two voxels within 0 to " +
+                         std::to_string(size[a] - 1));
+  std::visit([&](auto& voxels) { voxels = cropped(voxels, size, box); }, volume.voxels);
+  volume.geometry.origin =
+      volume.geometry.worldFromIndex(Eigen::Vector3d(box.low[0], box.low[1], box.low[2]));
+  for (std::size_t a = 0; a < 3; ++a) size[a] = box.high[a] - box.low[a] + 1;
+}
+
+}  // namespace
+
+Volume readVolume(const fs::path& path, const ReadVolumeOptions& options,
+                  const Progress& progress) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) throw invalidInput(path.string() + ": no such file or directory");
+  const bool directory = fs::is_directory(path, ignored);
+  if (!directory && !options.series.empty())
+    throw invalidInput(path.string() +
+                       ": is a file; a series can be chosen in a DICOM directory only");
+  progress.check();
+  Volume volume = directory ? readDicom(path, options.series, progress) : readFile(path, progress);
+  progress.check();
+  if (options.crop) crop(volume, *options.crop, path);
+  std::visit([&](const auto& voxels) { checkValues(voxels, path); }, volume.voxels);
+  progress.check();
+  return volume;
+}
+
+bool isVolumePath(const fs::path& path) {
+  std::error_code ignored;
+  return volumeFormat(path) != VolumeFormat::Unknown || fs::is_directory(path, ignored);
+}
+
+}  // namespace lumen::convert

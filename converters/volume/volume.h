@@ -2,21 +2,22 @@
 // A scalar volume in memory, in the precision of its file.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <variant>
 #include <vector>
 
+#include <Eigen/Dense>
+
 namespace lumen::convert {
 
-/// Index space to LPS millimetres: world = origin + direction * diag(spacing) * index; the origin is the
-/// centre of voxel (0,0,0) (ITK's convention).
+/// Index space to LPS millimetres: world = origin + direction * diag(spacing) * index; the origin
+/// is the centre of voxel (0,0,0) (ITK's convention).
 struct VolumeGeometry {
-  std::array<int, 3> size{};  ///< voxels along i (fastest), j, k
-  Eigen::Vector3d spacing = Eigen::Vector3d::Ones();      ///< mm, > 0
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();       ///< mm, LPS
+  std::array<int, 3> size{};                                ///< voxels along i (fastest), j, k
+  Eigen::Vector3d spacing = Eigen::Vector3d::Ones();        ///< mm, > 0
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();         ///< mm, LPS
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();  ///< orthonormal columns
 
   [[nodiscard]] Eigen::Vector3d worldFromIndex(const Eigen::Vector3d& index) const {
@@ -42,8 +43,8 @@ struct VolumeGeometry {
   }
 };
 
-/// Voxels x fastest. Pixel types that are not listed are widened on reading (int8 to int16; 32-bit and
-/// wider integers and doubles to float).
+/// Voxels x fastest. Pixel types that are not listed are widened on reading (int8 to int16; 32-bit
+/// and wider integers and doubles to float).
 using Voxels = std::variant<std::vector<std::uint8_t>, std::vector<std::int16_t>,
                             std::vector<std::uint16_t>, std::vector<float>>;
 

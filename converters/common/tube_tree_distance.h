@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exact wall of a centerline tree taken as tubes.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/case/case.h"
+
+namespace lumen {
+
+/// The convex hull of two spheres: what a sphere sweeps whose radius changes linearly from `a` to
+/// `b`.
+class RoundCone {
+public:
+  RoundCone(const Eigen::Vector3d& a, double radiusA, const Eigen::Vector3d& b, double radiusB);
+
+  /// Signed distance to the surface, negative inside, in the unit of the input. Exact everywhere.
+  /// `along` (may be null) becomes the share of the way from a to b, in [0, 1], of the sphere that
+  /// is nearest.
+  [[nodiscard]] double distance(const Eigen::Vector3d& point, double* along = nullptr) const;
+
+private:
+  Eigen::Vector3d m_a, m_axis;  // m_axis: unit, or zero if one sphere holds the other
+  double m_length, m_radiusA, m_radiusB;
+  double m_soleEnd = 0;                // `along` if one sphere holds the other
+  double m_sine, m_cosine, m_tangent;  // of the cone's half angle; positive if it narrows towards b
+};
+
+/// Where a point lies with respect to the wall.
+struct WallHit {
+  double distance = std::numeric_limits<double>::infinity();  ///< mm, negative inside
+  std::uint32_t branch = 0;                                   ///< whose surface is nearest
+  std::uint32_t node = 0;                                     ///< first node of the nearest segment
+  double along = 0;  ///< share of the way from `node` to the branch's next node, in [0, 1]
+};
+
+/// The union of the round cones between consecutive nodes of each branch (a sphere for a branch of
+/// one node; no cone for the link to a parent node). Every end is round. Immutable, so safe to
+/// query from any thread.
+class TubeTreeDistance {
+public:
+  /// All branches of `tree`, which is not kept.
+  explicit TubeTreeDistance(const formats::CenterlineTree& tree);
+  /// One branch only.
+  TubeTreeDistance(const formats::CenterlineTree& tree, std::uint32_t branch);
+
+  /// Outside of the union the distance is exact. Inside it is the depth below the surface of the
+  /// segment in which the point lies deepest: exact but within a crease between branches, where the
+  /// union is deeper than that. Of equals, the lowest node wins. An empty tree is infinitely far
+  /// away.
+  [[nodiscard]] WallHit nearest(const Eigen::Vector3d& point) const;
+
+  /// Replaces `segments` by those that may be nearest to some point within `reach` mm of `centre`:
+  /// for many queries near one place. nearestOf() with them gives what nearest() gives there.
+  void collect(const Eigen::Vector3d& centre, double reach,
+               std::vector<std::uint32_t>& segments) const;
+  [[nodiscard]] WallHit nearestOf(std::span<const std::uint32_t> segments,
+                                  const Eigen::Vector3d& point) const;
+
+private:
+  struct Segment {
+    RoundCone cone;
+    std::uint32_t branch, node;
+  };
+  // Box of the axes of segments [first, last); children of box i are i + 1 and `right` (0: a leaf).
+  struct Box {
+    Eigen::Vector3d low, high;
+    double maxRadius;
+    std::uint32_t first, last, right;
+  };
+
+  void lower(std::uint32_t segment, const Eigen::Vector3d& point, WallHit& hit) const;
+  void addBranch(const formats::CenterlineTree& tree, std::uint32_t branch);
+  std::uint32_t build(const formats::CenterlineTree& tree, std::uint32_t first, std::uint32_t last);
+
+  std::vector<Segment> m_segments;
+  std::vector<Box> m_boxes;
+};
+
+}  // namespace lumen

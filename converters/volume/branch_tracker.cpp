@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/volume/branch_tracker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "converters/volume/icosphere.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using formats::StopReason;
+
+/// Closest point to `p` on the segment a-b, as a fraction of it.
+double fractionOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
+  const double length2 = (b - a).squaredNorm();
+  return length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
+}
+
+std::string rateText(double best, double needed) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "best inlier rate %.2f, at least %.2f is needed", best,
+                needed);
+  return text.data();
+}
+
+/// Half the sum of the two middle values, or the middle one; of a non-empty list.
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+}  // namespace
+
+ChainPoint closestOnChain(const std::vector<TrackedNode>& chain, const Vector3d& point) {
+  ChainPoint best;
+  best.distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const TrackedNode& a = chain[i];
+    const TrackedNode& b = chain[std::min(i + 1, chain.size() - 1)];
+    const double t = fractionOnSegment(a.centre, b.centre, point);
+    const Vector3d at = a.centre + t * (b.centre - a.centre);
+    const double distance = (point - at).norm();
+    if (distance < best.distance)
+      best = {at, a.radius + t * (b.radius - a.radius), distance,
+              t < 0.5 ? i : std::min(i + 1, chain.size() - 1)};
+  }
+  return best;
+}
+
+bool inCore(std::span<const TrackedBranch* const> branches, const Vector3d& point) {
+  return std::any_of(branches.begin(), branches.end(), [&](const TrackedBranch* branch) {
+    if (branch->nodes.empty()) return false;
+    const ChainPoint closest = closestOnChain(branch->nodes, point);
+    return closest.distance < 0.5 * closest.radius;
+  });
+}
+
+BranchTracker::BranchTracker(const BsplineVolume& volume, const TrackOptions& options,
+                             const Progress& progress)
+    : m_volume(volume),
+      m_options(options),
+      m_progress(progress),
+      m_rays(volume, icosphere(icosphereOrder(options.rays)), options.samples, options.dark),
+      m_estimator(options) {}
+
+/// Height and wall points from the candidates in m_points: the smallest symmetric interval along
+/// the axis that holds 75 % of the inliers, and those in it.
+void BranchTracker::finishNode(TrackedNode& node, const Cylinder& cylinder) {
+  m_estimator.inliers(m_points, cylinder, m_inliers);
+  std::vector<double> extent;
+  extent.reserve(m_inliers.size());
+  const auto along = [&](std::size_t i) {
+    return std::abs((m_points.origin + m_points.offset(i) - cylinder.centre).dot(cylinder.axis));
+  };
+  for (const std::size_t i : m_inliers) extent.push_back(along(i));
+  const auto held = static_cast<std::size_t>(std::ceil(0.75 * static_cast<double>(extent.size())));
+  std::nth_element(extent.begin(), extent.begin() + static_cast<std::ptrdiff_t>(held - 1),
+                   extent.end());
+  const double half = extent[held - 1];
+  node.centre = cylinder.centre;
+  node.direction = cylinder.axis;
+  node.radius = cylinder.radius;
+  node.inlierRate = cylinder.inlierRate;
+  node.height = 2.0 * half;
+  node.points.clear();
+  for (const std::size_t i : m_inliers) {
+    if (along(i) > half) continue;
+    const Eigen::Vector3f p = (m_points.origin + m_points.offset(i)).cast<float>();
+    node.points.push_back({p.x(), p.y(), p.z()});
+  }
+}
+
+std::optional<TrackedNode> BranchTracker::fitNode(const Guess& guess, double minRate,
+                                                  Random& random) {
+  if (!m_volume.geometry().containsWorld(guess.centre)) return std::nullopt;
+  m_rays.cast(guess.centre, 3.0 * guess.radius, m_points);
+  Cylinder cylinder = m_estimator.estimate(m_points, guess.direction, guess.radius, random);
+  m_bestRate = std::max(m_bestRate, cylinder.inlierRate);
+  if (cylinder.inlierRate < minRate || !m_volume.geometry().containsWorld(cylinder.centre))
+    return std::nullopt;
+  // the first rays came from a guess: cast and fit again from the better centre
+  m_rays.cast(cylinder.centre, 3.0 * cylinder.radius, m_points);
+  cylinder = m_estimator.refine(m_points, cylinder);
+  m_estimator.inliers(m_points, cylinder, m_inliers);
+  if (m_inliers.size() < 8) return std::nullopt;
+  if (cylinder.axis.dot(guess.direction) < 0) cylinder.axis = -cylinder.axis;
+  TrackedNode node;
+  finishNode(node, cylinder);
+  return node;
+}
+
+/// Appends nodes until a stop rule holds (thesis section 3.5).
+void BranchTracker::follow(TrackedBranch& branch, std::span<const TrackedBranch* const> finished,
+                           Random& random) {
+  std::vector<TrackedNode>& nodes = branch.nodes;
+  // at a face of the volume the rays see half of the wall, and the centre stalls a radius before it
+  const auto atFace = [&] {
+    return !m_volume.geometry().containsWorld(nodes.back().centre +
+                                              1.5 * nodes.back().radius * nodes.back().direction);
+  };
+  const auto stop = [&](StopReason reason) {
+    branch.stopReason = atFace() ? StopReason::LeftVolume : reason;
+  };
+  const auto turnedBack = [&](const Vector3d& centre, double radius) {
+    return closestOnChain(nodes, centre).distance < 0.1 * radius ||
+           (centre - nodes.back().centre).dot(nodes.back().direction) <= 0;
+  };
+  for (;;) {
+    m_progress.check();
+    if (nodes.size() >= static_cast<std::size_t>(m_options.maxNodes))
+      return stop(StopReason::StepLimit);
+    const TrackedNode& last = nodes.back();
+    const Guess guess{last.centre + m_options.step * last.height * last.direction, last.direction,
+                      last.radius};
+    if (!m_volume.geometry().containsWorld(guess.centre)) return stop(StopReason::LeftVolume);
+    if (turnedBack(guess.centre, guess.radius)) return stop(StopReason::TurnedBack);
+    std::optional<TrackedNode> node = fitNode(guess, 0.5 * m_options.inlierRate, random);
+    if (!node) return stop(StopReason::NoValidCylinder);
+    if (turnedBack(node->centre, node->radius)) return stop(StopReason::TurnedBack);
+    if (inCore(finished, node->centre)) return stop(StopReason::MetBranch);
+    nodes.push_back(std::move(*node));
+  }
+}
+
+/// Without a radius, trial radii from one voxel up; the first that is accepted, else the best.
+std::optional<TrackedNode> BranchTracker::startRoot(const SeedBranch& seed, Random& random) {
+  Guess guess{seed.points[0].position, Vector3d::UnitZ(), 0};
+  if (seed.direction)
+    guess.direction = *seed.direction;
+  else if (seed.points.size() > 1)
+    guess.direction = (seed.points[1].position - guess.centre).normalized();
+  std::vector<double> radii;
+  if (seed.points[0].radius)
+    radii = {*seed.points[0].radius};
+  else
+    for (double voxels = 1.25; voxels < 24; voxels *= 1.5)
+      radii.push_back(voxels * m_volume.geometry().voxelSize());
+  std::optional<TrackedNode> best;
+  for (const double radius : radii) {
+    guess.radius = radius;
+    std::optional<TrackedNode> node = fitNode(guess, 0.5 * m_options.inlierRate, random);
+    if (!node || (best && node->inlierRate <= best->inlierRate)) continue;
+    best = std::move(node);
+    if (best->inlierRate >= m_options.inlierRate && best->points.size() > m_rays.rayCount() / 2)
+      break;
+  }
+  return best;
+}
+
+/// Starts beyond the parent's wall on the way to the seed (thesis section 3.6); if that finds
+/// nothing acceptable, with narrower guesses, then at the seed itself.
+std::optional<TrackedNode> BranchTracker::startChild(const SeedBranch& seed,
+                                                     const TrackedBranch& parent,
+                                                     TrackedBranch& branch, Random& random) {
+  const Vector3d target = seed.points[0].position;
+  const ChainPoint root = closestOnChain(parent.nodes, target);
+  branch.parentNode = static_cast<int>(root.node);
+  const Vector3d direction =
+      seed.direction.value_or(root.distance > 0 ? Vector3d((target - root.position) / root.distance)
+                                                : parent.nodes[root.node].direction);
+  const Vector3d offset = root.position + m_options.branchOffset * root.radius * direction;
+  std::vector<double> radii{seed.points[0].radius.value_or(root.radius)};
+  if (!seed.points[0].radius)
+    for (const double share : {0.7, 0.5, 0.35, 0.25}) radii.push_back(share * root.radius);
+  for (const double minRate : {m_options.inlierRate, 0.5 * m_options.inlierRate})
+    for (const Vector3d& centre : {offset, target})
+      for (const double radius : radii) {
+        std::optional<TrackedNode> node = fitNode({centre, direction, radius}, minRate, random);
+        if (!node || node->inlierRate < minRate) continue;
+        // a tube that runs in the parent's lumen is the parent
+        const ChainPoint nearest = closestOnChain(parent.nodes, node->centre);
+        if (nearest.distance < 0.75 * nearest.radius) continue;
+        return node;
+      }
+  return std::nullopt;
+}
+
+/// A further click on the same vessel, beyond where the track has stopped.
+std::optional<TrackedNode> BranchTracker::resumeAt(const SeedPoint& point,
+                                                   const TrackedBranch& branch, Random& random) {
+  const TrackedNode& last = branch.nodes.back();
+  const ChainPoint closest = closestOnChain(branch.nodes, point.position);
+  if (closest.distance <= closest.radius) return std::nullopt;
+  const Vector3d direction = (point.position - last.centre).normalized();
+  return fitNode({point.position, direction, point.radius.value_or(last.radius)},
+                 0.5 * m_options.inlierRate, random);
+}
+
+TrackedBranch BranchTracker::track(const SeedBranch& seed, const TrackedBranch* parent,
+                                   std::span<const TrackedBranch* const> finished, Random random) {
+  TrackedBranch branch;
+  m_bestRate = 0;
+  std::optional<TrackedNode> first =
+      parent ? startChild(seed, *parent, branch, random) : startRoot(seed, random);
+  if (!first) {
+    branch.failure =
+        "no valid cylinder at the seed: " + rateText(m_bestRate, 0.5 * m_options.inlierRate);
+    return branch;
+  }
+  if (inCore(finished, first->centre)) {
+    branch.failure = "the seed leads into a vessel that another seed has tracked";
+    return branch;
+  }
+  const bool bothWays = !parent && !seed.direction && seed.points.size() == 1;
+  branch.nodes.push_back(*first);
+  if (bothWays) {
+    branch.nodes[0].direction = -first->direction;
+    follow(branch, finished, random);
+    std::reverse(branch.nodes.begin(), branch.nodes.end());
+    for (TrackedNode& node : branch.nodes) node.direction = -node.direction;
+  }
+  follow(branch, finished, random);
+  for (std::size_t i = 1; i < seed.points.size(); ++i)
+    if (auto node = resumeAt(seed.points[i], branch, random)) {
+      branch.nodes.push_back(std::move(*node));
+      follow(branch, finished, random);
+    }
+  return branch;
+}
+
+TrackedBranch BranchTracker::capture(const SeedBranch& seed, const TrackedBranch* parent) {
+  TrackedBranch branch;
+  branch.stopReason = StopReason::EndOfSeeds;
+  for (const SeedPoint& point : seed.points) {
+    m_rays.cast(point.position, 3.0 * point.radius.value(), m_points);
+    if (m_points.count() == 0) continue;
+    const float strongest = *std::max_element(m_points.strength.begin(), m_points.strength.end());
+    TrackedNode node;
+    node.centre = point.position;
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < m_points.count(); ++i) {
+      if (m_points.strength[i] < m_options.aneurysmGradient * strongest) continue;
+      const Eigen::Vector3f p = (m_points.origin + m_points.offset(i)).cast<float>();
+      node.points.push_back({p.x(), p.y(), p.z()});
+      distances.push_back(m_points.offset(i).norm());
+    }
+    node.radius = median(distances);
+    node.inlierRate =
+        static_cast<double>(node.points.size()) / static_cast<double>(m_rays.rayCount());
+    branch.nodes.push_back(std::move(node));
+  }
+  if (branch.nodes.empty()) {
+    branch.failure = "no ray from its points met a wall";
+    return branch;
+  }
+  const std::size_t count = branch.nodes.size();
+  if (parent) {
+    const ChainPoint root = closestOnChain(parent->nodes, branch.nodes[0].centre);
+    branch.parentNode = static_cast<int>(root.node);
+    if (count == 1)
+      branch.nodes[0].direction = (branch.nodes[0].centre - root.position).normalized();
+  } else if (count == 1) {
+    branch.nodes[0].direction = seed.direction.value_or(Vector3d::UnitZ());
+  }
+  if (count == 1) branch.nodes[0].height = branch.nodes[0].radius;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const Vector3d segment = branch.nodes[i + 1].centre - branch.nodes[i].centre;
+    branch.nodes[i].height = segment.norm();
+    branch.nodes[i].direction = segment.normalized();
+  }
+  if (count > 1) {
+    branch.nodes[count - 1].height = branch.nodes[count - 2].height;
+    branch.nodes[count - 1].direction = branch.nodes[count - 2].direction;
+  }
+  return branch;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// One branch: estimation and prediction steps in turn (thesis algorithm 1), and where to begin.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "converters/common/progress.h"
+#include "converters/common/random.h"
+#include "converters/volume/cylinder.h"
+#include "converters/volume/rays.h"
+#include "converters/volume/tracker.h"
+
+namespace lumen::convert {
+
+/// A node with its wall points (mm, LPS).
+struct TrackedNode {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
+  double radius = 0, height = 0, inlierRate = 0;
+  std::vector<formats::Vec3f> points;
+};
+
+struct TrackedBranch {
+  std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
+  formats::StopReason stopReason = formats::StopReason::Unknown;
+  std::string failure;  ///< why nothing was tracked
+  int parentBranch = -1, parentNode = -1;  ///< position in the seeds' order, node within that branch
+};
+
+/// The closest place on a chain of nodes.
+struct ChainPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double radius = 0;         ///< mm, interpolated
+  double distance = 0;       ///< mm
+  std::size_t node = 0;      ///< the nearer end of the closest segment
+};
+ChainPoint closestOnChain(const std::vector<TrackedNode>& chain, const Eigen::Vector3d& point);
+
+/// True if `point` lies within half a radius of the axis of one of `branches`: in that lumen's core.
+bool inCore(std::span<const TrackedBranch* const> branches, const Eigen::Vector3d& point);
+
+/// Not thread-safe: one per thread.
+class BranchTracker {
+public:
+  BranchTracker(const BsplineVolume& volume, const TrackOptions& options, const Progress& progress);
+
+  /// Tracks one vessel. `parent` may be null; `finished` are the branches that end this one when it runs
+  /// into them.
+  TrackedBranch track(const SeedBranch& seed, const TrackedBranch* parent,
+                      std::span<const TrackedBranch* const> finished, Random random);
+
+  /// Wall points of an aneurysm from its ordered centres (thesis section 3.7).
+  TrackedBranch capture(const SeedBranch& seed, const TrackedBranch* parent);
+
+private:
+  struct Guess {
+    Eigen::Vector3d centre, direction;
+    double radius = 0;
+  };
+  std::optional<TrackedNode> fitNode(const Guess& guess, double minRate, Random& random);
+  void follow(TrackedBranch& branch, std::span<const TrackedBranch* const> finished,
+              Random& random);
+  std::optional<TrackedNode> startRoot(const SeedBranch& seed, Random& random);
+  std::optional<TrackedNode> startChild(const SeedBranch& seed, const TrackedBranch& parent,
+                                        TrackedBranch& branch, Random& random);
+  std::optional<TrackedNode> resumeAt(const SeedPoint& point, const TrackedBranch& branch,
+                                      Random& random);
+  void finishNode(TrackedNode& node, const Cylinder& cylinder);
+
+  const BsplineVolume& m_volume;
+  const TrackOptions& m_options;
+  const Progress& m_progress;
+  RayCaster m_rays;
+  CylinderEstimator m_estimator;
+  Candidates m_points;
+  std::vector<std::size_t> m_inliers;
+  double m_bestRate = 0;  ///< of the starts that were tried
+};
+
+}  // namespace lumen::convert

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/volume/cylinder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "converters/common/random.h"
+
+namespace lumen::convert {
+namespace {
+
+struct Truth {
+  Eigen::Vector3d centre, axis;
+  double radius;
+};
+
+/// `count` points on a cylinder within one radius of its centre along the axis, with radial noise, as
+/// seen from `origin`.
+Candidates pointsOn(const Truth& truth, const Eigen::Vector3d& origin, int count, double noise) {
+  Random random(7);
+  const Eigen::Vector3d e1 = truth.axis.unitOrthogonal(), e2 = truth.axis.cross(e1);
+  Candidates out;
+  out.origin = origin;
+  for (int i = 0; i < count; ++i) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double r = truth.radius + noise * random.normal();
+    const Eigen::Vector3f p = (truth.centre + r * (std::cos(angle) * e1 + std::sin(angle) * e2) +
+                               random.uniform(-1, 1) * truth.radius * truth.axis - origin)
+                                  .cast<float>();
+    out.x.push_back(p.x());
+    out.y.push_back(p.y());
+    out.z.push_back(p.z());
+    out.strength.push_back(1);
+  }
+  return out;
+}
+
+double distanceToAxis(const Truth& truth, const Eigen::Vector3d& point) {
+  return (point - truth.centre).cross(truth.axis).norm();
+}
+
+const Truth kTruth{{10, 20, 30}, Eigen::Vector3d(1, 2, 3).normalized(), 2.0};
+
+TEST(Cylinder, IsFoundExactlyFromCleanPoints) {
+  const Candidates points = pointsOn(kTruth, {10.3, 20.2, 30}, 120, 0);
+  CylinderEstimator estimator{TrackOptions{}};
+  Random random(1);
+  const Cylinder found =
+      estimator.estimate(points, Eigen::Vector3d(1, 2, 2.5).normalized(), 2.4, random);
+  EXPECT_NEAR(found.radius, 2.0, 1e-4);
+  EXPECT_NEAR(std::abs(found.axis.dot(kTruth.axis)), 1.0, 1e-7);
+  EXPECT_NEAR(distanceToAxis(kTruth, found.centre), 0.0, 1e-4);
+  EXPECT_DOUBLE_EQ(found.inlierRate, 1.0);
+}
+
+TEST(Cylinder, IsFoundAmongFortyPercentOutliers) {
+  Candidates points = pointsOn(kTruth, kTruth.centre, 120, 0.03);
+  Random random(2);
+  for (int i = 0; i < 80; ++i) {
+    points.x.push_back(static_cast<float>(random.uniform(-5, 5)));
+    points.y.push_back(static_cast<float>(random.uniform(-5, 5)));
+    points.z.push_back(static_cast<float>(random.uniform(-5, 5)));
+    points.strength.push_back(1);
+  }
+  CylinderEstimator estimator{TrackOptions{}};
+  const Cylinder found = estimator.estimate(points, kTruth.axis, 2.0, random);
+  EXPECT_NEAR(found.radius, 2.0, 0.05);
+  EXPECT_LT(distanceToAxis(kTruth, found.centre), 0.1);
+  EXPECT_GT(found.inlierRate, 0.55);
+}
+
+TEST(Cylinder, OutsideOfHalfToThreeHalvesOfTheGuessIsNotValid) {
+  const Candidates points = pointsOn(kTruth, kTruth.centre, 120, 0);
+  CylinderEstimator estimator{TrackOptions{}};
+  Random random(3);
+  const Cylinder found = estimator.estimate(points, kTruth.axis, 0.9, random);
+  EXPECT_LT(found.inlierRate, 0.35);
+}
+
+TEST(Cylinder, ThatDoesNotHoldTheOriginOfTheRaysIsNotValid) {
+  const Eigen::Vector3d outside = kTruth.centre + 2.5 * kTruth.axis.unitOrthogonal();
+  const Candidates points = pointsOn(kTruth, outside, 120, 0);
+  CylinderEstimator estimator{TrackOptions{}};
+  Random random(4);
+  EXPECT_LT(estimator.estimate(points, kTruth.axis, 2.0, random).inlierRate, 0.7);
+}
+
+TEST(Cylinder, RefinementMovesTheCentreToTheMedianOfTheInliersAlongTheAxis) {
+  Candidates points;
+  for (const float z : {0.0F, 1.0F, 2.0F, 3.0F, 10.0F})
+    for (int k = 0; k < 8; ++k) {
+      points.x.push_back(static_cast<float>(std::cos(k * std::numbers::pi / 4)));
+      points.y.push_back(static_cast<float>(std::sin(k * std::numbers::pi / 4)));
+      points.z.push_back(z);
+      points.strength.push_back(1);
+    }
+  CylinderEstimator estimator{TrackOptions{}};
+  const Cylinder found =
+      estimator.refine(points, {Eigen::Vector3d(0, 0, 9), Eigen::Vector3d::UnitZ(), 1.05, 0});
+  EXPECT_NEAR(found.centre.z(), 2.0, 1e-6);
+  EXPECT_NEAR(found.radius, 1.0, 1e-6);
+}
+
+TEST(CountInBand, AgreesWithItsReference) {
+  Random random(5);
+  std::vector<float> u, v;
+  for (int i = 0; i < 163; ++i) {
+    u.push_back(static_cast<float>(random.uniform(-2, 2)));
+    v.push_back(static_cast<float>(random.uniform(-2, 2)));
+  }
+  for (std::size_t count = 0; count <= u.size(); ++count)
+    EXPECT_EQ(countInBand(u.data(), v.data(), count, 0.1F, -0.2F, 0.81F, 1.21F),
+              countInBandReference(u.data(), v.data(), count, 0.1F, -0.2F, 0.81F, 1.21F));
+}
+
+}  // namespace
+}  // namespace lumen::convert

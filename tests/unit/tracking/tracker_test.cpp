@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/volume/tracker.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "tube_volume.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using formats::BranchKind;
+using formats::StopReason;
+
+const Vector3d kLow(6.4, 6.4, 0.4), kHigh(6.4, 6.4, 12.2);
+
+SeedBranch seedAt(std::string label, const Vector3d& point, std::optional<double> radius = {}) {
+  SeedBranch seed;
+  seed.label = std::move(label);
+  seed.points.push_back({point, radius});
+  return seed;
+}
+
+Volume straightTube(double radius) {
+  return drawVolume(64, 0.2, [=](const Vector3d& p) { return capsule(p, kLow, kHigh, radius); });
+}
+
+TrackResult trackOne(const Volume& volume, const std::vector<SeedBranch>& seeds) {
+  Progress silent;
+  return track(volume, seeds, TrackOptions{}, silent);
+}
+
+Vector3d toVector(const formats::Vec3f& v) { return {v.x, v.y, v.z}; }
+
+TEST(Tracker, FollowsAStraightTubeToBothEndsFromOneClickInItsMiddle) {
+  const TrackResult out = trackOne(straightTube(1.0), {seedAt("tube", {6.2, 6.5, 6.0})});
+  ASSERT_TRUE(out.failures.empty());
+  const auto& tree = out.result.tree;
+  EXPECT_LT(tree.centre.front().z, 1.5F);
+  EXPECT_GT(tree.centre.back().z, 11.0F);
+  for (std::size_t i = 0; i < tree.nodeCount(); ++i) {
+    EXPECT_NEAR(tree.centre[i].x, 6.4, 0.04);
+    EXPECT_NEAR(tree.centre[i].y, 6.4, 0.04);
+    EXPECT_NEAR(tree.radius[i], 1.0, 0.04);
+    EXPECT_GT(tree.direction[i].z, 0.99F);
+    EXPECT_EQ(tree.parent[i], static_cast<int>(i) - 1);
+  }
+}
+
+TEST(Tracker, NodesHoldWallPointsWithinTheirHeight) {
+  const TrackResult out = trackOne(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6.0}, 1.0)});
+  const auto& tree = out.result.tree;
+  const auto& points = *out.result.points;
+  ASSERT_EQ(points.offset.size(), tree.nodeCount() + 1);
+  for (std::size_t i = 0; i < tree.nodeCount(); ++i) {
+    EXPECT_GT(points.offset[i + 1] - points.offset[i], 40u);
+    for (std::uint32_t k = points.offset[i]; k < points.offset[i + 1]; ++k) {
+      const Vector3d p = toVector(points.position[k]) - toVector(tree.centre[i]);
+      EXPECT_LE(std::abs(p.dot(toVector(tree.direction[i]))), 0.5 * tree.height[i] + 1e-3);
+      EXPECT_NEAR(p.cross(toVector(tree.direction[i])).norm(), tree.radius[i], 0.11 * tree.radius[i]);
+    }
+  }
+}
+
+TEST(Tracker, WithADirectionGoesOneWayOnly) {
+  SeedBranch seed = seedAt("tube", {6.4, 6.4, 6.0}, 1.0);
+  seed.direction = Vector3d::UnitZ();
+  const TrackResult out = trackOne(straightTube(1.0), {seed});
+  EXPECT_GT(out.result.tree.centre.front().z, 5.0F);
+  EXPECT_GT(out.result.tree.centre.back().z, 11.0F);
+}
+
+TEST(Tracker, AStraightTubeThatLeavesTheVolumeSaysSo) {
+  const Volume volume = drawVolume(48, 0.2, [](const Vector3d& p) {
+    return capsule(p, {4.8, 4.8, -5}, {4.8, 4.8, 15}, 0.8);
+  });
+  SeedBranch seed = seedAt("tube", {4.8, 4.8, 4}, 0.8);
+  seed.direction = Vector3d::UnitZ();
+  const TrackResult out = trackOne(volume, {seed});
+  ASSERT_EQ(out.result.tree.branches.size(), 1u);
+  EXPECT_EQ(out.result.tree.branches[0].stopReason, StopReason::LeftVolume);
+}
+
+/// A T: a child of half the trunk's radius leaves its middle along x.
+Volume tee(double childRadius) {
+  return drawVolume(64, 0.2, [=](const Vector3d& p) {
+    return std::min(capsule(p, kLow, kHigh, 1.2),
+                    capsule(p, {6.4, 6.4, 6.4}, {12.2, 6.4, 6.4}, childRadius));
+  });
+}
+
+TEST(Tracker, AChildHangsOnTheNodeOfItsParentNearestToItsClick) {
+  SeedBranch trunk = seedAt("trunk", {6.4, 6.4, 1.5}, 1.2);
+  trunk.direction = Vector3d::UnitZ();
+  SeedBranch child = seedAt("child", {8.6, 6.5, 6.4}, 0.7);
+  child.parent = "trunk";
+  const TrackResult out = trackOne(tee(0.7), {trunk, child});
+  ASSERT_EQ(out.result.tree.branches.size(), 2u);
+  const auto& branch = out.result.tree.branches[1];
+  const auto& parent = out.result.tree.centre[static_cast<std::size_t>(branch.parentNode)];
+  EXPECT_NEAR(parent.z, 6.4, 0.8);
+  EXPECT_GT(out.result.tree.centre.back().x, 11.0F);
+  EXPECT_NEAR(out.result.tree.radius[branch.firstNode + 3], 0.7, 0.05);
+}
+
+TEST(Tracker, ANarrowChildStartsFromOneClickWithoutARadius) {
+  SeedBranch trunk = seedAt("trunk", {6.4, 6.4, 1.5}, 1.2);
+  trunk.direction = Vector3d::UnitZ();
+  SeedBranch child = seedAt("child", {8.6, 6.5, 6.4});
+  child.parent = "trunk";
+  const TrackResult out = trackOne(tee(0.4), {trunk, child});
+  ASSERT_EQ(out.result.tree.branches.size(), 2u);
+  EXPECT_GT(out.result.tree.centre.back().x, 11.0F);
+  EXPECT_NEAR(out.result.tree.radius.back(), 0.4, 0.05);
+}
+
+TEST(Tracker, ASecondClickOnTheSameVesselIsRefused) {
+  const TrackResult out = trackOne(
+      straightTube(1.0), {seedAt("first", {6.4, 6.4, 6}, 1.0), seedAt("again", {6.4, 6.4, 8}, 1.0)});
+  ASSERT_EQ(out.failures.size(), 1u);
+  EXPECT_EQ(out.failures[0].label, "again");
+  EXPECT_NE(out.failures[0].reason.find("another seed"), std::string::npos);
+  EXPECT_EQ(out.result.tree.branches.size(), 1u);
+}
+
+TEST(Tracker, AClickInTheBackgroundFailsWithItsInlierRate) {
+  const TrackResult out = trackOne(straightTube(0.6), {seedAt("nothing", {2, 2, 2}, 0.6)});
+  ASSERT_EQ(out.failures.size(), 1u);
+  EXPECT_NE(out.failures[0].reason.find("inlier rate"), std::string::npos);
+}
+
+TEST(Tracker, AChildOfAFailedParentNamesIt) {
+  SeedBranch child = seedAt("child", {6.4, 6.4, 6}, 0.6);
+  child.parent = "nothing";
+  const TrackResult out = trackOne(straightTube(0.6), {seedAt("nothing", {2, 2, 2}, 0.6), child});
+  ASSERT_EQ(out.failures.size(), 2u);
+  EXPECT_NE(out.failures[1].reason.find("\"nothing\""), std::string::npos);
+}
+
+TEST(Tracker, TouchingTubesStayApart) {
+  const auto left = [](const Vector3d& p) { return capsule(p, {5.4, 6.4, 0.4}, {5.4, 6.4, 12.2}, 1.0); };
+  const auto right = [](const Vector3d& p) { return capsule(p, {7.4, 6.4, 0.4}, {7.4, 6.4, 12.2}, 1.0); };
+  const Volume volume =
+      drawVolume(64, 0.2, [&](const Vector3d& p) { return std::min(left(p), right(p)); });
+  const TrackResult out =
+      trackOne(volume, {seedAt("left", {5.3, 6.4, 6}, 1.0), seedAt("right", {7.5, 6.4, 6}, 1.0)});
+  ASSERT_TRUE(out.failures.empty());
+  for (std::size_t i = 0; i < out.result.tree.nodeCount(); ++i)
+    EXPECT_NEAR(out.result.tree.centre[i].x, out.result.tree.branch[i] == 0 ? 5.4 : 7.4, 0.1);
+}
+
+TEST(Tracker, AnAneurysmKeepsTheWallPointsSeenFromItsCentres) {
+  const Vector3d centre(6.4, 6.4, 6.4);
+  const Volume volume =
+      drawVolume(64, 0.2, [&](const Vector3d& p) { return (p - centre).norm() - 3.0; });
+  SeedBranch sac = seedAt("sac", {6.0, 6.4, 6.4}, 2.6);
+  sac.points.push_back({{7.0, 6.4, 6.4}, 2.6});
+  sac.kind = BranchKind::Aneurysm;
+  const TrackResult out = trackOne(volume, {sac});
+  const auto& tree = out.result.tree;
+  ASSERT_EQ(tree.nodeCount(), 2u);
+  EXPECT_EQ(tree.branches[0].kind, BranchKind::Aneurysm);
+  EXPECT_NEAR(tree.direction[1].x, 1.0, 1e-6);
+  EXPECT_NEAR(tree.height[0], 1.0, 1e-6);
+  EXPECT_GT(out.result.points->position.size(), 300u);
+  for (const auto& p : out.result.points->position)
+    EXPECT_NEAR((toVector(p) - centre).norm(), 3.0, 0.06);
+}
+
+TEST(Tracker, GivesTheSameCaseOnOneThreadAndOnTwo) {
+  SeedBranch trunk = seedAt("trunk", {6.4, 6.4, 1.5}, 1.2);
+  trunk.direction = Vector3d::UnitZ();
+  SeedBranch child = seedAt("child", {8.6, 6.5, 6.4}, 0.7);
+  child.parent = "trunk";
+  const Volume volume = tee(0.7);
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return trackOne(volume, {trunk, child}).result;
+  };
+  EXPECT_EQ(run(1), run(2));
+}
+
+TEST(Tracker, RefusesOptionsOutOfRangeByName) {
+  Progress silent;
+  TrackOptions options;
+  options.rays = 100;
+  try {
+    track(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6})}, options, silent);
+    FAIL() << "accepted 100 rays";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
+    EXPECT_NE(std::string(error.what()).find("rays"), std::string::npos);
+  }
+}
+
+TEST(Tracker, StopsWhenCancelled) {
+  Progress progress;
+  progress.cancel();
+  EXPECT_THROW(
+      track(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6}, 1.0)}, TrackOptions{}, progress),
+      Error);
+}
+
+}  // namespace
+}  // namespace lumen::convert

@@ -1,0 +1,20 @@
+find_package(ZLIB REQUIRED)
+lumen_test(volume_test
+  LIBS lumen_volume
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/bspline_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_volume_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/leaks.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/markups_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/nifti_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/seeds_test.cpp)
+target_include_directories(volume_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume)
+target_link_libraries(volume_test PRIVATE ZLIB::ZLIB)
+
+if(LUMEN_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+  add_executable(bspline_bench ${CMAKE_CURRENT_SOURCE_DIR}/bench/bspline_bench.cpp)
+  target_link_libraries(bspline_bench PRIVATE lumen_volume benchmark::benchmark)
+endif()

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small files for the tests of volumes and seeds.
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "converters/common/error.h"
+#include "converters/volume/read_volume.h"
+
+namespace lumen::convert {
+
+/// A directory of its own for each test, removed at its end.
+class FileTest : public testing::Test {
+protected:
+  FileTest() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    m_directory =
+        std::filesystem::temp_directory_path() /
+        ("lumen-" + std::to_string(getpid()) + "-" + info->test_suite_name() + "-" + info->name());
+    std::filesystem::create_directories(m_directory);
+  }
+  ~FileTest() override { std::filesystem::remove_all(m_directory); }
+
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const {
+    return m_directory / name;
+  }
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+  [[nodiscard]] static std::string bytesOf(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  /// Cuts `count` bytes off the end.
+  static void truncate(const std::filesystem::path& file, std::uintmax_t count) {
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) - count);
+  }
+
+private:
+  std::filesystem::path m_directory;
+};
+
+/// "KIND: message" of what `action` throws, such as "3: no such file"; empty if it throws nothing.
+inline std::string refusal(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return std::to_string(static_cast<int>(error.kind())) + ": " + error.what();
+  }
+  return {};
+}
+
+inline Volume readQuietly(const std::filesystem::path& path,
+                          const ReadVolumeOptions& options = {}) {
+  const Progress silent;
+  return readVolume(path, options, silent);
+}
+
+inline std::string readRefusal(const std::filesystem::path& path,
+                               const ReadVolumeOptions& options = {}) {
+  return refusal([&] { (void)readQuietly(path, options); });
+}
+
+/// Synthetic voxels: value(i, j, k) cast to T.
+template <class T>
+Volume makeVolume(std::array<int, 3> size, const std::function<double(int, int, int)>& value) {
+  Volume volume;
+  volume.geometry.size = size;
+  std::vector<T> voxels;
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+      for (int i = 0; i < size[0]; ++i) voxels.push_back(static_cast<T>(value(i, j, k)));
+  volume.voxels = std::move(voxels);
+  return volume;
+}
+
+/// The bytes of `values`, little-endian on the machines that this runs on.
+template <class T>
+std::string bytes(const std::vector<T>& values) {
+  std::string out(values.size() * sizeof(T), '\0');
+  std::memcpy(out.data(), values.data(), out.size());
+  return out;
+}
+
+inline void expectRefused(const std::string& refused, const std::vector<std::string>& words) {
+  for (const auto& word : words)
+    EXPECT_NE(refused.find(word), std::string::npos) << "\"" << word << "\" is not in: " << refused;
+  EXPECT_EQ(refused.find('\n'), std::string::npos) << refused;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// NIfTI files made by hand: what ITK would get wrong or hide.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+#include "nifti_fixture.h"
+
+namespace lumen::convert {
+namespace {
+
+class Nifti : public FileTest {};
+
+NiftiHeader header(std::int16_t type, std::int16_t bits) {
+  NiftiHeader h;
+  h.type = type;
+  h.bits = bits;
+  return h;
+}
+
+TEST_F(Nifti, SformIsReadAsRasAndGivenAsLps) {
+  const auto v = readQuietly(write("v.nii", NiftiHeader().text() + "abcdefgh"));
+  EXPECT_EQ(v.geometry.direction, Eigen::Matrix3d(Eigen::Vector3d(-1, -1, 1).asDiagonal()));
+  EXPECT_EQ(std::get<0>(v.voxels)[7], 'h');
+}
+
+TEST_F(Nifti, VoxelsOfACompressedFileAreNotTakenFromItsPlainSibling) {
+  write("v.nii", NiftiHeader().text() + "abcdefgh");
+  write("v.nii.gz", gzipped(NiftiHeader().text() + "ABCDEFGH", path("scratch.gz")));
+  EXPECT_EQ(std::get<0>(readQuietly(path("v.nii.gz")).voxels)[0], 'A');
+  EXPECT_EQ(std::get<0>(readQuietly(path("v.nii")).voxels)[0], 'a');
+}
+
+TEST_F(Nifti, BigEndianVoxelsAreSwapped) {
+  std::string text = header(4, 16).text();
+  const auto swap = [&](std::size_t at, std::size_t size, std::size_t count) {
+    for (std::size_t n = 0; n < count; ++n, at += size)
+      std::reverse(text.begin() + static_cast<std::ptrdiff_t>(at),
+                   text.begin() + static_cast<std::ptrdiff_t>(at + size));
+  };
+  swap(0, 4, 1);
+  swap(40, 2, 8);
+  swap(70, 2, 2);
+  swap(76, 4, 11);  // pixdim, vox_offset, slope, intercept
+  swap(254, 2, 1);
+  swap(280, 4, 12);
+  const std::string voxels("\x01\x02\xff\xfe\0\x03\0\x04\0\x05\0\x06\0\x07\0\x08", 16);
+  const auto v = readQuietly(write("v.nii", text + voxels));
+  EXPECT_EQ(std::get<1>(v.voxels), (std::vector<std::int16_t>{0x0102, -2, 3, 4, 5, 6, 7, 8}));
+}
+
+TEST_F(Nifti, SlopeAndInterceptAreApplied) {
+  NiftiHeader h = header(4, 16);
+  h.slope = 0.5F;
+  h.intercept = -10;
+  const auto v =
+      readQuietly(write("v.nii", h.text() + bytes<std::int16_t>({0, 1, 2, 3, 4, 5, 6, 40})));
+  EXPECT_EQ(std::get<3>(v.voxels), (std::vector<float>{-10, -9.5F, -9, -8.5F, -8, -7.5F, -7, 10}));
+}
+
+TEST_F(Nifti, SlopeOfZeroMeansNoScaling) {
+  NiftiHeader h = header(4, 16);
+  h.intercept = 5;
+  const auto v =
+      readQuietly(write("v.nii", h.text() + bytes<std::int16_t>({0, 1, 2, 3, 4, 5, 6, 7})));
+  EXPECT_EQ(std::get<1>(v.voxels)[7], 7);
+}
+
+TEST_F(Nifti, EveryScalarTypeIsRead) {
+  const auto eighth = [&](std::int16_t type, std::int16_t bits, const std::string& voxels) {
+    const auto v = readQuietly(write("v.nii", header(type, bits).text() + voxels));
+    return std::visit([](const auto& x) { return static_cast<double>(x[7]); }, v.voxels);
+  };
+  EXPECT_EQ(eighth(2, 8, bytes<std::uint8_t>({0, 0, 0, 0, 0, 0, 0, 255})), 255);
+  EXPECT_EQ(eighth(256, 8, bytes<std::int8_t>({0, 0, 0, 0, 0, 0, 0, -128})), -128);
+  EXPECT_EQ(eighth(512, 16, bytes<std::uint16_t>({0, 0, 0, 0, 0, 0, 0, 65535})), 65535);
+  EXPECT_EQ(eighth(8, 32, bytes<std::int32_t>({0, 0, 0, 0, 0, 0, 0, -65536})), -65536);
+  EXPECT_EQ(eighth(768, 32, bytes<std::uint32_t>({0, 0, 0, 0, 0, 0, 0, 1U << 31})), 0x1p31);
+  EXPECT_EQ(eighth(1024, 64, bytes<std::int64_t>({0, 0, 0, 0, 0, 0, 0, -(1LL << 40)})), -0x1p40);
+  EXPECT_EQ(eighth(1280, 64, bytes<std::uint64_t>({0, 0, 0, 0, 0, 0, 0, 1ULL << 63})), 0x1p63);
+  EXPECT_EQ(eighth(16, 32, bytes<float>({0, 0, 0, 0, 0, 0, 0, 0.25F})), 0.25);
+  EXPECT_EQ(eighth(64, 64, bytes<double>({0, 0, 0, 0, 0, 0, 0, -0.125})), -0.125);
+}
+
+TEST_F(Nifti, HeaderExtensionIsSkipped) {
+  NiftiHeader h;
+  std::string text = h.text() + std::string(16, 'x');
+  const float offset = 368;
+  std::memcpy(text.data() + 108, &offset, 4);
+  EXPECT_EQ(std::get<0>(readQuietly(write("v.nii", text + "abcdefgh")).voxels)[0], 'a');
+}
+
+TEST_F(Nifti, MetresAreTurnedIntoMillimetres) {
+  NiftiHeader h;
+  h.pixdim = {1, 0.002F, 0.002F, 0.002F, 1, 1, 1, 1};
+  std::string text = h.text();
+  text[123] = 1;                     // xyzt_units: metres
+  const std::int16_t qformOnly = 0;  // the sform of this header has spacing 1
+  std::memcpy(text.data() + 254, &qformOnly, 2);
+  EXPECT_NEAR(readQuietly(write("v.nii", text + "abcdefgh")).geometry.spacing[0], 2, 1e-6);
+}
+
+}  // namespace
+}  // namespace lumen::convert
