@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Local implicit modelling: a blobby model for every centerline node (thesis chapter 4; design notes section 2).
+// Local implicit modelling: a blobby model for every centerline node (thesis chapter 4; design
+// notes section 2).
 #pragma once
 
 #include <map>
@@ -12,20 +13,21 @@
 
 namespace lumen::convert {
 
-/// Defaults are those of thesis table 4.5. The lengths marked * are tied to a 0.2 mm voxel there; left
-/// empty, they scale with the case's voxel size.
+/// Defaults are those of thesis table 4.5. The lengths marked * are tied to a 0.2 mm voxel there;
+/// left empty, they scale with the case's voxel size.
 struct FitOptions {
   formats::Kernel kernel = formats::Kernel::Cauchy;
   std::optional<double> kernelParameter;  ///< Cauchy s^2 (1/5), Gaussian a^2 (1/2)
   double cohesionWeight = 1e-5;           ///< alpha, of the Lennard-Jones energy
   double curvatureWeight = 1e-3;          ///< beta, of the mean-curvature energy
   double cohesionScale = 2.0;             ///< s, of the Lennard-Jones energy
-  int maxSubdivisions = 100;              ///< N_s
-  int neighbourhood = 2;                  ///< topological distance of the nodes whose points are fitted
-  std::optional<double> isoLevel;         ///< T, mm *: half a voxel
-  std::optional<double> accuracy;         ///< t_g, mm *: 1.5 voxels
-  std::optional<double> maxDistance;      ///< blobs farther than this from their node are dropped, mm *: 100 voxels
-  std::optional<double> minWidth;         ///< narrower blobs are dropped, mm *: 0.1 voxel
+  int maxSubdivisions = 100;              ///< N_s, at most 1000
+  int neighbourhood =
+      2;  ///< topological distance of the nodes whose points are fitted, at most 100
+  std::optional<double> isoLevel;     ///< T, mm *: half a voxel
+  std::optional<double> accuracy;     ///< t_g, mm *: 1.5 voxels
+  std::optional<double> maxDistance;  ///< farther blobs are dropped, mm from the node *: 100 voxels
+  std::optional<double> minWidth;     ///< narrower blobs are dropped, mm *: 0.1 voxel
 
   /// The same with every optional value set. Throws Error(InvalidInput) for values out of range.
   [[nodiscard]] FitOptions resolved(double voxelSize) const;
@@ -33,10 +35,17 @@ struct FitOptions {
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
 };
 
-/// Adds (or replaces) the blobby models of a case that has wall points, and appends the "fit" step to
-/// its metadata. Nodes whose neighbourhood has too few points get the two starting blobs. The result does not depend on
-/// the number of threads. Throws Error(InvalidInput) if the case has no points or no voxel size while a
-/// voxel-scaled option is left empty, and Error(Cancelled).
+/// The thesis' algorithm on the same energy, with these differences, each for accuracy on narrow or
+/// noisy vessels: E_d is normalised by the field's mean squared slope (energy.h); beta falls with
+/// the fourth power of the radius below ten voxels; all unknowns move together, by
+/// Levenberg-Marquardt steps; a new blob stays only if it lowers the energy by enough, and blobs
+/// are added beyond the accuracy asked for while they do, up to a twentieth of the node's radius;
+/// blobs stay near the points.
+///
+/// Adds (or replaces) the blobby models of a case that has wall points, and appends the "fit" step
+/// to its metadata. Nodes whose neighbourhood has too few points get the two starting blobs. The
+/// result does not depend on the number of threads. Throws Error(InvalidInput) if the case has no
+/// points or no voxel size while a voxel-scaled option is left empty, and Error(Cancelled).
 void fit(formats::Case& target, const FitOptions& options, Progress& progress);
 
 }  // namespace lumen::convert

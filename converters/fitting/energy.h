@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// The energy of a local implicit model as a sum of squares, with its analytic Jacobian (thesis 4.3
+// and appendix B; design notes section 2).
+//
+//   E = E_d + alpha E_LJ + beta E_kappa
+//   E_d     = 1/Np sum_k (T - f(P_k))^2 * S / (1/Np sum_k |grad f(P_k)|^2)
+//   E_LJ    = 1/(Nb (Nb - 1)) sum_{i != j} sigma_ij^3 (sigma_ij^3 - 2),  sigma_ij = s^2 w_i w_j /
+//   |C_i - C_j|^2 E_kappa = 1/Np sum_k kappa(P_k)^2,  kappa = (G^T H G - |G|^2 tr H) / (2 |G|^3)
+//
+// Because a (a - 2) = (a - 1)^2 - 1, E_LJ is 2/(Nb (Nb - 1)) sum_{i < j} (sigma_ij^3 - 1)^2 minus a
+// constant, so that E + alpha (when Nb > 1) is a sum of squares: that sum is the energy here.
+//
+// The last factor of E_d is not in the thesis. Without it the plain squares have a useless minimum
+// below every good one: f = T and flat at all points, made by a few wide blobs far away, because
+// noise of standard deviation q costs q^2 |grad f|^2. A minimiser that converges drifts there.
+// Divided by the mean |grad f|^2 the sum is a mean squared distance (G. Taubin: Estimation of
+// planar curves, surfaces, and nonplanar space curves, 1991); S is that mean for the starting
+// model, where both forms agree, so that alpha and beta keep their meaning. S = 0 gives the plain
+// squares.
+//
+// Everything is in the fit's own frame: origin at the node, and a unit of length in which the voxel
+// of the source volume measures kReferenceVoxel. The thesis' alpha, beta and s, tuned at 0.2 mm,
+// then mean the same for every volume.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "formats/case/blobby.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert::fitting {
+
+/// Length of a voxel in the fit's frame: the voxel that the thesis' weights were tuned at, in mm.
+constexpr double kReferenceVoxel = 0.2;
+
+/// Added to |G|^2 in the denominator of kappa: the curvature of a field that is flat at a point
+/// counts for nothing there instead of dividing by zero. |G| is 0.02 to 0.5 at the walls of
+/// vessels.
+constexpr double kFlatField = 1e-6;
+
+/// One term width * phi(|X - centre|^2 / width^2) of the model.
+struct Blob {
+  double x = 0, y = 0, z = 0, width = 0;
+};
+
+struct EnergyParameters {
+  formats::Kernel kernel = formats::Kernel::Cauchy;
+  double kernelParameter = 0.2;
+  double isoLevel = 0.1;          ///< T
+  double cohesionWeight = 1e-5;   ///< alpha
+  double curvatureWeight = 1e-3;  ///< beta
+  double cohesionScale = 2.0;     ///< s
+  double referenceSlope = 0;      ///< S
+};
+
+/// The three terms, unweighted, of which E_LJ is the sum of squares (its thesis value plus 1, if Nb
+/// > 1).
+struct EnergyTerms {
+  double data = 0, cohesion = 0, curvature = 0;
+};
+
+/// Evaluates the energy of models over one point set. Its buffers only grow, so that an object that
+/// is kept per thread stops allocating after the first few nodes. Not thread-safe.
+class Energy {
+public:
+  explicit Energy(const EnergyParameters& parameters) : m_parameters(parameters) {}
+
+  [[nodiscard]] const EnergyParameters& parameters() const { return m_parameters; }
+  void setParameters(const EnergyParameters& parameters) { m_parameters = parameters; }
+  /// The points to fit, in the fit's frame. There must be at least one.
+  void setPoints(std::span<const formats::Vec3d> points);
+  [[nodiscard]] std::size_t pointCount() const { return m_count; }
+  [[nodiscard]] formats::Vec3d point(std::size_t k) const;
+
+  /// Mean |grad f|^2 over the points, of the last evaluate() or linearise().
+  [[nodiscard]] double slope() const { return m_slope; }
+
+  /// Sums the field of blobs[0] .. blobs[active - 1] once; until the next call they must stay as
+  /// they are. evaluate() and linearise() then only visit the others, which are the unknowns.
+  void freeze(std::span<const Blob> blobs, std::size_t active);
+
+  /// The energy of all of `blobs`; fills the residuals and the field at every point.
+  double evaluate(std::span<const Blob> blobs);
+  /// The same, and the Jacobian with respect to (x, y, z, width) of every unknown blob.
+  double linearise(std::span<const Blob> blobs);
+  /// Of the last evaluate() or linearise().
+  [[nodiscard]] EnergyTerms terms() const { return m_terms; }
+  /// f and |grad f|^2 at every point, of the last evaluate() or linearise().
+  [[nodiscard]] std::span<const double> field() const { return {m_field.data(), m_count}; }
+  [[nodiscard]] std::span<const double> gradientSquared() const {
+    return {m_gradient2.data(), m_count};
+  }
+
+  /// After linearise(blobs): A = J^T J (row-major, only the upper triangle, 4n x 4n for n unknown
+  /// blobs) and b = J^T r, half the gradient of the energy.
+  void normalEquations(std::span<const Blob> blobs, std::span<double> a, std::span<double> b);
+
+private:
+  double run(std::span<const Blob> blobs, bool withJacobian);
+  double sumTerms(std::span<const Blob> blobs);
+  [[nodiscard]] double meanSlope() const;
+  void normaliseData(std::size_t n, std::span<double> a, std::span<double> b);
+  void addCohesion(std::span<const Blob> blobs, std::span<double> a, std::span<double> b) const;
+
+  EnergyParameters m_parameters;
+  std::size_t m_count = 0;   ///< points
+  std::size_t m_padded = 0;  ///< rounded up to whole lanes; the padding has weight zero
+  std::size_t m_active = 0;  ///< first unknown blob
+  EnergyTerms m_terms;
+  double m_slope = 0;
+  std::vector<double> m_slopeGradient;
+  std::vector<double> m_x, m_y, m_z, m_weight;
+  std::array<std::vector<double>, 10>
+      m_frozen;  ///< f, G (3), Gamma (xx, yy, zz, xy, xz, yz) of the frozen blobs
+  std::vector<double> m_field, m_gradient2;
+  std::vector<double> m_residual;  ///< data rows, then curvature rows, m_padded of each
+  std::vector<double> m_jacobian;  ///< one column of 2 m_padded rows for every unknown
+  std::vector<double> m_scratch;
+};
+
+/// sigma^3 - 1 for one pair of blobs, and its gradient with respect to the first one's x, y, z and
+/// width, then the second one's.
+struct CohesionResidual {
+  double value = 0;
+  std::array<double, 8> gradient{};
+};
+CohesionResidual cohesionResidual(const Blob& first, const Blob& second, double scale);
+
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/fitting/energy_kernels.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "converters/common/simd.h"
+
+namespace lumen::convert::fitting {
+namespace {
+
+// The loops below must end up inside the clone that calls them, or they would keep the default
+// instruction set.
+#define LUMEN_INLINE [[gnu::always_inline]] inline
+
+// The arrays of a block never overlap; the compiler cannot see it, and gives up on so many of them.
+#if defined(__clang__)
+#define LUMEN_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define LUMEN_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
+struct KernelLanes {
+  double phi, d1, d2, d3;
+};
+
+struct Cauchy {
+  double s2;
+  LUMEN_INLINE KernelLanes operator()(double x) const {
+    const double u = 1.0 / (1.0 + s2 * x);
+    const double phi = u * u;
+    const double d1 = -2.0 * s2 * phi * u;
+    const double d2 = -3.0 * s2 * d1 * u;
+    return {phi, d1, d2, -4.0 * s2 * d2 * u};
+  }
+};
+
+/// exp(-t) for t >= 0 to about 1e-15, from operations that every machine rounds alike (the C
+/// library's exp differs between machines): argument reduction by ln 2 in two parts, then a Taylor
+/// polynomial.
+LUMEN_INLINE double expOfMinus(double t) {
+  constexpr double kShift = 0x1.8p52;
+  const double x = -(t < 700.0 ? t : 700.0);
+  const double shifted = x * 1.44269504088896340736 + kShift;
+  const double n = shifted - kShift;
+  const double r = (x - n * 0x1.62e42fee00000p-1) - n * 0x1.a39ef35793c76p-33;
+  double p = 1.0 / 6227020800.0;
+  p = p * r + 1.0 / 479001600.0;
+  p = p * r + 1.0 / 39916800.0;
+  p = p * r + 1.0 / 3628800.0;
+  p = p * r + 1.0 / 362880.0;
+  p = p * r + 1.0 / 40320.0;
+  p = p * r + 1.0 / 5040.0;
+  p = p * r + 1.0 / 720.0;
+  p = p * r + 1.0 / 120.0;
+  p = p * r + 1.0 / 24.0;
+  p = p * r + 1.0 / 6.0;
+  p = p * r + 0.5;
+  p = p * r + 1.0;
+  p = p * r + 1.0;
+  // the low bits of `shifted` hold n; moved to the exponent they make 2^n
+  const auto power = (std::bit_cast<std::uint64_t>(shifted) + 1023U) << 52U;
+  return p * std::bit_cast<double>(power);
+}
+
+struct Gaussian {
+  double a2;
+  LUMEN_INLINE KernelLanes operator()(double x) const {
+    const double phi = expOfMinus(a2 * x);
+    const double d1 = -a2 * phi;
+    const double d2 = -a2 * d1;
+    return {phi, d1, d2, -a2 * d2};
+  }
+};
+
+struct Quartic {
+  LUMEN_INLINE KernelLanes operator()(double x) const {
+    const double inside = x < 1.0 ? 1.0 : 0.0;
+    const double u = inside * (1.0 - x);
+    return {u * u, -2.0 * u, 2.0 * inside, 0.0};
+  }
+};
+
+struct SoftObject {
+  LUMEN_INLINE KernelLanes operator()(double x) const {
+    const double inside = x < 1.0 ? 1.0 : 0.0;
+    const double y = inside * x;
+    return {inside * (1.0 + y * (-22.0 / 9.0 + y * (17.0 / 9.0 - y * (4.0 / 9.0)))),
+            inside * (-22.0 / 9.0 + y * (34.0 / 9.0 - y * (12.0 / 9.0))),
+            inside * (34.0 / 9.0 - y * (24.0 / 9.0)), inside * (-24.0 / 9.0)};
+  }
+};
+
+using Lane = double[kBlock];
+
+/// Sums over the blobs at every point of a block, and what the curvature's derivatives need of
+/// them.
+struct alignas(64) Sums {
+  Lane f, gx, gy, gz, ax, ay, az, wx, wy, wz, c;
+};
+
+LUMEN_INLINE void start(const Block& in, Sums& s) {
+  const std::size_t count = in.count;
+  const double* const* frozen = in.frozen;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    s.f[k] = frozen[0][k];
+    s.gx[k] = frozen[1][k];
+    s.gy[k] = frozen[2][k];
+    s.gz[k] = frozen[3][k];
+  }
+}
+
+/// First pass over a blob: the field, its gradient, and the data rows of the Jacobian.
+template <bool kJacobian, class Phi>
+LUMEN_INLINE void addField(const Phi& phi, const Block& in, const Blob& blob, Sums& s,
+                           double* __restrict scratch, double* __restrict column) {
+  const std::size_t count = in.count, stride = in.columnStride;
+  const double inverse = 1.0 / blob.width, width = blob.width;
+  const double cx = blob.x, cy = blob.y, cz = blob.z;
+  const double* __restrict px = in.x, * __restrict py = in.y, * __restrict pz = in.z;
+  const double* __restrict weight = in.weight;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const double dx = (px[k] - cx) * inverse, dy = (py[k] - cy) * inverse;
+    const double dz = (pz[k] - cz) * inverse;
+    const double x = dx * dx + dy * dy + dz * dz;
+    const KernelLanes v = phi(x);
+    const double d1 = 2.0 * v.d1;
+    s.f[k] += width * v.phi;
+    s.gx[k] += d1 * dx;
+    s.gy[k] += d1 * dy;
+    s.gz[k] += d1 * dz;
+    scratch[k] = dx;
+    scratch[kBlock + k] = dy;
+    scratch[2 * kBlock + k] = dz;
+    scratch[3 * kBlock + k] = x;
+    scratch[4 * kBlock + k] = v.d1;
+    scratch[5 * kBlock + k] = v.d2;
+    scratch[6 * kBlock + k] = v.d3;
+    if constexpr (kJacobian) {
+      const double wd1 = weight[k] * d1;
+      column[k] = wd1 * dx;
+      column[stride + k] = wd1 * dy;
+      column[2 * stride + k] = wd1 * dz;
+      column[3 * stride + k] = wd1 * x - weight[k] * v.phi;
+    }
+  }
+}
+
+LUMEN_INLINE void startCurvature(const Block& in, Sums& s) {
+  const std::size_t count = in.count;
+  const double* const* frozen = in.frozen;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const double gx = s.gx[k], gy = s.gy[k], gz = s.gz[k];
+    s.ax[k] = frozen[4][k] * gx + frozen[7][k] * gy + frozen[8][k] * gz;
+    s.ay[k] = frozen[7][k] * gx + frozen[5][k] * gy + frozen[9][k] * gz;
+    s.az[k] = frozen[8][k] * gx + frozen[9][k] * gy + frozen[6][k] * gz;
+  }
+}
+
+/// Second pass over a blob: A = Gamma G, with Gamma = H - (tr H) I.
+LUMEN_INLINE void addCurvature(const Block& in, const Blob& blob, Sums& s,
+                               double* __restrict scratch) {
+  const std::size_t count = in.count;
+  const double scale = 4.0 / blob.width;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const double dx = scratch[k], dy = scratch[kBlock + k], dz = scratch[2 * kBlock + k];
+    const double gx = s.gx[k], gy = s.gy[k], gz = s.gz[k];
+    const double u = gx * dx + gy * dy + gz * dz;
+    const double d2 = scale * scratch[5 * kBlock + k];
+    const double along = d2 * u;
+    const double across = d2 * scratch[3 * kBlock + k] + scale * scratch[4 * kBlock + k];
+    s.ax[k] += along * dx - across * gx;
+    s.ay[k] += along * dy - across * gy;
+    s.az[k] += along * dz - across * gz;
+    scratch[7 * kBlock + k] = u;
+  }
+}
+
+/// Residuals; and W, c such that d kappa = W . dG + c (G^T dH G - |G|^2 tr dH), scaled as the
+/// residual is.
+LUMEN_INLINE void finishPoints(const BlockParameters& p, const Block& in, Sums& s) {
+  const std::size_t count = in.count;
+  const double level = p.isoLevel, beta = p.curvatureScale;
+  const double* __restrict weight = in.weight;
+  double* __restrict field = in.field, * __restrict gradient2 = in.gradient2;
+  double* __restrict data = in.dataResidual, * __restrict curvature = in.curvatureResidual;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const double gx = s.gx[k], gy = s.gy[k], gz = s.gz[k];
+    const double g2 = gx * gx + gy * gy + gz * gz;
+    const double inverse2 = 1.0 / (g2 + kFlatField);
+    const double inverse3 = inverse2 * std::sqrt(inverse2);
+    const double scale = weight[k] * beta;
+    const double kappa = 0.5 * inverse3 * (gx * s.ax[k] + gy * s.ay[k] + gz * s.az[k]);
+    const double direct = scale * inverse3, radial = scale * 3.0 * kappa * inverse2;
+    field[k] = s.f[k];
+    gradient2[k] = g2;
+    data[k] = weight[k] * (level - s.f[k]);
+    curvature[k] = scale * kappa;
+    s.wx[k] = direct * s.ax[k] - radial * gx;
+    s.wy[k] = direct * s.ay[k] - radial * gy;
+    s.wz[k] = direct * s.az[k] - radial * gz;
+    s.c[k] = 0.5 * direct;
+  }
+}
+
+/// Third pass over a blob: the curvature and slope rows of the Jacobian.
+LUMEN_INLINE void differentiateCurvature(const Block& in, const Blob& blob, const Sums& s,
+                                         const double* __restrict scratch,
+                                         double* __restrict column) {
+  const std::size_t count = in.count, stride = in.columnStride;
+  const double inverse = 1.0 / blob.width;
+  const double* __restrict gradient2 = in.gradient2, * __restrict weight = in.weight;
+  double* __restrict slope = column + in.rowStride;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const double dx = scratch[k], dy = scratch[kBlock + k], dz = scratch[2 * kBlock + k];
+    const double x = scratch[3 * kBlock + k], d1 = scratch[4 * kBlock + k];
+    const double d2 = scratch[5 * kBlock + k], d3 = scratch[6 * kBlock + k];
+    const double u = scratch[7 * kBlock + k], g2 = gradient2[k];
+    const double wd = s.wx[k] * dx + s.wy[k] * dy + s.wz[k] * dz;
+    const double t = u * u - g2 * x;
+    const double c8 = 8.0 * inverse * inverse * s.c[k];
+    const double alongW = -2.0 * inverse * d1, alongG = -c8 * d2 * u;
+    const double alongD = c8 * (2.0 * d2 * g2 - d3 * t) - 4.0 * inverse * d2 * wd;
+    column[k] = alongD * dx + alongW * s.wx[k] + alongG * s.gx[k];
+    column[stride + k] = alongD * dy + alongW * s.wy[k] + alongG * s.gy[k];
+    column[2 * stride + k] = alongD * dz + alongW * s.wz[k] + alongG * s.gz[k];
+    column[3 * stride + k] = -2.0 * inverse * (2.0 * d2 * x + d1) * wd +
+                             c8 * (d2 * (2.0 * g2 * x - u * u) - d3 * x * t) -
+                             0.5 * c8 * (d2 * t - d1 * g2);
+    const double w = -4.0 * inverse * weight[k] * weight[k], w2 = 2.0 * w * d2 * u, w1 = w * d1;
+    slope[k] = w2 * dx + w1 * s.gx[k];
+    slope[stride + k] = w2 * dy + w1 * s.gy[k];
+    slope[2 * stride + k] = w2 * dz + w1 * s.gz[k];
+    slope[3 * stride + k] = w2 * x + w1 * u;
+  }
+}
+
+template <bool kJacobian, class Phi>
+LUMEN_INLINE void evaluate(const Phi& phi, const BlockParameters& parameters, const Block& in,
+                           std::span<const Blob> blobs) {
+  Sums sums;
+  start(in, sums);
+  for (std::size_t j = 0; j < blobs.size(); ++j) {
+    addField<kJacobian>(phi, in, blobs[j], sums, in.scratch + j * kScratchArrays * kBlock,
+                        kJacobian ? in.jacobian + 4 * j * in.columnStride : nullptr);
+  }
+  startCurvature(in, sums);
+  for (std::size_t j = 0; j < blobs.size(); ++j) {
+    addCurvature(in, blobs[j], sums, in.scratch + j * kScratchArrays * kBlock);
+  }
+  finishPoints(parameters, in, sums);
+  if constexpr (kJacobian) {
+    for (std::size_t j = 0; j < blobs.size(); ++j) {
+      differentiateCurvature(in, blobs[j], sums, in.scratch + j * kScratchArrays * kBlock,
+                             in.jacobian + 4 * j * in.columnStride + in.rowStride);
+    }
+  }
+}
+
+template <class Phi>
+LUMEN_INLINE void evaluate(const Phi& phi, const BlockParameters& parameters, const Block& in,
+                           std::span<const Blob> blobs, bool withJacobian) {
+  if (withJacobian) {
+    evaluate<true>(phi, parameters, in, blobs);
+  } else {
+    evaluate<false>(phi, parameters, in, blobs);
+  }
+}
+
+template <class Phi>
+LUMEN_INLINE void accumulate(const Phi& phi, std::size_t count, const double* __restrict px,
+                             const double* __restrict py, const double* __restrict pz,
+                             const Blob& blob, double* const (&sums)[10]) {
+  double* __restrict f = sums[0], * __restrict gx = sums[1], * __restrict gy = sums[2];
+  double* __restrict gz = sums[3], * __restrict xx = sums[4], * __restrict yy = sums[5];
+  double* __restrict zz = sums[6], * __restrict xy = sums[7], * __restrict xz = sums[8];
+  double* __restrict yz = sums[9];
+  const double inverse = 1.0 / blob.width;
+  LUMEN_INDEPENDENT
+  for (std::size_t k = 0; k < count; ++k) {
+    const double dx = (px[k] - blob.x) * inverse, dy = (py[k] - blob.y) * inverse;
+    const double dz = (pz[k] - blob.z) * inverse;
+    const double x = dx * dx + dy * dy + dz * dz;
+    const KernelLanes v = phi(x);
+    const double d1 = 2.0 * v.d1, d2 = 4.0 * inverse * v.d2;
+    const double isotropic = d2 * x + 4.0 * inverse * v.d1;
+    f[k] += blob.width * v.phi;
+    gx[k] += d1 * dx;
+    gy[k] += d1 * dy;
+    gz[k] += d1 * dz;
+    xx[k] += d2 * dx * dx - isotropic;
+    yy[k] += d2 * dy * dy - isotropic;
+    zz[k] += d2 * dz * dz - isotropic;
+    xy[k] += d2 * dx * dy;
+    xz[k] += d2 * dx * dz;
+    yz[k] += d2 * dy * dz;
+  }
+}
+
+}  // namespace
+
+LUMEN_SIMD_CLONES
+void evaluateBlock(const BlockParameters& parameters, const Block& block,
+                   std::span<const Blob> blobs, bool withJacobian) {
+  switch (parameters.kernel) {
+    case formats::Kernel::Cauchy:
+      return evaluate(Cauchy{parameters.kernelParameter}, parameters, block, blobs, withJacobian);
+    case formats::Kernel::Gaussian:
+      return evaluate(Gaussian{parameters.kernelParameter}, parameters, block, blobs, withJacobian);
+    case formats::Kernel::Quartic:
+      return evaluate(Quartic{}, parameters, block, blobs, withJacobian);
+    case formats::Kernel::SoftObject:
+      return evaluate(SoftObject{}, parameters, block, blobs, withJacobian);
+  }
+}
+
+LUMEN_SIMD_CLONES
+void accumulateField(const BlockParameters& parameters, std::size_t count, const double* x,
+                     const double* y, const double* z, std::span<const Blob> blobs,
+                     double* const (&sums)[10]) {
+  for (const Blob& blob : blobs) {
+    switch (parameters.kernel) {
+      case formats::Kernel::Cauchy:
+        accumulate(Cauchy{parameters.kernelParameter}, count, x, y, z, blob, sums);
+        break;
+      case formats::Kernel::Gaussian:
+        accumulate(Gaussian{parameters.kernelParameter}, count, x, y, z, blob, sums);
+        break;
+      case formats::Kernel::Quartic:
+        accumulate(Quartic{}, count, x, y, z, blob, sums);
+        break;
+      case formats::Kernel::SoftObject:
+        accumulate(SoftObject{}, count, x, y, z, blob, sums);
+        break;
+    }
+  }
+}
+
+}  // namespace lumen::convert::fitting

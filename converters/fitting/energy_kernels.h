@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hot loops of the fit: the field, its derivatives and the Jacobian of the residuals at a block
+// of points.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "converters/fitting/energy.h"
+
+namespace lumen::convert::fitting {
+
+/// Partial sums run in this many independent lanes, whatever the machine's vectors are, so that
+/// every machine adds in the same order.
+constexpr std::size_t kLanes = 8;
+/// Points per block: what a block needs for ten blobs stays in the first-level cache.
+constexpr std::size_t kBlock = 64;
+/// Values of scratch memory per unknown blob in a block: delta (3), |delta|^2, phi', phi'', phi''',
+/// G . delta.
+constexpr std::size_t kScratchArrays = 8;
+
+/// One block of points, and where its results go. All arrays have `count` entries.
+struct Block {
+  std::size_t count = 0;  ///< a multiple of kLanes, at most kBlock
+  const double *x = nullptr, *y = nullptr, *z = nullptr;
+  const double* weight = nullptr;  ///< square root of a point's share of the energy; 0 for padding
+  const double* frozen[10] = {};   ///< f, G (3), Gamma (6) of the blobs that are not unknowns
+  double* field = nullptr;
+  double* gradient2 = nullptr;
+  double* dataResidual = nullptr;       ///< weight (T - f)
+  double* curvatureResidual = nullptr;  ///< weight sqrt(beta) kappa
+  double* jacobian = nullptr;           ///< this block's rows of the first column
+  std::size_t columnStride = 0;         ///< from one column to the next
+  /// From a column's data row of a point to its curvature row, and on to its slope row: the
+  /// derivative of weight^2 |grad f|^2.
+  std::size_t rowStride = 0;
+  double* scratch = nullptr;  ///< blobs x kScratchArrays x kBlock
+};
+
+struct BlockParameters {
+  formats::Kernel kernel;
+  double kernelParameter;
+  double isoLevel;
+  double curvatureScale;  ///< sqrt(beta)
+};
+
+/// Residuals, field and (if `withJacobian`) derivatives for the unknown blobs.
+void evaluateBlock(const BlockParameters& parameters, const Block& block,
+                   std::span<const Blob> blobs, bool withJacobian);
+
+/// Adds f, G and Gamma = H - (tr H) I of `blobs` to frozen[0 .. 9].
+void accumulateField(const BlockParameters& parameters, std::size_t count, const double* x,
+                     const double* y, const double* z, std::span<const Blob> blobs,
+                     double* const (&sums)[10]);
+
+/// a += J^T J (n x n row-major, upper triangle) and b += J^T r, for n columns of `rows` values; n
+/// is a multiple of 4, `rows` of kLanes.
+void multiplyTransposed(const double* jacobian, std::size_t columnStride, std::size_t n,
+                        const double* residual, std::size_t rows, double* a, double* b);
+
+/// sums[i] = sum of the `rows` values of column i < n; n is a multiple of 4, `rows` of kLanes.
+void sumColumns(const double* jacobian, std::size_t columnStride, std::size_t n, std::size_t rows,
+                double* sums);
+
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Levenberg-Marquardt on the residuals of the fit's energy.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "converters/fitting/energy.h"
+
+namespace lumen::convert::fitting {
+
+struct MinimiseOptions {
+  int maxIterations = 50;
+  /// Stops when a step lowers the energy by less than this share of it.
+  double tolerance = 1e-4;
+  /// No centre moves farther from the origin.
+  double reach = std::numeric_limits<double>::infinity();
+};
+
+struct MinimiseResult {
+  double energy = 0;
+  int iterations = 0;  ///< evaluations of the Jacobian
+};
+
+/// Minimises energies; keeps its memory from call to call.
+class LevenbergMarquardt {
+public:
+  /// Lowers the energy by moving and resizing blobs[active .. ], after energy.freeze(blobs,
+  /// active). Never ends at a higher energy than it began with. Widths stay positive. Afterwards
+  /// the field of `energy` is that of the final blobs. `trace`, if given, receives the energy at
+  /// the start and after every accepted step.
+  MinimiseResult minimise(Energy& energy, std::span<Blob> blobs, std::size_t active,
+                          const MinimiseOptions& options, std::vector<double>* trace = nullptr);
+
+private:
+  bool solve(std::size_t n, double damping);
+  double tryStep(std::span<const Blob> blobs, std::size_t active, double reach);
+
+  std::vector<double> m_a, m_b;  ///< normal equations
+  std::vector<double> m_factor, m_step;
+  std::vector<Blob> m_trial;
+};
+
+/// Solves A x = -b by Cholesky's decomposition; A is n x n row-major, its upper triangle is read
+/// and overwritten. False if A is not positive definite.
+bool solveSymmetric(std::span<double> a, std::span<const double> b, std::size_t n,
+                    std::span<double> x);
+
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/fitting/energy.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "converters/common/random.h"
+#include "shapes.h"
+
+namespace lumen::convert::fitting {
+namespace {
+
+using formats::Kernel;
+using formats::Vec3d;
+
+EnergyParameters parametersFor(Kernel kernel) {
+  EnergyParameters p;
+  p.kernel = kernel;
+  p.kernelParameter = formats::defaultKernelParameter(kernel);
+  return p;
+}
+
+/// 101 points: not a whole number of lanes.
+std::vector<Vec3d> scatteredPoints() {
+  Random random(3);
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 101; ++i) {
+    points.push_back({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+  }
+  return points;
+}
+
+/// Wide enough for the compact kernels to reach every point.
+std::vector<Blob> scatteredBlobs(double width) {
+  Random random(4);
+  std::vector<Blob> blobs;
+  for (int i = 0; i < 5; ++i) {
+    blobs.push_back({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                     width * random.uniform(1, 1.3)});
+  }
+  return blobs;
+}
+
+double& coordinate(Blob& b, std::size_t i) {
+  switch (i) {
+    case 0:
+      return b.x;
+    case 1:
+      return b.y;
+    case 2:
+      return b.z;
+    default:
+      return b.width;
+  }
+}
+
+/// Largest difference between analytic and central differences, relative to the largest derivative.
+double derivativeError(const EnergyParameters& parameters, std::vector<Blob> blobs,
+                       std::size_t active) {
+  Energy energy(parameters);
+  energy.setPoints(scatteredPoints());
+  energy.freeze(blobs, active);
+  const std::size_t n = 4 * (blobs.size() - active);
+  std::vector<double> a(n * n), b(n);
+  energy.linearise(blobs);
+  energy.normalEquations(blobs, a, b);
+  double worst = 0, largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    constexpr double kStep = 1e-5;
+    double& value = coordinate(blobs[active + i / 4], i % 4);
+    const double at = value;
+    value = at + kStep;
+    const double above = energy.evaluate(blobs);
+    value = at - kStep;
+    const double below = energy.evaluate(blobs);
+    value = at;
+    const double expected = (above - below) / (2 * kStep);
+    worst = std::max(worst, std::abs(2 * b[i] - expected));
+    largest = std::max(largest, std::abs(expected));
+  }
+  return worst / largest;
+}
+
+class EnergyOfKernel : public testing::TestWithParam<Kernel> {
+protected:
+  [[nodiscard]] static double width() { return GetParam() >= Kernel::Quartic ? 3.0 : 0.6; }
+};
+
+TEST_P(EnergyOfKernel, DataDerivativesMatchCentralDifferences) {
+  EnergyParameters p = parametersFor(GetParam());
+  p.cohesionWeight = p.curvatureWeight = 0;
+  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0), 1e-6);
+}
+
+TEST_P(EnergyOfKernel, NormalisedDataDerivativesMatchCentralDifferences) {
+  EnergyParameters p = parametersFor(GetParam());
+  p.cohesionWeight = p.curvatureWeight = 0;
+  p.referenceSlope = 0.3;
+  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0), 1e-6);
+}
+
+TEST_P(EnergyOfKernel, CurvatureDerivativesMatchCentralDifferences) {
+  EnergyParameters p = parametersFor(GetParam());
+  p.isoLevel = 0;
+  p.cohesionWeight = 0;
+  p.curvatureWeight = 1e8;  // leaves the data term below the tolerance
+  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0), 1e-5);
+}
+
+TEST_P(EnergyOfKernel, CohesionDerivativesMatchCentralDifferences) {
+  EnergyParameters p = parametersFor(GetParam());
+  p.curvatureWeight = 0;
+  p.cohesionWeight = 1e8;
+  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0), 1e-6);
+}
+
+TEST_P(EnergyOfKernel, DerivativesOfTheUnknownBlobsDoNotChangeWhenTheOthersAreFrozen) {
+  EnergyParameters p = parametersFor(GetParam());
+  p.referenceSlope = 0.3;
+  p.cohesionWeight = p.curvatureWeight = 0.1;
+  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 3), 1e-5);
+}
+
+TEST_P(EnergyOfKernel, FreezingBlobsDoesNotChangeTheEnergy) {
+  const std::vector<Blob> blobs = scatteredBlobs(width());
+  Energy energy(parametersFor(GetParam()));
+  energy.setPoints(scatteredPoints());
+  energy.freeze(blobs, 0);
+  const double all = energy.evaluate(blobs);
+  energy.freeze(blobs, 3);
+  EXPECT_NEAR(energy.evaluate(blobs), all, 1e-12 * all);
+}
+
+TEST_P(EnergyOfKernel, FieldAgreesWithTheScalarReference) {
+  const std::vector<Blob> blobs = scatteredBlobs(width());
+  const std::vector<Vec3d> points = scatteredPoints();
+  formats::BlobbyModels models;
+  models.kernel = GetParam();
+  models.kernelParameter = formats::defaultKernelParameter(GetParam());
+  models.offset = {0, static_cast<std::uint32_t>(blobs.size())};
+  std::vector<Blob> rounded;  // the model holds floats
+  for (const Blob& b : blobs) {
+    models.centre.push_back(
+        {static_cast<float>(b.x), static_cast<float>(b.y), static_cast<float>(b.z)});
+    models.width.push_back(static_cast<float>(b.width));
+    const formats::Vec3f& c = models.centre.back();
+    rounded.push_back({c.x, c.y, c.z, models.width.back()});
+  }
+  Energy energy(parametersFor(GetParam()));
+  energy.setPoints(points);
+  energy.evaluate(rounded);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const formats::FieldValue expected = formats::evaluateField(models, 0, points[k]);
+    const Vec3d& g = expected.gradient;
+    EXPECT_NEAR(energy.field()[k], expected.f, 1e-13);
+    EXPECT_NEAR(energy.gradientSquared()[k], g.x * g.x + g.y * g.y + g.z * g.z, 1e-13);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EnergyOfKernel,
+                         testing::Values(Kernel::Cauchy, Kernel::Gaussian, Kernel::Quartic,
+                                         Kernel::SoftObject),
+                         [](const auto& tested) { return test::kernelName(tested.param); });
+
+TEST(Energy, DataTermIsTheMeanSquareOfTMinusF) {
+  // f = 0.5 at the centre of a blob of width 0.5, and 0.5 (1 + 0.2 * 4)^-2 = 0.154321 at two widths
+  Energy energy({});
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}});
+  energy.evaluate(std::vector<Blob>{{0, 0, 0, 0.5}});
+  EXPECT_NEAR(energy.terms().data, (0.4 * 0.4 + 0.0543210 * 0.0543210) / 2, 1e-8);
+}
+
+TEST(Energy, NormalisedDataTermIsThePlainOneWhereTheSlopeIsTheReference) {
+  const std::vector<Blob> blobs = scatteredBlobs(0.6);
+  Energy energy({});
+  energy.setPoints(scatteredPoints());
+  energy.evaluate(blobs);
+  const double plain = energy.terms().data;
+  EnergyParameters p;
+  p.referenceSlope = energy.slope();
+  energy.setParameters(p);
+  energy.evaluate(blobs);
+  EXPECT_DOUBLE_EQ(energy.terms().data, plain);
+}
+
+TEST(Energy, MeanCurvatureOfASphereIsTheInverseOfItsRadius) {
+  Energy energy({});
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 2}});
+  energy.evaluate(std::vector<Blob>{{0, 0, 0, 1}});
+  EXPECT_NEAR(energy.terms().curvature, 0.25, 1e-4);
+}
+
+TEST(Energy, MeanCurvatureOfATubeIsHalfTheInverseOfItsRadius) {
+  std::vector<Blob> row;
+  for (int i = -200; i <= 200; ++i) row.push_back({0.25 * i, 0, 0, 0.5});
+  Energy energy({});
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 2}});
+  energy.evaluate(row);
+  EXPECT_NEAR(energy.terms().curvature, 1.0 / 16, 1e-3);
+}
+
+TEST(Energy, CohesionIsLeastAtTwiceTheGeometricMeanOfTheWidths) {
+  const auto at = [](double distance) {
+    return cohesionResidual({0, 0, 0, 0.5}, {distance, 0, 0, 2}, 2).value;
+  };
+  EXPECT_NEAR(at(2), 0, 1e-15);
+  EXPECT_NEAR(at(1), 63, 1e-12);                // sigma = 4: repelled
+  EXPECT_NEAR(at(4), 1.0 / 64.0 - 1.0, 1e-15);  // sigma = 1/4: drawn together
+}
+
+TEST(Energy, CohesionTermIsThatOfTheThesisPlusOne) {
+  const std::vector<Blob> blobs{{0, 0, 0, 1}, {1.5, 0, 0, 1}, {0, 3, 0, 1}};
+  double expected = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (i == j) continue;
+      const double dx = blobs[i].x - blobs[j].x, dy = blobs[i].y - blobs[j].y;
+      const double cube = std::pow(4.0 / (dx * dx + dy * dy), 3);
+      expected += cube * (cube - 2) / 6;
+    }
+  }
+  Energy energy({});
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 1}});
+  energy.evaluate(blobs);
+  EXPECT_NEAR(energy.terms().cohesion, expected + 1, 1e-12);
+}
+
+TEST(Energy, CurvatureOfAFlatFieldIsZero) {
+  // half way between two equal blobs the gradient vanishes
+  Energy energy({});
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 0}});
+  energy.evaluate(std::vector<Blob>{{-1, 0, 0, 1}, {1, 0, 0, 1}});
+  EXPECT_EQ(energy.gradientSquared()[0], 0);
+  EXPECT_EQ(energy.terms().curvature, 0);
+}
+
+}  // namespace
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/fitting/levenberg_marquardt.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "conjugate_gradients.h"
+#include "converters/common/random.h"
+
+namespace lumen::convert::fitting {
+namespace {
+
+using formats::Vec3d;
+
+std::vector<Vec3d> tubePoints(double length, double noise) {
+  Random random(5);
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = random.uniform(0, 6.283185307179586);
+    const double r = 1 + noise * random.normal();
+    points.push_back(
+        {random.uniform(-length / 2, length / 2), r * std::cos(angle), r * std::sin(angle)});
+  }
+  return points;
+}
+
+std::vector<Blob> rowOfBlobs(int count, double length) {
+  std::vector<Blob> blobs;
+  for (int i = 0; i < count; ++i) {
+    blobs.push_back({length * ((i + 0.5) / count - 0.5), 0.05 * i, 0, 0.35});
+  }
+  return blobs;
+}
+
+EnergyParameters normalised(const std::vector<Vec3d>& points, const std::vector<Blob>& blobs) {
+  EnergyParameters p;
+  Energy plain(p);
+  plain.setPoints(points);
+  plain.evaluate(blobs);
+  p.referenceSlope = plain.slope();
+  return p;
+}
+
+TEST(SolveSymmetric, SolvesATwoByTwoSystem) {
+  // 4 x + 2 y = -8, 2 x + 3 y = -8: x = -1, y = -2
+  std::vector<double> a{4, 2, 0, 3}, x(2);
+  ASSERT_TRUE(solveSymmetric(a, std::vector<double>{8, 8}, 2, x));
+  EXPECT_NEAR(x[0], -1, 1e-14);
+  EXPECT_NEAR(x[1], -2, 1e-14);
+}
+
+TEST(SolveSymmetric, RefusesAnIndefiniteMatrix) {
+  std::vector<double> a{1, 2, 0, 1}, x(2);
+  EXPECT_FALSE(solveSymmetric(a, std::vector<double>{1, 1}, 2, x));
+}
+
+TEST(LevenbergMarquardt, EveryStepLowersTheEnergy) {
+  Energy energy({});
+  energy.setPoints(tubePoints(4, 0.05));
+  std::vector<Blob> blobs = rowOfBlobs(4, 4);
+  std::vector<double> trace;
+  const MinimiseResult result = LevenbergMarquardt().minimise(energy, blobs, 0, {}, &trace);
+  ASSERT_GT(trace.size(), 3U);
+  for (std::size_t i = 1; i < trace.size(); ++i) EXPECT_LT(trace[i], trace[i - 1]);
+  EXPECT_EQ(result.energy, trace.back());
+  EXPECT_EQ(energy.evaluate(blobs), result.energy);
+}
+
+TEST(LevenbergMarquardt, OneBlobFindsASphere) {
+  std::vector<Vec3d> points;
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d v{random.normal(), random.normal(), random.normal()};
+    const double n = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    points.push_back({0.3 + v.x / n, v.y / n, v.z / n});
+  }
+  EnergyParameters p;
+  p.curvatureWeight = 0;
+  Energy energy(p);
+  energy.setPoints(points);
+  std::vector<Blob> blobs{{0, 0.2, 0, 0.3}};
+  LevenbergMarquardt().minimise(energy, blobs, 0, {100, 1e-12});
+  EXPECT_NEAR(blobs[0].x, 0.3, 1e-6);
+  EXPECT_NEAR(blobs[0].y, 0, 1e-6);
+  EXPECT_NEAR(formats::isoRadius(p.kernel, p.kernelParameter, blobs[0].width, p.isoLevel), 1, 1e-6);
+}
+
+TEST(LevenbergMarquardt, FrozenBlobsStay) {
+  Energy energy({});
+  energy.setPoints(tubePoints(4, 0));
+  std::vector<Blob> blobs = rowOfBlobs(3, 4);
+  const Blob first = blobs[0], second = blobs[1], third = blobs[2];
+  energy.freeze(blobs, 2);
+  LevenbergMarquardt().minimise(energy, blobs, 2, {});
+  EXPECT_EQ(blobs[0].x, first.x);
+  EXPECT_EQ(blobs[1].width, second.width);
+  EXPECT_NE(blobs[2].width, third.width);
+}
+
+TEST(LevenbergMarquardt, CentresStayWithinReach) {
+  Energy energy({});
+  energy.setPoints(tubePoints(8, 0));
+  std::vector<Blob> blobs{{-0.2, 0, 0, 0.35}, {0.2, 0, 0, 0.35}};
+  MinimiseOptions options;
+  options.reach = 1;
+  LevenbergMarquardt().minimise(energy, blobs, 0, options);
+  for (const Blob& b : blobs) EXPECT_LE(b.x * b.x + b.y * b.y + b.z * b.z, 1 + 1e-12);
+}
+
+TEST(LevenbergMarquardt, EndsAtNoHigherEnergyThanTheThesisConjugateGradients) {
+  for (const double noise : {0.0, 0.05}) {
+    for (const int count : {2, 3, 6}) {
+      const std::vector<Vec3d> points = tubePoints(4, noise);
+      std::vector<Blob> ours = rowOfBlobs(count, 4), theirs = ours;
+      Energy energy(normalised(points, ours));
+      energy.setPoints(points);
+      const double reached = LevenbergMarquardt().minimise(energy, ours, 0, {60, 1e-4}).energy;
+      const double reference = test::minimiseByConjugateGradients(energy, theirs, 5, 12);
+      EXPECT_LE(reached, 1.001 * reference) << count << " blobs, noise " << noise;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lumen::convert::fitting
