@@ -2,17 +2,19 @@
 // Triangle meshes of a case's wall.
 #pragma once
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "converters/common/progress.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
 
-/// Vertices in mm, LPS; triangles counter-clockwise seen from outside the lumen; vertex normals outward.
+/// Vertices in mm, LPS; triangles counter-clockwise seen from outside the lumen; vertex normals
+/// outward.
 struct MeshTraits : OpenMesh::DefaultTraits {
   VertexAttributes(OpenMesh::Attributes::Normal | OpenMesh::Attributes::Status);
   FaceAttributes(OpenMesh::Attributes::Status);
@@ -27,24 +29,33 @@ struct BranchMesh {
 };
 
 struct PolygoniseOptions {
-  double cell = 0;  ///< edge of a marching-cubes cell, mm; 0: the case's voxel size
+  /// Edge of a marching-cubes cell, mm; 0: the case's voxel size. Nodes narrower than two cells get
+  /// a cell of a half, a quarter or an eighth, so that thin vessels stay whole and round.
+  double cell = 0;
 };
 
-/// One mesh per branch: for each node, marching cubes at the iso-level on a grid around the node, cut by
-/// the radical planes to its topological neighbours (design notes section 4), the node's side kept. Vertices that
-/// coincide within a branch are shared; patches of adjacent nodes meet at the radical planes only to
-/// within their models' disagreement. Throws Error(InvalidInput) if the case has no models, or no voxel size
-/// while `cell` is 0, and Error(Cancelled).
+/// One mesh per branch, in the tree's order: for each node with blobs, marching cubes at the
+/// iso-level on a lattice that all nodes share, of the surface of the lumen around the node's
+/// centre; what does not hang together with that lumen is left out. The patch is cut by the radical
+/// planes to the nodes within two edges (design notes section 4), and the node's side kept. A
+/// vessel's free end is cut flat at the end of its last node's cylinder and left open;
+/// an aneurysm's dome stays whole. Within a patch vertices are shared and the surface is an
+/// oriented 2-manifold with boundary; patches of adjacent nodes meet at the radical planes only to
+/// within their models' disagreement, and share no vertex. Normals are the model's, -grad f / |grad
+/// f|. Throws Error(InvalidInput) if the case has no models, no voxel size while `cell` is 0, or a
+/// cell that is too small for it, and Error(Cancelled).
 std::vector<BranchMesh> polygonise(const formats::Case& source, const PolygoniseOptions& options,
                                    Progress& progress);
 
 struct WriteMeshOptions {
-  bool draco = false;           ///< glTF only: KHR_draco_mesh_compression
-  int dracoPositionBits = 14;   ///< quantisation of a branch's bounding box
+  bool draco = false;          ///< glTF only: KHR_draco_mesh_compression
+  int dracoPositionBits = 14;  ///< quantisation of a branch's bounding box, 1 .. 30
+  int dracoNormalBits = 10;    ///< quantisation of a normal, 2 .. 30
 };
 
-/// Writes by `format`: "glb", "gltf" (with embedded buffers), "obj", "stl" (binary), "ply" (binary), atomically.
-/// glTF is metres, +Y up, through the root node's matrix; the others stay in mm, LPS.
+/// Writes by `format`: "glb", "gltf" (with embedded buffers), "obj", "stl" (binary), "ply"
+/// (binary), atomically. glTF is metres, +Y up, through the root node's matrix; the others stay in
+/// mm, LPS.
 void writeMesh(const std::vector<BranchMesh>& meshes, const std::filesystem::path& file,
                const std::string& format, const WriteMeshOptions& options);
 

@@ -1,1 +1,214 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/mesh/marching_cubes.h"
+#include "converters/mesh/mesh.h"
+#include "converters/mesh/node_cell.h"
+#include "converters/mesh/node_field.h"
+#include "formats/case/topology.h"
+
+namespace lumen::convert {
+namespace {
+
+// A cell that straddles a plane has every corner nearer to it than this many cells: over sqrt(3).
+constexpr double kCellDiagonal = 1.74;
+// How far from its centre a node's surface is followed along each axis. Its points lie within 2.4
+// radii, because its rays are sampled no farther; a surface beyond runs away from them.
+constexpr double kReachRadii = 2.4, kReachHeights = 0.5;
+// A part of the cut patch that nowhere comes this near to the node, in radii, is not its lumen's.
+constexpr double kLumenRadii = 2;
+// Bounds on the lattice that keep positions within int and a node's grid within memory.
+constexpr double kMaxPosition = 1e8, kMaxAcross = 1e4;
+constexpr std::size_t kMaxSamples = std::size_t{1} << 27;
+// A vessel narrower than this many cells gets a finer lattice, halved up to kMaxHalvings times.
+constexpr double kMinRadiusCells = 2;
+constexpr int kMaxHalvings = 3;
+// Vertices this near to a plane, in cells, are on it.
+constexpr double kSnap = 1e-4;
+
+struct NodePatch {
+  Patch patch;
+  std::vector<OpenMesh::Vec3f> normal;
+};
+
+Eigen::Vector3d toEigen(const formats::Vec3f& v) {
+  return {v.x, v.y, v.z};
+}
+
+struct Interval {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
+
+// The part of the line (., y, z) that is in every half-space, or less than `pad` outside.
+Interval lineInside(const std::vector<HalfSpace>& spaces, double y, double z, double pad) {
+  Interval result;
+  for (const HalfSpace& space : spaces) {
+    const double room = space.offset + pad - space.normal.y() * y - space.normal.z() * z;
+    const double slope = space.normal.x();
+    if (slope > 0) result.high = std::min(result.high, room / slope);
+    if (slope < 0) result.low = std::max(result.low, room / slope);
+    if (slope == 0 && room < 0) return {0, -1};
+  }
+  return result;
+}
+
+double cellForRadius(double cell, double radius) {
+  for (int i = 0; i < kMaxHalvings && radius < kMinRadiusCells * cell; ++i) cell *= 0.5;
+  return cell;
+}
+
+int latticeFloor(double position, double cell) {
+  return static_cast<int>(std::floor(position / cell));
+}
+
+Error cellTooSmall(double cell) {
+  return invalidInput("a cell of " + std::to_string(cell) +
+                      " mm is too small for this case: expected a larger --cell");
+}
+
+// The rows of the lattice within `low` .. `high` that may meet the surface inside the half-spaces.
+SampleGrid layOutGrid(const NodeField& field, const std::vector<HalfSpace>& spaces,
+                      const Eigen::Vector3d& low, const Eigen::Vector3d& high, double cell) {
+  if (low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff() > kMaxPosition * cell ||
+      (high - low).maxCoeff() > kMaxAcross * cell)
+    throw cellTooSmall(cell);
+  SampleGrid grid;
+  grid.cell = cell;
+  grid.lowY = latticeFloor(low.y(), cell) - 1;
+  grid.lowZ = latticeFloor(low.z(), cell) - 1;
+  grid.rowsY = std::max(0, latticeFloor(high.y(), cell) + 3 - grid.lowY);
+  grid.rowsZ = std::max(0, latticeFloor(high.z(), cell) + 3 - grid.lowZ);
+  std::size_t samples = 0;
+  for (int iz = 0; iz < grid.rowsZ; ++iz)
+    for (int iy = 0; iy < grid.rowsY; ++iy) {
+      const double y = cell * (grid.lowY + iy), z = cell * (grid.lowZ + iz);
+      Interval part = lineInside(spaces, y, z, kCellDiagonal * cell);
+      part.low = std::max(part.low, low.x() - cell);
+      part.high = std::min(part.high, high.x() + cell);
+      SampleGrid::Row& row = grid.rows.emplace_back();
+      row.offset = samples;
+      if (part.low > part.high) continue;
+      const NodeField::Range near = field.rangeNearInside(cell, y, z);
+      row.first = std::max(near.first, latticeFloor(part.low, cell));
+      row.count =
+          std::max(0, std::min(near.last, latticeFloor(part.high, cell) + 1) - row.first + 1);
+      samples += static_cast<std::size_t>(row.count);
+    }
+  if (samples > kMaxSamples) throw cellTooSmall(cell);
+  grid.value.resize(samples);
+  return grid;
+}
+
+void sampleField(const NodeField& field, SampleGrid& grid) {
+  for (std::size_t r = 0; r < grid.rows.size(); ++r) {
+    const SampleGrid::Row& row = grid.rows[r];
+    const int y = grid.lowY + static_cast<int>(r % static_cast<std::size_t>(grid.rowsY));
+    const int z = grid.lowZ + static_cast<int>(r / static_cast<std::size_t>(grid.rowsY));
+    field.sampleRow(row.first, grid.cell, grid.cell * y, grid.cell * z,
+                    std::span(grid.value).subspan(row.offset, static_cast<std::size_t>(row.count)));
+  }
+}
+
+std::vector<OpenMesh::Vec3f> outwardNormals(const NodeField& field, const Eigen::Vector3d& centre,
+                                            const std::vector<Eigen::Vector3d>& position) {
+  std::vector<OpenMesh::Vec3f> normals;
+  normals.reserve(position.size());
+  for (const Eigen::Vector3d& p : position) {
+    Eigen::Vector3d outward = -field.sample(p).gradient;
+    if (outward.squaredNorm() < 1e-200)
+      outward = p - centre;  // a flat spot has no normal of its own
+    if (outward.squaredNorm() < 1e-200) outward = Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3f n = outward.normalized().cast<float>();
+    normals.emplace_back(n.x(), n.y(), n.z());
+  }
+  return normals;
+}
+
+NodePatch polygoniseNode(const formats::Case& source, const formats::Neighbours& neighbours,
+                         std::uint32_t node, double voxel) {
+  const NodeField field(*source.models, node);
+  const double cell = cellForRadius(voxel, source.tree.radius[node]);
+  const auto spaces = nodeCell(source, neighbours, node);
+  if (field.empty() || !spaces) return {};
+  const formats::CenterlineTree& tree = source.tree;
+  const Eigen::Vector3d centre = toEigen(tree.centre[node]);
+  const double radius = tree.radius[node];
+  const double reach = kReachRadii * radius + kReachHeights * double(tree.height[node]) + 2 * cell;
+  const Eigen::Vector3d low = field.low().cwiseMax((centre.array() - reach).matrix());
+  const Eigen::Vector3d high = field.high().cwiseMin((centre.array() + reach).matrix());
+  SampleGrid grid = layOutGrid(field, *spaces, low, high, cell);
+  sampleField(field, grid);
+
+  const auto state = markLumen(grid, field.isoLevel(), centre, radius + cell);
+  NodePatch result;
+  result.patch =
+      marchingCubes(grid, state,
+                    [&field](const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b,
+                             double fb) { return field.crossing(a, fa, b, fb); });
+  for (const HalfSpace& space : *spaces) clip(result.patch, space, kSnap * cell);
+  dropFarParts(result.patch, centre, kLumenRadii * radius);
+  roundToFloat(result.patch);
+  separateFans(result.patch);
+  result.normal = outwardNormals(field, centre, result.patch.position);
+  return result;
+}
+
+void append(const NodePatch& part, TriMesh& mesh) {
+  std::vector<TriMesh::VertexHandle> handle;
+  handle.reserve(part.patch.position.size());
+  for (std::size_t v = 0; v < part.patch.position.size(); ++v) {
+    const Eigen::Vector3f p = part.patch.position[v].cast<float>();
+    handle.push_back(mesh.add_vertex(TriMesh::Point(p.x(), p.y(), p.z())));
+    mesh.set_normal(handle.back(), part.normal[v]);
+  }
+  for (const Triangle& t : part.patch.triangle)
+    if (!mesh.add_face(handle[t[0]], handle[t[1]], handle[t[2]]).is_valid())
+      throw failed("a patch of the surface is not a manifold");
+}
+
+double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
+  if (!source.models)
+    throw invalidInput("the case has no models, and a mesh is made from them; fit it first");
+  const double cell = options.cell > 0 ? options.cell : source.metadata.voxelSize.value_or(0);
+  if (!(options.cell >= 0) || !(cell > 0) || !std::isfinite(cell))
+    throw invalidInput("the mesh needs a cell size: found cell " + std::to_string(options.cell) +
+                       " mm and no voxel size in the case, expected one above 0 mm");
+  return cell;
+}
+
+}  // namespace
+
+std::vector<BranchMesh> polygonise(const formats::Case& source, const PolygoniseOptions& options,
+                                   Progress& progress) {
+  const double cell = cellOf(source, options);
+  const formats::CenterlineTree& tree = source.tree;
+  const formats::Neighbours neighbours(tree);
+  std::vector<NodePatch> parts(tree.nodeCount());
+  progress.begin("mesh", parts.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    progress.check();
+    parts[i] = polygoniseNode(source, neighbours, static_cast<std::uint32_t>(i), cell);
+    progress.advance();
+  });
+  std::vector<BranchMesh> result(tree.branches.size());
+  tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t b) {
+    const formats::Branch& branch = tree.branches[b];
+    result[b].label = branch.label;
+    for (std::size_t i = branch.firstNode; i < branch.firstNode + std::size_t{branch.nodeCount};
+         ++i) {
+      progress.check();
+      append(parts[i], result[b].mesh);
+      parts[i] = {};
+    }
+  });
+  progress.end();
+  return result;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/mesh/draco_mesh.h"
+
+#include <memory>
+#include <string>
+
+#include <draco/compression/decode.h>
+#include <draco/compression/encode.h>
+#include <draco/mesh/mesh.h>
+
+namespace lumen::convert {
+namespace {
+
+int addAttribute(draco::Mesh& target, draco::GeometryAttribute::Type type, std::uint32_t vertices) {
+  draco::GeometryAttribute attribute;
+  attribute.Init(type, nullptr, 3, draco::DT_FLOAT32, false, 3 * sizeof(float), 0);
+  return target.AddAttribute(attribute, true, vertices);
+}
+
+struct DracoInput {
+  draco::Mesh mesh;
+  int position = 0, normal = 0;  // attribute indices
+};
+
+void fill(const TriMesh& mesh, DracoInput& input) {
+  const auto vertices = static_cast<std::uint32_t>(mesh.n_vertices());
+  input.mesh.set_num_points(vertices);
+  input.position = addAttribute(input.mesh, draco::GeometryAttribute::POSITION, vertices);
+  input.normal = addAttribute(input.mesh, draco::GeometryAttribute::NORMAL, vertices);
+  for (const auto v : mesh.vertices()) {
+    const draco::AttributeValueIndex at(static_cast<std::uint32_t>(v.idx()));
+    input.mesh.attribute(input.position)->SetAttributeValue(at, mesh.point(v).data());
+    input.mesh.attribute(input.normal)->SetAttributeValue(at, mesh.normal(v).data());
+  }
+  input.mesh.SetNumFaces(mesh.n_faces());
+  for (const auto f : mesh.faces()) {
+    draco::Mesh::Face face;
+    std::size_t next = 0;
+    for (const auto v : mesh.fv_range(f))
+      face[next++] = draco::PointIndex(static_cast<std::uint32_t>(v.idx()));
+    input.mesh.SetFace(draco::FaceIndex(static_cast<std::uint32_t>(f.idx())), face);
+  }
+}
+
+void checkBits(int bits, int least, const char* what) {
+  if (bits >= least && bits <= 30) return;
+  throw Error(ErrorKind::Usage, std::string("Draco ") + what + " bits: found " +
+                                    std::to_string(bits) + ", expected " + std::to_string(least) +
+                                    " to 30");
+}
+
+// What a viewer will see: quantisation moves positions.
+void measureDecoded(DracoMesh& coded) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(coded.bytes.data(), coded.bytes.size());
+  auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
+  if (!decoded.ok())
+    throw failed("Draco cannot read back a mesh: " + decoded.status().error_msg_string());
+  const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
+  const auto* position = mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(coded.positionId));
+  coded.vertices = mesh->num_points();
+  coded.triangles = mesh->num_faces();
+  for (draco::PointIndex i(0); i < mesh->num_points(); ++i) {
+    OpenMesh::Vec3f p;
+    position->GetMappedValue(i, p.data());
+    if (i == 0U) coded.low = coded.high = p;
+    coded.low.minimize(p);
+    coded.high.maximize(p);
+  }
+}
+
+}  // namespace
+
+DracoMesh encodeDraco(const TriMesh& mesh, const WriteMeshOptions& options) {
+  checkBits(options.dracoPositionBits, 1, "position");
+  checkBits(options.dracoNormalBits, 2, "normal");
+  DracoInput input;
+  fill(mesh, input);
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, options.dracoPositionBits);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, options.dracoNormalBits);
+  draco::EncoderBuffer buffer;
+  const draco::Status status = encoder.EncodeMeshToBuffer(input.mesh, &buffer);
+  if (!status.ok()) throw failed("Draco cannot code a mesh: " + status.error_msg_string());
+  DracoMesh coded;
+  coded.bytes.assign(buffer.data(), buffer.data() + buffer.size());
+  coded.positionId = static_cast<int>(input.mesh.attribute(input.position)->unique_id());
+  coded.normalId = static_cast<int>(input.mesh.attribute(input.normal)->unique_id());
+  measureDecoded(coded);
+  return coded;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// One mesh as a Draco bit stream. Draco's headers stay behind this file.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "converters/mesh/mesh.h"
+
+namespace lumen::convert {
+
+struct DracoMesh {
+  std::vector<char> bytes;
+  int positionId = 0, normalId = 0;  ///< Draco's unique ids of the attributes
+  std::size_t vertices = 0,
+              triangles = 0;  ///< as they decode: Draco renumbers, and may split or drop some
+  OpenMesh::Vec3f low, high;  ///< box of the decoded positions, mm
+};
+
+/// Throws Error(Usage) for options out of range, and Error(Failed) if Draco refuses the mesh, which
+/// needs at least one triangle.
+DracoMesh encodeDraco(const TriMesh& mesh, const WriteMeshOptions& options);
+
+}  // namespace lumen::convert

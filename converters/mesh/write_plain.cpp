@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// OBJ, STL and PLY. OpenMesh's own writers take one mesh and no comment: they could not name the
+// branches, nor say the unit and the frame.
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <set>
+
+#include "converters/mesh/encode_mesh.h"
+
+namespace lumen::convert {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "numbers are written as they lie in memory");
+
+template <class T>
+void put(std::string& out, T value) {
+  char bytes[sizeof(T)];
+  std::memcpy(bytes, &value, sizeof(T));
+  out.append(bytes, sizeof(T));
+}
+
+void putVector(std::string& out, const OpenMesh::Vec3f& v) {
+  for (std::size_t a = 0; a < 3; ++a) put(out, v[a]);
+}
+
+// The shortest decimal that reads back as the same number.
+template <class T>
+void putNumber(std::string& out, T value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  out.append(digits, static_cast<std::size_t>(end - digits));
+}
+
+void putLine(std::string& out, const char* keyword, const OpenMesh::Vec3f& v) {
+  out += keyword;
+  for (std::size_t a = 0; a < 3; ++a) {
+    out += ' ';
+    putNumber(out, v[a]);
+  }
+  out += '\n';
+}
+
+std::string objName(const std::string& label, std::set<std::string>& taken) {
+  std::string name = label.empty() ? "branch" : label;
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) <= ' ' || c == 0x7f) c = '_';
+  const std::string stem = name;
+  for (int n = 2; !taken.insert(name).second; ++n) name = stem + "_" + std::to_string(n);
+  return name;
+}
+
+std::size_t countVertices(const std::vector<BranchMesh>& meshes) {
+  std::size_t count = 0;
+  for (const BranchMesh& m : meshes) count += m.mesh.n_vertices();
+  return count;
+}
+
+std::size_t countFaces(const std::vector<BranchMesh>& meshes) {
+  std::size_t count = 0;
+  for (const BranchMesh& m : meshes) count += m.mesh.n_faces();
+  return count;
+}
+
+void checkCount(std::size_t count, const char* format) {
+  if (count <= static_cast<std::size_t>(INT32_MAX)) return;
+  throw unsupported("the mesh has " + std::to_string(count) + " vertices or triangles; " + format +
+                    " holds at most 2147483647");
+}
+
+}  // namespace
+
+std::string encodeObj(const std::vector<BranchMesh>& meshes) {
+  std::string out =
+      "# lumen " LUMEN_VERSION "\n# millimetres, LPS: +x left, +y posterior, +z superior\n";
+  std::set<std::string> taken;
+  std::size_t base = 1;
+  for (const BranchMesh& branch : meshes) {
+    const TriMesh& mesh = branch.mesh;
+    if (mesh.n_faces() == 0) continue;
+    out += "o " + objName(branch.label, taken) + "\n";
+    for (const auto v : mesh.vertices()) putLine(out, "v", mesh.point(v));
+    for (const auto v : mesh.vertices()) putLine(out, "vn", mesh.normal(v));
+    for (const auto f : mesh.faces()) {
+      out += 'f';
+      for (const auto v : mesh.fv_range(f)) {
+        const std::size_t index = base + static_cast<std::size_t>(v.idx());
+        out += ' ';
+        putNumber(out, index);
+        out += "//";
+        putNumber(out, index);
+      }
+      out += '\n';
+    }
+    base += mesh.n_vertices();
+  }
+  return out;
+}
+
+std::string encodeStl(const std::vector<BranchMesh>& meshes) {
+  const std::size_t faces = countFaces(meshes);
+  checkCount(faces, "STL");
+  std::string out =
+      "lumen " LUMEN_VERSION ", binary STL, mm, LPS (+x left, +y posterior, +z superior)";
+  out.resize(80, ' ');
+  out.reserve(84 + 50 * faces);
+  put(out, static_cast<std::uint32_t>(faces));
+  for (const BranchMesh& branch : meshes) {
+    const TriMesh& mesh = branch.mesh;
+    for (const auto f : mesh.faces()) {
+      std::array<OpenMesh::Vec3f, 3> corner;
+      std::size_t next = 0;
+      for (const auto v : mesh.fv_range(f)) corner[next++] = mesh.point(v);
+      const OpenMesh::Vec3d e1(corner[1] - corner[0]), e2(corner[2] - corner[0]);
+      const OpenMesh::Vec3d normal = OpenMesh::cross(e1, e2);
+      const double length = OpenMesh::norm(normal);
+      putVector(out, length > 0 ? OpenMesh::Vec3f(normal / length) : OpenMesh::Vec3f(0, 0, 0));
+      for (const OpenMesh::Vec3f& p : corner) putVector(out, p);
+      put(out, std::uint16_t{0});
+    }
+  }
+  return out;
+}
+
+std::string encodePly(const std::vector<BranchMesh>& meshes) {
+  const std::size_t vertices = countVertices(meshes), faces = countFaces(meshes);
+  checkCount(std::max(vertices, faces), "PLY");
+  std::string out = "ply\nformat binary_little_endian 1.0\ncomment lumen " LUMEN_VERSION
+                    "\ncomment millimetres, LPS: +x left, +y posterior, +z superior\n";
+  for (std::size_t b = 0; b < meshes.size(); ++b) {
+    std::set<std::string> taken;
+    out += "comment branch " + std::to_string(b) + " " + objName(meshes[b].label, taken) + "\n";
+  }
+  out += "element vertex " + std::to_string(vertices) + "\n";
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
+    out += std::string("property float ") + name + "\n";
+  out += "element face " + std::to_string(faces) +
+         "\nproperty list uchar int vertex_indices\nproperty int branch\nend_header\n";
+  out.reserve(out.size() + 24 * vertices + 17 * faces);
+  for (const BranchMesh& branch : meshes)
+    for (const auto v : branch.mesh.vertices()) {
+      putVector(out, branch.mesh.point(v));
+      putVector(out, branch.mesh.normal(v));
+    }
+  std::int32_t base = 0;
+  for (std::size_t b = 0; b < meshes.size(); ++b) {
+    for (const auto f : meshes[b].mesh.faces()) {
+      put(out, std::uint8_t{3});
+      for (const auto v : meshes[b].mesh.fv_range(f)) put(out, base + v.idx());
+      put(out, static_cast<std::int32_t>(b));
+    }
+    base += static_cast<std::int32_t>(meshes[b].mesh.n_vertices());
+  }
+  return out;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes the files that the glTF validator looks at: gltf_samples DIRECTORY
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "converters/mesh/mesh.h"
+#include "synthetic.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  using namespace lumen;
+  const std::filesystem::path folder(argv[1]);
+  formats::Case tree = test::tubeCase(6);
+  test::addVessel(tree, "c\u00f4t\u00e9 \"B\"", test::straightPath({3, 1.3, 0}, {0.1, 0.7, 0}, 5),
+                  0.6, 1.2, 3);
+  test::addModels(tree);
+  try {
+    std::filesystem::create_directories(folder);
+    Progress progress;
+    const auto meshes = convert::polygonise(tree, {}, progress);
+    convert::writeMesh(meshes, folder / "tree.glb", "glb", {});
+    convert::writeMesh(meshes, folder / "tree.gltf", "gltf", {});
+    convert::writeMesh(meshes, folder / "draco.glb", "glb", {.draco = true});
+    convert::writeMesh(meshes, folder / "draco.gltf", "gltf", {.draco = true});
+    // More vertices than 16-bit indices reach.
+    const auto fine = convert::polygonise(test::sphereCase(1.0, 0.43), {0.015}, progress);
+    if (fine[0].mesh.n_vertices() <= 65536) return 1;
+    convert::writeMesh(fine, folder / "fine.glb", "glb", {});
+    convert::writeMesh(fine, folder / "fine_draco.glb", "glb", {.draco = true});
+    convert::writeMesh({}, folder / "empty.glb", "glb", {.draco = true});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

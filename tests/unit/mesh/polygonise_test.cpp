@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "converters/mesh/encode_mesh.h"
+#include "converters/mesh/mesh.h"
+#include "formats/case/blobby.h"
+#include "mesh_facts.h"
+#include "synthetic.h"
+
+namespace lumen::convert {
+namespace {
+
+using test::factsOf;
+using test::toPatch;
+
+std::vector<BranchMesh> meshesOf(const formats::Case& source, double cell = 0) {
+  Progress progress;
+  return polygonise(source, {cell}, progress);
+}
+
+Patch onlyPatch(const formats::Case& source) {
+  const auto meshes = meshesOf(source);
+  EXPECT_EQ(meshes.size(), 1U);
+  return toPatch(meshes[0].mesh);
+}
+
+double offAxis(const Eigen::Vector3d& p) {
+  return std::hypot(p.y() - 0.05, p.z() - 0.07);
+}
+
+TEST(Polygonise, ABlobIsASphere) {
+  constexpr double kWidth = 0.5, kCell = 0.2;
+  const double radius = formats::isoRadius(formats::Kernel::Cauchy, 0.2, kWidth, 0.1);
+  const Patch patch = onlyPatch(test::sphereCase(radius, kWidth));
+  const Eigen::Vector3d centre(0.03F, 0.05F, 0.07F);
+  for (const Eigen::Vector3d& p : patch.position)
+    EXPECT_NEAR((p - centre).norm(), radius, 1e-3 * kCell);
+  const test::MeshFacts facts = factsOf(patch);
+  EXPECT_EQ(facts.boundaryEdges, 0U);
+  EXPECT_EQ(facts.badEdges, 0U);
+  EXPECT_EQ(facts.euler, 2);
+  const double volume = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+  const double area = 4 * std::numbers::pi * radius * radius;
+  EXPECT_GT(facts.volume, 0.98 * volume);  // chords lie inside
+  EXPECT_LT(facts.volume, volume);
+  EXPECT_NEAR(facts.area, area, 0.01 * area);
+}
+
+TEST(Polygonise, NormalsPointOutwardWithUnitLength) {
+  const auto meshes = meshesOf(test::sphereCase(1.0, 0.43));
+  const TriMesh& mesh = meshes[0].mesh;
+  const OpenMesh::Vec3f centre(0.03F, 0.05F, 0.07F);
+  for (const auto v : mesh.vertices()) {
+    EXPECT_NEAR(OpenMesh::norm(mesh.normal(v)), 1, 1e-6);
+    EXPECT_GT(OpenMesh::dot(mesh.normal(v), (mesh.point(v) - centre).normalized()), 0.99999);
+  }
+}
+
+TEST(Polygonise, PatchesOfATubeMeetOnTheRadicalPlanesAndItsEndsAreFlat) {
+  // Nodes at x = 0.03 + i: planes halfway; ends half a height (1) beyond the
+  // last nodes.
+  const Patch patch = onlyPatch(test::tubeCase(4));
+  const test::MeshFacts facts = factsOf(patch);
+  EXPECT_EQ(facts.badEdges, 0U);
+  std::set<std::ptrdiff_t> found;
+  for (const std::uint32_t v : facts.boundary) {
+    const double x = patch.position[v].x() - 0.03;
+    const std::array<double, 5> planes{-1.0, 0.5, 1.5, 2.5, 4.0};
+    const auto nearest = std::min_element(planes.begin(), planes.end(), [x](double a, double b) {
+      return std::abs(a - x) < std::abs(b - x);
+    });
+    EXPECT_NEAR(x, *nearest, 2e-4 * 0.2);
+    const auto plane = nearest - planes.begin();
+    found.insert(plane);
+    if (plane != 0 && plane != 4) {
+      EXPECT_NEAR(offAxis(patch.position[v]), 1.0, 0.04);
+    }
+  }
+  EXPECT_EQ(found.size(), 5U);
+}
+
+TEST(Polygonise, ATubeHasItsRadius) {
+  const Patch patch = onlyPatch(test::tubeCase(8));
+  for (const Eigen::Vector3d& p : patch.position)
+    if (p.x() > 2 && p.x() < 5.5) {
+      EXPECT_NEAR(offAxis(p), 1.0, 0.03);
+    }
+}
+
+// Blobs beyond the vessel's end, as a fit may leave them, do not lengthen it.
+TEST(Polygonise, CutsAVesselsFreeEndAndLeavesAnAneurysmsDome) {
+  formats::Case source = test::tubeCase(5);
+  const auto highest = [](const Patch& patch) {
+    double x = -1e9;
+    for (const Eigen::Vector3d& p : patch.position) x = std::max(x, p.x());
+    return x;
+  };
+  EXPECT_NEAR(highest(onlyPatch(source)), 4.03 + 1.0, 1e-4);
+  source.tree.branches[0].kind = formats::BranchKind::Aneurysm;
+  const Patch whole = onlyPatch(source);
+  EXPECT_GT(highest(whole), 4.03 + 1.2);
+}
+
+TEST(Polygonise, KissingVesselsStayTwoMeshes) {
+  formats::Case source;
+  source.metadata.voxelSize = 0.2;
+  test::addVessel(source, "left", test::straightPath({0, 0, 0}, {1, 0, 0}, 6), 1.0, 2.0);
+  test::addVessel(source, "right", test::straightPath({0.013, 2, 0.017}, {1, 0, 0}, 6), 1.0, 2.0);
+  test::addModels(source);
+  const auto meshes = meshesOf(source);
+  ASSERT_EQ(meshes.size(), 2U);
+  std::array<std::set<std::array<float, 3>>, 2> points;
+  for (std::size_t b = 0; b < 2; ++b)
+    for (const auto v : meshes[b].mesh.vertices()) {
+      const auto p = meshes[b].mesh.point(v);
+      EXPECT_LT(std::abs(p[1] - 2.0F * static_cast<float>(b)), 1.05F);
+      points[b].insert({p[0], p[1], p[2]});
+    }
+  for (const auto& p : points[0]) EXPECT_FALSE(points[1].contains(p));
+  EXPECT_EQ(meshes[0].label, "left");
+  EXPECT_EQ(meshes[1].label, "right");
+}
+
+TEST(Polygonise, DropsWhatDoesNotHangTogetherWithTheNodesLumen) {
+  formats::Case source = test::sphereCase(1.0, 0.43);
+  source.models->offset = {0, 2};
+  source.models->centre.push_back({0.03F, 4.05F, 0.07F});
+  source.models->width.push_back(0.43F);
+  const Patch patch = onlyPatch(source);
+  EXPECT_EQ(factsOf(patch).euler, 2);
+  for (const Eigen::Vector3d& p : patch.position) EXPECT_LT(p.y(), 2);
+}
+
+TEST(Polygonise, ANodeWithoutBlobsIsCoveredByItsNeighbours) {
+  formats::Case source = test::tubeCase(5);
+  formats::BlobbyModels& models = *source.models;
+  const std::uint32_t first = models.offset[2], count = models.offset[3] - first;
+  models.centre.erase(models.centre.begin() + first, models.centre.begin() + first + count);
+  models.width.erase(models.width.begin() + first, models.width.begin() + first + count);
+  for (std::size_t i = 3; i < models.offset.size(); ++i) models.offset[i] -= count;
+  const test::MeshFacts whole = factsOf(onlyPatch(test::tubeCase(5)));
+  EXPECT_NEAR(factsOf(onlyPatch(source)).area, whole.area, 0.02 * whole.area);
+}
+
+TEST(Polygonise, AVesselThinnerThanACellStaysInOnePiece) {
+  formats::Case source;
+  source.metadata.voxelSize = 0.2;
+  test::addVessel(source, "thin", test::straightPath({0, 0, 0}, {0.12, 0.03, 0.02}, 20), 0.1, 0.2);
+  test::addModels(source);
+  const double area = factsOf(onlyPatch(source)).area;
+  const double length = 19 * std::hypot(0.12, 0.03, 0.02) + 0.2;
+  EXPECT_NEAR(area, 2 * std::numbers::pi * 0.1 * length, 0.1 * area);
+}
+
+TEST(Polygonise, GivesTheSameBytesOnOneThreadAndOnTwo) {
+  formats::Case source = test::tubeCase(12);
+  test::addVessel(source, "side", test::straightPath({6.03, 1.2, 0.07}, {0, 0.6, 0.1}, 6), 0.5, 1.0,
+                  6);
+  test::addModels(source);
+  std::array<std::string, 2> bytes;
+  for (const std::size_t threads : {1U, 2U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    bytes[threads - 1] = encodeGltf(meshesOf(source), true, {});
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+}
+
+ErrorKind errorOf(const formats::Case& source, double cell) {
+  try {
+    meshesOf(source, cell);
+  } catch (const Error& error) {
+    return error.kind();
+  }
+  return ErrorKind{0};
+}
+
+TEST(Polygonise, RefusesACaseWithoutModelsOrWithoutACellSize) {
+  formats::Case source = test::tubeCase(3);
+  EXPECT_EQ(errorOf(source, -1), ErrorKind::InvalidInput);
+  EXPECT_EQ(errorOf(source, 1e-6), ErrorKind::InvalidInput);
+  source.metadata.voxelSize.reset();
+  EXPECT_EQ(errorOf(source, 0), ErrorKind::InvalidInput);
+  EXPECT_EQ(errorOf(source, 0.2), ErrorKind{0});
+  source.models.reset();
+  EXPECT_EQ(errorOf(source, 0.2), ErrorKind::InvalidInput);
+}
+
+TEST(Polygonise, StopsWhenCancelled) {
+  Progress progress;
+  progress.cancel();
+  try {
+    polygonise(test::tubeCase(3), {}, progress);
+    FAIL() << "it went on";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::Cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace lumen::convert
