@@ -1,0 +1,8 @@
+lumen_test(compare_test
+  LIBS lumen_compare
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/centerline_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/matching_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/sampled_path_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/wall_distance_test.cpp)
+target_include_directories(compare_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare)

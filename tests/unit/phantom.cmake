@@ -1,0 +1,8 @@
+lumen_test(phantom_test
+  LIBS lumen_phantom lumen_tube_tree
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/phantom/intensity_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/phantom/patient_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/phantom/seeds_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/phantom/small_designs_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/phantom/tube_tree_distance_test.cpp)
