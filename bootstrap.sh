@@ -1,0 +1,162 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs what lumen needs on Debian 12, builds it, and runs the demonstration or the tests. Safe to repeat.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: ./bootstrap.sh demo|test
+
+  demo   make a synthetic angiogram in ./demo, turn it into a case and a mesh, and score the result
+  test   build everything and run all tests
+
+Both install the missing Debian packages (with sudo unless run as root) and build into build/release.
+TEXT
+}
+
+packages=(
+  build-essential cmake ninja-build ccache git ca-certificates
+  libinsighttoolkit5-dev libgdcm-tools
+  libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev
+  libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
+  libgtest-dev libbenchmark-dev
+)
+
+say() { printf '\n== %s\n' "$*"; }
+
+installed() { dpkg-query -W -f='${db:Status-Abbrev}' "$1" 2>/dev/null | grep -q '^ii'; }
+
+# The glTF validator of the tests runs on Node 18 or newer, from wherever it is.
+have_node() {
+  command -v npm >/dev/null && command -v node >/dev/null &&
+    [ "$(node -p 'process.versions.node.split(".")[0]')" -ge 18 ]
+}
+
+install_packages() {
+  local wanted=("$@") missing=() as_root=()
+  for package in "${wanted[@]}"; do
+    installed "$package" || missing+=("$package")
+  done
+  if [ ${#missing[@]} -eq 0 ]; then
+    say "Debian packages: all present"
+    return
+  fi
+  if ! command -v apt-get >/dev/null; then
+    echo "bootstrap.sh: no apt-get here; install what matches these Debian 12 packages: ${missing[*]}" >&2
+    exit 1
+  fi
+  say "Debian packages: installing ${missing[*]}"
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+  "${as_root[@]}" apt-get update -q
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y \
+    --no-install-recommends "${missing[@]}"
+}
+
+# configure_and_build [TARGET...]: everything without a target.
+configure_and_build() {
+  say "Configuring build/release"
+  cmake --preset release
+  say "Building ${*:-everything} on $(nproc) cores"
+  ninja -C build/release -j "$(nproc)" "$@"
+}
+
+# json_figure FILE KEY: the first number under that key, with three decimals.
+json_figure() {
+  LC_ALL=C awk -v key="\"$2\":" '$1 == key { sub(/,$/, "", $2); printf "%.3f", $2; exit }' "$1"
+}
+
+run_demo() {
+  install_packages "${packages[@]}"
+  configure_and_build lumen
+  local lumen=build/release/converters/app/lumen
+  mkdir -p demo
+  say "A synthetic angiogram, its truth, and the seeds that a user would click"
+  $lumen phantom patient demo/angiogram.nrrd --truth demo/truth.lumen --seeds demo/seeds.json
+  say "From the volume to a case: tracking and fitting"
+  $lumen convert demo/angiogram.nrrd demo/vessels.lumen --seeds demo/seeds.json
+  say "From the case to a mesh"
+  $lumen convert demo/vessels.lumen demo/vessels.glb
+  say "What the case holds, and how close it is to the truth"
+  $lumen info demo/vessels.lumen >demo/info.txt
+  $lumen info demo/vessels.lumen --json --quiet >demo/info.json
+  $lumen compare demo/vessels.lumen demo/truth.lumen >demo/compare.txt
+  $lumen compare demo/vessels.lumen demo/truth.lumen --json --quiet >demo/compare.json
+  close_demo
+}
+
+close_demo() {
+  local c=demo/compare.json
+  cat <<TEXT
+
+== Made in ./demo
+  angiogram.nrrd   the synthetic volume; 3D Slicer and ITK-SNAP show it
+  seeds.json       the clicks that tracking starts from
+  truth.lumen      the true tree
+  vessels.lumen    the case: tree, wall points, blobby models
+  vessels.glb      its wall as a mesh
+  info.txt         what the case holds, branch by branch (info.json for programs)
+  compare.txt      how close it is to the truth, branch by branch (compare.json for programs)
+
+== Key figures
+  $(sed -n -e '1,4s/  */ /p' demo/info.txt | paste -sd, | sed 's/,/, /g')
+  overlap with the true centerlines   $(json_figure $c overlap)
+  centerline distance, mean           $(json_figure $c assd_mm) mm
+  radius, mean error                  $(json_figure $c radius_bias_mm) mm
+  wall distance, median and 90 %      $(json_figure $c median) mm, $(json_figure $c p90) mm
+
+== To look at it
+  Open demo/vessels.glb in any glTF viewer, such as Blender, or f3d from Debian:
+    apt install f3d && f3d demo/vessels.glb
+  The command line is build/release/converters/app/lumen; --help lists what it can do.
+TEXT
+}
+
+run_ctest() {
+  local report=$PWD/build/release/tests.xml status=0
+  say "Running the tests"
+  rm -f "$report"
+  ctest --test-dir build/release --output-on-failure -j "$(nproc)" --output-junit "$report" || status=$?
+  if [ ! -s "$report" ]; then
+    echo "bootstrap.sh: ctest left no report" >&2
+    exit 1
+  fi
+  local all failed skipped
+  all=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* tests="\([0-9]*\)".*/\1/p')
+  failed=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* failures="\([0-9]*\)".*/\1/p')
+  skipped=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* skipped="\([0-9]*\)".*/\1/p')
+  [ "$skipped" -eq 0 ] || echo "$skipped skipped: they need files that are not in the repository"
+  echo "$((all - failed - skipped)) passed, $failed failed"
+  return "$status"
+}
+
+install_validator() {
+  local folder=tests/gltf
+  if [ "$folder/node_modules/.package-lock.json" -nt "$folder/package-lock.json" ]; then
+    say "The glTF validator: present"
+    return
+  fi
+  say "The glTF validator: installing it into $folder"
+  # node brings its own list of authorities; a proxy's certificate is only in the system's
+  local authorities=/etc/ssl/certs/ca-certificates.crt
+  [ ! -r "$authorities" ] || export NODE_EXTRA_CA_CERTS="${NODE_EXTRA_CA_CERTS:-$authorities}"
+  (cd "$folder" && npm ci --no-audit --no-fund)
+}
+
+run_tests() {
+  have_node || packages+=(nodejs npm)
+  install_packages "${packages[@]}"
+  configure_and_build
+  install_validator
+  run_ctest
+}
+
+cd "$(dirname "${BASH_SOURCE[0]}")"
+case "${1:-}" in
+  demo) run_demo ;;
+  test) run_tests ;;
+  -h | --help) usage ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac

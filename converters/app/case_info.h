@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The facts that `lumen info` gives of a case.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converters/app/report.h"
+#include "converters/common/progress.h"
+#include "converters/fitting/error_of_fit.h"
+#include "formats/case/case.h"
+
+namespace lumen::app {
+
+struct RadiusRange {
+  float min = 0, mean = 0, max = 0;  ///< mm
+};
+
+struct BranchInfo {
+  std::string label;
+  std::string kind;  ///< vessel or aneurysm
+  std::size_t nodes = 0;
+  double length = 0;  ///< mm
+  RadiusRange radius;
+  std::string stopReason;  ///< such as no-valid-cylinder
+  std::optional<float> inlierRate;
+};
+
+struct CaseInfo {
+  std::size_t nodes = 0;
+  std::size_t points = 0;
+  std::optional<std::size_t> blobs;
+  double length = 0;                                     ///< mm
+  std::optional<RadiusRange> radius;                     ///< absent without nodes
+  std::optional<convert::ErrorOfFitSummary> errorOfFit;  ///< over the nodes
+  std::vector<BranchInfo> branches;
+  formats::Metadata metadata;
+};
+
+CaseInfo describeCase(const formats::Case& value, Progress& progress);
+
+/// branches, nodes, points, blobs, blobs_per_node, length_mm, radius_mm, error_of_fit_mm,
+/// provenance, branch_table. What the case does not have is null.
+Json caseInfoJson(const CaseInfo& info);
+std::string caseInfoText(const CaseInfo& info);
+
+}  // namespace lumen::app

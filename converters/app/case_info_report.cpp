@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <sstream>
+
+#include "converters/app/case_info.h"
+#include "converters/app/volume_info.h"
+
+namespace lumen::app {
+
+namespace {
+
+std::optional<double> blobsPerNode(const CaseInfo& info) {
+  if (!info.blobs || info.nodes == 0) return std::nullopt;
+  return static_cast<double>(*info.blobs) / static_cast<double>(info.nodes);
+}
+
+Json radiusJson(const RadiusRange& radius) {
+  return {{"mean", jsonNumber(radius.mean)},
+          {"min", jsonNumber(radius.min)},
+          {"max", jsonNumber(radius.max)}};
+}
+
+Json provenanceJson(const formats::Metadata& metadata) {
+  Json json;
+  json["voxel_size_mm"] = metadata.voxelSize ? jsonNumber(*metadata.voxelSize) : Json(nullptr);
+  json["source"] = metadata.source ? sourceVolumeJson(*metadata.source) : Json(nullptr);
+  json["steps"] = Json::array();
+  for (const auto& step : metadata.steps) {
+    Json parameters = Json::object();
+    for (const auto& [key, value] : step.parameters)
+      std::visit([&, &name = key](const auto& v) { parameters[name] = v; }, value);
+    json["steps"].push_back(
+        {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
+  }
+  return json;
+}
+
+Json branchJson(const BranchInfo& branch) {
+  Json json;
+  json["label"] = branch.label;
+  json["kind"] = branch.kind;
+  json["nodes"] = branch.nodes;
+  json["length_mm"] = jsonNumber(branch.length);
+  json["radius_mm"] = branch.nodes > 0 ? radiusJson(branch.radius) : Json(nullptr);
+  json["stop_reason"] = branch.stopReason;
+  json["inlier_rate"] = branch.inlierRate ? jsonNumber(*branch.inlierRate) : Json(nullptr);
+  return json;
+}
+
+std::string branchTable(const CaseInfo& info) {
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back(
+      {"branch", "kind", "nodes", "length", "radius", "min", "max", "inliers", "stopped by"});
+  for (const auto& b : info.branches)
+    rows.push_back({b.label, b.kind, std::to_string(b.nodes), fixed(b.length, 1),
+                    fixed(b.radius.mean, 3), fixed(b.radius.min, 3), fixed(b.radius.max, 3),
+                    fixed(b.inlierRate, 2), b.stopReason});
+  return alignColumns(rows);
+}
+
+std::string stepText(const formats::Step& step) {
+  std::ostringstream text;
+  text << "step          " << step.name << " (" << step.tool << ")";
+  const char* separator = ": ";
+  for (const auto& [key, value] : step.parameters) {
+    text << separator << key << " ";
+    std::visit([&](const auto& v) { text << std::boolalpha << v; }, value);
+    separator = ", ";
+  }
+  text << "\n";
+  return text.str();
+}
+
+std::string sourceText(const formats::SourceVolume& source) {
+  std::ostringstream text;
+  text << "source        " << source.size[0] << " x " << source.size[1] << " x " << source.size[2]
+       << " voxels of " << source.spacing[0] << " x " << source.spacing[1] << " x "
+       << source.spacing[2] << " mm, sha256 " << source.sha256 << "\n";
+  return text.str();
+}
+
+}  // namespace
+
+Json caseInfoJson(const CaseInfo& info) {
+  Json json;
+  const auto perNode = blobsPerNode(info);
+  json["branches"] = info.branches.size();
+  json["nodes"] = info.nodes;
+  json["points"] = info.points;
+  json["blobs"] = info.blobs.value_or(0);
+  json["blobs_per_node"] = perNode ? jsonNumber(*perNode) : Json(nullptr);
+  json["length_mm"] = jsonNumber(info.length);
+  json["radius_mm"] = nullptr;
+  if (info.radius)
+    json["radius_mm"] = {{"min", jsonNumber(info.radius->min)},
+                         {"max", jsonNumber(info.radius->max)}};
+  json["error_of_fit_mm"] = nullptr;
+  if (info.errorOfFit)
+    json["error_of_fit_mm"] = {{"median", jsonNumber(info.errorOfFit->median)},
+                               {"p90", jsonNumber(info.errorOfFit->p90)},
+                               {"max", jsonNumber(info.errorOfFit->max)}};
+  json["provenance"] = provenanceJson(info.metadata);
+  json["branch_table"] = Json::array();
+  for (const auto& branch : info.branches) json["branch_table"].push_back(branchJson(branch));
+  return json;
+}
+
+std::string caseInfoText(const CaseInfo& info) {
+  std::ostringstream text;
+  text << "branches      " << info.branches.size() << "\n"
+       << "nodes         " << info.nodes << "\n"
+       << "points        " << info.points << "\n"
+       << "blobs         " << info.blobs.value_or(0);
+  if (const auto perNode = blobsPerNode(info)) text << " (" << fixed(perNode, 1) << " per node)";
+  text << "\nlength        " << fixed(info.length, 1) << " mm\n";
+  if (info.radius)
+    text << "radius        " << fixed(info.radius->min, 3) << " to " << fixed(info.radius->max, 3)
+         << " mm\n";
+  if (const auto& e = info.errorOfFit)
+    text << "error of fit  median " << fixed(e->median, 4) << ", 90th percentile "
+         << fixed(e->p90, 4) << ", greatest " << fixed(e->max, 4) << " mm\n";
+  if (info.metadata.voxelSize) text << "voxel size    " << *info.metadata.voxelSize << " mm\n";
+  if (info.metadata.source) text << sourceText(*info.metadata.source);
+  for (const auto& step : info.metadata.steps) text << stepText(step);
+  text << "\n" << branchTable(info) << "\nLengths and radii in mm.\n";
+  return text.str();
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a subcommand of `lumen` is.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "converters/common/interrupt.h"
+#include "converters/common/terminal_progress.h"
+
+namespace lumen::app {
+
+/// The options that every command has.
+struct CommonOptions {
+  int threads = 0;  ///< 0: all cores
+  bool quiet = false;
+  bool verbose = false;
+  bool json = false;  ///< the answer on standard output is one JSON object
+};
+
+/// What a running command may use besides its own options.
+struct Context {
+  const CommonOptions& common;
+  Progress& progress;
+  InterruptGuard& interrupts;
+};
+
+class Command {
+public:
+  Command() = default;
+  virtual ~Command() = default;
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::string summary() const = 0;  ///< one line
+  [[nodiscard]] virtual std::string example() const = 0;  ///< shell lines for the help's end
+  /// Adds the command's own options to its parser.
+  virtual void bind(CLI::App& app) = 0;
+  /// Does the work; answers on standard output. Throws lumen::Error; returns the exit code.
+  virtual int run(Context& context) = 0;
+};
+
+std::unique_ptr<Command> makeConvertCommand();
+std::unique_ptr<Command> makeTrackCommand();
+std::unique_ptr<Command> makeFitCommand();
+std::unique_ptr<Command> makeInfoCommand();
+std::unique_ptr<Command> makeCompareCommand();
+std::unique_ptr<Command> makePhantomCommand();
+
+}  // namespace lumen::app

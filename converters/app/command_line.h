@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// From argv to a running command and its exit code.
+#pragma once
+
+namespace lumen::app {
+
+/// Parses, runs, and translates everything that is thrown into one line on standard error and an
+/// exit code.
+int runCommandLine(int argc, const char* const* argv);
+
+}  // namespace lumen::app

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
+#include "converters/app/command.h"
+#include "converters/app/file_access.h"
+#include "converters/app/report.h"
+
+namespace lumen::app {
+
+namespace {
+
+class ConvertCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "convert"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Turn a volume, or a case, into a case or a mesh";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
+           "  lumen convert head.lumen head.glb --draco";
+  }
+
+  void bind(CLI::App& app) override {
+    app.add_option("INPUT", m_input, "Volume (NRRD, NIfTI, MetaImage, folder of DICOM) or case")
+        ->required()
+        ->configurable(false);
+    app.add_option("OUTPUT", m_output, ".lumen, .lumen.json, .glb, .gltf, .obj, .stl or .ply")
+        ->required()
+        ->configurable(false);
+    app.add_option("--from", m_from, "Format of INPUT, whatever its name")->type_name("F");
+    app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
+    addVolumeOptions(app, m_volume);
+    addTrackOptions(app, m_track);
+    addFitOptions(app, m_fit);
+    addMeshOptions(app, m_mesh);
+  }
+
+  int run(Context& context) override {
+    const FileFormat& to = outputFormat(m_output, m_to);
+    requireInput(m_input, "input");
+    const FileFormat& from = inputFormat(m_input, m_from);
+    if (from.kind == FormatKind::Volume) requireSeeds(m_track);
+    requireWritable(m_output);
+    context.interrupts.watchOutput(m_output);
+
+    formats::Case value = load(from, context.progress);
+    complete(value, from, to, context.progress);
+    context.progress.check();
+    if (to.kind == FormatKind::Mesh)
+      writeCaseMesh(value, m_output, to, m_mesh, context.progress);
+    else
+      writeCase(value, m_output, to);
+    report(value, context);
+    return m_track.strict && !m_failures.empty() ? 1 : 0;
+  }
+
+private:
+  formats::Case load(const FileFormat& from, Progress& progress) {
+    if (from.kind == FormatKind::Case) {
+      if (!m_track.seeds.empty())
+        progress.warn("--seeds is ignored: " + m_input + " is a case, already tracked");
+      return readCase(m_input);
+    }
+    const convert::Volume volume = readVolumeAs(m_input, from, m_volume, progress);
+    convert::TrackResult tracked = trackSeeds(volume, m_track, progress);
+    m_failures = std::move(tracked.failures);
+    return std::move(tracked.result);
+  }
+
+  /// A tracked volume gets its models; so does a case that has none when they are needed for a
+  /// mesh.
+  void complete(formats::Case& value, const FileFormat& from, const FileFormat& to,
+                Progress& progress) {
+    const bool meshNeedsModels = to.kind == FormatKind::Mesh && !value.models;
+    if (meshNeedsModels && !value.points)
+      throw invalidInput(m_input +
+                         ": this case has neither models nor wall points to fit them to, "
+                         "so there is no surface to make a mesh of");
+    if (from.kind == FormatKind::Volume || meshNeedsModels)
+      convert::fit(value, m_fit.options(), progress);
+  }
+
+  void report(const formats::Case& value, const Context& context) {
+    if (context.common.json) {
+      Json json = caseSummary(value);
+      json["failed_seeds"] = failedSeeds(m_failures);
+      answerJson(json);
+    } else if (!context.common.quiet) {
+      answer(caseLine(m_output, value));
+    }
+  }
+
+  std::string m_input, m_output, m_from, m_to;
+  VolumeArguments m_volume;
+  TrackArguments m_track;
+  FitArguments m_fit;
+  MeshArguments m_mesh;
+  std::vector<convert::SeedFailure> m_failures;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeConvertCommand() {
+  return std::make_unique<ConvertCommand>();
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stages' option structs as command-line options. Names are the keys under which a case stores
+// the values.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "converters/fitting/fit.h"
+#include "converters/mesh/mesh.h"
+#include "converters/phantom/phantom.h"
+#include "converters/volume/read_volume.h"
+#include "converters/volume/tracker.h"
+
+namespace lumen::app {
+
+/// Options as the parser fills them, where that differs from what the stage takes.
+struct VolumeArguments {
+  std::string series;
+  std::vector<int> crop;  ///< empty, or i0, i1, j0, j1, k0, k1
+  [[nodiscard]] convert::ReadVolumeOptions options() const;
+};
+
+struct TrackArguments {
+  std::string seeds;
+  bool strict = false;
+  convert::TrackOptions options;
+};
+
+struct FitArguments {
+  std::string kernel = "cauchy";
+  convert::FitOptions values;
+  [[nodiscard]] convert::FitOptions options() const;
+};
+
+struct MeshArguments {
+  convert::PolygoniseOptions polygonise;
+  convert::WriteMeshOptions write;
+};
+
+void addVolumeOptions(CLI::App& app, VolumeArguments& volume);
+void addTrackOptions(CLI::App& app, TrackArguments& track);
+void addFitOptions(CLI::App& app, FitArguments& fit);
+void addMeshOptions(CLI::App& app, MeshArguments& mesh);
+void addPhantomOptions(CLI::App& app, convert::PhantomOptions& phantom);
+
+}  // namespace lumen::app

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers for standard output: JSON with stable names, and aligned text.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "converters/volume/tracker.h"
+#include "formats/case/case.h"
+
+namespace lumen::app {
+
+using Json = nlohmann::ordered_json;
+
+/// The number with the shortest decimal text that reads back as the same float; null if it is not
+/// finite.
+Json jsonNumber(float value);
+Json jsonNumber(double value);
+
+/// What convert, track and fit answer: branches, nodes, points, blobs, length_mm.
+Json caseSummary(const formats::Case& value);
+
+/// One line for a person: "out.lumen: 3 branches, 210 nodes, 1830 points, 902 blobs, 123.4 mm".
+std::string caseLine(const std::string& file, const formats::Case& value);
+
+Json failedSeeds(const std::vector<convert::SeedFailure>& failures);
+
+double totalLength(const formats::CenterlineTree& tree);
+
+/// Fixed-point text; "-" for nothing or a value that is not finite.
+std::string fixed(std::optional<double> value, int digits);
+
+/// Rows of equal length as columns: the first left-aligned, the others right-aligned.
+std::string alignColumns(const std::vector<std::vector<std::string>>& rows);
+
+/// Writes to standard output; throws Error(Failed) if it cannot take the text.
+void answer(std::string_view text);
+void answerJson(const Json& value);
+
+}  // namespace lumen::app

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a synthetic tube to a case, a mesh and a score.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_lumen.h"
+
+namespace lumen::test {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> keys(const Json& object) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : object.items()) names.push_back(key);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+const Names kQuantiles = {"median", "p90", "max"};
+
+}  // namespace
+
+TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
+  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"}).code, 0);
+
+  const Outcome compared = lumen({"compare", "tube.lumen", "truth.lumen", "--json"});
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  const Json score = Json::parse(compared.out);
+  EXPECT_GE(score["overlap"].get<double>(), 0.95);
+  const Names scores = {"overlap",           "overlap_until_first_error",
+                        "average_inside_mm", "assd_mm",
+                        "assd_limited_mm",   "radius_bias_mm",
+                        "radius_rms_mm",     "missed_mm",
+                        "false_mm",          "wall_distance_mm"};
+  Names whole = scores, branch = {"label"};
+  whole.push_back("branches");
+  branch.insert(branch.end(), scores.begin(), scores.end());
+  EXPECT_EQ(keys(score), whole);
+  EXPECT_EQ(keys(score["wall_distance_mm"]), kQuantiles);
+  ASSERT_EQ(score["branches"].size(), 1U);
+  EXPECT_EQ(keys(score["branches"][0]), branch);
+
+  const Outcome told = lumen({"info", "tube.lumen", "--json"});
+  ASSERT_EQ(told.code, 0) << told.err;
+  const Json info = Json::parse(told.out);
+  EXPECT_EQ(keys(info),
+            (Names{"branches", "nodes", "points", "blobs", "blobs_per_node", "length_mm",
+                   "radius_mm", "error_of_fit_mm", "provenance", "branch_table"}));
+  EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
+  EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);
+  EXPECT_EQ(keys(info["provenance"]), (Names{"voxel_size_mm", "source", "steps"}));
+  EXPECT_EQ(info["branches"], 1);
+  EXPECT_EQ(info["branch_table"].size(), 1U);
+  EXPECT_GT(info["blobs"].get<int>(), info["nodes"].get<int>());
+}
+
+TEST_F(TubeTest, TheTrueTreeComparedToItselfIsPerfectAndHasNoWall) {
+  const Outcome compared = lumen({"compare", "truth.lumen", "truth.lumen", "--json"});
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  const Json score = Json::parse(compared.out);
+  EXPECT_EQ(score["overlap"], 1.0);
+  EXPECT_NEAR(score["assd_mm"].get<double>(), 0, 1e-6);
+  EXPECT_NEAR(score["missed_mm"].get<double>(), 0, 1e-6);
+  EXPECT_TRUE(score["wall_distance_mm"].is_null());
+}
+
+TEST_F(TubeTest, WhatACaseDoesNotHaveIsNull) {
+  const Json info = Json::parse(lumen({"info", "truth.lumen", "--json"}).out);
+  EXPECT_EQ(info["points"], 0);
+  EXPECT_EQ(info["blobs"], 0);
+  EXPECT_TRUE(info["blobs_per_node"].is_null());
+  EXPECT_TRUE(info["error_of_fit_mm"].is_null());
+}
+
+TEST_F(TubeTest, InfoOfAVolumeGivesItsGeometryAndDigest) {
+  const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
+  EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "sha256",
+                               "pixel_type", "min", "max"}));
+  EXPECT_EQ(info["size"], Json::array({64, 64, 64}));
+  EXPECT_EQ(info["pixel_type"], "int16");
+  EXPECT_EQ(info["sha256"].get<std::string>().size(), 64U);
+}
+
+TEST_F(TubeTest, CropKeepsTheBoxWithItsEnds) {
+  const Outcome told = lumen({"info", "tube.nrrd", "--json", "--crop", "0,63,10,49,20,39"});
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_EQ(Json::parse(told.out)["size"], Json::array({64, 40, 20}));
+}
+
+TEST_F(TubeTest, TrackThenFitGivesTheBytesOfConvertForAnyNumberOfThreads) {
+  ASSERT_EQ(
+      lumen({"convert", "tube.nrrd", "one.lumen", "--seeds", "seeds.json", "--threads", "1"}).code,
+      0);
+  ASSERT_EQ(
+      lumen({"track", "tube.nrrd", "two.lumen", "--seeds", "seeds.json", "--threads", "2"}).code,
+      0);
+  ASSERT_EQ(lumen({"fit", "two.lumen", "two.lumen", "--threads", "2"}).code, 0);
+  EXPECT_TRUE(read("one.lumen") == read("two.lumen"));
+}
+
+TEST_F(TubeTest, ACaseBecomesEveryOtherFormatAndBothEncodingsHoldTheSame) {
+  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"}).code, 0);
+  for (const char* name : {"a.lumen.json", "a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
+    const Outcome made = lumen({"convert", "tube.lumen", name});
+    EXPECT_EQ(made.code, 0) << name << ": " << made.err;
+    EXPECT_FALSE(read(name).empty()) << name;
+  }
+  ASSERT_EQ(lumen({"convert", "a.lumen.json", "back.lumen"}).code, 0);
+  EXPECT_TRUE(read("tube.lumen") == read("back.lumen"));
+}
+
+TEST_F(TubeTest, ATreeAloneHasNoSurfaceToMakeAMeshOf) {
+  const Outcome refused = lumen({"convert", "truth.lumen", "truth.glb"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find("truth.lumen"), std::string::npos) << refused.err;
+  EXPECT_FALSE(exists("truth.glb"));
+}
+
+TEST_F(TubeTest, ToChoosesTheFormatWhateverTheName) {
+  ASSERT_EQ(lumen({"convert", "truth.lumen", "a.txt", "--to", "lumen.json"}).code, 0);
+  EXPECT_EQ(read("a.txt").front(), '{');
+}
+
+TEST_F(TubeTest, FromChoosesTheFormatWhateverTheName) {
+  std::filesystem::copy(path("tube.nrrd"), path("tube.scan"));
+  EXPECT_EQ(lumen({"info", "tube.scan"}).code, 4);
+  const Outcome told = lumen({"info", "tube.scan", "--from", "nrrd"});
+  EXPECT_EQ(told.code, 0) << told.err;
+}
+
+TEST_F(TubeTest, QuietPrintsNothingOnStandardError) {
+  const Outcome made =
+      lumen({"convert", "tube.nrrd", "tube.glb", "--seeds", "seeds.json", "--quiet"});
+  EXPECT_EQ(made.code, 0);
+  EXPECT_EQ(made.err, "");
+  EXPECT_EQ(made.out, "");
+}
+
+TEST_F(TubeTest, ProgressAwayFromATerminalIsPlainLinesOnStandardError) {
+  const Outcome made = lumen({"track", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"});
+  ASSERT_EQ(made.code, 0);
+  EXPECT_NE(made.err.find("done in"), std::string::npos) << made.err;
+  EXPECT_EQ(made.err.find_first_of("\r\x1b"), std::string::npos) << made.err;
+}
+
+TEST_F(TubeTest, ASeedThatStartsNoTrackFailsOnlyWhenStrict) {
+  ASSERT_EQ(
+      lumen({"phantom", "tube", "clean.nrrd", "--size", "64", "--noise", "0", "--bias", "0"}).code,
+      0);
+  // the corner of the volume is flat background
+  Json seeds = Json::parse(read("seeds.json"));
+  Json stray = seeds["branches"][0];
+  stray["label"] = "stray";
+  stray["points"] = Json::array({{{"position", {0.8, 0.8, 0.8}}, {"radius", 0.5}}});
+  seeds["branches"].push_back(stray);
+  write("two.json", seeds.dump());
+
+  const Outcome lenient =
+      lumen({"track", "clean.nrrd", "a.lumen", "--seeds", "two.json", "--inlier-rate", "0.9"});
+  EXPECT_EQ(lenient.code, 0) << lenient.err;
+  EXPECT_NE(lenient.err.find("stray"), std::string::npos) << lenient.err;
+  EXPECT_TRUE(exists("a.lumen"));
+  EXPECT_EQ(lumen({"track", "clean.nrrd", "a.lumen", "--seeds", "two.json", "--inlier-rate", "0.9",
+                   "--strict"})
+                .code,
+            1);
+
+  seeds["branches"].erase(0);
+  write("stray.json", seeds.dump());
+  EXPECT_EQ(
+      lumen({"track", "clean.nrrd", "b.lumen", "--seeds", "stray.json", "--inlier-rate", "0.9"})
+          .code,
+      1);
+  EXPECT_FALSE(exists("b.lumen"));
+}
+
+TEST_F(TubeTest, AFailureLeavesTheExistingOutputAlone) {
+  write("tube.lumen", "precious");
+  write("bad.json", "{\"branches\": 7}");
+  EXPECT_EQ(lumen({"track", "tube.nrrd", "tube.lumen", "--seeds", "bad.json"}).code, 3);
+  EXPECT_EQ(lumen({"fit", "truth.lumen", "tube.lumen"}).code, 3);
+  EXPECT_EQ(read("tube.lumen"), "precious");
+  EXPECT_EQ(entries(), (Names{"bad.json", "seeds.json", "truth.lumen", "tube.lumen", "tube.nrrd"}));
+}
+
+}  // namespace lumen::test

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Help, arguments that are refused, and the exit code of each class of failure.
+#include <regex>
+
+#include "tests/cli/run_lumen.h"
+
+namespace lumen::test {
+
+namespace {
+
+const std::vector<std::string> kCommands = {"convert", "track",   "fit",
+                                            "info",    "compare", "phantom"};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+using UsageTest = CliTest;
+
+TEST_F(UsageTest, TheHelpOfEveryCommandEndsWithAnExampleAndTheExitCodes) {
+  for (const auto& command : kCommands) {
+    const Outcome help = lumen({command, "--help"});
+    EXPECT_EQ(help.code, 0) << command;
+    EXPECT_EQ(help.err, "") << command;
+    EXPECT_TRUE(contains(help.out, "Example:\n  lumen " + command)) << help.out;
+    EXPECT_TRUE(contains(help.out, "130 interrupted")) << help.out;
+  }
+}
+
+TEST_F(UsageTest, EveryCommandTakesTheCommonOptions) {
+  for (const auto& command : kCommands) {
+    const std::string help = lumen({command, "--help"}).out;
+    for (const char* option : {"--threads", "--quiet", "--verbose", "--config", "--json"})
+      EXPECT_TRUE(contains(help, option)) << command << " " << option;
+  }
+}
+
+TEST_F(UsageTest, TheTopLevelHelpListsEveryCommand) {
+  const Outcome help = lumen({"--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const auto& command : kCommands) EXPECT_TRUE(contains(help.out, "\n  " + command + " "));
+}
+
+TEST_F(UsageTest, TheHelpShowsTheDefaultsOfTheMethod) {
+  const std::string help = lumen({"convert", "--help"}).out;
+  for (const char* text :
+       {"--inlier-rate SHARE=0.7", "--inlier-band SHARE=0.1", "--rays N=162", "--axes N=81",
+        "--samples N=128", "--min-trials N=220", "--max-trials N=500", "--step S=0.5",
+        "--cohesion-weight W=1e-05", "--curvature-weight W=0.001", "--max-subdivisions N=100"})
+    EXPECT_TRUE(contains(help, text)) << text << "\n" << help;
+}
+
+TEST_F(UsageTest, TheVersionIsOneLine) {
+  const Outcome version = lumen({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_TRUE(std::regex_match(version.out, std::regex("lumen [0-9]+\\.[0-9]+\\.[0-9]+\n")))
+      << version.out;
+}
+
+TEST_F(UsageTest, WrongArgumentsExitWithTwoAndSayNothingOnStandardOutput) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"polish"},
+      {"convert"},
+      {"convert", "one.lumen"},
+      {"convert", "one.lumen", "two.lumen", "three.lumen"},
+      {"info", "--nonsense", "one.lumen"},
+      {"track", "a.nrrd", "b.lumen", "--inlier-rate", "1.5"},
+      {"track", "a.nrrd", "b.lumen", "--rays", "100"},
+      {"track", "a.nrrd", "b.lumen", "--samples", "many"},
+      {"track", "a.nrrd", "b.lumen", "--crop", "1,2,3"},
+      {"fit", "a.lumen", "b.lumen", "--kernel", "boxy"},
+      {"fit", "a.lumen", "b.lumen", "--accuracy", "-1"},
+      {"info", "a.lumen", "--threads", "-2"},
+      {"info", "a.lumen", "--quiet", "--verbose"},
+      {"phantom", "cube", "a.nrrd"},
+  };
+  for (const auto& arguments : wrong) {
+    const Outcome refused = lumen(arguments);
+    std::string line;
+    for (const auto& argument : arguments) line += " " + argument;
+    EXPECT_EQ(refused.code, 2) << line << "\n" << refused.err;
+    EXPECT_EQ(refused.out, "") << line;
+    EXPECT_TRUE(contains(refused.err, "lumen: error: ")) << line;
+  }
+  EXPECT_TRUE(entries().empty());
+}
+
+TEST_F(UsageTest, AVolumeWithoutSeedsIsAUsageError) {
+  write("a.nrrd", "");
+  const Outcome refused = lumen({"convert", "a.nrrd", "a.lumen"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(contains(refused.err, "--seeds")) << refused.err;
+}
+
+TEST_F(UsageTest, AMissingInputExitsWithThreeAndIsNamed) {
+  write("seeds.json", "{}");
+  const std::vector<std::vector<std::string>> missing = {
+      {"info", "gone.lumen"},
+      {"info", "gone.nrrd"},
+      {"compare", "gone.lumen", "gone.lumen"},
+      {"fit", "gone.lumen", "out.lumen"},
+      {"convert", "gone.lumen", "out.glb"},
+      {"track", "gone.nrrd", "out.lumen", "--seeds", "seeds.json"},
+      {"info", "seeds.json", "--config", "gone.toml"}};
+  for (const auto& arguments : missing) {
+    const Outcome refused = lumen(arguments);
+    EXPECT_EQ(refused.code, 3) << arguments[0] << ": " << refused.err;
+    EXPECT_TRUE(contains(refused.err, "gone.")) << refused.err;
+  }
+}
+
+TEST_F(UsageTest, AMissingSeedsFileExitsWithThreeAndIsNamed) {
+  write("a.nrrd", "");
+  const Outcome refused = lumen({"track", "a.nrrd", "a.lumen", "--seeds", "gone.json"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_TRUE(contains(refused.err, "gone.json")) << refused.err;
+}
+
+TEST_F(UsageTest, AFileThatIsNoCaseExitsWithThree) {
+  write("a.lumen", "this is not a case");
+  write("b.lumen.json", "{\"nor\": \"is this\"}");
+  EXPECT_EQ(lumen({"info", "a.lumen"}).code, 3);
+  EXPECT_EQ(lumen({"info", "b.lumen.json"}).code, 3);
+}
+
+TEST_F(UsageTest, AVolumeThatIsNoVolumeExitsWithThree) {
+  write("a.nrrd", "this is not a volume");
+  EXPECT_EQ(lumen({"info", "a.nrrd"}).code, 3);
+}
+
+TEST_F(UsageTest, UnknownFormatsExitWithFourAndListTheKnown) {
+  write("a.xyz", "");
+  write("a.stl", "");
+  write("a.lumen", "");
+  const std::vector<std::vector<std::string>> unknown = {
+      {"convert", "a.xyz", "b.lumen"},
+      {"convert", "a.stl", "b.lumen"},
+      {"convert", "a.lumen", "b.docx"},
+      {"convert", "a.lumen", "b.nrrd"},
+      {"convert", "a.lumen", "b.lumen", "--to", "vtp"},
+      {"convert", "a.lumen", "b.lumen", "--from", "vtp"},
+      {"info", "a.xyz"}};
+  for (const auto& arguments : unknown) {
+    const Outcome refused = lumen(arguments);
+    EXPECT_EQ(refused.code, 4) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "lumen.json")) << refused.err;
+  }
+}
+
+TEST_F(UsageTest, AnUnknownOutputIsRefusedBeforeTheInputIsLookedAt) {
+  EXPECT_EQ(lumen({"convert", "gone.lumen", "b.docx"}).code, 4);
+}
+
+TEST_F(UsageTest, AnOutputInAFolderThatIsMissingExitsWithOneBeforeTheInputIsRead) {
+  write("a.lumen", "this is not a case");
+  const Outcome refused = lumen({"convert", "a.lumen", "gone/b.lumen"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_TRUE(contains(refused.err, "gone")) << refused.err;
+}
+
+TEST_F(UsageTest, AnOutputInAFolderThatTakesNoFilesExitsWithOneBeforeTheInputIsRead) {
+  write("a.lumen", "this is not a case");
+  const Outcome refused = lumen({"convert", "a.lumen", "/proc/b.lumen"});
+  EXPECT_EQ(refused.code, 1) << refused.err;
+}
+
+TEST_F(UsageTest, AFolderAsOutputExitsWithOne) {
+  write("a.lumen", "this is not a case");
+  std::filesystem::create_directory(path("b.lumen"));
+  EXPECT_EQ(lumen({"convert", "a.lumen", "b.lumen"}).code, 1);
+}
+
+}  // namespace lumen::test
