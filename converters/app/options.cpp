@@ -107,6 +107,14 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
       ->check(within(1, 1000000));
   group.add("--step", o.step, "S", "Prediction step, in cylinder heights")->check(kPositive);
   group
+      .add("--noise-margin", o.noiseMargin, "X",
+           "A node below the inlier rate needs a wall this many times as strong as noise")
+      ->check(within(0, 100));
+  group
+      .add("--look-ahead", o.lookAhead, "N",
+           "Steps to look beyond a place where nothing fits; 0: stop there")
+      ->check(within(0, 100));
+  group
       .add("--branch-offset", o.branchOffset, "S",
            "A child starts this many parent radii from its parent's centerline")
       ->check(kNotNegative);

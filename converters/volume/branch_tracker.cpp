@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -37,6 +39,40 @@ double median(std::vector<double> values) {
   return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
+constexpr std::size_t kNoTurn = std::numeric_limits<std::size_t>::max();
+
+/// Where a track that has come back to itself turned round, as the number of nodes before, or
+/// kNoTurn; `next` has come back if it lies in the core of an earlier node although the way to that
+/// is longer than a bend of a vessel would make it.
+std::size_t turningPoint(const std::vector<TrackedNode>& nodes, const TrackedNode& next) {
+  const Vector3d ahead = next.centre - nodes.back().centre;
+  if (ahead.dot(nodes.back().direction) <= 0) return nodes.size();
+  double way = ahead.norm(), farthest = 0;
+  std::size_t turn = nodes.size();
+  for (std::size_t i = nodes.size() - 1; i-- > 0;) {
+    way += (nodes[i + 1].centre - nodes[i].centre).norm();
+    const double distance = (next.centre - nodes[i].centre).norm();
+    if (distance > farthest) {
+      farthest = distance;
+      turn = i;
+    }
+    if (distance < 0.75 * nodes[i].radius && way > 1.5 * distance + nodes[i].radius) return turn;
+  }
+  return kNoTurn;
+}
+
+/// Drops the last nodes if they are much wider than those before: they saw the rounded end of the
+/// vessel.
+void dropTip(std::vector<TrackedNode>& nodes) {
+  for (int dropped = 0; dropped < 3 && nodes.size() > 8; ++dropped) {
+    double radius = 0;
+    for (std::size_t i = nodes.size() - 7; i + 1 < nodes.size(); ++i)
+      radius += nodes[i].radius / 6.0;
+    if (nodes.back().radius < 1.4 * radius) return;
+    nodes.pop_back();
+  }
+}
+
 }  // namespace
 
 ChainPoint closestOnChain(const std::vector<TrackedNode>& chain, const Vector3d& point) {
@@ -64,9 +100,10 @@ bool inCore(std::span<const TrackedBranch* const> branches, const Vector3d& poin
 }
 
 BranchTracker::BranchTracker(const BsplineVolume& volume, const TrackOptions& options,
-                             const Progress& progress)
+                             double noiseFloor, const Progress& progress)
     : m_volume(volume),
       m_options(options),
+      m_noiseFloor(noiseFloor),
       m_progress(progress),
       m_rays(volume, icosphere(icosphereOrder(options.rays)), options.samples, options.dark),
       m_estimator(options) {}
@@ -85,6 +122,10 @@ void BranchTracker::finishNode(TrackedNode& node, const Cylinder& cylinder) {
   std::nth_element(extent.begin(), extent.begin() + static_cast<std::ptrdiff_t>(held - 1),
                    extent.end());
   const double half = extent[held - 1];
+  std::vector<double> strengths;
+  strengths.reserve(m_inliers.size());
+  for (const std::size_t i : m_inliers) strengths.push_back(m_points.strength[i]);
+  node.strength = median(std::move(strengths));
   node.centre = cylinder.centre;
   node.direction = cylinder.axis;
   node.radius = cylinder.radius;
@@ -100,21 +141,113 @@ void BranchTracker::finishNode(TrackedNode& node, const Cylinder& cylinder) {
 
 std::optional<TrackedNode> BranchTracker::fitNode(const Guess& guess, double minRate,
                                                   Random& random) {
-  if (!m_volume.geometry().containsWorld(guess.centre)) return std::nullopt;
+  const VolumeGeometry& geometry = m_volume.geometry();
+  if (!geometry.containsWorld(guess.centre)) return std::nullopt;
+  // a cylinder fixes its centre across the axis only: along it, few points decide, so not freely
+  const auto holdPlace = [&](Cylinder& cylinder) {
+    const double along = (cylinder.centre - guess.centre).dot(cylinder.axis);
+    cylinder.centre += (std::clamp(along, -guess.slack, guess.slack) - along) * cylinder.axis;
+  };
   m_rays.cast(guess.centre, 3.0 * guess.radius, m_points);
-  Cylinder cylinder = m_estimator.estimate(m_points, guess.direction, guess.radius, random);
+  Cylinder cylinder =
+      m_estimator.estimate(m_points, guess.direction, guess.radius, guess.smooth, random);
   m_bestRate = std::max(m_bestRate, cylinder.inlierRate);
-  if (cylinder.inlierRate < minRate || !m_volume.geometry().containsWorld(cylinder.centre))
-    return std::nullopt;
+  if (cylinder.inlierRate < minRate) return std::nullopt;
+  holdPlace(cylinder);
+  if (!geometry.containsWorld(cylinder.centre)) return std::nullopt;
   // the first rays came from a guess: cast and fit again from the better centre
   m_rays.cast(cylinder.centre, 3.0 * cylinder.radius, m_points);
   cylinder = m_estimator.refine(m_points, cylinder);
+  if (cylinder.inlierRate < minRate || !geometry.containsWorld(cylinder.centre))
+    return std::nullopt;
+  holdPlace(cylinder);
   m_estimator.inliers(m_points, cylinder, m_inliers);
   if (m_inliers.size() < 8) return std::nullopt;
   if (cylinder.axis.dot(guess.direction) < 0) cylinder.axis = -cylinder.axis;
   TrackedNode node;
   finishNode(node, cylinder);
+  if (isNoise(node)) return std::nullopt;
   return node;
+}
+
+/// `steps` prediction steps ahead. Few wall points make a short height, so a step has a least
+/// length.
+BranchTracker::Guess BranchTracker::predict(const TrackedNode& from, double steps,
+                                            const Vector3d& direction) const {
+  const double step = std::max(m_options.step * from.height, 0.25 * from.radius);
+  return {from.centre + steps * step * direction, direction, from.radius, true, 0.5 * step};
+}
+
+BranchTracker::Recent BranchTracker::recent(const std::vector<TrackedNode>& nodes) {
+  const std::size_t count = std::min<std::size_t>(nodes.size(), 8);
+  Recent mean;
+  for (std::size_t i = nodes.size() - count; i < nodes.size(); ++i) {
+    mean.inlierRate += nodes[i].inlierRate / static_cast<double>(count);
+    mean.strength += nodes[i].strength / static_cast<double>(count);
+  }
+  return mean;
+}
+
+/// Noise makes a cylinder too, but neither a good one nor one with a strong wall.
+bool BranchTracker::isNoise(const TrackedNode& node) const {
+  return node.inlierRate < m_options.inlierRate &&
+         node.strength < m_options.noiseMargin * m_noiseFloor;
+}
+
+/// Whether a node that was fitted to a guess is the beginning of a vessel: a second one follows.
+bool BranchTracker::leadsOn(const TrackedNode& start, Random& random) {
+  const auto next = fitNode(predict(start, 1, start.direction), 0.5 * m_options.inlierRate, random);
+  return next && turningPoint({start}, *next) == kNoTurn;
+}
+
+/// Where the next step finds nothing: the nearest place ahead at which two consecutive nodes fit as
+/// well as the vessel did so far; empty if there is none. Survives local drops of intensity.
+std::vector<TrackedNode> BranchTracker::lookAhead(const std::vector<TrackedNode>& nodes,
+                                                  Random& random) {
+  const TrackedNode& last = nodes.back();
+  const Recent mean = recent(nodes);
+  const double minRate = std::max(0.5 * m_options.inlierRate, 0.8 * mean.inlierRate);
+  const auto plausible = [&](const TrackedNode& node) {
+    return node.strength >= 0.5 * mean.strength && node.radius >= 0.6 * last.radius &&
+           node.radius <= 1.5 * last.radius;
+  };
+  const auto [e1, e2] = planeBasis(last.direction);
+  for (int steps = 1; steps <= m_options.lookAhead; ++steps)
+    for (int side = 0; side <= 6; ++side) {
+      m_progress.check();
+      const double angle = std::numbers::pi / 3.0 * side;
+      const Vector3d aside = std::cos(angle) * e1 + std::sin(angle) * e2;
+      const Vector3d direction =
+          side == 0 ? last.direction : Vector3d(last.direction + 0.5 * aside).normalized();
+      std::optional<TrackedNode> first = fitNode(predict(last, steps, direction), minRate, random);
+      if (!first || !plausible(*first) || turningPoint(nodes, *first) != kNoTurn) continue;
+      std::optional<TrackedNode> second =
+          fitNode(predict(*first, 1, first->direction), minRate, random);
+      if (!second || !plausible(*second) || turningPoint({last, *first}, *second) != kNoTurn)
+        continue;
+      return {std::move(*first), std::move(*second)};
+    }
+  return {};
+}
+
+/// Goes on where a step found nothing: looks ahead from the last node, then from nodes before it,
+/// since the last ones may have gone astray. `longest`: the length from which that was tried last;
+/// only a track that has become longer may give up nodes again. False if nothing was found; the
+/// nodes are then as before.
+bool BranchTracker::recover(std::vector<TrackedNode>& nodes, std::size_t& longest, Random& random) {
+  const std::size_t count = nodes.size();
+  for (const std::size_t back : {0, 3, 6}) {
+    if (back > 0 && (count <= longest || count < back + 2)) return false;
+    std::vector<TrackedNode> kept(nodes.begin(), nodes.end() - static_cast<std::ptrdiff_t>(back));
+    std::vector<TrackedNode> found = lookAhead(kept, random);
+    if (found.empty()) continue;
+    if (back > 0) longest = count;
+    nodes = std::move(kept);
+    std::move(found.begin(), found.end(), std::back_inserter(nodes));
+    return true;
+  }
+  longest = std::max(longest, count);
+  return false;
 }
 
 /// Appends nodes until a stop rule holds (thesis section 3.5).
@@ -128,25 +261,30 @@ void BranchTracker::follow(TrackedBranch& branch, std::span<const TrackedBranch*
   };
   const auto stop = [&](StopReason reason) {
     branch.stopReason = atFace() ? StopReason::LeftVolume : reason;
+    if (branch.stopReason == StopReason::NoValidCylinder) dropTip(nodes);
   };
-  const auto turnedBack = [&](const Vector3d& centre, double radius) {
-    return closestOnChain(nodes, centre).distance < 0.1 * radius ||
-           (centre - nodes.back().centre).dot(nodes.back().direction) <= 0;
-  };
+  std::size_t longest = 0;
   for (;;) {
     m_progress.check();
     if (nodes.size() >= static_cast<std::size_t>(m_options.maxNodes))
       return stop(StopReason::StepLimit);
-    const TrackedNode& last = nodes.back();
-    const Guess guess{last.centre + m_options.step * last.height * last.direction, last.direction,
-                      last.radius};
+    const Guess guess = predict(nodes.back(), 1, nodes.back().direction);
     if (!m_volume.geometry().containsWorld(guess.centre)) return stop(StopReason::LeftVolume);
-    if (turnedBack(guess.centre, guess.radius)) return stop(StopReason::TurnedBack);
-    std::optional<TrackedNode> node = fitNode(guess, 0.5 * m_options.inlierRate, random);
-    if (!node) return stop(StopReason::NoValidCylinder);
-    if (turnedBack(node->centre, node->radius)) return stop(StopReason::TurnedBack);
-    if (inCore(finished, node->centre)) return stop(StopReason::MetBranch);
-    nodes.push_back(std::move(*node));
+    const std::optional<TrackedNode> node = fitNode(guess, 0.5 * m_options.inlierRate, random);
+    const std::size_t turn = node ? turningPoint(nodes, *node) : kNoTurn;
+    const std::size_t before = nodes.size();
+    if (node && turn == kNoTurn) {
+      nodes.push_back(*node);
+    } else {
+      if (turn < nodes.size()) nodes.resize(std::max<std::size_t>(turn, 1));
+      if (atFace() || !recover(nodes, longest, random))
+        return stop(node ? StopReason::TurnedBack : StopReason::NoValidCylinder);
+    }
+    for (std::size_t i = std::min(before, nodes.size() - 1); i < nodes.size(); ++i)
+      if (inCore(finished, nodes[i].centre)) {
+        nodes.resize(i);
+        return stop(StopReason::MetBranch);
+      }
   }
 }
 
@@ -190,6 +328,7 @@ std::optional<TrackedNode> BranchTracker::startChild(const SeedBranch& seed,
   std::vector<double> radii{seed.points[0].radius.value_or(root.radius)};
   if (!seed.points[0].radius)
     for (const double share : {0.7, 0.5, 0.35, 0.25}) radii.push_back(share * root.radius);
+  std::optional<TrackedNode> fallback;
   for (const double minRate : {m_options.inlierRate, 0.5 * m_options.inlierRate})
     for (const Vector3d& centre : {offset, target})
       for (const double radius : radii) {
@@ -198,9 +337,10 @@ std::optional<TrackedNode> BranchTracker::startChild(const SeedBranch& seed,
         // a tube that runs in the parent's lumen is the parent
         const ChainPoint nearest = closestOnChain(parent.nodes, node->centre);
         if (nearest.distance < 0.75 * nearest.radius) continue;
-        return node;
+        if (leadsOn(*node, random)) return node;
+        if (!fallback) fallback = std::move(node);
       }
-  return std::nullopt;
+  return fallback;
 }
 
 /// A further click on the same vessel, beyond where the track has stopped.

@@ -2,11 +2,13 @@
 // One branch: estimation and prediction steps in turn (thesis algorithm 1), and where to begin.
 #pragma once
 
-#include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "converters/common/progress.h"
 #include "converters/common/random.h"
@@ -20,6 +22,7 @@ namespace lumen::convert {
 struct TrackedNode {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
   double radius = 0, height = 0, inlierRate = 0;
+  double strength = 0;  ///< median fall of intensity at the points, voxel units per mm
   std::vector<formats::Vec3f> points;
 };
 
@@ -27,28 +30,32 @@ struct TrackedBranch {
   std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
   formats::StopReason stopReason = formats::StopReason::Unknown;
   std::string failure;  ///< why nothing was tracked
-  int parentBranch = -1, parentNode = -1;  ///< position in the seeds' order, node within that branch
+  int parentBranch = -1,
+      parentNode = -1;  ///< position in the seeds' order, node within that branch
 };
 
 /// The closest place on a chain of nodes.
 struct ChainPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double radius = 0;         ///< mm, interpolated
-  double distance = 0;       ///< mm
-  std::size_t node = 0;      ///< the nearer end of the closest segment
+  double radius = 0;     ///< mm, interpolated
+  double distance = 0;   ///< mm
+  std::size_t node = 0;  ///< the nearer end of the closest segment
 };
 ChainPoint closestOnChain(const std::vector<TrackedNode>& chain, const Eigen::Vector3d& point);
 
-/// True if `point` lies within half a radius of the axis of one of `branches`: in that lumen's core.
+/// True if `point` lies within half a radius of the axis of one of `branches`: in that lumen's
+/// core.
 bool inCore(std::span<const TrackedBranch* const> branches, const Eigen::Vector3d& point);
 
 /// Not thread-safe: one per thread.
 class BranchTracker {
 public:
-  BranchTracker(const BsplineVolume& volume, const TrackOptions& options, const Progress& progress);
+  /// `noiseFloor`: see noise_floor.h.
+  BranchTracker(const BsplineVolume& volume, const TrackOptions& options, double noiseFloor,
+                const Progress& progress);
 
-  /// Tracks one vessel. `parent` may be null; `finished` are the branches that end this one when it runs
-  /// into them.
+  /// Tracks one vessel. `parent` may be null; `finished` are the branches that end this one when it
+  /// runs into them.
   TrackedBranch track(const SeedBranch& seed, const TrackedBranch* parent,
                       std::span<const TrackedBranch* const> finished, Random random);
 
@@ -59,10 +66,23 @@ private:
   struct Guess {
     Eigen::Vector3d centre, direction;
     double radius = 0;
+    bool smooth = false;  ///< `direction` is that of a path: sharp turns are unlikely
+    double slack = std::numeric_limits<double>::infinity();  ///< how far the centre may move along
+                                                             ///< the axis, mm
   };
   std::optional<TrackedNode> fitNode(const Guess& guess, double minRate, Random& random);
   void follow(TrackedBranch& branch, std::span<const TrackedBranch* const> finished,
               Random& random);
+  /// Means over the last nodes of a track.
+  struct Recent {
+    double inlierRate = 0, strength = 0;
+  };
+  static Recent recent(const std::vector<TrackedNode>& nodes);
+  bool isNoise(const TrackedNode& node) const;
+  bool leadsOn(const TrackedNode& start, Random& random);
+  Guess predict(const TrackedNode& from, double steps, const Eigen::Vector3d& direction) const;
+  std::vector<TrackedNode> lookAhead(const std::vector<TrackedNode>& nodes, Random& random);
+  bool recover(std::vector<TrackedNode>& nodes, std::size_t& longest, Random& random);
   std::optional<TrackedNode> startRoot(const SeedBranch& seed, Random& random);
   std::optional<TrackedNode> startChild(const SeedBranch& seed, const TrackedBranch& parent,
                                         TrackedBranch& branch, Random& random);
@@ -72,6 +92,7 @@ private:
 
   const BsplineVolume& m_volume;
   const TrackOptions& m_options;
+  double m_noiseFloor;
   const Progress& m_progress;
   RayCaster m_rays;
   CylinderEstimator m_estimator;

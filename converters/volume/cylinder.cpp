@@ -12,12 +12,6 @@
 namespace lumen::convert {
 namespace {
 
-/// Two unit vectors that span the plane normal to the unit vector `axis`.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> planeBasis(const Eigen::Vector3d& axis) {
-  const Eigen::Vector3d e1 = axis.unitOrthogonal();
-  return {e1, axis.cross(e1)};
-}
-
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
@@ -59,6 +53,11 @@ double median(std::vector<double>& values) {
 }
 
 }  // namespace
+
+std::pair<Eigen::Vector3d, Eigen::Vector3d> planeBasis(const Eigen::Vector3d& axis) {
+  const Eigen::Vector3d e1 = axis.unitOrthogonal();
+  return {e1, axis.cross(e1)};
+}
 
 LUMEN_SIMD_CLONES int countInBand(const float* u, const float* v, std::size_t count, float centreU,
                                   float centreV, float low2, float high2) {
@@ -126,16 +125,20 @@ CylinderEstimator::Circle CylinderEstimator::bestCircle(double rho, Random& rand
 }
 
 Cylinder CylinderEstimator::estimate(const Candidates& points, const Eigen::Vector3d& direction,
-                                     double rho, Random& random) {
+                                     double rho, bool smooth, Random& random) {
   Cylinder best;
   best.axis = direction;
   if (points.count() < 8) return best;
+  double bestScore = 0;
   for (const Eigen::Vector3d& axis : axesAround(direction, m_sphere)) {
     const auto [e1, e2] = planeBasis(axis);
     project(points, e1, e2);
     const Circle circle = bestCircle(rho, random);
     const double rate = circle.inliers / static_cast<double>(points.count());
-    if (rate <= best.inlierRate) continue;
+    // on a thin vessel in noise many axes fit as well: a smooth course is likelier than a sharp turn
+    const double score = rate * (smooth ? 0.5 * (1.0 + axis.dot(direction)) : 1.0);
+    if (score <= bestScore) continue;
+    bestScore = score;
     best = {points.origin + static_cast<double>(circle.u) * e1 + static_cast<double>(circle.v) * e2,
             axis, circle.radius, rate};
     if (rate >= m_options.inlierRate) break;

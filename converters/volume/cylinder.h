@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "converters/common/random.h"
@@ -27,10 +28,11 @@ public:
 
   /// The best cylinder through `points` that holds their origin, with an axis within 90 degrees of
   /// `direction` and a radius in [rho/2, 3 rho/2]: the first axis, by increasing angle, whose rate reaches the accepting one; else
-  /// the best of all (its rate may be anything; 0 and no radius if none is valid). Refined to least squares
+  /// the best of all, where `smooth` says that a rate at an angle a from `direction` counts (1 + cos a)/2 of
+  /// itself (its rate may be anything; 0 and no radius if none is valid). Refined to least squares
   /// on its inliers.
   Cylinder estimate(const Candidates& points, const Eigen::Vector3d& direction, double rho,
-                    Random& random);
+                    bool smooth, Random& random);
 
   /// Least squares of (distance to the axis - radius) over the inliers, over the axis' position,
   /// direction and radius, inliers chosen anew between rounds; then the centre moves along the axis to
@@ -55,6 +57,9 @@ private:
   std::vector<std::size_t> m_inliers;
   std::vector<double> m_along;
 };
+
+/// Two unit vectors that span the plane normal to the unit vector `axis`.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> planeBasis(const Eigen::Vector3d& axis);
 
 /// Points within `band` of the circle, by squared distances: low2 <= |p - centre|^2 <= high2.
 int countInBand(const float* u, const float* v, std::size_t count, float centreU, float centreV,

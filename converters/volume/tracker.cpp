@@ -8,6 +8,7 @@
 
 #include "converters/volume/branch_tracker.h"
 #include "converters/volume/icosphere.h"
+#include "converters/volume/noise_floor.h"
 #include "converters/volume/read_volume.h"
 
 namespace lumen::convert {
@@ -29,6 +30,8 @@ void checkOptions(const TrackOptions& o) {
   require(o.minTrials >= 1 && o.maxTrials >= o.minTrials,
           "min-trials must be at least 1 and max-trials at least min-trials");
   require(o.step > 0 && o.step <= 2, "step must be in (0, 2]");
+  require(o.lookAhead >= 0 && o.lookAhead <= 100, "look-ahead must be in 0 .. 100");
+  require(o.noiseMargin >= 0 && o.noiseMargin <= 100, "noise-margin must be in 0 .. 100");
   require(o.branchOffset > 0 && o.branchOffset <= 10, "branch-offset must be in (0, 10]");
   require(o.aneurysmGradient >= 0 && o.aneurysmGradient <= 1,
           "aneurysm-gradient must be in [0, 1]");
@@ -74,7 +77,7 @@ void trimDuplicates(std::vector<TrackedBranch>& branches, const std::vector<std:
 /// One wave: all branches whose parents are done. Branches of a wave do not see one another while
 /// they are tracked, so the outcome does not depend on the order in which threads take them.
 void trackWave(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
-               const Ancestry& ancestry, const TrackOptions& options, int depth,
+               const Ancestry& ancestry, const TrackOptions& options, double floor, int depth,
                std::vector<TrackedBranch>& branches, Progress& progress) {
   std::vector<std::size_t> wave;
   std::vector<const TrackedBranch*> finished;
@@ -90,7 +93,7 @@ void trackWave(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds
     if (parent && parent->nodes.empty()) {
       branches[i].failure = "its parent \"" + *seeds[i].parent + "\" was not tracked";
     } else {
-      BranchTracker tracker(volume, options, progress);
+      BranchTracker tracker(volume, options, floor, progress);
       branches[i] = seeds[i].kind == BranchKind::Aneurysm
                         ? tracker.capture(seeds[i], parent)
                         : tracker.track(seeds[i], parent, finished, Random(options.seed, i));
@@ -153,6 +156,8 @@ std::map<std::string, formats::ParameterValue> TrackOptions::parameters() const 
           {"min-trials", integer(minTrials)},
           {"max-trials", integer(maxTrials)},
           {"step", step},
+          {"noise-margin", noiseMargin},
+          {"look-ahead", integer(lookAhead)},
           {"branch-offset", branchOffset},
           {"aneurysm-gradient", aneurysmGradient},
           {"max-nodes", integer(maxNodes)},
@@ -166,9 +171,10 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   const BsplineVolume spline(volume);
   const Ancestry ancestry = findAncestry(seeds);
   std::vector<TrackedBranch> branches(seeds.size());
+  const double floor = noiseFloor(spline, options);
   progress.begin("track", seeds.size());
   for (int depth = 0; depth <= ancestry.deepest; ++depth)
-    trackWave(spline, seeds, ancestry, options, depth, branches, progress);
+    trackWave(spline, seeds, ancestry, options, floor, depth, branches, progress);
   progress.end();
 
   TrackResult out;

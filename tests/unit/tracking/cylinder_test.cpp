@@ -48,7 +48,7 @@ TEST(Cylinder, IsFoundExactlyFromCleanPoints) {
   CylinderEstimator estimator{TrackOptions{}};
   Random random(1);
   const Cylinder found =
-      estimator.estimate(points, Eigen::Vector3d(1, 2, 2.5).normalized(), 2.4, random);
+      estimator.estimate(points, Eigen::Vector3d(1, 2, 2.5).normalized(), 2.4, false, random);
   EXPECT_NEAR(found.radius, 2.0, 1e-4);
   EXPECT_NEAR(std::abs(found.axis.dot(kTruth.axis)), 1.0, 1e-7);
   EXPECT_NEAR(distanceToAxis(kTruth, found.centre), 0.0, 1e-4);
@@ -65,7 +65,7 @@ TEST(Cylinder, IsFoundAmongFortyPercentOutliers) {
     points.strength.push_back(1);
   }
   CylinderEstimator estimator{TrackOptions{}};
-  const Cylinder found = estimator.estimate(points, kTruth.axis, 2.0, random);
+  const Cylinder found = estimator.estimate(points, kTruth.axis, 2.0, false, random);
   EXPECT_NEAR(found.radius, 2.0, 0.05);
   EXPECT_LT(distanceToAxis(kTruth, found.centre), 0.1);
   EXPECT_GT(found.inlierRate, 0.55);
@@ -75,8 +75,24 @@ TEST(Cylinder, OutsideOfHalfToThreeHalvesOfTheGuessIsNotValid) {
   const Candidates points = pointsOn(kTruth, kTruth.centre, 120, 0);
   CylinderEstimator estimator{TrackOptions{}};
   Random random(3);
-  const Cylinder found = estimator.estimate(points, kTruth.axis, 0.9, random);
+  const Cylinder found = estimator.estimate(points, kTruth.axis, 0.9, false, random);
   EXPECT_LT(found.inlierRate, 0.35);
+}
+
+TEST(Cylinder, OfASmoothCourseIsPreferredToASharpTurnThatFitsAsWell) {
+  // two equal tubes through the origin: along z, and along x
+  const Truth upright{{0, 0, 0}, Eigen::Vector3d::UnitZ(), 1.0};
+  const Truth lying{{0, 0, 0}, Eigen::Vector3d::UnitX(), 1.0};
+  Candidates points = pointsOn(upright, {0, 0, 0}, 100, 0.02);
+  const Candidates others = pointsOn(lying, {0, 0, 0}, 104, 0.02);
+  points.x.insert(points.x.end(), others.x.begin(), others.x.end());
+  points.y.insert(points.y.end(), others.y.begin(), others.y.end());
+  points.z.insert(points.z.end(), others.z.begin(), others.z.end());
+  points.strength.resize(204, 1);
+  CylinderEstimator estimator{TrackOptions{}};
+  Random random(5);
+  const Eigen::Vector3d direction = Eigen::Vector3d(0.2, 0, 1).normalized();
+  EXPECT_GT(estimator.estimate(points, direction, 1.0, true, random).axis.z(), 0.95);
 }
 
 TEST(Cylinder, ThatDoesNotHoldTheOriginOfTheRaysIsNotValid) {
@@ -84,7 +100,7 @@ TEST(Cylinder, ThatDoesNotHoldTheOriginOfTheRaysIsNotValid) {
   const Candidates points = pointsOn(kTruth, outside, 120, 0);
   CylinderEstimator estimator{TrackOptions{}};
   Random random(4);
-  EXPECT_LT(estimator.estimate(points, kTruth.axis, 2.0, random).inlierRate, 0.7);
+  EXPECT_LT(estimator.estimate(points, kTruth.axis, 2.0, false, random).inlierRate, 0.7);
 }
 
 TEST(Cylinder, RefinementMovesTheCentreToTheMedianOfTheInliersAlongTheAxis) {

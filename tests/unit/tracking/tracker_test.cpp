@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "converters/common/random.h"
+#include "converters/volume/noise_floor.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {
@@ -113,6 +115,66 @@ TEST(Tracker, ANarrowChildStartsFromOneClickWithoutARadius) {
   ASSERT_EQ(out.result.tree.branches.size(), 2u);
   EXPECT_GT(out.result.tree.centre.back().x, 11.0F);
   EXPECT_NEAR(out.result.tree.radius.back(), 0.4, 0.05);
+}
+
+/// Adds Gaussian noise of that standard deviation (the tubes are 1000 above their background).
+Volume noisy(Volume volume, double deviation) {
+  Random random(11);
+  for (std::int16_t& voxel : std::get<std::vector<std::int16_t>>(volume.voxels))
+    voxel = static_cast<std::int16_t>(std::lround(voxel + deviation * random.normal()));
+  return volume;
+}
+
+/// A tube along z that is missing between two heights.
+Volume interruptedTube(double from, double to) {
+  return drawVolume(64, 0.2, [=](const Vector3d& p) {
+    return std::min(capsule(p, kLow, {6.4, 6.4, from - 1.0}, 1.0),
+                    capsule(p, {6.4, 6.4, to + 1.0}, kHigh, 1.0));
+  });
+}
+
+double reachedFromBelow(const Volume& volume, int lookAhead) {
+  SeedBranch seed = seedAt("tube", {6.4, 6.4, 2.5}, 1.0);
+  seed.direction = Vector3d::UnitZ();
+  Progress silent;
+  TrackOptions options;
+  options.lookAhead = lookAhead;
+  return track(volume, {seed}, options, silent).result.tree.centre.back().z;
+}
+
+TEST(Tracker, LooksBeyondAShortGap) {
+  const Volume volume = interruptedTube(6.0, 7.2);
+  EXPECT_GT(reachedFromBelow(volume, 4), 11.0);
+  EXPECT_LT(reachedFromBelow(volume, 0), 7.0);
+}
+
+TEST(Tracker, StopsAtARealEndInNoise) {
+  const Volume volume = noisy(drawVolume(64, 0.2,
+                                         [](const Vector3d& p) {
+                                           return capsule(p, kLow, {6.4, 6.4, 7.0}, 0.3);
+                                         }),
+                              50);
+  SeedBranch seed = seedAt("tube", {6.4, 6.4, 2.5}, 0.3);
+  seed.direction = Vector3d::UnitZ();
+  const TrackResult out = trackOne(volume, {seed});
+  EXPECT_NEAR(out.result.tree.centre.back().z, 7.0, 1.0);
+}
+
+TEST(Tracker, NoiseAloneStartsNoTrack) {
+  const Volume volume = noisy(drawVolume(64, 0.2, [](const Vector3d&) { return 9.0; }), 50);
+  std::vector<SeedBranch> seeds;
+  for (int i = 0; i < 20; ++i)
+    seeds.push_back(seedAt(std::to_string(i), Vector3d(2.0 + 0.4 * i, 6.4, 3.0 + 0.3 * i)));
+  EXPECT_EQ(trackOne(volume, seeds).failures.size(), seeds.size());
+}
+
+TEST(NoiseFloor, IsZeroWithoutNoiseAndGrowsInProportionToIt) {
+  const Volume clean = straightTube(0.6);
+  EXPECT_EQ(noiseFloor(BsplineVolume(clean), TrackOptions{}), 0.0);
+  const Volume weak = noisy(clean, 20), strong = noisy(clean, 80);
+  const double ratio = noiseFloor(BsplineVolume(strong), TrackOptions{}) /
+                       noiseFloor(BsplineVolume(weak), TrackOptions{});
+  EXPECT_NEAR(ratio, 4.0, 0.3);
 }
 
 TEST(Tracker, ASecondClickOnTheSameVesselIsRefused) {
