@@ -61,6 +61,18 @@ std::size_t turningPoint(const std::vector<TrackedNode>& nodes, const TrackedNod
   return kNoTurn;
 }
 
+/// Where a vessel goes from its first point, as far as the user said.
+std::optional<Vector3d> directionOf(const SeedBranch& seed) {
+  if (seed.direction) return seed.direction;
+  if (seed.points.size() < 2) return std::nullopt;
+  return (seed.points[1].position - seed.points[0].position).normalized();
+}
+
+TrackedNode reversed(TrackedNode node) {
+  node.direction = -node.direction;
+  return node;
+}
+
 /// Drops the last nodes if they are much wider than those before: they saw the rounded end of the
 /// vessel.
 void dropTip(std::vector<TrackedNode>& nodes) {
@@ -288,23 +300,20 @@ void BranchTracker::follow(TrackedBranch& branch, std::span<const TrackedBranch*
   }
 }
 
-/// Without a radius, trial radii from one voxel up; the first that is accepted, else the best.
-std::optional<TrackedNode> BranchTracker::startRoot(const SeedBranch& seed, Random& random) {
-  Guess guess{seed.points[0].position, Vector3d::UnitZ(), 0};
-  if (seed.direction)
-    guess.direction = *seed.direction;
-  else if (seed.points.size() > 1)
-    guess.direction = (seed.points[1].position - guess.centre).normalized();
+/// A node at a click. Without a radius, trial radii from about one voxel up; the first that is
+/// accepted, else the best.
+std::optional<TrackedNode> BranchTracker::startAt(const SeedPoint& point, const Vector3d& direction,
+                                                  bool smooth, Random& random) {
   std::vector<double> radii;
-  if (seed.points[0].radius)
-    radii = {*seed.points[0].radius};
+  if (point.radius)
+    radii = {*point.radius};
   else
     for (double voxels = 1.25; voxels < 24; voxels *= 1.5)
       radii.push_back(voxels * m_volume.geometry().voxelSize());
   std::optional<TrackedNode> best;
   for (const double radius : radii) {
-    guess.radius = radius;
-    std::optional<TrackedNode> node = fitNode(guess, 0.5 * m_options.inlierRate, random);
+    std::optional<TrackedNode> node =
+        fitNode({point.position, direction, radius, smooth}, 0.5 * m_options.inlierRate, random);
     if (!node || (best && node->inlierRate <= best->inlierRate)) continue;
     best = std::move(node);
     if (best->inlierRate >= m_options.inlierRate && best->points.size() > m_rays.rayCount() / 2)
@@ -313,28 +322,19 @@ std::optional<TrackedNode> BranchTracker::startRoot(const SeedBranch& seed, Rand
   return best;
 }
 
-/// Starts beyond the parent's wall on the way to the seed (thesis section 3.6); if that finds
-/// nothing acceptable, with narrower guesses, then at the seed itself.
-std::optional<TrackedNode> BranchTracker::startChild(const SeedBranch& seed,
-                                                     const TrackedBranch& parent,
-                                                     TrackedBranch& branch, Random& random) {
-  const Vector3d target = seed.points[0].position;
-  const ChainPoint root = closestOnChain(parent.nodes, target);
-  branch.parentNode = static_cast<int>(root.node);
-  const Vector3d direction =
-      seed.direction.value_or(root.distance > 0 ? Vector3d((target - root.position) / root.distance)
-                                                : parent.nodes[root.node].direction);
-  const Vector3d offset = root.position + m_options.branchOffset * root.radius * direction;
-  std::vector<double> radii{seed.points[0].radius.value_or(root.radius)};
-  if (!seed.points[0].radius)
-    for (const double share : {0.7, 0.5, 0.35, 0.25}) radii.push_back(share * root.radius);
+/// A node from one of several guesses, each with several radii: the first that leads on and is not
+/// in the lumen of `parent`, else the first that is not; well fitted ones before others.
+std::optional<TrackedNode> BranchTracker::startBeside(const TrackedBranch& parent,
+                                                      std::span<const Guess> guesses,
+                                                      std::span<const double> radii,
+                                                      Random& random) {
   std::optional<TrackedNode> fallback;
   for (const double minRate : {m_options.inlierRate, 0.5 * m_options.inlierRate})
-    for (const Vector3d& centre : {offset, target})
+    for (Guess guess : guesses)
       for (const double radius : radii) {
-        std::optional<TrackedNode> node = fitNode({centre, direction, radius}, minRate, random);
-        if (!node || node->inlierRate < minRate) continue;
-        // a tube that runs in the parent's lumen is the parent
+        guess.radius = radius;
+        std::optional<TrackedNode> node = fitNode(guess, minRate, random);
+        if (!node) continue;
         const ChainPoint nearest = closestOnChain(parent.nodes, node->centre);
         if (nearest.distance < 0.75 * nearest.radius) continue;
         if (leadsOn(*node, random)) return node;
@@ -343,46 +343,108 @@ std::optional<TrackedNode> BranchTracker::startChild(const SeedBranch& seed,
   return fallback;
 }
 
-/// A further click on the same vessel, beyond where the track has stopped.
-std::optional<TrackedNode> BranchTracker::resumeAt(const SeedPoint& point,
-                                                   const TrackedBranch& branch, Random& random) {
-  const TrackedNode& last = branch.nodes.back();
-  const ChainPoint closest = closestOnChain(branch.nodes, point.position);
-  if (closest.distance <= closest.radius) return std::nullopt;
-  const Vector3d direction = (point.position - last.centre).normalized();
-  return fitNode({point.position, direction, point.radius.value_or(last.radius)},
-                 0.5 * m_options.inlierRate, random);
+/// The first nodes of a child, and where they hang on its parent. A click near the parent: beyond
+/// the parent's wall on the way to the click (thesis section 3.6), else at the click itself. A
+/// click farther away: there, and from there back to the parent.
+std::vector<TrackedNode> BranchTracker::startChild(const SeedBranch& seed,
+                                                   const TrackedBranch& parent, int& parentNode,
+                                                   Random& random) {
+  const SeedPoint& click = seed.points[0];
+  const ChainPoint root = closestOnChain(parent.nodes, click.position);
+  parentNode = static_cast<int>(root.node);
+  const Vector3d toClick = root.distance > 0
+                               ? Vector3d((click.position - root.position) / root.distance)
+                               : parent.nodes[root.node].direction;
+  const Vector3d outward = seed.direction.value_or(toClick);
+  const Guess atParent{root.position + m_options.branchOffset * root.radius * outward, outward};
+  const Guess atClick{click.position, directionOf(seed).value_or(toClick), 0,
+                      directionOf(seed).has_value()};
+  std::vector<double> radii{click.radius.value_or(root.radius)};
+  if (!click.radius)
+    for (const double share : {0.7, 0.5, 0.35, 0.25}) radii.push_back(share * root.radius);
+  const bool far = root.distance > 2.0 * m_options.branchOffset * root.radius;
+  std::vector<Guess> guesses{atClick};
+  if (!far) guesses.insert(guesses.begin(), atParent);
+  const auto start = startBeside(parent, guesses, radii, random);
+  if (!start) return {};
+  if (!far) return {*start};
+  std::vector<TrackedNode> nodes = trackBack(*start, parent, random);
+  parentNode = static_cast<int>(closestOnChain(parent.nodes, nodes.front().centre).node);
+  return nodes;
+}
+
+/// The nodes from `goal` to `start`, in that order, by tracking from `start` against its direction;
+/// `start` alone if that does not lead to `goal`, or not by a way that is straight enough to be
+/// believed.
+std::vector<TrackedNode> BranchTracker::trackBack(const TrackedNode& start,
+                                                  const TrackedBranch& goal, Random& random) {
+  TrackedBranch back;
+  back.nodes.push_back(reversed(start));
+  const TrackedBranch* const end = &goal;
+  follow(back, {&end, 1}, random);
+  double way = 0;
+  for (std::size_t i = 1; i < back.nodes.size(); ++i)
+    way += (back.nodes[i].centre - back.nodes[i - 1].centre).norm();
+  const ChainPoint reached = closestOnChain(goal.nodes, back.nodes.back().centre);
+  const bool arrived =
+      back.stopReason == StopReason::MetBranch || reached.distance < 2.0 * reached.radius;
+  if (!arrived || way > 3.0 * closestOnChain(goal.nodes, start.centre).distance)
+    back.nodes.resize(1);
+  std::reverse(back.nodes.begin(), back.nodes.end());
+  for (TrackedNode& node : back.nodes) node = reversed(std::move(node));
+  return std::move(back.nodes);
+}
+
+/// A further click on the same vessel that the track has missed: tracks from there back to the
+/// track, gives up what the track has beyond the place of meeting, and goes on from the click.
+/// False if nothing fits there.
+bool BranchTracker::passThrough(const SeedPoint& point, TrackedBranch& branch,
+                                std::span<const TrackedBranch* const> finished, Random& random) {
+  std::vector<TrackedNode>& nodes = branch.nodes;
+  const ChainPoint closest = closestOnChain(nodes, point.position);
+  if (closest.distance <= closest.radius) return true;
+  const Vector3d away = (point.position - closest.position) / closest.distance;
+  const auto start = startAt(point, away, false, random);
+  if (!start) return false;
+  std::vector<TrackedNode> way = trackBack(*start, branch, random);
+  nodes.resize(closestOnChain(nodes, way.front().centre).node + 1);
+  std::move(way.begin(), way.end(), std::back_inserter(nodes));
+  follow(branch, finished, random);
+  return true;
 }
 
 TrackedBranch BranchTracker::track(const SeedBranch& seed, const TrackedBranch* parent,
                                    std::span<const TrackedBranch* const> finished, Random random) {
   TrackedBranch branch;
   m_bestRate = 0;
-  std::optional<TrackedNode> first =
-      parent ? startChild(seed, *parent, branch, random) : startRoot(seed, random);
-  if (!first) {
+  if (parent) {
+    branch.nodes = startChild(seed, *parent, branch.parentNode, random);
+  } else if (auto first = startAt(seed.points[0], directionOf(seed).value_or(Vector3d::UnitZ()),
+                                  directionOf(seed).has_value(), random)) {
+    branch.nodes.push_back(std::move(*first));
+  }
+  if (branch.nodes.empty()) {
     branch.failure =
         "no valid cylinder at the seed: " + rateText(m_bestRate, 0.5 * m_options.inlierRate);
     return branch;
   }
-  if (inCore(finished, first->centre)) {
+  if (inCore(finished, branch.nodes.back().centre)) {
+    branch.nodes.clear();
     branch.failure = "the seed leads into a vessel that another seed has tracked";
     return branch;
   }
   const bool bothWays = !parent && !seed.direction && seed.points.size() == 1;
-  branch.nodes.push_back(*first);
   if (bothWays) {
-    branch.nodes[0].direction = -first->direction;
+    branch.nodes[0] = reversed(branch.nodes[0]);
     follow(branch, finished, random);
     std::reverse(branch.nodes.begin(), branch.nodes.end());
-    for (TrackedNode& node : branch.nodes) node.direction = -node.direction;
+    for (TrackedNode& node : branch.nodes) node = reversed(std::move(node));
   }
   follow(branch, finished, random);
   for (std::size_t i = 1; i < seed.points.size(); ++i)
-    if (auto node = resumeAt(seed.points[i], branch, random)) {
-      branch.nodes.push_back(std::move(*node));
-      follow(branch, finished, random);
-    }
+    if (m_bestRate = 0; !passThrough(seed.points[i], branch, finished, random))
+      branch.missedPoints.push_back("point " + std::to_string(i + 1) + ": no valid cylinder: " +
+                                    rateText(m_bestRate, 0.5 * m_options.inlierRate));
   return branch;
 }
 

@@ -30,6 +30,8 @@ struct TrackedBranch {
   std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
   formats::StopReason stopReason = formats::StopReason::Unknown;
   std::string failure;  ///< why nothing was tracked
+  std::vector<std::string>
+      missedPoints;  ///< one sentence for each further click that was not reached
   int parentBranch = -1,
       parentNode = -1;  ///< position in the seeds' order, node within that branch
 };
@@ -83,11 +85,17 @@ private:
   Guess predict(const TrackedNode& from, double steps, const Eigen::Vector3d& direction) const;
   std::vector<TrackedNode> lookAhead(const std::vector<TrackedNode>& nodes, Random& random);
   bool recover(std::vector<TrackedNode>& nodes, std::size_t& longest, Random& random);
-  std::optional<TrackedNode> startRoot(const SeedBranch& seed, Random& random);
-  std::optional<TrackedNode> startChild(const SeedBranch& seed, const TrackedBranch& parent,
-                                        TrackedBranch& branch, Random& random);
-  std::optional<TrackedNode> resumeAt(const SeedPoint& point, const TrackedBranch& branch,
-                                      Random& random);
+  std::optional<TrackedNode> startAt(const SeedPoint& point, const Eigen::Vector3d& direction,
+                                     bool smooth, Random& random);
+  std::optional<TrackedNode> startBeside(const TrackedBranch& parent,
+                                         std::span<const Guess> guesses,
+                                         std::span<const double> radii, Random& random);
+  std::vector<TrackedNode> startChild(const SeedBranch& seed, const TrackedBranch& parent,
+                                      int& parentNode, Random& random);
+  std::vector<TrackedNode> trackBack(const TrackedNode& start, const TrackedBranch& goal,
+                                     Random& random);
+  bool passThrough(const SeedPoint& point, TrackedBranch& branch,
+                   std::span<const TrackedBranch* const> finished, Random& random);
   void finishNode(TrackedNode& node, const Cylinder& cylinder);
 
   const BsplineVolume& m_volume;

@@ -46,6 +46,11 @@ double stepToLeastSquares(const Candidates& points, const std::vector<std::size_
   return squares / static_cast<double>(inliers.size());
 }
 
+/// 1 for equal radii, less the more they differ: a vessel changes its width slowly.
+double likeness(double radius, double rho) {
+  return radius > 0 ? std::sqrt(std::min(radius / rho, rho / radius)) : 0.0;
+}
+
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -136,7 +141,8 @@ Cylinder CylinderEstimator::estimate(const Candidates& points, const Eigen::Vect
     const Circle circle = bestCircle(rho, random);
     const double rate = circle.inliers / static_cast<double>(points.count());
     // on a thin vessel in noise many axes fit as well: a smooth course is likelier than a sharp turn
-    const double score = rate * (smooth ? 0.5 * (1.0 + axis.dot(direction)) : 1.0);
+    const double score =
+        rate * (smooth ? 0.5 * (1.0 + axis.dot(direction)) * likeness(circle.radius, rho) : 1.0);
     if (score <= bestScore) continue;
     bestScore = score;
     best = {points.origin + static_cast<double>(circle.u) * e1 + static_cast<double>(circle.v) * e2,

@@ -184,6 +184,8 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     appendBranch(seeds[i], branches[i], firstNode, out.result);
     if (branches[i].nodes.empty()) out.failures.push_back({seeds[i].label, branches[i].failure});
+    for (const std::string& missed : branches[i].missedPoints)
+      out.missedPoints.push_back({seeds[i].label, missed});
   }
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
   out.result.metadata.source = describeSource(volume);

@@ -37,7 +37,7 @@ struct TrackOptions {
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
 };
 
-/// A seed that started no track.
+/// A seed that started no track, or a point of one that the track does not pass through.
 struct SeedFailure {
   std::string label;
   std::string reason;  ///< one sentence, with the numbers that decided
@@ -46,6 +46,7 @@ struct SeedFailure {
 struct TrackResult {
   formats::Case result;  ///< tree and wall points; metadata complete but for the fit
   std::vector<SeedFailure> failures;
+  std::vector<SeedFailure> missedPoints;  ///< of vessels that were tracked
 };
 
 /// Tracks every seed. The result does not depend on the number of threads. Throws Error(InvalidInput)

@@ -35,6 +35,14 @@ TrackResult trackOne(const Volume& volume, const std::vector<SeedBranch>& seeds)
 
 Vector3d toVector(const formats::Vec3f& v) { return {v.x, v.y, v.z}; }
 
+/// A T: a child of half the trunk's radius leaves its middle along x.
+Volume tee(double childRadius) {
+  return drawVolume(64, 0.2, [=](const Vector3d& p) {
+    return std::min(capsule(p, kLow, kHigh, 1.2),
+                    capsule(p, {6.4, 6.4, 6.4}, {12.2, 6.4, 6.4}, childRadius));
+  });
+}
+
 TEST(Tracker, FollowsAStraightTubeToBothEndsFromOneClickInItsMiddle) {
   const TrackResult out = trackOne(straightTube(1.0), {seedAt("tube", {6.2, 6.5, 6.0})});
   ASSERT_TRUE(out.failures.empty());
@@ -82,14 +90,6 @@ TEST(Tracker, AStraightTubeThatLeavesTheVolumeSaysSo) {
   const TrackResult out = trackOne(volume, {seed});
   ASSERT_EQ(out.result.tree.branches.size(), 1u);
   EXPECT_EQ(out.result.tree.branches[0].stopReason, StopReason::LeftVolume);
-}
-
-/// A T: a child of half the trunk's radius leaves its middle along x.
-Volume tee(double childRadius) {
-  return drawVolume(64, 0.2, [=](const Vector3d& p) {
-    return std::min(capsule(p, kLow, kHigh, 1.2),
-                    capsule(p, {6.4, 6.4, 6.4}, {12.2, 6.4, 6.4}, childRadius));
-  });
 }
 
 TEST(Tracker, AChildHangsOnTheNodeOfItsParentNearestToItsClick) {
@@ -146,6 +146,45 @@ TEST(Tracker, LooksBeyondAShortGap) {
   const Volume volume = interruptedTube(6.0, 7.2);
   EXPECT_GT(reachedFromBelow(volume, 4), 11.0);
   EXPECT_LT(reachedFromBelow(volume, 0), 7.0);
+}
+
+/// A trunk along z that forks at half its height: a straight arm, and one that turns off along x.
+Volume fork() {
+  return drawVolume(64, 0.2, [](const Vector3d& p) {
+    return std::min(capsule(p, kLow, kHigh, 0.8),
+                    capsule(p, {6.4, 6.4, 6.4}, {12.0, 6.4, 6.4}, 0.8));
+  });
+}
+
+TEST(Tracker, PassesThroughAFurtherClickInsteadOfGoingStraightOn) {
+  SeedBranch seed = seedAt("vessel", {6.4, 6.4, 1.5}, 0.8);
+  seed.direction = Vector3d::UnitZ();
+  seed.points.push_back({{10.0, 6.4, 6.4}, 0.8});
+  const TrackResult out = trackOne(fork(), {seed});
+  EXPECT_TRUE(out.missedPoints.empty());
+  const auto& tree = out.result.tree;
+  EXPECT_GT(tree.centre.back().x, 11.0F);
+  for (std::size_t i = 1; i < tree.nodeCount(); ++i)
+    EXPECT_LT((toVector(tree.centre[i]) - toVector(tree.centre[i - 1])).norm(), 1.7);
+}
+
+TEST(Tracker, ReportsAFurtherClickWhereNothingFits) {
+  SeedBranch seed = seedAt("vessel", {6.4, 6.4, 1.5}, 0.8);
+  seed.direction = Vector3d::UnitZ();
+  seed.points.push_back({{2.0, 2.0, 6.4}, 0.8});
+  const TrackResult out = trackOne(fork(), {seed});
+  ASSERT_EQ(out.missedPoints.size(), 1u);
+  EXPECT_EQ(out.missedPoints[0].reason.rfind("point 2", 0), 0u);
+}
+
+TEST(Tracker, ADistantClickOnAChildIsTrackedBackToItsParent) {
+  SeedBranch trunk = seedAt("trunk", {6.4, 6.4, 1.5}, 1.2);
+  trunk.direction = Vector3d::UnitZ();
+  SeedBranch child = seedAt("child", {11.0, 6.4, 6.4}, 0.7);
+  child.parent = "trunk";
+  const TrackResult out = trackOne(tee(0.7), {trunk, child});
+  ASSERT_EQ(out.result.tree.branches.size(), 2u);
+  EXPECT_LT(out.result.tree.centre[out.result.tree.branches[1].firstNode].x, 8.5F);
 }
 
 TEST(Tracker, StopsAtARealEndInNoise) {
