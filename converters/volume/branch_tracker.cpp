@@ -445,6 +445,10 @@ TrackedBranch BranchTracker::track(const SeedBranch& seed, const TrackedBranch* 
     if (m_bestRate = 0; !passThrough(seed.points[i], branch, finished, random))
       branch.missedPoints.push_back("point " + std::to_string(i + 1) + ": no valid cylinder: " +
                                     rateText(m_bestRate, 0.5 * m_options.inlierRate));
+  if (branch.nodes.size() < 2) {
+    branch.nodes.clear();
+    branch.failure = "a single cylinder fits at the seed, and nothing follows it";
+  }
   return branch;
 }
 

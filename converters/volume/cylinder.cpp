@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "converters/common/simd.h"
+#include "converters/volume/circles.h"
 #include "converters/volume/icosphere.h"
 
 namespace lumen::convert {
@@ -46,6 +46,15 @@ double stepToLeastSquares(const Candidates& points, const std::vector<std::size_
   return squares / static_cast<double>(inliers.size());
 }
 
+constexpr int kFirstLook = 64;  // trials: three of four good points in ten are drawn with 98 %
+
+/// Trials after which an event of that probability has happened with 99.99 %.
+int trialsFor(double probability) {
+  if (probability >= 1) return 1;
+  const double trials = std::log(1e-4) / std::log1p(-std::max(probability, 1e-6));
+  return static_cast<int>(std::ceil(trials));
+}
+
 /// 1 for equal radii, less the more they differ: a vessel changes its width slowly.
 double likeness(double radius, double rho) {
   return radius > 0 ? std::sqrt(std::min(radius / rho, rho / radius)) : 0.0;
@@ -64,28 +73,6 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> planeBasis(const Eigen::Vector3d& ax
   return {e1, axis.cross(e1)};
 }
 
-LUMEN_SIMD_CLONES int countInBand(const float* u, const float* v, std::size_t count, float centreU,
-                                  float centreV, float low2, float high2) {
-  int inside = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float du = u[i] - centreU, dv = v[i] - centreV;
-    const float d2 = du * du + dv * dv;
-    inside += static_cast<int>(d2 >= low2) & static_cast<int>(d2 <= high2);
-  }
-  return inside;
-}
-
-int countInBandReference(const float* u, const float* v, std::size_t count, float centreU,
-                         float centreV, float low2, float high2) {
-  int inside = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const float du = u[i] - centreU, dv = v[i] - centreV;
-    const float d2 = du * du + dv * dv;
-    if (d2 >= low2 && d2 <= high2) ++inside;
-  }
-  return inside;
-}
-
 CylinderEstimator::CylinderEstimator(const TrackOptions& options)
     : m_options(options), m_sphere(icosphere(icosphereOrder(2 * options.axes))) {}
 
@@ -100,31 +87,33 @@ void CylinderEstimator::project(const Candidates& points, const Eigen::Vector3d&
   }
 }
 
-/// RANSAC over circles through three of the projected points (thesis algorithm 2).
-CylinderEstimator::Circle CylinderEstimator::bestCircle(double rho, Random& random) {
+/// RANSAC over circles through three of the projected points (thesis algorithm 2), in blocks.
+/// Beyond the least number of trials it ends when a circle is accepted, or when three of the best
+/// circle's inliers have been drawn with near certainty (Fischler and Bolles, 1981). It ends early
+/// where a first look says that `needed` inliers are out of reach.
+CylinderEstimator::Circle CylinderEstimator::bestCircle(double rho, double needed, Random& random) {
   const auto count = static_cast<std::uint32_t>(m_u.size());
   const auto accepted = static_cast<int>(std::ceil(m_options.inlierRate * count));
   const auto band = static_cast<float>(m_options.inlierBand);
   const auto low = static_cast<float>(0.5 * rho), high = static_cast<float>(1.5 * rho);
   Circle best;
-  for (int trial = 0; trial < m_options.maxTrials; ++trial) {
+  int enough = m_options.maxTrials;
+  CircleBlock block;
+  for (int trial = 0; trial < enough; trial += kCircleBlock) {
+    if (trial >= kFirstLook && best.inliers < 0.75 * needed) break;
     if (trial >= m_options.minTrials && best.inliers >= accepted) break;
-    const std::uint32_t i = random.below(count), j = random.below(count), k = random.below(count);
-    const float ax = m_u[j] - m_u[i], ay = m_v[j] - m_v[i];
-    const float bx = m_u[k] - m_u[i], by = m_v[k] - m_v[i];
-    const float det = 2.0F * (ax * by - ay * bx);
-    if (std::abs(det) < 1e-12F) continue;
-    const float a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
-    const float cu = (by * a2 - ay * b2) / det, cv = (ax * b2 - bx * a2) / det;
-    const float radius = std::sqrt(cu * cu + cv * cv);
-    if (!(radius >= low && radius <= high)) continue;
-    // the rays start in the lumen, so a circle that does not hold their origin is another vessel's
-    const float u = m_u[i] + cu, v = m_v[i] + cv;
-    if (u * u + v * v > radius * radius) continue;
-    const float inner = radius * (1.0F - band), outer = radius * (1.0F + band);
-    const int inliers =
-        countInBand(m_u.data(), m_v.data(), count, u, v, inner * inner, outer * outer);
-    if (inliers > best.inliers) best = {u, v, radius, inliers};
+    drawTriples(m_u, m_v, random, block);
+    circlesThrough(block, low, high);
+    for (std::size_t t = 0; t < kCircleBlock; ++t) {
+      const float radius = block.radius[t];
+      if (radius == 0) continue;
+      const float inner = radius * (1.0F - band), outer = radius * (1.0F + band);
+      const int inliers = countInBand(m_u.data(), m_v.data(), count, block.u[t], block.v[t],
+                                      inner * inner, outer * outer);
+      if (inliers > best.inliers) best = {block.u[t], block.v[t], radius, inliers};
+    }
+    const double share = best.inliers / static_cast<double>(count);
+    enough = std::clamp(trialsFor(share * share * share), m_options.minTrials, m_options.maxTrials);
   }
   return best;
 }
@@ -138,11 +127,13 @@ Cylinder CylinderEstimator::estimate(const Candidates& points, const Eigen::Vect
   for (const Eigen::Vector3d& axis : axesAround(direction, m_sphere)) {
     const auto [e1, e2] = planeBasis(axis);
     project(points, e1, e2);
-    const Circle circle = bestCircle(rho, random);
-    const double rate = circle.inliers / static_cast<double>(points.count());
-    // on a thin vessel in noise many axes fit as well: a smooth course is likelier than a sharp turn
-    const double score =
-        rate * (smooth ? 0.5 * (1.0 + axis.dot(direction)) * likeness(circle.radius, rho) : 1.0);
+    // on a thin vessel in noise many axes fit as well: a smooth course is likelier than a sharp
+    // turn
+    const double weight = smooth ? 0.5 * (1.0 + axis.dot(direction)) : 1.0;
+    const auto count = static_cast<double>(points.count());
+    const Circle circle = bestCircle(rho, bestScore / weight * count, random);
+    const double rate = circle.inliers / count;
+    const double score = rate * weight * (smooth ? likeness(circle.radius, rho) : 1.0);
     if (score <= bestScore) continue;
     bestScore = score;
     best = {points.origin + static_cast<double>(circle.u) * e1 + static_cast<double>(circle.v) * e2,

@@ -2,10 +2,11 @@
 // A cylinder through wall candidates: RANSAC with a pruned direction search (thesis section 3.4).
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "converters/common/random.h"
 #include "converters/volume/rays.h"
@@ -27,16 +28,16 @@ public:
   explicit CylinderEstimator(const TrackOptions& options);
 
   /// The best cylinder through `points` that holds their origin, with an axis within 90 degrees of
-  /// `direction` and a radius in [rho/2, 3 rho/2]: the first axis, by increasing angle, whose rate reaches the accepting one; else
-  /// the best of all, where `smooth` says that a rate at an angle a from `direction` counts (1 + cos a)/2 of
-  /// itself (its rate may be anything; 0 and no radius if none is valid). Refined to least squares
-  /// on its inliers.
+  /// `direction` and a radius in [rho/2, 3 rho/2]: the first axis, by increasing angle, whose rate
+  /// reaches the accepting one; else the best of all, where `smooth` says that a rate at an angle a
+  /// from `direction` counts (1 + cos a)/2 of itself (its rate may be anything; 0 and no radius if
+  /// none is valid). Refined to least squares on its inliers.
   Cylinder estimate(const Candidates& points, const Eigen::Vector3d& direction, double rho,
                     bool smooth, Random& random);
 
   /// Least squares of (distance to the axis - radius) over the inliers, over the axis' position,
-  /// direction and radius, inliers chosen anew between rounds; then the centre moves along the axis to
-  /// the median of the inliers. Returns the start if that has no more inliers.
+  /// direction and radius, inliers chosen anew between rounds; then the centre moves along the axis
+  /// to the median of the inliers. Returns the start if that has no more inliers.
   Cylinder refine(const Candidates& points, const Cylinder& start);
 
   /// Indices of the candidates whose distance to the axis is within the band around the radius.
@@ -48,7 +49,7 @@ private:
     float u = 0, v = 0, radius = 0;
     int inliers = 0;
   };
-  Circle bestCircle(double rho, Random& random);
+  Circle bestCircle(double rho, double needed, Random& random);
   void project(const Candidates& points, const Eigen::Vector3d& e1, const Eigen::Vector3d& e2);
 
   TrackOptions m_options;
@@ -60,12 +61,5 @@ private:
 
 /// Two unit vectors that span the plane normal to the unit vector `axis`.
 std::pair<Eigen::Vector3d, Eigen::Vector3d> planeBasis(const Eigen::Vector3d& axis);
-
-/// Points within `band` of the circle, by squared distances: low2 <= |p - centre|^2 <= high2.
-int countInBand(const float* u, const float* v, std::size_t count, float centreU, float centreV,
-                float low2, float high2);
-/// The same, one point at a time: the reference for countInBand.
-int countInBandReference(const float* u, const float* v, std::size_t count, float centreU,
-                         float centreV, float low2, float high2);
 
 }  // namespace lumen::convert

@@ -25,7 +25,7 @@ struct TrackOptions {
   int minTrials = 220;         ///< N_min: RANSAC trials for each axis
   int maxTrials = 500;         ///< N_max
   double step = 0.5;           ///< s: prediction step, in cylinder heights
-  double noiseMargin = 1.5;    ///< a node below p_inl needs a wall this many times as strong as noise
+  double noiseMargin = 1.8;    ///< a node below p_inl needs a wall this many times as strong as noise
   int lookAhead = 4;           ///< steps to look beyond a place where nothing fits; 0: stop there
   double branchOffset = 1.25;  ///< a child starts this many parent radii from its parent's centerline
   double aneurysmGradient = 0.3;  ///< aneurysm points need this share of the strongest gradient seen from their centre

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "converters/common/random.h"
+#include "converters/volume/circles.h"
 
 namespace lumen::convert {
 namespace {
@@ -117,6 +118,48 @@ TEST(Cylinder, RefinementMovesTheCentreToTheMedianOfTheInliersAlongTheAxis) {
       estimator.refine(points, {Eigen::Vector3d(0, 0, 9), Eigen::Vector3d::UnitZ(), 1.05, 0});
   EXPECT_NEAR(found.centre.z(), 2.0, 1e-6);
   EXPECT_NEAR(found.radius, 1.0, 1e-6);
+}
+
+TEST(Circles, PassThroughTheirThreePoints) {
+  Random random(6);
+  std::vector<float> u, v;
+  for (int i = 0; i < 40; ++i) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    u.push_back(static_cast<float>(0.3 + 1.5 * std::cos(angle)));
+    v.push_back(static_cast<float>(-0.2 + 1.5 * std::sin(angle)));
+  }
+  CircleBlock block;
+  drawTriples(u, v, random, block);
+  circlesThrough(block, 1.0F, 2.0F);
+  int valid = 0;
+  for (std::size_t t = 0; t < kCircleBlock; ++t) {
+    if (block.radius[t] == 0) continue;
+    ++valid;
+    EXPECT_NEAR(block.u[t], 0.3, 1e-2);
+    EXPECT_NEAR(block.v[t], -0.2, 1e-2);
+    EXPECT_NEAR(block.radius[t], 1.5, 1e-2);
+  }
+  EXPECT_GT(valid, 20);
+}
+
+TEST(Circles, OutsideOfTheRadiiOrWithoutTheOriginAreNotValid) {
+  CircleBlock block{};
+  // (2, 0), (4, 0), (3, 1): centre (3, 0), radius 1, does not hold the origin
+  block.u[0] = 2;
+  block.au[0] = 2;
+  block.bu[0] = 1;
+  block.bv[0] = 1;
+  // (-1, 0), (1, 0), (0, 1): centre (0, 0), radius 1
+  block.u[1] = -1;
+  block.au[1] = 2;
+  block.bu[1] = 1;
+  block.bv[1] = 1;
+  CircleBlock narrow = block;
+  circlesThrough(block, 0.5F, 1.5F);
+  EXPECT_EQ(block.radius[0], 0.0F);
+  EXPECT_EQ(block.radius[1], 1.0F);
+  circlesThrough(narrow, 1.1F, 1.5F);
+  EXPECT_EQ(narrow.radius[1], 0.0F);
 }
 
 TEST(CountInBand, AgreesWithItsReference) {
