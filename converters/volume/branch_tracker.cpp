@@ -196,6 +196,7 @@ BranchTracker::Recent BranchTracker::recent(const std::vector<TrackedNode>& node
   for (std::size_t i = nodes.size() - count; i < nodes.size(); ++i) {
     mean.inlierRate += nodes[i].inlierRate / static_cast<double>(count);
     mean.strength += nodes[i].strength / static_cast<double>(count);
+    mean.radius += nodes[i].radius / static_cast<double>(count);
   }
   return mean;
 }
@@ -204,6 +205,12 @@ BranchTracker::Recent BranchTracker::recent(const std::vector<TrackedNode>& node
 bool BranchTracker::isNoise(const TrackedNode& node) const {
   return node.inlierRate < m_options.inlierRate &&
          node.strength < m_options.noiseMargin * m_noiseFloor;
+}
+
+/// A poor fit that is suddenly wide is drawn around the vessel and one that touches it.
+bool BranchTracker::isSwollen(const std::vector<TrackedNode>& nodes,
+                              const TrackedNode& next) const {
+  return next.inlierRate < m_options.inlierRate && next.radius > 1.5 * recent(nodes).radius;
 }
 
 /// Whether a node that was fitted to a guess is the beginning of a vessel: a second one follows.
@@ -282,7 +289,8 @@ void BranchTracker::follow(TrackedBranch& branch, std::span<const TrackedBranch*
       return stop(StopReason::StepLimit);
     const Guess guess = predict(nodes.back(), 1, nodes.back().direction);
     if (!m_volume.geometry().containsWorld(guess.centre)) return stop(StopReason::LeftVolume);
-    const std::optional<TrackedNode> node = fitNode(guess, 0.5 * m_options.inlierRate, random);
+    std::optional<TrackedNode> node = fitNode(guess, 0.5 * m_options.inlierRate, random);
+    if (node && isSwollen(nodes, *node)) node.reset();
     const std::size_t turn = node ? turningPoint(nodes, *node) : kNoTurn;
     const std::size_t before = nodes.size();
     if (node && turn == kNoTurn) {
@@ -336,7 +344,10 @@ std::optional<TrackedNode> BranchTracker::startBeside(const TrackedBranch& paren
         std::optional<TrackedNode> node = fitNode(guess, minRate, random);
         if (!node) continue;
         const ChainPoint nearest = closestOnChain(parent.nodes, node->centre);
-        if (nearest.distance < 0.75 * nearest.radius) continue;
+        if (nearest.distance < 0.75 * nearest.radius) {
+          m_inParent = true;
+          continue;
+        }
         if (leadsOn(*node, random)) return node;
         if (!fallback) fallback = std::move(node);
       }
@@ -417,6 +428,7 @@ TrackedBranch BranchTracker::track(const SeedBranch& seed, const TrackedBranch* 
                                    std::span<const TrackedBranch* const> finished, Random random) {
   TrackedBranch branch;
   m_bestRate = 0;
+  m_inParent = false;
   if (parent) {
     branch.nodes = startChild(seed, *parent, branch.parentNode, random);
   } else if (auto first = startAt(seed.points[0], directionOf(seed).value_or(Vector3d::UnitZ()),
@@ -424,8 +436,9 @@ TrackedBranch BranchTracker::track(const SeedBranch& seed, const TrackedBranch* 
     branch.nodes.push_back(std::move(*first));
   }
   if (branch.nodes.empty()) {
-    branch.failure =
-        "no valid cylinder at the seed: " + rateText(m_bestRate, 0.5 * m_options.inlierRate);
+    branch.failure = m_inParent ? "what fits at the seed lies in its parent's lumen"
+                                : "no valid cylinder at the seed: " +
+                                      rateText(m_bestRate, 0.5 * m_options.inlierRate);
     return branch;
   }
   if (inCore(finished, branch.nodes.back().centre)) {
@@ -440,11 +453,14 @@ TrackedBranch BranchTracker::track(const SeedBranch& seed, const TrackedBranch* 
     std::reverse(branch.nodes.begin(), branch.nodes.end());
     for (TrackedNode& node : branch.nodes) node = reversed(std::move(node));
   }
+  branch.clickNode = branch.nodes.size() - 1;
   follow(branch, finished, random);
   for (std::size_t i = 1; i < seed.points.size(); ++i)
     if (m_bestRate = 0; !passThrough(seed.points[i], branch, finished, random))
       branch.missedPoints.push_back("point " + std::to_string(i + 1) + ": no valid cylinder: " +
                                     rateText(m_bestRate, 0.5 * m_options.inlierRate));
+  // the track may have been cut back to before its click
+  branch.clickNode = std::min(branch.clickNode, branch.nodes.size() - 1);
   if (branch.nodes.size() < 2) {
     branch.nodes.clear();
     branch.failure = "a single cylinder fits at the seed, and nothing follows it";

@@ -28,6 +28,7 @@ struct TrackedNode {
 
 struct TrackedBranch {
   std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
+  std::size_t clickNode = 0;       ///< the one that was fitted at the seed's first point
   formats::StopReason stopReason = formats::StopReason::Unknown;
   std::string failure;  ///< why nothing was tracked
   std::vector<std::string>
@@ -77,10 +78,11 @@ private:
               Random& random);
   /// Means over the last nodes of a track.
   struct Recent {
-    double inlierRate = 0, strength = 0;
+    double inlierRate = 0, strength = 0, radius = 0;
   };
   static Recent recent(const std::vector<TrackedNode>& nodes);
   bool isNoise(const TrackedNode& node) const;
+  bool isSwollen(const std::vector<TrackedNode>& nodes, const TrackedNode& next) const;
   bool leadsOn(const TrackedNode& start, Random& random);
   Guess predict(const TrackedNode& from, double steps, const Eigen::Vector3d& direction) const;
   std::vector<TrackedNode> lookAhead(const std::vector<TrackedNode>& nodes, Random& random);
@@ -106,7 +108,8 @@ private:
   CylinderEstimator m_estimator;
   Candidates m_points;
   std::vector<std::size_t> m_inliers;
-  double m_bestRate = 0;  ///< of the starts that were tried
+  double m_bestRate = 0;    ///< of the starts that were tried
+  bool m_inParent = false;  ///< one of them was refused because it is the parent
 };
 
 }  // namespace lumen::convert

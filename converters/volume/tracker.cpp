@@ -2,6 +2,7 @@
 #include "converters/volume/tracker.h"
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_map>
 
 #include <tbb/parallel_for.h>
@@ -57,19 +58,21 @@ Ancestry findAncestry(const std::vector<SeedBranch>& seeds) {
   return out;
 }
 
-/// Cuts off what an earlier branch of the same wave has tracked too.
+/// Cuts off what an earlier branch of the same wave has tracked too, on either side of the click.
 void trimDuplicates(std::vector<TrackedBranch>& branches, const std::vector<std::size_t>& wave) {
   std::vector<const TrackedBranch*> kept;
   for (const std::size_t b : wave) {
     TrackedBranch& branch = branches[b];
-    const auto met = std::find_if(branch.nodes.begin(), branch.nodes.end(),
-                                  [&](const TrackedNode& n) { return inCore(kept, n.centre); });
-    if (met != branch.nodes.end()) {
-      if (met == branch.nodes.begin())
-        branch.failure = "the seed leads into a vessel that another seed has tracked";
-      branch.nodes.erase(met, branch.nodes.end());
-      branch.stopReason = StopReason::MetBranch;
-    }
+    auto& nodes = branch.nodes;
+    const auto met = [&](const TrackedNode& n) { return inCore(kept, n.centre); };
+    const auto click = nodes.begin() + static_cast<std::ptrdiff_t>(branch.clickNode);
+    const auto end = std::find_if(click, nodes.end(), met);
+    if (end != nodes.end()) branch.stopReason = StopReason::MetBranch;
+    if (end == click && !nodes.empty())
+      branch.failure = "the seed leads into a vessel that another seed has tracked";
+    const auto begin = std::find_if(std::make_reverse_iterator(click), nodes.rend(), met).base();
+    nodes.erase(end, nodes.end());
+    nodes.erase(nodes.begin(), end == click ? nodes.end() : begin);
     kept.push_back(&branch);
   }
 }

@@ -4,4 +4,5 @@ lumen_test(tracking_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/icosphere_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/cylinder_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/rays_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/real_volumes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tracker_test.cpp)

@@ -225,6 +225,20 @@ TEST(Tracker, ASecondClickOnTheSameVesselIsRefused) {
   EXPECT_EQ(out.result.tree.branches.size(), 1u);
 }
 
+TEST(Tracker, AVesselThatRunsThroughAnotherOneKeepsThePartWithItsClick) {
+  // a cross: the second vessel is tracked both ways, through the first
+  const Volume cross = drawVolume(64, 0.2, [](const Vector3d& p) {
+    return std::min(capsule(p, kLow, kHigh, 0.8),
+                    capsule(p, {0.6, 6.4, 6.4}, {12.2, 6.4, 6.4}, 0.7));
+  });
+  const TrackResult out =
+      trackOne(cross, {seedAt("first", {6.4, 6.4, 2.5}, 0.8), seedAt("second", {10.0, 6.4, 6.4}, 0.7)});
+  ASSERT_EQ(out.result.tree.branches.size(), 2u);
+  const formats::Branch& second = out.result.tree.branches[1];
+  for (std::uint32_t i = second.firstNode; i < second.firstNode + second.nodeCount; ++i)
+    EXPECT_GT(out.result.tree.centre[i].x, 6.4F);
+}
+
 TEST(Tracker, AClickInTheBackgroundFailsWithItsInlierRate) {
   const TrackResult out = trackOne(straightTube(0.6), {seedAt("nothing", {2, 2, 2}, 0.6)});
   ASSERT_EQ(out.failures.size(), 1u);

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tracks of real angiograms from the clicks in tests/data. What they should find was judged on projections of the volumes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "converters/volume/branch_tracker.h"
+#include "converters/volume/read_volume.h"
+#include "converters/volume/tracker.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Tracked {
+  TrackResult out;
+  std::size_t seeds = 0;
+};
+
+Tracked trackFile(const std::string& volume, const std::string& seedsFile) {
+  Progress silent;
+  const auto seeds = readSeeds(std::filesystem::path(LUMEN_TEST_DATA) / seedsFile);
+  const Volume read =
+      readVolume(std::filesystem::path(LUMEN_SHARED_DATA) / volume, ReadVolumeOptions{}, silent);
+  return {track(read, seeds, TrackOptions{}, silent), seeds.size()};
+}
+
+std::vector<TrackedNode> chainOf(const formats::Case& tracked, const std::string& label) {
+  std::vector<TrackedNode> chain;
+  for (const formats::Branch& branch : tracked.tree.branches)
+    if (branch.label == label)
+      for (std::uint32_t i = branch.firstNode; i < branch.firstNode + branch.nodeCount; ++i) {
+        const formats::Vec3f& c = tracked.tree.centre[i];
+        TrackedNode node;
+        node.centre = Vector3d(c.x, c.y, c.z);
+        node.radius = tracked.tree.radius[i];
+        chain.push_back(node);
+      }
+  return chain;
+}
+
+double lengthOf(const std::vector<TrackedNode>& chain) {
+  double length = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i)
+    length += (chain[i].centre - chain[i - 1].centre).norm();
+  return length;
+}
+
+bool absent(const char* volume) {
+  return !std::filesystem::exists(std::filesystem::path(LUMEN_SHARED_DATA) / volume);
+}
+
+class Angiogram3dra : public testing::Test {
+protected:
+  void SetUp() override {
+    if (absent("aneurism-3dra.nrrd")) GTEST_SKIP() << "aneurism-3dra.nrrd is not here";
+    static const Tracked once = trackFile("aneurism-3dra.nrrd", "aneurism-3dra.seeds.json");
+    tracked = &once;
+  }
+  const Tracked* tracked = nullptr;
+};
+
+TEST_F(Angiogram3dra, AtLeastNineInTenClicksTrackAVessel) {
+  EXPECT_GE(tracked->out.result.tree.branches.size(), tracked->seeds * 9 / 10);
+}
+
+TEST_F(Angiogram3dra, TheCarotidRunsThroughItsSiphonToTheMiddleCerebralArtery) {
+  const auto carotid = chainOf(tracked->out.result, "ica");
+  EXPECT_GT(lengthOf(carotid), 300);
+  for (const Vector3d& place : {Vector3d(150, 47, 167), Vector3d(118, 88, 160),
+                                Vector3d(126, 94, 183), Vector3d(130, 124, 167)})
+    EXPECT_LT(closestOnChain(carotid, place).distance, 5.0) << place.transpose();
+}
+
+TEST_F(Angiogram3dra, TheAneurysmHasTheWidthThatItShows) {
+  for (const TrackedNode& node : chainOf(tracked->out.result, "aneurysm"))
+    EXPECT_NEAR(node.radius, 12, 2.5);
+}
+
+TEST_F(Angiogram3dra, TheKissingAnteriorCerebralArteriesAreTwoVessels) {
+  const auto first = chainOf(tracked->out.result, "aca-1");
+  const auto second = chainOf(tracked->out.result, "aca-2");
+  EXPECT_GT(lengthOf(first), 200);
+  EXPECT_GT(lengthOf(second), 150);
+  // while they touch, along x = 80 .. 95 from y = 130 to the crest of the corpus callosum at z = 95
+  int inContact = 0, merged = 0;
+  for (const TrackedNode& node : second) {
+    if (node.centre.y() < 130 || node.centre.z() < 95) continue;
+    const ChainPoint other = closestOnChain(first, node.centre);
+    inContact += other.distance < 1.5 * (node.radius + other.radius);
+    merged += other.distance < std::max(node.radius, other.radius);
+  }
+  EXPECT_GT(inContact, 40);
+  EXPECT_EQ(merged, 0);
+}
+
+TEST(AngiogramAorta, TheAortaBothIliacsAndBothRenalsAreTracked) {
+  if (absent("aorta/aorta.mha")) GTEST_SKIP() << "aorta/aorta.mha is not here";
+  const Tracked tracked = trackFile("aorta/aorta.mha", "aorta.seeds.json");
+  EXPECT_EQ(tracked.out.result.tree.branches.size(), tracked.seeds);
+  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "aorta")), 300);
+  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "left-iliac")), 100);
+  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "left-renal")), 50);
+  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "right-renal")), 50);
+}
+
+TEST(AngiogramFistula, TheVeinAndTheFistulaAreTracked) {
+  if (absent("avf/avf.nii")) GTEST_SKIP() << "avf/avf.nii is not here";
+  const Tracked tracked = trackFile("avf/avf.nii", "avf.seeds.json");
+  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "vein")), 50);
+  EXPECT_GT(lengthOf(chainOf(tracked.out.result, "fistula")), 55);
+}
+
+}  // namespace
+}  // namespace lumen::convert
