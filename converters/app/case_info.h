@@ -30,7 +30,9 @@ struct BranchInfo {
 struct CaseInfo {
   std::size_t nodes = 0;
   std::size_t points = 0;
-  std::optional<std::size_t> blobs;
+  std::optional<std::size_t> blobs, compactBlobs;
+  std::size_t links = 0;
+  std::vector<std::string> nodeArrays;                   ///< names
   double length = 0;                                     ///< mm
   std::optional<RadiusRange> radius;                     ///< absent without nodes
   std::optional<convert::ErrorOfFitSummary> errorOfFit;  ///< over the nodes
@@ -40,8 +42,9 @@ struct CaseInfo {
 
 CaseInfo describeCase(const formats::Case& value, Progress& progress);
 
-/// branches, nodes, points, blobs, blobs_per_node, length_mm, radius_mm, error_of_fit_mm,
-/// provenance, branch_table. What the case does not have is null.
+/// branches, nodes, links, points, blobs, blobs_per_node, compact_blobs, length_mm, radius_mm,
+/// error_of_fit_mm, provenance, note, node_arrays, branch_table. What the case does not have is
+/// null.
 Json caseInfoJson(const CaseInfo& info);
 std::string caseInfoText(const CaseInfo& info);
 

@@ -23,6 +23,10 @@ Json provenanceJson(const formats::Metadata& metadata) {
   Json json;
   json["voxel_size_mm"] = metadata.voxelSize ? jsonNumber(*metadata.voxelSize) : Json(nullptr);
   json["source"] = metadata.source ? sourceVolumeJson(*metadata.source) : Json(nullptr);
+  json["parent_sha256"] =
+      metadata.parentSha256.empty() ? Json(nullptr) : Json(metadata.parentSha256);
+  json["point_step_mm"] =
+      metadata.pointQuantisation ? jsonNumber(metadata.pointQuantisation->step) : Json(nullptr);
   json["steps"] = Json::array();
   for (const auto& step : metadata.steps) {
     Json parameters = Json::object();
@@ -70,6 +74,21 @@ std::string stepText(const formats::Step& step) {
   return text.str();
 }
 
+/// What few cases have.
+std::string extrasText(const CaseInfo& info) {
+  std::ostringstream text;
+  if (info.links > 0) text << "links         " << info.links << "\n";
+  if (info.compactBlobs) text << "compact blobs " << *info.compactBlobs << "\n";
+  if (const auto& rounded = info.metadata.pointQuantisation)
+    text << "points        rounded to " << rounded->bits << " bits, steps of " << rounded->step
+         << " mm\n";
+  for (const auto& name : info.nodeArrays) text << "node array    " << name << "\n";
+  if (!info.metadata.parentSha256.empty())
+    text << "made from     sha256 " << info.metadata.parentSha256 << "\n";
+  if (!info.metadata.note.empty()) text << "note          " << info.metadata.note << "\n";
+  return text.str();
+}
+
 std::string sourceText(const formats::SourceVolume& source) {
   std::ostringstream text;
   text << "source        " << source.size[0] << " x " << source.size[1] << " x " << source.size[2]
@@ -85,9 +104,11 @@ Json caseInfoJson(const CaseInfo& info) {
   const auto perNode = blobsPerNode(info);
   json["branches"] = info.branches.size();
   json["nodes"] = info.nodes;
+  json["links"] = info.links;
   json["points"] = info.points;
   json["blobs"] = info.blobs.value_or(0);
   json["blobs_per_node"] = perNode ? jsonNumber(*perNode) : Json(nullptr);
+  json["compact_blobs"] = info.compactBlobs ? Json(*info.compactBlobs) : Json(nullptr);
   json["length_mm"] = jsonNumber(info.length);
   json["radius_mm"] = nullptr;
   if (info.radius)
@@ -99,6 +120,8 @@ Json caseInfoJson(const CaseInfo& info) {
                                {"p90", jsonNumber(info.errorOfFit->p90)},
                                {"max", jsonNumber(info.errorOfFit->max)}};
   json["provenance"] = provenanceJson(info.metadata);
+  json["note"] = info.metadata.note.empty() ? Json(nullptr) : Json(info.metadata.note);
+  json["node_arrays"] = info.nodeArrays;
   json["branch_table"] = Json::array();
   for (const auto& branch : info.branches) json["branch_table"].push_back(branchJson(branch));
   return json;
@@ -120,6 +143,7 @@ std::string caseInfoText(const CaseInfo& info) {
          << fixed(e->p90, 4) << ", greatest " << fixed(e->max, 4) << " mm\n";
   if (info.metadata.voxelSize) text << "voxel size    " << *info.metadata.voxelSize << " mm\n";
   if (info.metadata.source) text << sourceText(*info.metadata.source);
+  text << extrasText(info);
   for (const auto& step : info.metadata.steps) text << stepText(step);
   text << "\n" << branchTable(info) << "\nLengths and radii in mm.\n";
   return text.str();

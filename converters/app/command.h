@@ -50,5 +50,6 @@ std::unique_ptr<Command> makeFitCommand();
 std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makePhantomCommand();
+std::unique_ptr<Command> makeValidateCommand();
 
 }  // namespace lumen::app

@@ -28,6 +28,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeTrackCommand());
   commands.push_back(makeFitCommand());
   commands.push_back(makeInfoCommand());
+  commands.push_back(makeValidateCommand());
   commands.push_back(makeCompareCommand());
   commands.push_back(makePhantomCommand());
   return commands;

@@ -2,6 +2,7 @@
 // lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/loss_report.h"
 #include "converters/app/report.h"
 
 namespace lumen::app {
@@ -32,6 +33,11 @@ public:
     addTrackOptions(app, m_track);
     addFitOptions(app, m_fit);
     addMeshOptions(app, m_mesh);
+    addEncodingOptions(app, m_encoding);
+    app.get_option("--strict")
+        ->description(
+            "Exit with 1 if any seed started no track; with 4, writing nothing, if "
+            "OUTPUT cannot hold all of a case");
   }
 
   int run(Context& context) override {
@@ -45,10 +51,12 @@ public:
     formats::Case value = load(from, context.progress);
     complete(value, from, to, context.progress);
     context.progress.check();
+    if (from.kind == FormatKind::Case)
+      reportLosses(value, to, m_output, m_track.strict, context.progress);
     if (to.kind == FormatKind::Mesh)
       writeCaseMesh(value, m_output, to, m_mesh, context.progress);
     else
-      writeCase(value, m_output, to);
+      writeCase(value, m_output, to, m_encoding);
     report(value, context);
     return m_track.strict && !m_failures.empty() ? 1 : 0;
   }
@@ -58,11 +66,13 @@ private:
     if (from.kind == FormatKind::Case) {
       if (!m_track.seeds.empty())
         progress.warn("--seeds is ignored: " + m_input + " is a case, already tracked");
-      return readCase(m_input);
+      // rounding makes another case; another encoding does not
+      return m_encoding.pointBits != 0 ? readParentCase(m_input) : readCase(m_input);
     }
     const convert::Volume volume = readVolumeAs(m_input, from, m_volume, progress);
     convert::TrackResult tracked = trackSeeds(volume, m_track, progress);
     m_failures = std::move(tracked.failures);
+    m_missedPoints = std::move(tracked.missedPoints);
     return std::move(tracked.result);
   }
 
@@ -83,6 +93,7 @@ private:
     if (context.common.json) {
       Json json = caseSummary(value);
       json["failed_seeds"] = failedSeeds(m_failures);
+      json["missed_points"] = failedSeeds(m_missedPoints);
       answerJson(json);
     } else if (!context.common.quiet) {
       answer(caseLine(m_output, value));
@@ -94,7 +105,8 @@ private:
   TrackArguments m_track;
   FitArguments m_fit;
   MeshArguments m_mesh;
-  std::vector<convert::SeedFailure> m_failures;
+  formats::EncodeOptions m_encoding;
+  std::vector<convert::SeedFailure> m_failures, m_missedPoints;
 };
 
 }  // namespace

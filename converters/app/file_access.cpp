@@ -8,6 +8,7 @@
 
 #include <stdlib.h>
 
+#include "converters/app/file_digest.h"
 #include "converters/volume/seeds.h"
 #include "formats/case/case_file.h"
 
@@ -70,8 +71,12 @@ convert::Volume readThroughAlias(const fs::path& file, const FileFormat& format,
 std::string errorText(const fs::path& file, formats::FormatError error) {
   const std::string prefix = file.string() + ": ";
   if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
-  if (error.place.empty()) error.place = "the root";  // the JSON pointer to the whole document
   return prefix + error.text();
+}
+
+std::string roundedJson(formats::Case value, int pointBits) {
+  formats::quantisePoints(value, pointBits);
+  return formats::encodeJson(value);
 }
 
 bool nameMatches(const fs::path& file, const FileFormat& format) {
@@ -91,6 +96,15 @@ formats::Case readCase(const fs::path& file) {
   return std::move(*result);
 }
 
+formats::Case readParentCase(const fs::path& file) {
+  formats::Case value = readCase(file);
+  const auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
+  value.metadata.parentSha256 = sha256(*bytes);
+  formats::dropDependentChunks(value);
+  return value;
+}
+
 convert::Volume readVolumeAs(const fs::path& file, const FileFormat& format,
                              const VolumeArguments& volume, Progress& progress) {
   requireInput(file, "volume");
@@ -106,16 +120,18 @@ convert::Volume readVolumeAs(const fs::path& file, const FileFormat& format,
   return result;
 }
 
-void writeCase(const formats::Case& value, const fs::path& file, const FileFormat& format) {
+void writeCase(const formats::Case& value, const fs::path& file, const FileFormat& format,
+               const formats::EncodeOptions& encoding) {
   if (const auto valid = formats::validate(value); !valid)
     throw failed(file.string() +
                  ": the case is not valid and is not written: " + valid.error().text());
   formats::Result<bool> written = true;
   if (format.name == "lumen.json") {
-    const std::string text = formats::encodeJson(value);
+    const std::string text = encoding.pointBits == 0 ? formats::encodeJson(value)
+                                                     : roundedJson(value, encoding.pointBits);
     written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
   } else {
-    written = formats::writeFileAtomically(formats::encodeBinary(value), file);
+    written = formats::writeFileAtomically(formats::encodeBinary(value, encoding), file);
   }
   if (!written) throw failed(errorText(file, written.error()));
 }
@@ -134,6 +150,8 @@ convert::TrackResult trackSeeds(const convert::Volume& volume, const TrackArgume
   convert::TrackResult result = convert::track(volume, seeds, track.options, progress);
   for (const auto& failure : result.failures)
     progress.warn("seed " + failure.label + " started no track: " + failure.reason);
+  for (const auto& missed : result.missedPoints)
+    progress.warn("seed " + missed.label + " does not pass through its " + missed.reason);
   if (result.result.tree.nodeCount() == 0)
     throw failed(track.seeds + ": none of its " + std::to_string(seeds.size()) +
                  " seeds started a track; nothing is written");

@@ -9,11 +9,16 @@
 #include "converters/app/file_format.h"
 #include "converters/app/options.h"
 #include "formats/case/case.h"
+#include "formats/case/case_file.h"
 
 namespace lumen::app {
 
 /// Throws Error(InvalidInput) with the file's name and what is wrong in it.
 formats::Case readCase(const std::filesystem::path& file);
+
+/// The case, to be changed and written as another: it states the digest of `file`, and has no chunk
+/// of others that a change would make wrong.
+formats::Case readParentCase(const std::filesystem::path& file);
 
 /// Reads `file` as `format` (a volume format) whatever its name ends in.
 convert::Volume readVolumeAs(const std::filesystem::path& file, const FileFormat& format,
@@ -21,7 +26,7 @@ convert::Volume readVolumeAs(const std::filesystem::path& file, const FileFormat
 
 /// Writes atomically as `format` (a case format). Throws Error(Failed).
 void writeCase(const formats::Case& value, const std::filesystem::path& file,
-               const FileFormat& format);
+               const FileFormat& format, const formats::EncodeOptions& encoding = {});
 
 /// Polygonises the case's models and writes them atomically as `format` (a mesh format).
 void writeCaseMesh(const formats::Case& value, const std::filesystem::path& file,

@@ -37,11 +37,12 @@ public:
     requireWritable(m_output);
     context.interrupts.watchOutput(m_output);
 
-    formats::Case value = readCase(m_input);
+    formats::Case value = readParentCase(m_input);
     if (!value.points)
       throw invalidInput(m_input +
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
+    value.compactModels.reset();  // they repeat the surface of the models that are replaced
     convert::fit(value, m_fit.options(), context.progress);
     writeCase(value, m_output, to);
     if (context.common.json)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen info: what is in a case or a volume.
 #include "converters/app/case_info.h"
+#include "converters/app/chunk_info.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
@@ -23,11 +24,17 @@ public:
   void bind(CLI::App& app) override {
     app.add_option("FILE", m_input, "Case or volume")->required()->configurable(false);
     app.add_option("--from", m_from, "Format of FILE, whatever its name")->type_name("F");
+    app.add_flag("--chunks", m_chunks, "List the chunks of a .lumen file instead");
     addVolumeOptions(app, m_volume);
   }
 
   int run(Context& context) override {
     requireInput(m_input, "case or volume");
+    if (m_chunks) {
+      const FileInfo info = describeChunks(m_input);
+      context.common.json ? answerJson(chunkInfoJson(info)) : answer(chunkInfoText(info));
+      return 0;
+    }
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind == FormatKind::Volume) {
       const convert::Volume volume = readVolumeAs(m_input, from, m_volume, context.progress);
@@ -43,6 +50,7 @@ public:
 
 private:
   std::string m_input, m_from;
+  bool m_chunks = false;
   VolumeArguments m_volume;
 };
 

@@ -82,6 +82,18 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->expected(6);
 }
 
+void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding) {
+  Group group(app, "Case file");
+  group.addFlag(
+      "--compress", encoding.compress,
+      "Compress the chunks of a .lumen file with zstd; they can no longer be used in place");
+  app.add_option("--point-bits", encoding.pointBits,
+                 "Round wall points to so many bits in their bounding box, 1 to 30 [exact]")
+      ->type_name("N")
+      ->group("Case file")
+      ->check(within(1, 30));
+}
+
 void addTrackOptions(CLI::App& app, TrackArguments& track) {
   convert::TrackOptions& o = track.options;
   Group volume(app, "Volume");

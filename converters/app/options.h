@@ -13,6 +13,7 @@
 #include "converters/phantom/phantom.h"
 #include "converters/volume/read_volume.h"
 #include "converters/volume/tracker.h"
+#include "formats/case/case_file.h"
 
 namespace lumen::app {
 
@@ -40,6 +41,8 @@ struct MeshArguments {
   convert::WriteMeshOptions write;
 };
 
+/// How a .lumen file is written.
+void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding);
 void addVolumeOptions(CLI::App& app, VolumeArguments& volume);
 void addTrackOptions(CLI::App& app, TrackArguments& track);
 void addFitOptions(CLI::App& app, FitArguments& fit);

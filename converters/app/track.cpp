@@ -57,6 +57,7 @@ private:
     if (context.common.json) {
       Json json = caseSummary(tracked.result);
       json["failed_seeds"] = failedSeeds(tracked.failures);
+      json["missed_points"] = failedSeeds(tracked.missedPoints);
       answerJson(json);
     } else if (!context.common.quiet) {
       answer(caseLine(m_output, tracked.result));

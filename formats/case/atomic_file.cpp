@@ -6,11 +6,12 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "formats/case/case_file.h"
-#include "formats/case/error_text.h"
+#include "formats/case/issue_text.h"
 
 namespace lumen::formats {
 namespace {
@@ -24,7 +25,7 @@ constexpr mode_t kPermissionBits = 07777;
 constexpr mode_t kNewFileMode = 0666;  // the process' umask takes its share
 
 FormatError writeError(const fs::path& file, const std::string& what, int code) {
-  return makeError(ErrorCode::IoWrite, "file",
+  return fileError(ErrorCode::IoWrite,
                    file.string() + ": " + what + ": " + std::generic_category().message(code));
 }
 
@@ -56,40 +57,64 @@ Result<std::optional<mode_t>> existingMode(const fs::path& target) {
     return writeError(target, "cannot write", errno);
   }
   if (!S_ISREG(info.st_mode))
-    return makeError(
-        ErrorCode::IoNotAFile, "file",
+    return fileError(
+        ErrorCode::IoNotAFile,
         target.string() + (S_ISDIR(info.st_mode) ? ": is a directory" : ": is not a regular file"));
   if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
     return writeError(target, "cannot write", errno);
   return std::optional<mode_t>{info.st_mode & kPermissionBits};
 }
 
-// A new file beside the target, removed again unless it was renamed over it.
+constexpr const char* kTemporaryStart = ".lumen-";
+constexpr const char* kTemporaryEnd = ".tmp";
+
+fs::path directoryOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+// Only the writer of a temporary file holds the lock on it, until it has its final name or the
+// writer is gone.
+bool tryLock(int descriptor) {
+  return uninterrupted([&] { return ::flock(descriptor, LOCK_EX | LOCK_NB); }) == 0;
+}
+
+// Removes what a writer left that was killed between naming its file and renaming it.
+void removeLeftovers(const fs::path& directory) {
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (!name.starts_with(kTemporaryStart) || !name.ends_with(kTemporaryEnd)) continue;
+    const int descriptor = uninterrupted(
+        [&] { return ::open(it->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK); });
+    if (descriptor < 0) continue;
+    if (tryLock(descriptor)) ::unlink(it->path().c_str());
+    ::close(descriptor);
+  }
+}
+
+// A new file beside the target, removed again unless it was renamed over it. It has no name until
+// it is complete, if the file system can do that.
 class TemporaryFile {
 public:
   explicit TemporaryFile(const fs::path& target) : m_target(target) {}
   ~TemporaryFile() {
-    close();
+    if (m_descriptor >= 0) ::close(m_descriptor);
     if (!m_path.empty()) ::unlink(m_path.c_str());
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   Problem create() {
-    static std::atomic<unsigned> counter{0};
-    for (int trial = 0; trial < kMaxNameTrials; ++trial) {
-      const fs::path path =
-          m_target.parent_path() / (".lumen-" + std::to_string(::getpid()) + "-" +
-                                    std::to_string(counter.fetch_add(1)) + ".tmp");
+    if (createWithoutName()) return std::nullopt;
+    const bool named = tryNames([this](const fs::path& path) {
       m_descriptor = uninterrupted([&] {
         return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
       });
-      if (m_descriptor >= 0) {
-        m_path = path;
-        return std::nullopt;
-      }
-      if (errno != EEXIST) break;
-    }
+      if (m_descriptor < 0) return false;
+      tryLock(m_descriptor);
+      return true;
+    });
+    if (named) return std::nullopt;
     return writeError(m_target, "cannot create a file beside it", errno);
   }
 
@@ -104,11 +129,16 @@ public:
     }
     if (uninterrupted([&] { return ::fsync(m_descriptor); }) != 0)
       return writeError(m_target, "cannot write", errno);
-    if (close() != 0) return writeError(m_target, "cannot write", errno);
     return std::nullopt;
   }
 
-  Problem rename() {
+  // The file is complete: it takes the target's place.
+  Problem publish() {
+    if (m_path.empty()) {
+      if (linkAs(m_target)) return std::nullopt;  // there was no file of that name
+      if (!tryNames([this](const fs::path& path) { return linkAs(path); }))
+        return writeError(m_target, "cannot create a file beside it", errno);
+    }
     if (::rename(m_path.c_str(), m_target.c_str()) != 0)
       return writeError(m_target, "cannot replace the file", errno);
     m_path.clear();
@@ -116,10 +146,45 @@ public:
   }
 
 private:
-  int close() {
-    const int descriptor = m_descriptor;
+  bool createWithoutName() {
+#ifdef O_TMPFILE
+    m_descriptor = uninterrupted([&] {
+      return ::open(directoryOf(m_target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, kNewFileMode);
+    });
+    if (m_descriptor < 0) return false;
+    if (tryLock(m_descriptor) && ::access(descriptorPath().c_str(), F_OK) == 0) return true;
+    ::close(m_descriptor);
     m_descriptor = -1;
-    return descriptor < 0 ? 0 : ::close(descriptor);
+#endif
+    return false;
+  }
+
+  [[nodiscard]] std::string descriptorPath() const {
+    return "/proc/self/fd/" + std::to_string(m_descriptor);
+  }
+
+  bool linkAs(const fs::path& path) const {
+    return uninterrupted([&] {
+             return ::linkat(AT_FDCWD, descriptorPath().c_str(), AT_FDCWD, path.c_str(),
+                             AT_SYMLINK_FOLLOW);
+           }) == 0;
+  }
+
+  // Calls `make` with names that nobody has, until it succeeds.
+  template <class Make>
+  bool tryNames(Make make) {
+    static std::atomic<unsigned> counter{0};
+    for (int trial = 0; trial < kMaxNameTrials; ++trial) {
+      const fs::path path =
+          m_target.parent_path() / (kTemporaryStart + std::to_string(::getpid()) + "-" +
+                                    std::to_string(counter.fetch_add(1)) + kTemporaryEnd);
+      if (make(path)) {
+        m_path = path;
+        return true;
+      }
+      if (errno != EEXIST) return false;
+    }
+    return false;
   }
 
   fs::path m_target, m_path;
@@ -129,7 +194,7 @@ private:
 // Makes the rename survive a power cut. A directory that cannot be opened or flushed (some network
 // file systems) leaves that to the system: the new file is already in place.
 void flushDirectory(const fs::path& file) {
-  const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const fs::path directory = directoryOf(file);
   const int descriptor =
       uninterrupted([&] { return ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   if (descriptor < 0) return;
@@ -147,8 +212,9 @@ Result<bool> writeFileAtomically(std::span<const std::byte> bytes, const fs::pat
   TemporaryFile temporary(*target);
   if (auto problem = temporary.create()) return *std::move(problem);
   if (auto problem = temporary.fill(bytes, *mode)) return *std::move(problem);
-  if (auto problem = temporary.rename()) return *std::move(problem);
+  if (auto problem = temporary.publish()) return *std::move(problem);
   flushDirectory(*target);
+  removeLeftovers(directoryOf(*target));
   return true;
 }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
+#include <stdexcept>
 
+#include "formats/case/case_as_view.h"
 #include "formats/case/case_file.h"
-#include "formats/case/chunks.h"
+#include "formats/case/chunk_codec.h"
 #include "formats/case/metadata_json.h"
 #include "formats/container/bytes.h"
+#include "formats/container/case_chunks.h"
 
 namespace lumen::formats {
 namespace {
@@ -52,31 +56,6 @@ Bytes textBytes(std::string_view text) {
   return bytes;
 }
 
-Bytes branchRecords(const std::vector<Branch>& branches) {
-  Bytes bytes;
-  bytes.reserve(branches.size() * kBranchRecordSize);
-  std::uint32_t labelOffset = 0;
-  for (const Branch& branch : branches) {
-    const auto labelSize = static_cast<std::uint16_t>(branch.label.size());
-    appendLittle(bytes, branch.firstNode);
-    appendLittle(bytes, branch.nodeCount);
-    appendLittle(bytes, branch.parentNode);
-    appendLittle(bytes, labelOffset);
-    appendLittle(bytes, labelSize);
-    appendLittle(bytes, static_cast<std::uint8_t>(branch.kind));
-    appendLittle(bytes, static_cast<std::uint8_t>(branch.stopReason));
-    appendLittle(bytes, canonical(branch.meanInlierRate.value_or(kNoRate)));
-    labelOffset += labelSize;
-  }
-  return bytes;
-}
-
-std::string joinedLabels(const std::vector<Branch>& branches) {
-  std::string labels;
-  for (const Branch& branch : branches) labels += branch.label;
-  return labels;
-}
-
 Bytes kernelRecord(const BlobbyModels& models) {
   Bytes bytes;
   appendLittle(bytes, static_cast<std::uint8_t>(models.kernel));
@@ -86,25 +65,87 @@ Bytes kernelRecord(const BlobbyModels& models) {
   return bytes;
 }
 
-class CaseChunks {
-public:
-  void add(ChunkType type, Bytes bytes) {
-    const auto rule = std::find_if(kChunkRules.begin(), kChunkRules.end(),
-                                   [type](const ChunkRule& r) { return r.type == type; });
-    m_chunks.push_back({type, 1, rule->critical, std::move(bytes)});
+Bytes packedPairs(const std::vector<std::array<std::uint32_t, 2>>& pairs) {
+  Bytes bytes(pairs.size() * 8);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    storeLittle(bytes.data() + 8 * i, pairs[i][0]);
+    storeLittle(bytes.data() + 8 * i + 4, pairs[i][1]);
   }
+  return bytes;
+}
+
+Bytes packedArray(const NodeArray& array) {
+  if (const auto* values = std::get_if<0>(&array.values)) return packed(*values);
+  if (const auto* values = std::get_if<1>(&array.values)) return packedIntegers(*values);
+  return packedIntegers(std::get<2>(array.values));
+}
+
+class ChunkWriter {
+public:
+  explicit ChunkWriter(const EncodeOptions& options) : m_options(options) {}
+
+  void add(ChunkType type, Bytes bytes) {
+    ChunkSource source;
+    source.type = type;
+    source.critical = kChunkRules[chunkRuleIndex(type)].critical;
+    source.rawSize = bytes.size();
+    source.bytes = std::move(bytes);
+    if (m_options.compress)
+      if (auto stored = compressZstd(source.bytes)) {
+        source.bytes = *std::move(stored);
+        source.encoding = static_cast<std::uint8_t>(ChunkEncoding::Zstd);
+      }
+    m_chunks.push_back(std::move(source));
+  }
+
+  void addPositions(const std::vector<Vec3f>& points,
+                    const std::optional<QuantisedPoints>& quantised) {
+    if (!quantised) return add(chunk::kPointPosition, packed(points));
+    ChunkSource source;
+    source.type = chunk::kPointPosition;
+    source.rawSize = points.size() * 12;
+    if (source.rawSize / kMaxExpansion > quantised->encoded.size())
+      return add(chunk::kPointPosition, packed(quantised->decoded()));
+    source.encoding = static_cast<std::uint8_t>(ChunkEncoding::Draco);
+    source.bytes = quantised->encoded;
+    m_chunks.push_back(std::move(source));
+  }
+
+  void addOther(const OtherChunk& other) {
+    ChunkSource source;
+    const char name[5] = {other.type[0], other.type[1], other.type[2], other.type[3], '\0'};
+    source.type = chunkType(name);
+    source.version = other.version;
+    source.independent = other.independent;
+    source.encoding = other.encoding;
+    source.rawSize = other.rawSize;
+    source.bytes = other.bytes;
+    m_chunks.push_back(std::move(source));
+  }
+
   [[nodiscard]] Bytes file() const { return writeContainer(m_chunks); }
 
 private:
+  EncodeOptions m_options;
   std::vector<ChunkSource> m_chunks;
 };
 
-}  // namespace
+struct ModelChunks {
+  ChunkType kernel, offset, centre, width;
+};
+constexpr ModelChunks kModelChunks{chunk::kModelKernel, chunk::kModelOffset, chunk::kModelCentre,
+                                   chunk::kModelWidth};
+constexpr ModelChunks kCompactChunks{chunk::kCompactKernel, chunk::kCompactOffset,
+                                     chunk::kCompactCentre, chunk::kCompactWidth};
 
-std::vector<std::byte> encodeBinary(const Case& value) {
-  const CenterlineTree& tree = value.tree;
-  CaseChunks chunks;
-  chunks.add(chunk::kMetadata, textBytes(metadataJson(value.metadata)));
+void addModels(ChunkWriter& chunks, const ModelChunks& types, const BlobbyModels& models) {
+  chunks.add(types.kernel, kernelRecord(models));
+  chunks.add(types.offset, packedIntegers(models.offset));
+  chunks.add(types.centre, packed(models.centre));
+  chunks.add(types.width, packed(models.width));
+}
+
+void addTree(ChunkWriter& chunks, const CenterlineTree& tree) {
   chunks.add(chunk::kNodeCentre, packed(tree.centre));
   chunks.add(chunk::kNodeDirection, packed(tree.direction));
   chunks.add(chunk::kNodeRadius, packed(tree.radius));
@@ -114,17 +155,39 @@ std::vector<std::byte> encodeBinary(const Case& value) {
   if (!tree.inlierRate.empty()) chunks.add(chunk::kNodeInlierRate, packed(tree.inlierRate));
   chunks.add(chunk::kBranchRecords, branchRecords(tree.branches));
   chunks.add(chunk::kBranchLabels, textBytes(joinedLabels(tree.branches)));
+  if (!tree.links.empty()) chunks.add(chunk::kLinks, packedPairs(tree.links));
+}
+
+}  // namespace
+
+std::vector<std::byte> encodeBinary(const Case& value, const EncodeOptions& options) {
+  Metadata metadata = value.metadata;
+  std::optional<QuantisedPoints> quantised;
+  if (value.points && options.pointBits != 0)
+    quantised = quantise(value.points->position, options.pointBits);
+  if (quantised) metadata.pointQuantisation = quantised->quantisation;
+
+  ChunkWriter chunks(options);
+  chunks.add(chunk::kMetadata, textBytes(metadataJson(metadata, value.nodeArrays)));
+  addTree(chunks, value.tree);
   if (value.points) {
     chunks.add(chunk::kPointOffset, packedIntegers(value.points->offset));
-    chunks.add(chunk::kPointPosition, packed(value.points->position));
+    chunks.addPositions(value.points->position, quantised);
   }
-  if (value.models) {
-    chunks.add(chunk::kModelKernel, kernelRecord(*value.models));
-    chunks.add(chunk::kModelOffset, packedIntegers(value.models->offset));
-    chunks.add(chunk::kModelCentre, packed(value.models->centre));
-    chunks.add(chunk::kModelWidth, packed(value.models->width));
-  }
+  if (value.models) addModels(chunks, kModelChunks, *value.models);
+  if (value.compactModels) addModels(chunks, kCompactChunks, *value.compactModels);
+  for (const NodeArray& array : value.nodeArrays) chunks.add(chunk::kNodeArray, packedArray(array));
+  for (const OtherChunk& other : value.otherChunks) chunks.addOther(other);
   return chunks.file();
+}
+
+void quantisePoints(Case& value, int bits) {
+  if (bits < 1 || bits > 30) throw std::invalid_argument("point bits are 1 to 30");
+  if (!value.points) return;
+  const auto quantised = quantise(value.points->position, bits);
+  if (!quantised) return;
+  value.points->position = quantised->decoded();
+  value.metadata.pointQuantisation = quantised->quantisation;
 }
 
 }  // namespace lumen::formats

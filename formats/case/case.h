@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -48,8 +49,7 @@ struct Branch {
 };
 
 /// Nodes as a structure of arrays (all of nodeCount() entries; inlierRate may be empty), and their
-/// branches in node order. A node's parent has a smaller index, so a tree is acyclic by
-/// construction.
+/// branches in node order. A node's parent has a smaller index, so the parents make no cycle.
 struct CenterlineTree {
   std::vector<Vec3f> centre;          ///< mm, LPS
   std::vector<Vec3f> direction;       ///< unit vector along the vessel, away from the parent
@@ -59,6 +59,9 @@ struct CenterlineTree {
   std::vector<std::uint32_t> branch;  ///< index into `branches`
   std::vector<float> inlierRate;      ///< in [0, 1]; empty if unknown
   std::vector<Branch> branches;
+  /// Pairs of nodes that are neighbours although neither is the other's parent, where vessels close
+  /// a loop; the smaller first, in ascending order.
+  std::vector<std::array<std::uint32_t, 2>> links;
 
   [[nodiscard]] std::size_t nodeCount() const { return centre.size(); }
   friend bool operator==(const CenterlineTree&, const CenterlineTree&) = default;
@@ -105,12 +108,44 @@ struct Step {
   friend bool operator==(const Step&, const Step&) = default;
 };
 
+/// How wall points were rounded: to multiples of `step` from a corner of their bounding box.
+struct PointQuantisation {
+  std::int32_t bits = 0;  ///< 1 to 30
+  double step = 0;        ///< mm, > 0
+  friend bool operator==(const PointQuantisation&, const PointQuantisation&) = default;
+};
+
 /// There is deliberately no field for a person, a date or a path.
 struct Metadata {
   std::optional<double> voxelSize;  ///< mm: geometric mean of the spacing of the source volume
   std::optional<SourceVolume> source;
-  std::vector<Step> steps;  ///< oldest first
+  std::string parentSha256;  ///< of the case file that this one was made from; empty if none
+  std::optional<PointQuantisation> pointQuantisation;  ///< absent if the points are as measured
+  std::string note;                                    ///< for people, UTF-8
+  std::vector<std::string> extensionsUsed;
+  std::vector<std::string> extensionsRequired;  ///< a part of those used
+  std::vector<Step> steps;                      ///< oldest first
   friend bool operator==(const Metadata&, const Metadata&) = default;
+};
+
+/// Values of an extension for every node: `components` after another for each node.
+struct NodeArray {
+  std::string name;  ///< EXTENSION.name
+  std::uint32_t components = 1;
+  std::string unit;  ///< for people; may be empty
+  std::variant<std::vector<float>, std::vector<std::int32_t>, std::vector<std::uint32_t>> values;
+  friend bool operator==(const NodeArray&, const NodeArray&) = default;
+};
+
+/// A chunk that this code does not know, kept so that rewriting a file loses nothing.
+struct OtherChunk {
+  std::string type;  ///< four ASCII letters or digits
+  std::uint16_t version = 1;
+  bool independent = false;  ///< stays right when the nodes, points or models change
+  std::uint8_t encoding = 0;
+  std::uint64_t rawSize = 0;       ///< bytes once decoded; bytes.size() for encoding 0
+  std::vector<std::byte> bytes{};  ///< as they are stored
+  friend bool operator==(const OtherChunk&, const OtherChunk&) = default;
 };
 
 struct Case {
@@ -118,6 +153,11 @@ struct Case {
   CenterlineTree tree;
   std::optional<PointSets> points;
   std::optional<BlobbyModels> models;
+  /// The surface of `models` again, by a kernel with compact support: faster where it is queried
+  /// far from the wall. `models` decide where the two differ.
+  std::optional<BlobbyModels> compactModels;
+  std::vector<NodeArray> nodeArrays;
+  std::vector<OtherChunk> otherChunks;
   friend bool operator==(const Case&, const Case&) = default;
 };
 

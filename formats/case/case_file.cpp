@@ -2,14 +2,18 @@
 #include "formats/case/case_file.h"
 
 #include <cerrno>
+#include <optional>
 #include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "formats/case/error_text.h"
-#include "formats/container/container.h"
+#include "formats/case/case_decode.h"
+#include "formats/case/chunk_codec.h"
+#include "formats/case/issue_text.h"
+#include "formats/case/privacy.h"
+#include "formats/container/case_chunks.h"
 
 namespace lumen::formats {
 namespace {
@@ -33,10 +37,56 @@ private:
 };
 
 FormatError ioError(ErrorCode code, const fs::path& file, const std::string& what) {
-  return makeError(code, "file", file.string() + ": " + what);
+  return fileError(code, file.string() + ": " + what);
 }
 
-Result<std::vector<std::byte>> readBytes(const fs::path& file) {
+std::string_view asText(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool startsLikeJson(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos &&
+         (text[first] == '{' || text.starts_with("\xef\xbb\xbf"));
+}
+
+// Damaged signatures too: the decoder says what is wrong with them.
+bool startsLikeContainer(std::string_view text) {
+  return text.starts_with("\x8c") || text.substr(0, 8).find("LUMEN") != std::string_view::npos;
+}
+
+std::optional<Case> decode(std::span<const std::byte> bytes, IssueList& issues) {
+  const std::string_view text = asText(bytes);
+  if (startsLikeContainer(text)) return decodeBinary(bytes, issues);
+  if (startsLikeJson(text)) return decodeJson(text, issues);
+  issues.add(
+      {ErrorCode::NotLumen, 0, "neither the signature of .lumen nor the brace of .lumen.json"});
+  return std::nullopt;
+}
+
+// In a binary file only the metadata are JSON.
+void scanFileComments(std::span<const std::byte> bytes, IssueList& issues) {
+  const auto container = readContainer(bytes);
+  if (!container) return scanComments(asText(bytes), "", issues);
+  for (const Chunk& chunk : container->chunks) {
+    if (chunk.type != chunk::kMetadata) continue;
+    if (chunk.encoding == 0) return scanComments(asText(chunk.stored), "/metadata", issues);
+    if (const auto raw = decodeChunk(chunk, issues))
+      scanComments(asText(*raw), "/metadata", issues);
+  }
+}
+
+template <class Input>
+Result<Case> firstErrorOr(std::optional<Case> (*read)(Input, IssueList&), Input input) {
+  IssueList issues(1, IssueList::Keep::Errors);
+  auto value = read(input, issues);
+  if (issues.failed()) return formatError(issues.issues().front());
+  return *std::move(value);
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> readFileBytes(const fs::path& file) {
   const OpenFile open(file);
   const auto reason = [] { return std::generic_category().message(errno); };
   if (open.descriptor() < 0)
@@ -62,39 +112,42 @@ Result<std::vector<std::byte>> readBytes(const fs::path& file) {
   return bytes;
 }
 
-std::string_view asText(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+Result<Case> decodeBinary(std::span<const std::byte> bytes) {
+  return firstErrorOr<std::span<const std::byte>>(decodeBinary, bytes);
 }
 
-bool startsLikeJson(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos &&
-         (text[first] == '{' || text.starts_with("\xef\xbb\xbf"));
+Result<Case> decodeJson(std::string_view text) {
+  return firstErrorOr<std::string_view>(decodeJson, text);
 }
-
-// Damaged signatures too: the decoder says what is wrong with them.
-bool startsLikeContainer(std::string_view text) {
-  return text.starts_with("\x8c") || text.substr(0, 8).find("LUMEN") != std::string_view::npos;
-}
-
-Result<Case> decode(const std::vector<std::byte>& bytes) {
-  const std::string_view text = asText(bytes);
-  if (startsLikeContainer(text)) return decodeBinary(bytes);
-  if (startsLikeJson(text)) return decodeJson(text);
-  return makeError(ErrorCode::NotLumen, bytePlace(0),
-                   "neither the signature of .lumen nor the brace of .lumen.json");
-}
-
-}  // namespace
 
 Result<Case> readCaseFile(const fs::path& file) {
-  const auto bytes = readBytes(file);
+  const auto bytes = readFileBytes(file);
   if (!bytes) return bytes.error();
-  auto value = decode(*bytes);
+  auto value = firstErrorOr<std::span<const std::byte>>(decode, *bytes);
   if (value) return value;
   FormatError error = value.error();
   error.message = file.string() + ": " + error.message;
   return error;
+}
+
+ValidationReport validateBytes(std::span<const std::byte> bytes, const ValidateOptions& options) {
+  IssueList issues(options.maxIssues);
+  const auto value = decode(bytes, issues);
+  if (value && options.privacy) {
+    scanPrivacy(*value, issues);
+    scanFileComments(bytes, issues);
+  }
+  ValidationReport report;
+  for (const Issue& issue : issues.issues()) report.issues.push_back(formatError(issue));
+  report.errorCount = issues.errorCount();
+  report.complete = !issues.full();
+  return report;
+}
+
+ValidationReport validateFile(const fs::path& file, const ValidateOptions& options) {
+  const auto bytes = readFileBytes(file);
+  if (bytes) return validateBytes(*bytes, options);
+  return {{bytes.error()}, 1, true};
 }
 
 Result<bool> writeCaseFile(const Case& value, const fs::path& file) {

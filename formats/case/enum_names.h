@@ -18,6 +18,8 @@ inline constexpr std::array<std::string_view, 7> kStopReasonNames = {
     "met-branch", "end-of-seeds",      "step-limit"};
 inline constexpr std::array<std::string_view, 4> kKernelNames = {"cauchy", "gaussian", "quartic",
                                                                  "soft-object"};
+/// In the order of the variant in NodeArray.
+inline constexpr std::array<std::string_view, 3> kArrayTypeNames = {"f32", "i32", "u32"};
 
 /// The value whose name is `name`.
 template <class Enum>

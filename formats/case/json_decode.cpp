@@ -1,91 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
+#include <cmath>
 
-#include "formats/case/case_file.h"
+#include "formats/case/base64.h"
+#include "formats/case/case_decode.h"
 #include "formats/case/json_document.h"
 #include "formats/case/json_fields.h"
 #include "formats/case/metadata_json.h"
-#include "formats/container/container.h"
+#include "formats/container/case_chunks.h"
+#include "formats/container/limits.h"
 
 namespace lumen::formats {
 namespace {
 
 using nlohmann::json;
 
-SourceVolume readSource(const json& value, const std::string& place, JsonReadState& state) {
-  JsonFields fields(value, place, state);
-  SourceVolume source;
-  fields.counts("size", source.size);
-  fields.reals("spacing", source.spacing);
-  fields.reals("origin", source.origin);
-  fields.reals("direction", source.direction);
-  source.sha256 = fields.text("sha256");
-  fields.finish();
-  return source;
+// The parts that a text may have or not, while it is read.
+struct Parts {
+  Case value;
+  PointSets points;
+  BlobbyModels models, compactModels;
+  ArraySlots slots;
+};
+
+void addModelSlots(const std::string& root, BlobbyModels& models, ArraySlots& slots) {
+  slots.byPointer[root + "/offset"] = {&models.offset};
+  slots.byPointer[root + "/centre"] = {&models.centre};
+  slots.byPointer[root + "/width"] = {&models.width};
 }
 
-ParameterValue readParameter(const json& value, const std::string& place, JsonReadState& state) {
-  if (value.is_boolean()) return value.get<bool>();
-  if (value.is_number_integer()) return value.get<std::int64_t>();
-  if (value.is_number_float()) return value.get<double>();
-  if (value.is_string()) return value.get<std::string>();
-  state.fail(
-      ErrorCode::JsonType, place,
-      std::string("found ") + value.type_name() + ", expected a boolean, a number or a string");
-  return false;
+void addSlots(Parts& parts) {
+  CenterlineTree& tree = parts.value.tree;
+  parts.slots.byPointer = {
+      {"/tree/centre", {&tree.centre}},           {"/tree/direction", {&tree.direction}},
+      {"/tree/radius", {&tree.radius}},           {"/tree/height", {&tree.height}},
+      {"/tree/parent", {&tree.parent}},           {"/tree/branch", {&tree.branch}},
+      {"/tree/inlierRate", {&tree.inlierRate}},   {"/tree/links", {&tree.links}},
+      {"/points/offset", {&parts.points.offset}}, {"/points/position", {&parts.points.position}}};
+  addModelSlots("/models", parts.models, parts.slots);
+  addModelSlots("/compactModels", parts.compactModels, parts.slots);
 }
 
-Step readStep(const json& value, const std::string& place, JsonReadState& state) {
-  JsonFields fields(value, place, state);
-  Step step;
-  step.name = fields.text("name");
-  step.tool = fields.text("tool");
-  if (const json* parameters = fields.require("parameters")) {
-    const std::string at = place + "/parameters";
-    if (!parameters->is_object())
-      state.fail(ErrorCode::JsonType, at,
-                 std::string("found ") + parameters->type_name() + ", expected an object");
-    else
-      for (const auto& [name, parameter] : parameters->items())
-        step.parameters[name] = readParameter(parameter, at + "/" + jsonPointerToken(name), state);
-  }
-  fields.finish();
-  return step;
-}
-
-void readSteps(const json& value, std::vector<Step>& steps, JsonReadState& state) {
-  const std::string place = "/metadata/steps";
-  if (!value.is_array())
-    return state.fail(ErrorCode::JsonType, place,
-                      std::string("found ") + value.type_name() + ", expected an array");
-  for (const json& step : value) {
-    steps.push_back(readStep(step, place + "/" + std::to_string(steps.size()), state));
-    if (state.error) return;
-  }
-}
-
-// The value at `key` must be the one text that the format allows.
-void requireText(JsonFields& fields, std::string_view key, std::string_view expected,
-                 ErrorCode code) {
-  const std::string found = fields.text(key);
-  if (found != expected)
-    fields.state().fail(
-        code, fields.placeOf(key),
-        "found \"" + found.substr(0, 80) + "\", expected \"" + std::string(expected) + "\"");
-}
-
-Metadata readMetadata(const json& value, JsonReadState& state) {
-  const std::string place = "/metadata";
-  JsonFields fields(value, place, state);
-  requireText(fields, "coordinateSystem", kCoordinateSystem, ErrorCode::CoordinateSystem);
-  requireText(fields, "units", kUnits, ErrorCode::Units);
-  Metadata metadata;
-  if (fields.find("voxelSize") != nullptr) metadata.voxelSize = fields.real("voxelSize");
-  if (const json* source = fields.find("source"))
-    metadata.source = readSource(*source, place + "/source", state);
-  if (const json* steps = fields.require("steps")) readSteps(*steps, metadata.steps, state);
-  fields.finish();
-  return metadata;
+void requireArrays(const ArraySlots& slots, std::initializer_list<std::string> pointers,
+                   JsonReadState& state) {
+  for (const std::string& pointer : pointers)
+    if (!slots.byPointer.find(pointer)->second.seen) {
+      const std::size_t slash = pointer.rfind('/');
+      const std::string key = pointer.substr(slash + 1);
+      state.fail(ErrorCode::JsonKeyMissing, pointer.substr(0, slash),
+                 "the object has no \"" + key + "\"", {{"key", key}});
+    }
 }
 
 Branch readBranch(const json& value, const std::string& place, JsonReadState& state) {
@@ -103,36 +67,25 @@ Branch readBranch(const json& value, const std::string& place, JsonReadState& st
   return branch;
 }
 
-void readBranches(const json& value, std::vector<Branch>& branches, JsonReadState& state) {
-  const std::string place = "/tree/branches";
-  if (!value.is_array())
-    return state.fail(ErrorCode::JsonType, place,
-                      std::string("found ") + value.type_name() + ", expected an array");
-  for (const json& branch : value) {
-    branches.push_back(readBranch(branch, place + "/" + std::to_string(branches.size()), state));
-    if (state.error) return;
-  }
-}
-
-void requireArrays(const ArraySlots& slots, std::initializer_list<const char*> pointers,
-                   JsonReadState& state) {
-  for (const std::string pointer : pointers)
-    if (!slots.find(pointer)->second.seen) {
-      const std::size_t slash = pointer.rfind('/');
-      state.fail(ErrorCode::JsonKeyMissing, pointer.substr(0, slash),
-                 "the object has no \"" + pointer.substr(slash + 1) + "\"");
-    }
-}
-
 void readTree(const json& value, const ArraySlots& slots, CenterlineTree& tree,
               JsonReadState& state) {
+  const std::string place = "/tree/branches";
   JsonFields fields(value, "/tree", state);
-  if (const json* branches = fields.require("branches"))
-    readBranches(*branches, tree.branches, state);
+  if (const json* branches = fields.require("branches")) {
+    if (!branches->is_array()) state.wrongType(place, *branches, "an array");
+    for (std::size_t i = 0; branches->is_array() && i < branches->size(); ++i) {
+      if (state.issues.full()) return;
+      tree.branches.push_back(readBranch((*branches)[i], place + "/" + std::to_string(i), state));
+    }
+  }
   requireArrays(slots,
                 {"/tree/centre", "/tree/direction", "/tree/radius", "/tree/height", "/tree/parent",
                  "/tree/branch"},
                 state);
+  // an empty array would be taken for none
+  if (slots.byPointer.find("/tree/inlierRate")->second.seen && tree.inlierRate.empty())
+    state.fail(ErrorCode::ArrayLength, "/tree/inlierRate", "found 0 entries, expected one per node",
+               {{"found", "0"}});
   fields.finish();
 }
 
@@ -142,13 +95,13 @@ void readPoints(const json& value, const ArraySlots& slots, JsonReadState& state
   fields.finish();
 }
 
-void readModels(const json& value, const ArraySlots& slots, BlobbyModels& models,
-                JsonReadState& state) {
-  JsonFields fields(value, "/models", state);
+void readModels(const json& value, const std::string& place, const ArraySlots& slots,
+                BlobbyModels& models, JsonReadState& state) {
+  JsonFields fields(value, place, state);
   models.kernel = fields.enumeration<Kernel>("kernel", kKernelNames);
   models.kernelParameter = fields.real("kernelParameter");
   models.isoLevel = fields.real("isoLevel");
-  requireArrays(slots, {"/models/offset", "/models/centre", "/models/width"}, state);
+  requireArrays(slots, {place + "/offset", place + "/centre", place + "/width"}, state);
   fields.finish();
 }
 
@@ -162,74 +115,154 @@ std::optional<FormatVersion> parseVersion(std::string_view text) {
   return version;
 }
 
-void readVersion(JsonFields& fields, JsonReadState& state) {
+// False if the rest of the text cannot be understood.
+bool readVersion(JsonFields& fields, JsonReadState& state) {
   const std::string versionText = fields.text("version");
   const std::string readerText = fields.text("minimumReader");
   const auto version = parseVersion(versionText);
   const auto reader = parseVersion(readerText);
-  if (!version || !reader || *reader > *version)
-    return state.fail(ErrorCode::Version, "/version",
-                      "found version \"" + versionText.substr(0, 20) +
-                          "\" with minimum reader version \"" + readerText.substr(0, 20) + "\"");
-  if (*reader > kFormatVersion)
-    return state.fail(ErrorCode::Version, "/minimumReader",
-                      "the file needs a reader of version " + readerText +
-                          "; this one reads up to " + std::to_string(kFormatVersion.major) + "." +
-                          std::to_string(kFormatVersion.minor));
+  if (!version || !reader || *reader > *version) {
+    state.fail(ErrorCode::Version, "/version",
+               "found version \"" + versionText.substr(0, 20) +
+                   "\" with minimum reader version \"" + readerText.substr(0, 20) + "\"",
+               {{"found", versionText.substr(0, 20)}});
+    return false;
+  }
+  if (*reader > kFormatVersion) {
+    const std::string known =
+        std::to_string(kFormatVersion.major) + "." + std::to_string(kFormatVersion.minor);
+    state.fail(
+        ErrorCode::Version, "/minimumReader",
+        "the file needs a reader of version " + readerText + "; this one reads up to " + known,
+        {{"found", readerText}, {"expected", known}});
+    return false;
+  }
   state.fullyKnown = *version <= kFormatVersion;
+  return true;
 }
 
-ArraySlots slotsOf(Case& value, PointSets& points, BlobbyModels& models) {
-  CenterlineTree& tree = value.tree;
-  return {{"/tree/centre", {&tree.centre}},         {"/tree/direction", {&tree.direction}},
-          {"/tree/radius", {&tree.radius}},         {"/tree/height", {&tree.height}},
-          {"/tree/parent", {&tree.parent}},         {"/tree/branch", {&tree.branch}},
-          {"/tree/inlierRate", {&tree.inlierRate}}, {"/points/offset", {&points.offset}},
-          {"/points/position", {&points.position}}, {"/models/offset", {&models.offset}},
-          {"/models/centre", {&models.centre}},     {"/models/width", {&models.width}}};
+template <class Number>
+void convertArray(const std::vector<double>& from, const std::string& place,
+                  std::vector<Number>& to, JsonReadState& state) {
+  to.reserve(from.size());
+  for (std::size_t i = 0; i < from.size() && !state.issues.full(); ++i) {
+    const double value = from[i];
+    Number number{};
+    bool fits = false;
+    if constexpr (std::is_same_v<Number, float>) {
+      number = floatFromParsed(value);
+      fits = std::isfinite(number);
+    } else {
+      fits = value >= double{std::numeric_limits<Number>::min()} &&
+             value <= double{std::numeric_limits<Number>::max()} && value == std::floor(value);
+      if (fits) number = static_cast<Number>(value);
+    }
+    if (!fits)
+      state.fail(ErrorCode::NumberRange, place + "/" + std::to_string(i),
+                 "found " + shortText(value) + ", which does not fit the type of its array",
+                 {{"found", shortText(value)}});
+    to.push_back(number);
+  }
+}
+
+// The values of the arrays that the metadata describes.
+void readNodeArrays(Parts& parts, JsonReadState& state) {
+  auto& values = parts.slots.nodeArrays;
+  for (NodeArray& array : parts.value.nodeArrays) {
+    const auto found = values.find(array.name);
+    if (found == values.end()) {
+      const std::string key = array.name.substr(0, 80);
+      state.fail(ErrorCode::JsonKeyMissing, "/nodeArrays", "the object has no \"" + key + "\"",
+                 {{"key", key}});
+      continue;
+    }
+    const std::string place = "/nodeArrays/" + jsonPointerToken(array.name);
+    std::visit([&](auto& to) { convertArray(found->second, place, to, state); }, array.values);
+    values.erase(found);
+  }
+  for (const auto& [name, unused] : values)
+    state.fail(ErrorCode::JsonKeyUnknown, "/nodeArrays/" + jsonPointerToken(name.substr(0, 80)),
+               "the metadata do not describe this array", {{"key", name.substr(0, 80)}});
+}
+
+OtherChunk readChunk(const json& value, const std::string& place, JsonReadState& state) {
+  JsonFields fields(value, place, state);
+  OtherChunk chunk;
+  chunk.type = fields.text("type");
+  chunk.version = fields.integer<std::uint16_t>("version");
+  chunk.independent = fields.boolean("independent");
+  chunk.encoding = fields.integer<std::uint8_t>("encoding");
+  if (fields.find("rawSize") != nullptr) {
+    const auto size = fields.integer<std::int64_t>("rawSize");
+    chunk.rawSize = size < 0 ? 0 : static_cast<std::uint64_t>(size);
+  }
+  const std::string data = fields.text("data");
+  fields.finish();
+  if (auto bytes = fromBase64(data)) {
+    chunk.bytes = *std::move(bytes);
+  } else {
+    const std::string name = chunk.type.substr(0, 4);
+    state.fail(ErrorCode::JsonChunkData, place + "/data", "found no base64 text",
+               {{"chunk", name}});
+  }
+  if (chunk.encoding == 0) chunk.rawSize = chunk.bytes.size();
+  return chunk;
+}
+
+void readOtherChunks(const json& value, std::vector<OtherChunk>& chunks, JsonReadState& state) {
+  const std::string place = "/otherChunks";
+  if (!value.is_array()) return state.wrongType(place, value, "an array");
+  for (const json& chunk : value) {
+    if (state.issues.full()) return;
+    chunks.push_back(readChunk(chunk, place + "/" + std::to_string(chunks.size()), state));
+  }
+}
+
+void readCase(JsonFields& fields, Parts& parts, JsonReadState& state) {
+  Case& value = parts.value;
+  if (const json* metadata = fields.require("metadata")) {
+    MetadataDocument read = readMetadata(*metadata, state);
+    value.metadata = std::move(read.metadata);
+    value.nodeArrays = std::move(read.nodeArrays);
+  }
+  if (const json* tree = fields.require("tree")) readTree(*tree, parts.slots, value.tree, state);
+  if (const json* found = fields.find("points")) {
+    readPoints(*found, parts.slots, state);
+    value.points = std::move(parts.points);
+  }
+  if (const json* found = fields.find("models")) {
+    readModels(*found, "/models", parts.slots, parts.models, state);
+    value.models = std::move(parts.models);
+  }
+  if (const json* found = fields.find("compactModels")) {
+    readModels(*found, "/compactModels", parts.slots, parts.compactModels, state);
+    value.compactModels = std::move(parts.compactModels);
+  }
+  if (const json* found = fields.find("nodeArrays"))
+    if (!found->is_object()) state.wrongType("/nodeArrays", *found, "an object");
+  readNodeArrays(parts, state);
+  if (const json* found = fields.find("otherChunks"))
+    readOtherChunks(*found, value.otherChunks, state);
+  fields.finish();
 }
 
 }  // namespace
 
-Result<Metadata> decodeMetadataJson(std::string_view text, std::size_t byteOffset,
-                                    bool fullyKnown) {
-  ArraySlots none;
-  const auto document = parseJson(text, byteOffset, "/metadata", none);
-  if (!document) return document.error();
-  JsonReadState state{fullyKnown, {}};
-  Metadata metadata = readMetadata(*document, state);
-  if (state.error) return *std::move(state.error);
-  return metadata;
-}
+std::optional<Case> decodeJson(std::string_view text, IssueList& issues) {
+  Parts parts;
+  addSlots(parts);
+  const auto document = parseJson(text, 0, "", parts.slots, issues);
+  if (!document) return std::nullopt;
 
-Result<Case> decodeJson(std::string_view text) {
-  Case value;
-  PointSets points;
-  BlobbyModels models;
-  ArraySlots slots = slotsOf(value, points, models);
-  const auto document = parseJson(text, 0, "", slots);
-  if (!document) return document.error();
-
-  JsonReadState state;
+  JsonReadState state{issues};
   JsonFields fields(*document, "", state);
   requireText(fields, "format", "lumen", ErrorCode::NotLumen);
-  readVersion(fields, state);
-  if (state.error) return *std::move(state.error);
-  if (const json* metadata = fields.require("metadata"))
-    value.metadata = readMetadata(*metadata, state);
-  if (const json* tree = fields.require("tree")) readTree(*tree, slots, value.tree, state);
-  if (const json* found = fields.find("points")) {
-    readPoints(*found, slots, state);
-    value.points = std::move(points);
-  }
-  if (const json* found = fields.find("models")) {
-    readModels(*found, slots, models, state);
-    value.models = std::move(models);
-  }
-  fields.finish();
-  if (state.error) return *std::move(state.error);
-  if (auto valid = validate(value); !valid) return valid.error();
-  return value;
+  if (issues.failed() || !readVersion(fields, state)) return std::nullopt;
+  readCase(fields, parts, state);
+  if (issues.failed()) return std::nullopt;
+  checkCase(parts.value, issues);
+  if (issues.failed()) return std::nullopt;
+  return std::move(parts.value);
 }
 
 }  // namespace lumen::formats

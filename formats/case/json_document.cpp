@@ -7,13 +7,14 @@
 #include <optional>
 #include <set>
 
-#include "formats/case/error_text.h"
-#include "formats/case/limits.h"
+#include "formats/case/issue_text.h"
+#include "formats/container/limits.h"
 
 namespace lumen::formats {
 namespace {
 
 using nlohmann::json;
+using PairArray = std::vector<std::array<std::uint32_t, 2>>*;
 
 // Numbers below the smallest float become zero; those above the largest have no float.
 std::optional<float> floatFromText(std::string_view text, double value) {
@@ -47,25 +48,25 @@ public:
   bool binary(json::binary_t&) { return false; }  // JSON text has none
 
   bool number_integer(std::int64_t value) {
-    if (m_array != nullptr) return addInteger(value);
+    if (m_array) return addInteger(value);
     return scalar(value);
   }
   bool number_unsigned(std::uint64_t value) {
     if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
       return number_integer(static_cast<std::int64_t>(value));
-    if (m_array != nullptr) return addReal(static_cast<double>(value), std::to_string(value));
+    if (m_array) return addReal(static_cast<double>(value), std::to_string(value));
     return fail(ErrorCode::NumberRange,
                 "the integer " + std::to_string(value) + " does not fit into 64 bits with a sign");
   }
   bool number_float(double value, const std::string& text) {
-    if (m_array != nullptr) return addReal(value, text);
+    if (m_array) return addReal(value, text);
     if (text.find_first_of(".eE") == std::string::npos)
       return fail(ErrorCode::NumberRange, "an integer does not fit into 64 bits with a sign");
     return scalar(value);
   }
 
   bool start_object(std::size_t) {
-    if (m_array != nullptr) return fail(ErrorCode::JsonType, "found an object among numbers");
+    if (m_array) return fail(ErrorCode::JsonType, "found an object among numbers");
     return open(json::object());
   }
   bool end_object() { return close(); }
@@ -78,10 +79,10 @@ public:
   }
 
   bool start_array(std::size_t) {
-    if (m_array != nullptr) return startVector();
+    if (m_array) return startVector();
     if (ArraySlot* slot = slotHere()) {
       slot->seen = true;
-      m_array = &slot->target;
+      m_array = slot->target;
       m_index = 0;
       return true;
     }
@@ -89,12 +90,13 @@ public:
   }
 
   bool end_array() {
-    if (m_array == nullptr) return close();
+    if (!m_array) return close();
     if (m_component < 0) {
-      m_array = nullptr;
+      m_array.reset();
       return true;
     }
-    if (m_component != 3) return fail(ErrorCode::JsonType, "expected three numbers");
+    if (m_component != vectorSize())
+      return fail(ErrorCode::JsonType, "expected an array of " + std::to_string(vectorSize()));
     m_component = -1;
     ++m_index;
     return true;
@@ -102,14 +104,15 @@ public:
 
   bool parse_error(std::size_t position, const std::string&, const json::exception& error) {
     const bool range = error.id == 406;  // a number beyond the range of a double
-    m_error = makeError(range ? ErrorCode::NumberRange : ErrorCode::JsonSyntax,
-                        bytePlace(m_byteOffset + position), parserMessage(error.what()));
+    m_error = {range ? ErrorCode::NumberRange : ErrorCode::JsonSyntax, m_byteOffset + position,
+               parserMessage(error.what())};
     return false;
   }
 
-  [[nodiscard]] Result<json> result() {
-    if (m_error) return *std::move(m_error);
-    return std::move(m_root);
+  [[nodiscard]] std::optional<json> result(IssueList& issues) {
+    if (!m_error) return std::move(m_root);
+    issues.add(*std::move(m_error));
+    return std::nullopt;
   }
 
 private:
@@ -130,23 +133,33 @@ private:
           : &level == &m_levels.back() ? std::to_string(size)
                                        : std::to_string(size - 1));
     }
-    if (m_array != nullptr) add(std::to_string(m_index));
+    if (m_array) add(std::to_string(m_index));
     if (m_component >= 0) add(std::to_string(m_component));
     return pointer;
   }
 
-  bool fail(ErrorCode code, const std::string& message) {
-    m_error = makeError(code, place(), message);
+  bool fail(ErrorCode code, const std::string& message, std::vector<Argument> arguments = {}) {
+    m_error = pointerIssue(code, place(), message, std::move(arguments));
     return false;
   }
 
   // The long array that the next value should be, if it is one.
   ArraySlot* slotHere() {
-    if (m_slots.empty() || m_levels.size() != 2 || !m_levels[0].value->is_object() ||
+    if (m_slots.byPointer.empty() || m_levels.size() != 2 || !m_levels[0].value->is_object() ||
         !m_levels[1].value->is_object())
       return nullptr;
-    const auto found = m_slots.find("/" + m_levels[0].key + "/" + m_levels[1].key);
-    return found == m_slots.end() ? nullptr : &found->second;
+    if (m_levels[0].key == "nodeArrays") {
+      m_nodeArray.target = &m_slots.nodeArrays[m_levels[1].key];
+      return &m_nodeArray;
+    }
+    const auto found = m_slots.byPointer.find("/" + m_levels[0].key + "/" + m_levels[1].key);
+    return found == m_slots.byPointer.end() ? nullptr : &found->second;
+  }
+
+  // How many numbers an element of the long array has; 0 if they are not in arrays of their own.
+  [[nodiscard]] int vectorSize() const {
+    if (std::holds_alternative<std::vector<Vec3f>*>(*m_array)) return 3;
+    return std::holds_alternative<PairArray>(*m_array) ? 2 : 0;
   }
 
   json* attach(json value) {
@@ -162,7 +175,7 @@ private:
   }
 
   bool scalar(json value) {
-    if (m_array != nullptr)
+    if (m_array)
       return fail(ErrorCode::JsonType,
                   std::string("found ") + value.type_name() + ", expected a number");
     if (slotHere() != nullptr)
@@ -188,55 +201,94 @@ private:
   }
 
   bool startVector() {
-    const auto* vectors = std::get_if<std::vector<Vec3f>*>(m_array);
-    if (vectors == nullptr || m_component >= 0)
+    if (vectorSize() == 0 || m_component >= 0)
       return fail(ErrorCode::JsonType, "found an array, expected a number");
-    (*vectors)->emplace_back();
+    if (const auto* vectors = std::get_if<std::vector<Vec3f>*>(&*m_array))
+      (*vectors)->emplace_back();
+    else
+      std::get<PairArray>(*m_array)->emplace_back();
     m_component = 0;
     return true;
   }
 
+  // A number may come next in an array of arrays.
+  bool checkComponent() {
+    if (m_component >= 0 && m_component < vectorSize()) return true;
+    return fail(ErrorCode::JsonType,
+                "found a number, expected arrays of " + std::to_string(vectorSize()));
+  }
+
   bool addFloat(float value) {
-    if (auto* floats = std::get_if<std::vector<float>*>(m_array)) {
+    if (auto* floats = std::get_if<std::vector<float>*>(&*m_array)) {
       (*floats)->push_back(value);
       ++m_index;
       return true;
     }
-    if (m_component < 0 || m_component > 2)
-      return fail(ErrorCode::JsonType, "found a number, expected arrays of three numbers");
+    if (!checkComponent()) return false;
     Vec3f& vector = std::get<std::vector<Vec3f>*>(*m_array)->back();
     (m_component == 0 ? vector.x : m_component == 1 ? vector.y : vector.z) = value;
     ++m_component;
     return true;
   }
 
-  [[nodiscard]] bool wantsIntegers() const { return m_array->index() >= 2; }
+  bool addDouble(double value) {
+    std::get<std::vector<double>*>(*m_array)->push_back(value);
+    ++m_index;
+    return true;
+  }
+
+  [[nodiscard]] bool wantsDoubles() const {
+    return std::holds_alternative<std::vector<double>*>(*m_array);
+  }
+  [[nodiscard]] bool wantsIntegers() const {
+    return !wantsDoubles() && !std::holds_alternative<std::vector<float>*>(*m_array) &&
+           !std::holds_alternative<std::vector<Vec3f>*>(*m_array);
+  }
 
   bool addReal(double value, const std::string& text) {
+    const std::string found = text.substr(0, 40);
+    if (wantsDoubles()) return addDouble(value);
     if (wantsIntegers())
-      return fail(ErrorCode::JsonType, "found " + text.substr(0, 40) + ", expected an integer");
+      return fail(ErrorCode::JsonType, "found " + found + ", expected an integer",
+                  {{"found", found}, {"expected", "an integer"}});
     if (const auto number = floatFromText(text, value)) return addFloat(*number);
+    return fail(ErrorCode::NumberRange, "found " + found + ", beyond the range of a float",
+                {{"found", found}});
+  }
+
+  template <class Integer>
+  bool checkRange(std::int64_t value) {
+    if (std::in_range<Integer>(value)) return true;
     return fail(ErrorCode::NumberRange,
-                "found " + text.substr(0, 40) + ", beyond the range of a float");
+                "found " + std::to_string(value) + ", expected an integer from " +
+                    std::to_string(std::numeric_limits<Integer>::min()) + " to " +
+                    std::to_string(std::numeric_limits<Integer>::max()),
+                {{"found", std::to_string(value)}});
   }
 
   template <class Integer>
   bool addTo(std::vector<Integer>& to, std::int64_t value) {
-    if (!std::in_range<Integer>(value))
-      return fail(ErrorCode::NumberRange,
-                  "found " + std::to_string(value) + ", expected an integer from " +
-                      std::to_string(std::numeric_limits<Integer>::min()) + " to " +
-                      std::to_string(std::numeric_limits<Integer>::max()));
+    if (!checkRange<Integer>(value)) return false;
     to.push_back(static_cast<Integer>(value));
     ++m_index;
     return true;
   }
 
+  bool addToPair(std::int64_t value) {
+    if (!checkComponent() || !checkRange<std::uint32_t>(value)) return false;
+    auto& pair = std::get<PairArray>(*m_array)->back();
+    pair[static_cast<std::size_t>(m_component++)] = static_cast<std::uint32_t>(value);
+    return true;
+  }
+
   bool addInteger(std::int64_t value) {
+    if (wantsDoubles()) return addDouble(static_cast<double>(value));
     if (!wantsIntegers()) return addFloat(static_cast<float>(value));
-    if (auto* integers = std::get_if<std::vector<std::int32_t>*>(m_array))
+    if (auto* integers = std::get_if<std::vector<std::int32_t>*>(&*m_array))
       return addTo(**integers, value);
-    return addTo(*std::get<std::vector<std::uint32_t>*>(*m_array), value);
+    if (auto* integers = std::get_if<std::vector<std::uint32_t>*>(&*m_array))
+      return addTo(**integers, value);
+    return addToPair(value);
   }
 
   std::size_t m_byteOffset;
@@ -244,30 +296,34 @@ private:
   ArraySlots& m_slots;
   json m_root;
   std::vector<Level> m_levels;
-  NumberArray* m_array = nullptr;  // the long array being read
-  std::size_t m_index = 0;         // of the element being read in it
-  int m_component = -1;            // of the vector being read in it; -1 outside of one
-  std::optional<FormatError> m_error;
+  ArraySlot m_nodeArray{};             // the slot of the node array being read
+  std::optional<NumberArray> m_array;  // the long array being read
+  std::size_t m_index = 0;             // of the element being read in it
+  int m_component = -1;                // of the vector being read in it; -1 outside of one
+  std::optional<Issue> m_error;
 };
 
-std::optional<FormatError> checkStart(std::string_view text, std::size_t byteOffset) {
+std::optional<Issue> checkStart(std::string_view text, std::size_t byteOffset) {
   if (text.starts_with("\xef\xbb\xbf"))
-    return makeError(ErrorCode::JsonSyntax, bytePlace(byteOffset),
-                     "the text starts with a byte order mark, which JSON does not allow");
+    return Issue{ErrorCode::JsonSyntax, byteOffset,
+                 "the text starts with a byte order mark, which JSON does not allow"};
   // the library takes a zero byte for the end of the text
   if (const auto at = text.find('\0'); at != std::string_view::npos)
-    return makeError(ErrorCode::JsonSyntax, bytePlace(byteOffset + at), "found a zero byte");
+    return Issue{ErrorCode::JsonSyntax, byteOffset + at, "found a zero byte"};
   return std::nullopt;
 }
 
 }  // namespace
 
-Result<nlohmann::json> parseJson(std::string_view text, std::size_t byteOffset,
-                                 const std::string& root, ArraySlots& slots) {
-  if (auto problem = checkStart(text, byteOffset)) return *std::move(problem);
+std::optional<json> parseJson(std::string_view text, std::size_t byteOffset,
+                              const std::string& root, ArraySlots& slots, IssueList& issues) {
+  if (auto problem = checkStart(text, byteOffset)) {
+    issues.add(*std::move(problem));
+    return std::nullopt;
+  }
   DocumentBuilder builder(byteOffset, root, slots);
   json::sax_parse(text.begin(), text.end(), &builder);
-  return builder.result();
+  return builder.result(issues);
 }
 
 float floatFromParsed(double value) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <variant>
 
+#include "formats/case/base64.h"
 #include "formats/case/case_file.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/json_writer.h"
@@ -91,6 +92,7 @@ void writeTree(JsonWriter& json, const CenterlineTree& tree) {
   writeArray(json, "parent", tree.parent);
   writeArray(json, "branch", tree.branch);
   if (!tree.inlierRate.empty()) writeArray(json, "inlierRate", tree.inlierRate);
+  if (!tree.links.empty()) writeArray(json, "links", tree.links);
   json.end();
 }
 
@@ -115,14 +117,65 @@ void writeModels(JsonWriter& json, const BlobbyModels& models) {
   json.end();
 }
 
-}  // namespace
-
-void writeMetadata(JsonWriter& json, const Metadata& metadata) {
+void writeNodeArrays(JsonWriter& json, const std::vector<NodeArray>& arrays) {
   json.beginObject();
-  json.key("coordinateSystem");
-  json.text(kCoordinateSystem);
-  json.key("units");
-  json.text(kUnits);
+  for (const NodeArray& array : arrays)
+    std::visit([&](const auto& values) { writeArray(json, array.name, values); }, array.values);
+  json.end();
+}
+
+void writeOtherChunk(JsonWriter& json, const OtherChunk& chunk) {
+  json.beginObject(true);
+  json.key("type");
+  json.text(chunk.type);
+  json.key("version");
+  json.integer(chunk.version);
+  json.key("independent");
+  json.boolean(chunk.independent);
+  json.key("encoding");
+  json.integer(chunk.encoding);
+  if (chunk.encoding != 0) {
+    json.key("rawSize");
+    json.integer(static_cast<std::int64_t>(chunk.rawSize));
+  }
+  json.key("data");
+  json.text(base64(chunk.bytes));
+  json.end();
+}
+
+void writeTexts(JsonWriter& json, std::string_view name, const std::vector<std::string>& texts) {
+  if (texts.empty()) return;
+  json.key(name);
+  json.beginArray(true);
+  for (const std::string& text : texts) json.text(text);
+  json.end();
+}
+
+void writeArrayInfo(JsonWriter& json, const NodeArray& array) {
+  json.beginObject(true);
+  json.key("name");
+  json.text(array.name);
+  json.key("type");
+  json.text(kArrayTypeNames[array.values.index()]);
+  json.key("components");
+  json.integer(array.components);
+  if (!array.unit.empty()) {
+    json.key("unit");
+    json.text(array.unit);
+  }
+  json.end();
+}
+
+void writeQuantisation(JsonWriter& json, const PointQuantisation& quantisation) {
+  json.beginObject(true);
+  json.key("bits");
+  json.integer(quantisation.bits);
+  json.key("step");
+  json.real(quantisation.step);
+  json.end();
+}
+
+void writeProvenance(JsonWriter& json, const Metadata& metadata) {
   if (metadata.voxelSize) {
     json.key("voxelSize");
     json.real(*metadata.voxelSize);
@@ -131,6 +184,38 @@ void writeMetadata(JsonWriter& json, const Metadata& metadata) {
     json.key("source");
     writeSource(json, *metadata.source);
   }
+  if (!metadata.parentSha256.empty()) {
+    json.key("parentSha256");
+    json.text(metadata.parentSha256);
+  }
+  if (metadata.pointQuantisation) {
+    json.key("pointQuantisation");
+    writeQuantisation(json, *metadata.pointQuantisation);
+  }
+}
+
+}  // namespace
+
+void writeMetadata(JsonWriter& json, const Metadata& metadata,
+                   const std::vector<NodeArray>& nodeArrays) {
+  json.beginObject();
+  json.key("coordinateSystem");
+  json.text(kCoordinateSystem);
+  json.key("units");
+  json.text(kUnits);
+  writeProvenance(json, metadata);
+  if (!metadata.note.empty()) {
+    json.key("note");
+    json.text(metadata.note);
+  }
+  writeTexts(json, "extensionsUsed", metadata.extensionsUsed);
+  writeTexts(json, "extensionsRequired", metadata.extensionsRequired);
+  if (!nodeArrays.empty()) {
+    json.key("nodeArrays");
+    json.beginArray();
+    for (const NodeArray& array : nodeArrays) writeArrayInfo(json, array);
+    json.end();
+  }
   json.key("steps");
   json.beginArray();
   for (const Step& step : metadata.steps) writeStep(json, step);
@@ -138,9 +223,9 @@ void writeMetadata(JsonWriter& json, const Metadata& metadata) {
   json.end();
 }
 
-std::string metadataJson(const Metadata& metadata) {
+std::string metadataJson(const Metadata& metadata, const std::vector<NodeArray>& nodeArrays) {
   JsonWriter json(JsonStyle::Compact);
-  writeMetadata(json, metadata);
+  writeMetadata(json, metadata, nodeArrays);
   return json.take();
 }
 
@@ -156,7 +241,7 @@ std::string encodeJson(const Case& value) {
   json.key("minimumReader");
   json.text(version);
   json.key("metadata");
-  writeMetadata(json, value.metadata);
+  writeMetadata(json, value.metadata, value.nodeArrays);
   json.key("tree");
   writeTree(json, value.tree);
   if (value.points) {
@@ -166,6 +251,20 @@ std::string encodeJson(const Case& value) {
   if (value.models) {
     json.key("models");
     writeModels(json, *value.models);
+  }
+  if (value.compactModels) {
+    json.key("compactModels");
+    writeModels(json, *value.compactModels);
+  }
+  if (!value.nodeArrays.empty()) {
+    json.key("nodeArrays");
+    writeNodeArrays(json, value.nodeArrays);
+  }
+  if (!value.otherChunks.empty()) {
+    json.key("otherChunks");
+    json.beginArray();
+    for (const OtherChunk& chunk : value.otherChunks) writeOtherChunk(json, chunk);
+    json.end();
   }
   json.end();
   return json.take() + "\n";

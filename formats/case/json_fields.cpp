@@ -7,9 +7,7 @@ using nlohmann::json;
 
 JsonFields::JsonFields(const json& value, std::string place, JsonReadState& state)
     : m_object(value), m_place(std::move(place)), m_state(state) {
-  if (!value.is_object())
-    m_state.fail(ErrorCode::JsonType, m_place,
-                 std::string("found ") + value.type_name() + ", expected an object");
+  if (!value.is_object()) m_state.wrongType(m_place, value, "an object");
 }
 
 const json* JsonFields::find(std::string_view key) {
@@ -21,16 +19,15 @@ const json* JsonFields::find(std::string_view key) {
 
 const json* JsonFields::require(std::string_view key) {
   const json* value = find(key);
-  if (value == nullptr)
+  if (value == nullptr && m_object.is_object())
     m_state.fail(ErrorCode::JsonKeyMissing, m_place,
-                 "the object has no \"" + std::string(key) + "\"");
+                 "the object has no \"" + std::string(key) + "\"", {{"key", std::string(key)}});
   return value;
 }
 
 double JsonFields::toReal(const json& value, const std::string& place) {
   if (value.is_number()) return value.get<double>();
-  m_state.fail(ErrorCode::JsonType, place,
-               std::string("found ") + value.type_name() + ", expected a number");
+  m_state.wrongType(place, value, "a number");
   return 0.0;
 }
 
@@ -39,23 +36,47 @@ double JsonFields::real(std::string_view key) {
   return value == nullptr ? 0.0 : toReal(*value, placeOf(key));
 }
 
-std::string JsonFields::text(std::string_view key) {
+std::optional<std::string> JsonFields::readText(std::string_view key) {
   const json* value = require(key);
-  if (value == nullptr) return {};
+  if (value == nullptr) return std::nullopt;
   if (value->is_string()) return value->get<std::string>();
-  m_state.fail(ErrorCode::JsonType, placeOf(key),
-               std::string("found ") + value->type_name() + ", expected a string");
-  return {};
+  m_state.wrongType(placeOf(key), *value, "a string");
+  return std::nullopt;
+}
+
+bool JsonFields::boolean(std::string_view key) {
+  const json* value = require(key);
+  if (value == nullptr) return false;
+  if (value->is_boolean()) return value->get<bool>();
+  m_state.wrongType(placeOf(key), *value, "a boolean");
+  return false;
+}
+
+std::vector<std::string> JsonFields::texts(std::string_view key) {
+  std::vector<std::string> result;
+  const json* values = require(key);
+  if (values == nullptr) return result;
+  if (!values->is_array()) {
+    m_state.wrongType(placeOf(key), *values, "an array of strings");
+    return result;
+  }
+  for (const json& value : *values) {
+    if (!value.is_string())
+      m_state.wrongType(placeOf(key) + "/" + std::to_string(result.size()), value, "a string");
+    result.push_back(value.is_string() ? value.get<std::string>() : std::string());
+  }
+  return result;
 }
 
 const json* JsonFields::arrayOf(std::string_view key, std::size_t size) {
   const json* value = require(key);
   if (value == nullptr) return nullptr;
   if (value->is_array() && value->size() == size) return value;
-  m_state.fail(ErrorCode::JsonType, placeOf(key),
-               std::string("found ") + value->type_name() + " of size " +
-                   std::to_string(value->size()) + ", expected an array of " +
-                   std::to_string(size) + " numbers");
+  const std::string found =
+      value->is_array() ? "an array of " + std::to_string(value->size()) : value->type_name();
+  const std::string expected = "an array of " + std::to_string(size) + " numbers";
+  m_state.fail(ErrorCode::JsonType, placeOf(key), "found " + found + ", expected " + expected,
+               {{"found", found}, {"expected", expected}});
   return nullptr;
 }
 
@@ -76,7 +97,8 @@ void JsonFields::finish() {
   for (const auto& [key, value] : m_object.items())
     if (!key.starts_with("x-") && std::find(m_known.begin(), m_known.end(), key) == m_known.end())
       m_state.fail(ErrorCode::JsonKeyUnknown, placeOf(key.substr(0, 80)),
-                   "the format does not define this key; keys of others start with \"x-\"");
+                   "the format does not define this key; keys of others start with \"x-\"",
+                   {{"key", key.substr(0, 80)}});
 }
 
 }  // namespace lumen::formats

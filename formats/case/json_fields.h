@@ -15,17 +15,23 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/case/enum_names.h"
-#include "formats/case/error_text.h"
+#include "formats/case/issue_text.h"
 
 namespace lumen::formats {
 
-/// Shared by all readers of one text. Keeps the first error, after which reads give defaults.
+/// Shared by all readers of one text. After a failure reads give defaults.
 struct JsonReadState {
+  IssueList& issues;
   bool fullyKnown = true;  ///< false: unknown keys are those of a newer version and ignored
-  std::optional<FormatError> error;
 
-  void fail(ErrorCode code, std::string place, std::string message) {
-    if (!error) error = makeError(code, std::move(place), std::move(message));
+  void fail(ErrorCode code, std::string place, std::string message,
+            std::vector<Argument> arguments = {}) {
+    issues.add(pointerIssue(code, std::move(place), std::move(message), std::move(arguments)));
+  }
+  void wrongType(std::string place, const nlohmann::json& value, const std::string& expected) {
+    const std::string found = value.type_name();
+    fail(ErrorCode::JsonType, std::move(place), "found " + found + ", expected " + expected,
+         {{"found", found}, {"expected", expected}});
   }
 };
 
@@ -40,7 +46,9 @@ public:
   const nlohmann::json* require(std::string_view key);
 
   double real(std::string_view key);
-  std::string text(std::string_view key);
+  std::string text(std::string_view key) { return readText(key).value_or(std::string()); }
+  bool boolean(std::string_view key);
+  std::vector<std::string> texts(std::string_view key);
   void reals(std::string_view key, std::span<double> to);
   void counts(std::string_view key, std::span<std::uint32_t> to);
 
@@ -52,9 +60,11 @@ public:
 
   template <class Enum>
   Enum enumeration(std::string_view key, std::span<const std::string_view> names) {
-    const std::string name = text(key);
-    if (const auto value = enumFromName<Enum>(names, name)) return *value;
-    m_state.fail(ErrorCode::EnumValue, placeOf(key), "found \"" + name.substr(0, 80) + "\"");
+    const std::optional<std::string> name = readText(key);
+    if (!name) return Enum{};
+    if (const auto value = enumFromName<Enum>(names, *name)) return *value;
+    const std::string found = name->substr(0, 80);
+    m_state.fail(ErrorCode::EnumValue, placeOf(key), "found \"" + found + "\"", {{"found", found}});
     return Enum{};
   }
 
@@ -67,19 +77,20 @@ public:
   [[nodiscard]] JsonReadState& state() const { return m_state; }
 
 private:
+  std::optional<std::string> readText(std::string_view key);
   double toReal(const nlohmann::json& value, const std::string& place);
 
   template <class Integer>
   Integer toInteger(const nlohmann::json& value, const std::string& place) {
     if (!value.is_number_integer()) {
-      m_state.fail(ErrorCode::JsonType, place,
-                   std::string("found ") + value.type_name() + ", expected an integer");
+      m_state.wrongType(place, value, "an integer");
       return Integer{};
     }
     const auto number = value.get<std::int64_t>();
     if (std::in_range<Integer>(number)) return static_cast<Integer>(number);
     m_state.fail(ErrorCode::NumberRange, place,
-                 "found " + std::to_string(number) + ", which does not fit its field");
+                 "found " + std::to_string(number) + ", which does not fit its field",
+                 {{"found", std::to_string(number)}});
     return Integer{};
   }
 

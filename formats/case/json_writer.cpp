@@ -35,6 +35,14 @@ void appendVector(std::string& text, const Vec3f& v) {
   text += ']';
 }
 
+void appendPair(std::string& text, const std::array<std::uint32_t, 2>& pair) {
+  text += '[';
+  appendNumber(text, pair[0]);
+  text += ',';
+  appendNumber(text, pair[1]);
+  text += ']';
+}
+
 void appendText(std::string& to, std::string_view value) {
   constexpr const char* digits = "0123456789abcdef";
   to += '"';
@@ -171,6 +179,9 @@ void JsonWriter::array(std::span<const std::int32_t> values) {
 }
 void JsonWriter::array(std::span<const std::uint32_t> values) {
   wrapped(values, appendNumber<std::uint32_t>);
+}
+void JsonWriter::array(std::span<const std::array<std::uint32_t, 2>> values) {
+  wrapped(values, appendPair);
 }
 
 void JsonWriter::array(std::span<const double> values) {

@@ -2,6 +2,7 @@
 // Canonical JSON text: one value has one text.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -36,6 +37,7 @@ public:
   void array(std::span<const Vec3f> values);
   void array(std::span<const std::int32_t> values);
   void array(std::span<const std::uint32_t> values);
+  void array(std::span<const std::array<std::uint32_t, 2>> values);
   void array(std::span<const double> values);  ///< on one line
 
   /// The text so far, which is complete once every begin has its end.

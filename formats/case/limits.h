@@ -1,19 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Published maxima of the format; see spec/lumen.md, "Limits".
 #pragma once
 
-#include <cstddef>
-
-namespace lumen::formats {
-
-constexpr std::size_t kMaxNodes = std::size_t{1} << 24;
-constexpr std::size_t kMaxPoints = std::size_t{1} << 28;
-constexpr std::size_t kMaxBlobs = std::size_t{1} << 26;
-constexpr std::size_t kMaxBranches = 65535;
-constexpr std::size_t kMaxSteps = 1024;
-constexpr std::size_t kMaxParameters = 4096;  ///< of one step
-constexpr std::size_t kMaxNameBytes = 255;    ///< labels; names of steps, tools and parameters
-constexpr std::size_t kMaxTextBytes = 65535;  ///< the value of a parameter that is a text
-constexpr std::size_t kMaxJsonDepth = 64;
-
-}  // namespace lumen::formats
+#include "formats/container/limits.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <unordered_set>
 
 namespace lumen::formats {
 namespace {
@@ -19,39 +19,36 @@ double distance(const Vec3f& a, const Vec3f& b) {
 
 Neighbours::Neighbours(const CenterlineTree& tree) : m_offset(tree.nodeCount() + 1, 0) {
   const std::size_t count = tree.nodeCount();
-  for (std::size_t i = 0; i < count; ++i)
-    if (tree.parent[i] != kNoParent) {
-      ++m_offset[i + 1];
-      ++m_offset[static_cast<std::size_t>(tree.parent[i]) + 1];
-    }
+  const auto eachPair = [&tree, count](auto take) {
+    for (std::size_t i = 0; i < count; ++i)
+      if (tree.parent[i] != kNoParent)
+        take(static_cast<std::uint32_t>(tree.parent[i]), static_cast<std::uint32_t>(i));
+    for (const auto& [a, b] : tree.links) take(a, b);
+  };
+  eachPair([this](std::uint32_t a, std::uint32_t b) {
+    ++m_offset[a + 1];
+    ++m_offset[b + 1];
+  });
   for (std::size_t i = 0; i < count; ++i) m_offset[i + 1] += m_offset[i];
-
-  // A parent has a smaller index than its children, so parent first, then children in their order,
-  // is ascending.
   m_node.resize(m_offset[count]);
   std::vector<std::uint32_t> next(m_offset.begin(), m_offset.end() - 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (tree.parent[i] == kNoParent) continue;
-    const auto parent = static_cast<std::uint32_t>(tree.parent[i]);
-    m_node[next[i]++] = parent;
-    m_node[next[parent]++] = static_cast<std::uint32_t>(i);
-  }
+  eachPair([&](std::uint32_t a, std::uint32_t b) {
+    m_node[next[a]++] = b;
+    m_node[next[b]++] = a;
+  });
+  for (std::size_t i = 0; i < count; ++i)
+    std::sort(m_node.begin() + m_offset[i], m_node.begin() + m_offset[i + 1]);
 }
 
 std::vector<std::uint32_t> Neighbours::within(std::uint32_t node, int distance) const {
-  // In a forest the only way back is the way by which a node was reached.
-  constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> found{node}, reachedFrom{kNowhere};
+  std::vector<std::uint32_t> found{node};
+  std::unordered_set<std::uint32_t> seen{node};
   std::size_t ringBegin = 0;
   for (int ring = 0; ring < distance && ringBegin < found.size(); ++ring) {
     const std::size_t ringEnd = found.size();
     for (std::size_t i = ringBegin; i < ringEnd; ++i)
-      for (const std::uint32_t next : of(found[i])) {
-        if (next == reachedFrom[i]) continue;
-        const std::uint32_t from = found[i];
-        found.push_back(next);
-        reachedFrom.push_back(from);
-      }
+      for (const std::uint32_t next : of(found[i]))
+        if (seen.insert(next).second) found.push_back(next);
     ringBegin = ringEnd;
   }
   return found;

@@ -10,8 +10,8 @@
 
 namespace lumen::formats {
 
-/// Topological neighbours (parent and children) of every node, in CSR form, ascending within a
-/// node.
+/// Topological neighbours (parent, children, and the nodes that links join to it) of every node, in
+/// CSR form, ascending within a node.
 class Neighbours {
 public:
   explicit Neighbours(const CenterlineTree& tree);

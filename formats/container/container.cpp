@@ -20,6 +20,7 @@ constexpr std::array<unsigned char, 10> kMagic = {0x8c, 'L',  'U',  'M',  'E',
                                                   'N',  0x0d, 0x0a, 0x1a, 0x0a};
 constexpr std::size_t kHeaderChecksumAt = 60;
 constexpr std::uint8_t kCriticalFlag = 1;
+constexpr std::uint8_t kIndependentFlag = 2;
 
 std::uint64_t alignUp(std::uint64_t size) {
   return (size + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
@@ -44,6 +45,10 @@ std::string hex(std::uint32_t value) {
   std::string text = "0x";
   for (int shift = 28; shift >= 0; shift -= 4) text += digits[(value >> shift) & 0xfu];
   return text;
+}
+
+std::vector<Argument> foundExpected(std::uint64_t found, std::uint64_t expected) {
+  return {{"found", std::to_string(found)}, {"expected", std::to_string(expected)}};
 }
 
 std::string versionText(FormatVersion version) {
@@ -79,25 +84,33 @@ Expected<bool, Failure> checkFrame(Bytes bytes) {
                    "changes them"};
   if (bytes.size() < kHeaderSize)
     return Failure{ErrorCode::Truncated, bytes.size(),
-                   "the file ends inside its header of 64 bytes"};
+                   "the file ends inside its header of 64 bytes",
+                   foundExpected(bytes.size(), kHeaderSize)};
   const auto stated = loadLittle<std::uint32_t>(bytes.data() + kHeaderChecksumAt);
   const std::uint32_t found = crc32c(bytes.first(kHeaderChecksumAt));
   if (stated != found)
-    return Failure{ErrorCode::HeaderChecksum, kHeaderChecksumAt,
-                   "the header states checksum " + hex(stated) + ", its bytes have " + hex(found)};
+    return Failure{ErrorCode::HeaderChecksum,
+                   kHeaderChecksumAt,
+                   "the header states checksum " + hex(stated) + ", its bytes have " + hex(found),
+                   {{"found", hex(found)}, {"expected", hex(stated)}}};
   return true;
 }
 
 Expected<bool, Failure> checkVersion(const Header& header) {
   if (header.version.major == 0 || header.minimumReader.major == 0 ||
       header.minimumReader > header.version)
-    return Failure{ErrorCode::Version, 10,
+    return Failure{ErrorCode::Version,
+                   10,
                    "version " + versionText(header.version) + " with minimum reader version " +
-                       versionText(header.minimumReader) + " does not exist"};
+                       versionText(header.minimumReader) + " does not exist",
+                   {{"found", versionText(header.version)}}};
   if (header.minimumReader > kFormatVersion)
-    return Failure{ErrorCode::Version, 12,
-                   "the file needs a reader of version " + versionText(header.minimumReader) +
-                       "; this one reads up to " + versionText(kFormatVersion)};
+    return Failure{
+        ErrorCode::Version,
+        12,
+        "the file needs a reader of version " + versionText(header.minimumReader) +
+            "; this one reads up to " + versionText(kFormatVersion),
+        {{"found", versionText(header.minimumReader)}, {"expected", versionText(kFormatVersion)}}};
   return true;
 }
 
@@ -105,27 +118,33 @@ Expected<bool, Failure> checkLength(const Header& header, Bytes bytes) {
   if (header.length > bytes.size())
     return Failure{ErrorCode::Truncated, bytes.size(),
                    "the file has " + std::to_string(bytes.size()) + " of the " +
-                       std::to_string(header.length) + " bytes that its header states"};
+                       std::to_string(header.length) + " bytes that its header states",
+                   foundExpected(bytes.size(), header.length)};
   if (header.length < bytes.size())
     return Failure{ErrorCode::TrailingBytes, header.length,
                    "the file has " + std::to_string(bytes.size()) + " bytes, its header states " +
-                       std::to_string(header.length)};
+                       std::to_string(header.length),
+                   foundExpected(bytes.size(), header.length)};
   return true;
 }
 
 Expected<bool, Failure> checkTable(const Header& header, Bytes bytes) {
   if (header.chunkCount > kMaxChunks ||
       header.chunkCount > (bytes.size() - kHeaderSize) / kTableEntrySize)
-    return Failure{ErrorCode::ChunkCount, 24,
-                   std::to_string(header.chunkCount) + " chunks in a file of " +
-                       std::to_string(bytes.size()) + " bytes; the limit is " +
-                       std::to_string(kMaxChunks)};
+    return Failure{
+        ErrorCode::ChunkCount,
+        24,
+        std::to_string(header.chunkCount) + " chunks in a file of " + std::to_string(bytes.size()) +
+            " bytes; the limit is " + std::to_string(kMaxChunks),
+        {{"found", std::to_string(header.chunkCount)}, {"limit", std::to_string(kMaxChunks)}}};
   const std::uint32_t found =
       crc32c(bytes.subspan(kHeaderSize, header.chunkCount * kTableEntrySize));
   if (found != header.tableChecksum)
-    return Failure{ErrorCode::TableChecksum, kHeaderSize,
+    return Failure{ErrorCode::TableChecksum,
+                   kHeaderSize,
                    "the header states checksum " + hex(header.tableChecksum) +
-                       " for the chunk table, its bytes have " + hex(found)};
+                       " for the chunk table, its bytes have " + hex(found),
+                   {{"found", hex(found)}, {"expected", hex(header.tableChecksum)}}};
   return true;
 }
 
@@ -133,7 +152,8 @@ Expected<bool, Failure> checkHeader(const Header& header, Bytes bytes) {
   if (auto version = checkVersion(header); !version) return version;
   if (header.headerSize != kHeaderSize)
     return Failure{ErrorCode::HeaderField, 14,
-                   "header size " + std::to_string(header.headerSize) + ", expected 64"};
+                   "header size " + std::to_string(header.headerSize) + ", expected 64",
+                   foundExpected(header.headerSize, kHeaderSize)};
   const Bytes reserved = bytes.subspan(32, kHeaderChecksumAt - 32);
   if (header.version <= kFormatVersion && firstNonZero(reserved) < reserved.size())
     return Failure{ErrorCode::HeaderField, 32 + firstNonZero(reserved),
@@ -161,6 +181,7 @@ Entry parseEntry(Bytes bytes) {
   entry.chunk.version = cursor.read<std::uint16_t>();
   entry.flags = cursor.read<std::uint8_t>();
   entry.chunk.critical = (entry.flags & kCriticalFlag) != 0;
+  entry.chunk.independent = (entry.flags & kIndependentFlag) != 0;
   entry.chunk.encoding = cursor.read<std::uint8_t>();
   entry.chunk.offset = cursor.read<std::uint64_t>();
   entry.storedSize = cursor.read<std::uint64_t>();
@@ -173,15 +194,18 @@ Entry parseEntry(Bytes bytes) {
 Expected<bool, Failure> checkEntry(const Entry& entry, std::uint64_t entryAt, bool strict) {
   for (int i = 0; i < 4; ++i)
     if (!isLetterOrDigit(static_cast<unsigned char>(entry.chunk.type >> (8 * i))))
-      return Failure{
-          ErrorCode::ChunkType, entryAt,
-          "chunk type " + hex(entry.chunk.type) + " is not four ASCII letters or digits"};
-  const bool reservedUsed =
-      (entry.flags & ~kCriticalFlag) != 0 || firstNonZero(entry.reserved) < entry.reserved.size();
+      return Failure{ErrorCode::ChunkType,
+                     entryAt,
+                     "chunk type " + hex(entry.chunk.type) + " is not four ASCII letters or digits",
+                     {{"found", hex(entry.chunk.type)}}};
+  const bool reservedUsed = (entry.flags & ~(kCriticalFlag | kIndependentFlag)) != 0 ||
+                            firstNonZero(entry.reserved) < entry.reserved.size();
   if (strict && reservedUsed)
     return Failure{
-        ErrorCode::ChunkField, entryAt,
-        "chunk " + chunkName(entry.chunk.type) + " has a reserved flag or byte that is not zero"};
+        ErrorCode::ChunkField,
+        entryAt,
+        "chunk " + chunkName(entry.chunk.type) + " has a reserved flag or byte that is not zero",
+        {{"chunk", chunkName(entry.chunk.type)}}};
   return true;
 }
 
@@ -192,15 +216,33 @@ Expected<Chunk, Failure> locateChunk(Bytes bytes, const Entry& entry, std::uint6
   Chunk chunk = entry.chunk;
   const std::string name = "chunk " + chunkName(chunk.type);
   if (chunk.offset != end)
-    return Failure{ErrorCode::ChunkOffset, entryAt + 8,
+    return Failure{ErrorCode::ChunkOffset,
+                   entryAt + 8,
                    name + " starts at byte " + std::to_string(chunk.offset) + ", expected " +
-                       std::to_string(end)};
+                       std::to_string(end),
+                   {{"chunk", chunkName(chunk.type)},
+                    {"found", std::to_string(chunk.offset)},
+                    {"expected", std::to_string(end)}}};
   if (end > bytes.size() || entry.storedSize > bytes.size() - end ||
       (chunk.encoding == 0 && chunk.rawSize != entry.storedSize))
-    return Failure{ErrorCode::ChunkSize, entryAt + 16,
+    return Failure{ErrorCode::ChunkSize,
+                   entryAt + 16,
                    name + " states " + std::to_string(entry.storedSize) + " stored and " +
                        std::to_string(chunk.rawSize) + " raw bytes at byte " + std::to_string(end) +
-                       " of " + std::to_string(bytes.size())};
+                       " of " + std::to_string(bytes.size()),
+                   {{"chunk", chunkName(chunk.type)},
+                    {"found", std::to_string(entry.storedSize)},
+                    {"expected", std::to_string(chunk.rawSize)}}};
+  const bool known = chunk.encoding == static_cast<std::uint8_t>(ChunkEncoding::Zstd) ||
+                     chunk.encoding == static_cast<std::uint8_t>(ChunkEncoding::Draco);
+  if (known && chunk.rawSize / kMaxExpansion > entry.storedSize)
+    return Failure{ErrorCode::ChunkExpansion,
+                   entryAt + 24,
+                   name + " states " + std::to_string(chunk.rawSize) + " raw bytes for " +
+                       std::to_string(entry.storedSize) + " stored ones; the limit is 256 times",
+                   {{"chunk", chunkName(chunk.type)},
+                    {"found", std::to_string(chunk.rawSize)},
+                    {"limit", std::to_string(kMaxExpansion * entry.storedSize)}}};
   chunk.stored =
       bytes.subspan(static_cast<std::size_t>(end), static_cast<std::size_t>(entry.storedSize));
   end += entry.storedSize;
@@ -208,15 +250,16 @@ Expected<Chunk, Failure> locateChunk(Bytes bytes, const Entry& entry, std::uint6
 }
 
 // Moves `end` over the zeros that fill the last line of 64 bytes.
-Expected<bool, Failure> skipPadding(Bytes bytes, std::uint64_t& end) {
+Expected<bool, Failure> skipPadding(Bytes bytes, Padding check, std::uint64_t& end) {
   const std::uint64_t next = alignUp(end);
   if (next > bytes.size())
     return Failure{ErrorCode::ChunkPadding, bytes.size(),
                    "the file ends inside the padding up to byte " + std::to_string(next)};
   const Bytes padding =
       bytes.subspan(static_cast<std::size_t>(end), static_cast<std::size_t>(next - end));
-  if (const std::size_t at = firstNonZero(padding); at < padding.size())
-    return Failure{ErrorCode::ChunkPadding, end + at, "a padding byte is not zero"};
+  if (check == Padding::Check)
+    if (const std::size_t at = firstNonZero(padding); at < padding.size())
+      return Failure{ErrorCode::ChunkPadding, end + at, "a padding byte is not zero"};
   end = next;
   return true;
 }
@@ -225,11 +268,12 @@ void storeEntry(std::byte* to, const ChunkSource& chunk, std::uint64_t offset) {
   const std::uint64_t size = chunk.bytes.size();
   storeLittle(to, chunk.type);
   storeLittle(to + 4, chunk.version);
-  storeLittle(to + 6, chunk.critical ? kCriticalFlag : std::uint8_t{0});
-  storeLittle(to + 7, static_cast<std::uint8_t>(ChunkEncoding::Raw));
+  storeLittle(to + 6, static_cast<std::uint8_t>((chunk.critical ? kCriticalFlag : 0) |
+                                                (chunk.independent ? kIndependentFlag : 0)));
+  storeLittle(to + 7, chunk.encoding);
   storeLittle(to + 8, offset);
   storeLittle(to + 16, size);
-  storeLittle(to + 24, size);
+  storeLittle(to + 24, chunk.encoding == 0 ? size : chunk.rawSize);
   storeLittle(to + 32, crc32c(chunk.bytes));
 }
 
@@ -261,7 +305,8 @@ bool hasContainerMagic(std::span<const std::byte> bytes) {
   return bytes.size() >= kMagic.size() && startsLikeMagic(bytes);
 }
 
-Expected<Container, ContainerError> readContainer(std::span<const std::byte> bytes) {
+Expected<Container, ContainerError> readContainer(std::span<const std::byte> bytes,
+                                                  Padding padding) {
   if (auto frame = checkFrame(bytes); !frame) return frame.error();
   const Header header = parseHeader(bytes);
   if (auto checked = checkHeader(header, bytes); !checked) return checked.error();
@@ -272,27 +317,33 @@ Expected<Container, ContainerError> readContainer(std::span<const std::byte> byt
   std::uint64_t end = kHeaderSize + std::uint64_t{header.chunkCount} * kTableEntrySize;
   for (std::uint32_t i = 0; i < header.chunkCount; ++i) {
     const std::size_t entryAt = kHeaderSize + i * kTableEntrySize;
-    const Entry entry = parseEntry(bytes.subspan(entryAt, kTableEntrySize));
+    Entry entry = parseEntry(bytes.subspan(entryAt, kTableEntrySize));
+    entry.chunk.entryOffset = entryAt;
     if (auto checked = checkEntry(entry, entryAt, container.fullyKnown()); !checked)
       return checked.error();
     auto chunk = locateChunk(bytes, entry, entryAt, end);
     if (!chunk) return chunk.error();
-    if (auto padding = skipPadding(bytes, end); !padding) return padding.error();
+    if (auto skipped = skipPadding(bytes, padding, end); !skipped) return skipped.error();
     container.chunks.push_back(*std::move(chunk));
   }
   if (end != bytes.size())
     return Failure{
         ErrorCode::TrailingBytes, end,
-        "the last chunk ends here, the file has " + std::to_string(bytes.size()) + " bytes"};
+        "the last chunk ends here, the file has " + std::to_string(bytes.size()) + " bytes",
+        foundExpected(bytes.size(), end)};
   return container;
 }
 
 Expected<bool, ContainerError> verifyChunk(const Chunk& chunk) {
   const std::uint32_t found = crc32c(chunk.stored);
   if (found != chunk.checksum)
-    return Failure{ErrorCode::ChunkChecksum, chunk.offset,
+    return Failure{ErrorCode::ChunkChecksum,
+                   chunk.offset,
                    "chunk " + chunkName(chunk.type) + " should have checksum " +
-                       hex(chunk.checksum) + ", its bytes have " + hex(found)};
+                       hex(chunk.checksum) + ", its bytes have " + hex(found),
+                   {{"chunk", chunkName(chunk.type)},
+                    {"found", hex(found)},
+                    {"expected", hex(chunk.checksum)}}};
   return true;
 }
 

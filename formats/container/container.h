@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/container/error_code.h"
 #include "formats/container/expected.h"
+#include "formats/container/issue.h"
 
 namespace lumen::formats {
 
@@ -40,26 +40,28 @@ constexpr ChunkType chunkType(const char (&name)[5]) {
 }
 std::string chunkName(ChunkType type);
 
-enum class ChunkEncoding : std::uint8_t { Raw = 0 };
+enum class ChunkEncoding : std::uint8_t { Raw = 0, Zstd = 1, Draco = 2 };
+
+/// A chunk of a known encoding decodes to at most this many times its stored size, so memory stays
+/// bounded by the bytes that are there.
+constexpr std::uint64_t kMaxExpansion = 256;
 
 /// One piece of a file that was read. `stored` points into the bytes that were given to
 /// readContainer().
 struct Chunk {
   ChunkType type = 0;
   std::uint16_t version = 0;
-  bool critical = false;       ///< a reader that does not know the type must refuse the file
-  std::uint8_t encoding = 0;   ///< of `stored`; may be one that this code does not know
-  std::uint32_t checksum = 0;  ///< CRC-32C of `stored`, not yet verified
-  std::uint64_t offset = 0;    ///< of `stored` in the file, bytes
-  std::uint64_t rawSize = 0;   ///< bytes once decoded
+  bool critical = false;          ///< a reader that does not know the type must refuse the file
+  bool independent = false;       ///< stays right when the nodes, points or models change
+  std::uint8_t encoding = 0;      ///< of `stored`; may be one that this code does not know
+  std::uint32_t checksum = 0;     ///< CRC-32C of `stored`, not yet verified
+  std::uint64_t offset = 0;       ///< of `stored` in the file, bytes
+  std::uint64_t rawSize = 0;      ///< bytes once decoded
+  std::uint64_t entryOffset = 0;  ///< of its entry in the chunk table
   std::span<const std::byte> stored;
 };
 
-struct ContainerError {
-  ErrorCode code;
-  std::uint64_t offset = 0;  ///< bytes from the start of the file
-  std::string message;       ///< what was found and what was expected
-};
+using ContainerError = Issue;
 
 /// A view: it owns nothing but the list of chunks.
 struct Container {
@@ -73,11 +75,15 @@ struct Container {
 /// True if `bytes` start with the signature, whatever follows.
 bool hasContainerMagic(std::span<const std::byte> bytes);
 
-/// Checks all that lies between the chunks: header, table, order, alignment and padding. It reads
-/// the header, the table and the last line of each chunk, so opening a mapped file is cheap; the
-/// chunks themselves are verified by verifyChunk(). The number of chunks is the only thing that is
+/// Whether the zeros behind each chunk are looked at; that touches a page of a mapped file per
+/// chunk.
+enum class Padding : std::uint8_t { Check, Skip };
+
+/// Checks all that lies between the chunks: header, table, order, alignment and padding. The chunks
+/// themselves are verified by verifyChunk(). The number of chunks is the only thing that is
 /// allocated for.
-Expected<Container, ContainerError> readContainer(std::span<const std::byte> bytes);
+Expected<Container, ContainerError> readContainer(std::span<const std::byte> bytes,
+                                                  Padding padding = Padding::Check);
 
 /// True, or CHUNK_CHECKSUM. Reads the whole chunk.
 Expected<bool, ContainerError> verifyChunk(const Chunk& chunk);
@@ -87,10 +93,13 @@ struct ChunkSource {
   ChunkType type = 0;
   std::uint16_t version = 1;
   bool critical = false;
-  std::vector<std::byte> bytes;
+  std::vector<std::byte> bytes{};  ///< as they are stored
+  bool independent = false;
+  std::uint8_t encoding = 0;
+  std::uint64_t rawSize = 0;  ///< of an encoded chunk
 };
 
-/// The file that holds `chunks` in that order, unencoded. At most kMaxChunks.
+/// The file that holds `chunks` in that order. At most kMaxChunks.
 std::vector<std::byte> writeContainer(std::span<const ChunkSource> chunks);
 
 }  // namespace lumen::formats

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/container/error_code.h"
 
+#include <algorithm>
 #include <array>
-#include <cstddef>
 
 namespace lumen::formats {
 namespace {
@@ -10,91 +10,171 @@ namespace {
 using enum ErrorCode;
 
 constexpr auto kRules = std::to_array<ErrorRule>({
-    {Magic, "MAGIC", "the first ten bytes are not the signature"},
-    {Truncated, "TRUNCATED",
+    {Magic, Severity::Error, "MAGIC", "", "the first ten bytes are not the signature"},
+    {Truncated, Severity::Error, "TRUNCATED", "found expected",
      "the file is shorter than its header or than the length that the header states"},
-    {TrailingBytes, "TRAILING_BYTES",
+    {TrailingBytes, Severity::Error, "TRAILING_BYTES", "found expected",
      "bytes follow the stated length, or the end of the last chunk"},
-    {HeaderChecksum, "HEADER_CHECKSUM", "the header does not match its checksum"},
-    {HeaderField, "HEADER_FIELD",
+    {HeaderChecksum, Severity::Error, "HEADER_CHECKSUM", "found expected",
+     "the header does not match its checksum"},
+    {HeaderField, Severity::Error, "HEADER_FIELD", "found expected",
      "a header field has an illegal value, or a reserved byte is not zero"},
-    {Version, "VERSION", "the file needs a newer reader, or its version is not one"},
-    {ChunkCount, "CHUNK_COUNT", "the chunk table does not fit into the file, or exceeds its limit"},
-    {TableChecksum, "TABLE_CHECKSUM", "the chunk table does not match its checksum"},
-    {ChunkType, "CHUNK_TYPE", "a chunk type is not four ASCII letters or digits"},
-    {ChunkField, "CHUNK_FIELD", "a chunk's flags are illegal, or a reserved byte is not zero"},
-    {ChunkOffset, "CHUNK_OFFSET",
+    {Version, Severity::Error, "VERSION", "found expected",
+     "the file needs a newer reader, or its version is not one"},
+    {ChunkCount, Severity::Error, "CHUNK_COUNT", "found limit",
+     "the chunk table does not fit into the file, or exceeds its limit"},
+    {TableChecksum, Severity::Error, "TABLE_CHECKSUM", "found expected",
+     "the chunk table does not match its checksum"},
+    {ChunkType, Severity::Error, "CHUNK_TYPE", "found",
+     "a chunk type is not four ASCII letters or digits"},
+    {ChunkField, Severity::Error, "CHUNK_FIELD", "chunk",
+     "a chunk's flags are illegal, or a reserved byte is not zero"},
+    {ChunkOffset, Severity::Error, "CHUNK_OFFSET", "chunk found expected",
      "a chunk does not start at the first multiple of 64 after the one before"},
-    {ChunkSize, "CHUNK_SIZE",
+    {ChunkSize, Severity::Error, "CHUNK_SIZE", "chunk found expected",
      "a chunk ends beyond the file, or its two sizes contradict its encoding"},
-    {ChunkPadding, "CHUNK_PADDING", "a padding byte is not zero"},
-    {ChunkChecksum, "CHUNK_CHECKSUM", "a chunk's bytes do not match their checksum"},
-    {ChunkEncoding, "CHUNK_ENCODING",
-     "a chunk that is needed has an encoding that the reader lacks"},
-    {ChunkUnknown, "CHUNK_UNKNOWN", "a critical chunk has a type that the reader does not know"},
-    {ChunkVersion, "CHUNK_VERSION", "a chunk has a version that the reader does not know"},
-    {ChunkDuplicate, "CHUNK_DUPLICATE", "a chunk that may occur once occurs again"},
-    {ChunkMissing, "CHUNK_MISSING",
+    {ChunkPadding, Severity::Error, "CHUNK_PADDING", "found", "a padding byte is not zero"},
+    {ChunkChecksum, Severity::Error, "CHUNK_CHECKSUM", "chunk found expected",
+     "a chunk's bytes do not match their checksum"},
+    {ChunkEncoding, Severity::Error, "CHUNK_ENCODING", "chunk found",
+     "a chunk has an encoding that its type or the reader does not have"},
+    {ChunkExpansion, Severity::Error, "CHUNK_EXPANSION", "chunk found limit",
+     "the raw size of an encoded chunk is beyond 256 times its stored size"},
+    {ChunkDecode, Severity::Error, "CHUNK_DECODE", "chunk",
+     "an encoded chunk does not decode to its raw size"},
+    {ChunkUnknown, Severity::Error, "CHUNK_UNKNOWN", "chunk",
+     "a critical chunk has a type that the reader does not know"},
+    {ChunkVersion, Severity::Error, "CHUNK_VERSION", "chunk found",
+     "a chunk has a version that the reader does not know"},
+    {ChunkDuplicate, Severity::Error, "CHUNK_DUPLICATE", "chunk",
+     "a chunk that may occur once occurs again"},
+    {ChunkMissing, Severity::Error, "CHUNK_MISSING", "chunk",
      "a required chunk, or one of a group that comes together, is absent"},
-    {ChunkLength, "CHUNK_LENGTH", "a chunk's size is not that of its elements"},
-    {JsonSyntax, "JSON_SYNTAX", "the text is not JSON in UTF-8"},
-    {JsonDepth, "JSON_DEPTH", "arrays and objects are nested too deeply"},
-    {JsonDuplicateKey, "JSON_DUPLICATE_KEY", "an object has the same key twice"},
-    {JsonKeyUnknown, "JSON_KEY_UNKNOWN", "an object has a key that the format does not define"},
-    {JsonKeyMissing, "JSON_KEY_MISSING", "an object lacks a required key"},
-    {JsonType, "JSON_TYPE", "a value has another JSON type than the format defines"},
-    {NumberRange, "NUMBER_RANGE", "a number cannot be represented in the type of its field"},
-    {NotLumen, "NOT_LUMEN", "the first bytes are those of neither encoding"},
-    {CoordinateSystem, "COORDINATE_SYSTEM", "the coordinate system is not \"LPS\""},
-    {Units, "UNITS", "the unit of length is not \"mm\""},
-    {EnumValue, "ENUM_VALUE",
-     "a kind, stop reason or kernel is none of those that the format defines"},
-    {Limit, "LIMIT", "a count exceeds its published maximum"},
-    {ArrayLength, "ARRAY_LENGTH",
+    {ChunkLength, Severity::Error, "CHUNK_LENGTH", "chunk found expected",
+     "a chunk's size is not that of its elements"},
+    {ChunkIgnored, Severity::Information, "CHUNK_IGNORED", "chunk",
+     "a chunk that is not critical has a type that the reader does not know"},
+    {ChunkOrder, Severity::Warning, "CHUNK_ORDER", "chunk",
+     "a chunk comes before one that should precede it"},
+    {JsonSyntax, Severity::Error, "JSON_SYNTAX", "", "the text is not JSON in UTF-8"},
+    {JsonDepth, Severity::Error, "JSON_DEPTH", "limit", "arrays and objects are nested too deeply"},
+    {JsonDuplicateKey, Severity::Error, "JSON_DUPLICATE_KEY", "key",
+     "an object has the same key twice"},
+    {JsonKeyUnknown, Severity::Error, "JSON_KEY_UNKNOWN", "key",
+     "an object has a key that the format does not define"},
+    {JsonKeyMissing, Severity::Error, "JSON_KEY_MISSING", "key", "an object lacks a required key"},
+    {JsonType, Severity::Error, "JSON_TYPE", "found expected",
+     "a value has another JSON type than the format defines"},
+    {NumberRange, Severity::Error, "NUMBER_RANGE", "found",
+     "a number cannot be represented in the type of its field"},
+    {NotLumen, Severity::Error, "NOT_LUMEN", "found expected", "the file is in neither encoding"},
+    {CoordinateSystem, Severity::Error, "COORDINATE_SYSTEM", "found expected",
+     "the coordinate system is not \"LPS\""},
+    {Units, Severity::Error, "UNITS", "found expected", "the unit of length is not \"mm\""},
+    {EnumValue, Severity::Error, "ENUM_VALUE", "found expected",
+     "a kind, stop reason, kernel or array type is none of those that the format defines"},
+    {JsonChunkData, Severity::Error, "JSON_CHUNK_DATA", "chunk",
+     "the data of a chunk in JSON are not base64 of a legal size, or its type is that of a known "
+     "chunk"},
+    {Limit, Severity::Error, "LIMIT", "found limit", "a count exceeds its published maximum"},
+    {ArrayLength, Severity::Error, "ARRAY_LENGTH", "found expected",
      "an array has another length than the number of nodes or blobs asks for"},
-    {NotFinite, "NOT_FINITE", "a number is infinite or not a number"},
-    {TreeEmpty, "TREE_EMPTY", "the tree has no node"},
-    {RadiusRange, "RADIUS_RANGE", "a radius is not positive"},
-    {HeightRange, "HEIGHT_RANGE", "a height is negative"},
-    {DirectionLength, "DIRECTION_LENGTH", "a direction is not a unit vector"},
-    {InlierRateRange, "INLIER_RATE_RANGE", "an inlier rate is outside 0 to 1"},
-    {NodeParent, "NODE_PARENT", "a node's parent is neither -1 nor a node before it"},
-    {NodeBranch, "NODE_BRANCH", "a node names another branch than the one whose range holds it"},
-    {NodeChain, "NODE_CHAIN", "a node's parent is not the node before it in its branch"},
-    {BranchRange, "BRANCH_RANGE",
+    {NotFinite, Severity::Error, "NOT_FINITE", "found expected",
+     "a number is infinite or not a number"},
+    {NegativeZero, Severity::Warning, "NEGATIVE_ZERO", "", "a number is a negative zero"},
+    {TreeEmpty, Severity::Error, "TREE_EMPTY", "", "the tree has no node"},
+    {RadiusRange, Severity::Error, "RADIUS_RANGE", "found expected", "a radius is not positive"},
+    {HeightRange, Severity::Error, "HEIGHT_RANGE", "found expected", "a height is negative"},
+    {DirectionLength, Severity::Error, "DIRECTION_LENGTH", "found expected",
+     "a direction is not a unit vector"},
+    {InlierRateRange, Severity::Error, "INLIER_RATE_RANGE", "found expected",
+     "an inlier rate is outside 0 to 1"},
+    {NodeParent, Severity::Error, "NODE_PARENT", "found limit",
+     "a node's parent is neither -1 nor a node before it"},
+    {NodeBranch, Severity::Error, "NODE_BRANCH", "found expected",
+     "a node names another branch than the one whose range holds it"},
+    {NodeChain, Severity::Error, "NODE_CHAIN", "found expected",
+     "a node's parent is not the node before it in its branch"},
+    {BranchRange, Severity::Error, "BRANCH_RANGE", "found expected",
      "the branches' ranges are empty, or do not tile the nodes in order"},
-    {BranchParent, "BRANCH_PARENT", "a branch's parent node is not the parent of its first node"},
-    {LabelEmpty, "LABEL_EMPTY", "a label is empty"},
-    {LabelDuplicate, "LABEL_DUPLICATE", "two branches have the same label"},
-    {TextUtf8, "TEXT_UTF8", "a text is not valid UTF-8"},
-    {TextControl, "TEXT_CONTROL", "a text has a control character"},
-    {TextLength, "TEXT_LENGTH", "a text is empty where it must not be, or too long"},
-    {OffsetStart, "OFFSET_START", "an offset array does not start at 0"},
-    {OffsetOrder, "OFFSET_ORDER", "an offset array decreases"},
-    {OffsetEnd, "OFFSET_END", "an offset array does not end at the number of elements"},
-    {KernelParameter, "KERNEL_PARAMETER",
+    {BranchParent, Severity::Error, "BRANCH_PARENT", "found expected",
+     "a branch's parent node is not the parent of its first node"},
+    {LinkNode, Severity::Error, "LINK_NODE", "found limit",
+     "a link names a node that does not exist"},
+    {LinkOrder, Severity::Error, "LINK_ORDER", "",
+     "a link's nodes do not ascend, or the links do not"},
+    {LinkParent, Severity::Error, "LINK_PARENT", "", "a link joins a node and its parent"},
+    {LabelEmpty, Severity::Error, "LABEL_EMPTY", "", "a label is empty"},
+    {LabelDuplicate, Severity::Error, "LABEL_DUPLICATE", "found",
+     "two branches have the same label"},
+    {TextUtf8, Severity::Error, "TEXT_UTF8", "found", "a text is not valid UTF-8"},
+    {TextControl, Severity::Error, "TEXT_CONTROL", "found", "a text has a control character"},
+    {TextLength, Severity::Error, "TEXT_LENGTH", "found limit",
+     "a text is empty where it must not be, or too long"},
+    {OffsetStart, Severity::Error, "OFFSET_START", "found expected",
+     "an offset array does not start at 0"},
+    {OffsetOrder, Severity::Error, "OFFSET_ORDER", "found expected", "an offset array decreases"},
+    {OffsetEnd, Severity::Error, "OFFSET_END", "found expected",
+     "an offset array does not end at the number of elements"},
+    {KernelParameter, Severity::Error, "KERNEL_PARAMETER", "found expected",
      "the parameter of a Cauchy or Gaussian kernel is not positive"},
-    {IsoLevel, "ISO_LEVEL", "the iso-level is not positive"},
-    {WidthRange, "WIDTH_RANGE", "a blob's width is not positive"},
-    {VoxelSize, "VOXEL_SIZE", "the voxel size is not positive"},
-    {SourceSize, "SOURCE_SIZE", "the source volume has no voxel along an axis"},
-    {SourceSpacing, "SOURCE_SPACING", "the source volume's spacing is not positive"},
-    {SourceDirection, "SOURCE_DIRECTION", "the source volume's axes are not orthonormal"},
-    {SourceSha256, "SOURCE_SHA256",
+    {IsoLevel, Severity::Error, "ISO_LEVEL", "found expected", "the iso-level is not positive"},
+    {WidthRange, Severity::Error, "WIDTH_RANGE", "found expected",
+     "a blob's width is not positive"},
+    {CompactKernel, Severity::Error, "COMPACT_KERNEL", "found expected",
+     "the kernel of the compact models has no compact support"},
+    {CompactAlone, Severity::Error, "COMPACT_ALONE", "", "there are compact models, but no models"},
+    {VoxelSize, Severity::Error, "VOXEL_SIZE", "found expected", "the voxel size is not positive"},
+    {SourceSize, Severity::Error, "SOURCE_SIZE", "",
+     "the source volume has no voxel along an axis"},
+    {SourceSpacing, Severity::Error, "SOURCE_SPACING", "found expected",
+     "the source volume's spacing is not positive"},
+    {SourceDirection, Severity::Error, "SOURCE_DIRECTION", "found expected",
+     "the source volume's axes are not orthonormal"},
+    {SourceSha256, Severity::Error, "SOURCE_SHA256", "",
      "the source volume's digest is not 64 lower-case hexadecimal digits"},
-    {IoMissing, "IO_MISSING", "there is no such file"},
-    {IoNotAFile, "IO_NOT_A_FILE", "the path leads to a directory or a device"},
-    {IoEmpty, "IO_EMPTY", "the file has no bytes"},
-    {IoRead, "IO_READ", "the file cannot be opened or read"},
-    {IoWrite, "IO_WRITE", "the file cannot be written"},
+    {ParentSha256, Severity::Error, "PARENT_SHA256", "",
+     "the parent file's digest is not 64 lower-case hexadecimal digits"},
+    {PointQuantisation, Severity::Error, "POINT_QUANTISATION", "found expected",
+     "the bits of the point quantisation are not 1 to 30, or its step is not positive"},
+    {RandomSeed, Severity::Error, "RANDOM_SEED", "found expected",
+     "the parameter random-seed is not an integer from 0"},
+    {ExtensionName, Severity::Error, "EXTENSION_NAME", "found",
+     "an extension's name is not VENDOR_name"},
+    {ExtensionDuplicate, Severity::Error, "EXTENSION_DUPLICATE", "found",
+     "an extension is listed twice"},
+    {ExtensionUnlisted, Severity::Error, "EXTENSION_UNLISTED", "found",
+     "an extension is required, or has an array, and is not listed as used"},
+    {ExtensionRequired, Severity::Error, "EXTENSION_REQUIRED", "found",
+     "the file requires an extension that the reader does not have"},
+    {NodeArrayName, Severity::Error, "NODE_ARRAY_NAME", "found",
+     "a node array's name is not EXTENSION.name, or occurs twice"},
+    {NodeArrayComponents, Severity::Error, "NODE_ARRAY_COMPONENTS", "found limit",
+     "the number of components of a node array is not 1 to 16"},
+    {PrivacyDate, Severity::Error, "PRIVACY_DATE", "found", "a text has what looks like a date"},
+    {PrivacyPath, Severity::Error, "PRIVACY_PATH", "found",
+     "a text has what looks like a path or an address of a file"},
+    {PrivacyAddress, Severity::Error, "PRIVACY_ADDRESS", "found",
+     "a text has what looks like an e-mail address"},
+    {PrivacyNumber, Severity::Error, "PRIVACY_NUMBER", "found",
+     "a text has what looks like an identification number"},
+    {PrivacyName, Severity::Error, "PRIVACY_NAME", "found",
+     "a text has what looks like the name or title of a person"},
+    {IoMissing, Severity::Error, "IO_MISSING", "", "there is no such file"},
+    {IoNotAFile, Severity::Error, "IO_NOT_A_FILE", "", "the path leads to a directory or a device"},
+    {IoEmpty, Severity::Error, "IO_EMPTY", "", "the file has no bytes"},
+    {IoRead, Severity::Error, "IO_READ", "", "the file cannot be opened or read"},
+    {IoWrite, Severity::Error, "IO_WRITE", "", "the file cannot be written"},
+    {ViewMemory, Severity::Error, "VIEW_MEMORY", "",
+     "the bytes cannot be used in place: they are not aligned, or the machine is big-endian"},
 });
 
-constexpr bool inOrder() {
-  for (std::size_t i = 0; i < kRules.size(); ++i)
-    if (static_cast<std::size_t>(kRules[i].code) != i) return false;
+constexpr bool ascending() {
+  for (std::size_t i = 1; i < kRules.size(); ++i)
+    if (kRules[i].code <= kRules[i - 1].code) return false;
   return true;
 }
-static_assert(inOrder() && kRules.size() == static_cast<std::size_t>(IoWrite) + 1);
+static_assert(ascending());
 
 }  // namespace
 
@@ -102,8 +182,29 @@ std::span<const ErrorRule> errorRules() {
   return kRules;
 }
 
+const ErrorRule& errorRule(ErrorCode code) {
+  return *std::lower_bound(kRules.begin(), kRules.end(), code,
+                           [](const ErrorRule& rule, ErrorCode c) { return rule.code < c; });
+}
+
 const char* errorName(ErrorCode code) {
-  return kRules[static_cast<std::size_t>(code)].name;
+  return errorRule(code).name;
+}
+
+Severity severityOf(ErrorCode code) {
+  return errorRule(code).severity;
+}
+
+const char* severityName(Severity severity) {
+  switch (severity) {
+    case Severity::Error:
+      return "error";
+    case Severity::Warning:
+      return "warning";
+    case Severity::Information:
+      break;
+  }
+  return "information";
 }
 
 }  // namespace lumen::formats

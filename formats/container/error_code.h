@@ -7,10 +7,11 @@
 
 namespace lumen::formats {
 
-/// Append only: names outlive wording and are never reused. See spec/lumen.md, "Errors".
-enum class ErrorCode : std::uint8_t {
+/// Names and numbers outlive wording; they are stable and never used again for another rule. See
+/// spec/errors.md, which is made from this list.
+enum class ErrorCode : std::uint16_t {
   // the container
-  Magic,
+  Magic = 101,
   Truncated,
   TrailingBytes,
   HeaderChecksum,
@@ -25,14 +26,18 @@ enum class ErrorCode : std::uint8_t {
   ChunkPadding,
   ChunkChecksum,
   ChunkEncoding,
+  ChunkExpansion,
+  ChunkDecode,
   // the chunks of a case
-  ChunkUnknown,
+  ChunkUnknown = 201,
   ChunkVersion,
   ChunkDuplicate,
   ChunkMissing,
   ChunkLength,
+  ChunkIgnored,
+  ChunkOrder,
   // JSON
-  JsonSyntax,
+  JsonSyntax = 301,
   JsonDepth,
   JsonDuplicateKey,
   JsonKeyUnknown,
@@ -43,10 +48,12 @@ enum class ErrorCode : std::uint8_t {
   CoordinateSystem,
   Units,
   EnumValue,
+  JsonChunkData,
   // the model
-  Limit,
+  Limit = 401,
   ArrayLength,
   NotFinite,
+  NegativeZero,
   TreeEmpty,
   RadiusRange,
   HeightRange,
@@ -57,6 +64,9 @@ enum class ErrorCode : std::uint8_t {
   NodeChain,
   BranchRange,
   BranchParent,
+  LinkNode,
+  LinkOrder,
+  LinkParent,
   LabelEmpty,
   LabelDuplicate,
   TextUtf8,
@@ -68,29 +78,63 @@ enum class ErrorCode : std::uint8_t {
   KernelParameter,
   IsoLevel,
   WidthRange,
-  VoxelSize,
+  CompactKernel,
+  CompactAlone,
+  // provenance and extensions
+  VoxelSize = 501,
   SourceSize,
   SourceSpacing,
   SourceDirection,
   SourceSha256,
+  ParentSha256,
+  PointQuantisation,
+  RandomSeed,
+  ExtensionName,
+  ExtensionDuplicate,
+  ExtensionUnlisted,
+  ExtensionRequired,
+  NodeArrayName,
+  NodeArrayComponents,
+  // privacy: reported only when asked for
+  PrivacyDate = 601,
+  PrivacyPath,
+  PrivacyAddress,
+  PrivacyNumber,
+  PrivacyName,
   // files
-  IoMissing,
+  IoMissing = 901,
   IoNotAFile,
   IoEmpty,
   IoRead,
   IoWrite,
+  ViewMemory,
+};
+
+enum class Severity : std::uint8_t {
+  Error,        ///< the file is refused
+  Warning,      ///< legal, but not what a writer should write
+  Information,  ///< legal, and worth knowing
 };
 
 struct ErrorRule {
   ErrorCode code;
-  const char* name;     ///< stable, upper case: what messages, tests and other programs use
-  const char* meaning;  ///< one phrase for the specification's table
+  Severity severity;
+  const char* name;       ///< upper case: what messages, tests and other programs use
+  const char* arguments;  ///< their names, with a space between; not all need be given
+  const char* meaning;    ///< one phrase
 };
 
 /// Every rule, in the order of ErrorCode.
 std::span<const ErrorRule> errorRules();
 
+const ErrorRule& errorRule(ErrorCode code);
+
 /// The stable name, such as TRUNCATED.
 const char* errorName(ErrorCode code);
+
+Severity severityOf(ErrorCode code);
+
+/// "error", "warning" or "information".
+const char* severityName(Severity severity);
 
 }  // namespace lumen::formats

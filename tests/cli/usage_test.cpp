@@ -8,8 +8,8 @@ namespace lumen::test {
 
 namespace {
 
-const std::vector<std::string> kCommands = {"convert", "track",   "fit",
-                                            "info",    "compare", "phantom"};
+const std::vector<std::string> kCommands = {"convert", "track",    "fit",    "info",
+                                            "compare", "validate", "phantom"};
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -67,6 +67,9 @@ TEST_F(UsageTest, WrongArgumentsExitWithTwoAndSayNothingOnStandardOutput) {
       {"convert", "one.lumen"},
       {"convert", "one.lumen", "two.lumen", "three.lumen"},
       {"info", "--nonsense", "one.lumen"},
+      {"validate"},
+      {"validate", "one.lumen", "--max-issues", "0"},
+      {"convert", "a.lumen", "b.lumen", "--point-bits", "31"},
       {"track", "a.nrrd", "b.lumen", "--inlier-rate", "1.5"},
       {"track", "a.nrrd", "b.lumen", "--rays", "100"},
       {"track", "a.nrrd", "b.lumen", "--samples", "many"},

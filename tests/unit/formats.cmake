@@ -1,19 +1,32 @@
 lumen_test(formats_test
-  LIBS lumen_case
+  LIBS lumen_case nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/allocation_meter.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/binary_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/blobby_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/case_view_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/container_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/crc32c_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/encoding_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/file_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/full_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/memory_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/privacy_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_tables.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/topology_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/validate_test.cpp)
 target_include_directories(formats_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
+# ninja write_spec && tests/write_spec spec tests: makes the generated parts of the specification anew.
+add_executable(write_spec EXCLUDE_FROM_ALL
+  ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_tables.cpp
+  ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/write_spec.cpp)
+target_include_directories(write_spec PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+target_link_libraries(write_spec PRIVATE lumen_container nlohmann_json::nlohmann_json)
 
 if(LUMEN_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)
@@ -22,4 +35,12 @@ if(LUMEN_BUILD_BENCHMARKS)
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp)
   target_include_directories(formats_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(formats_bench PRIVATE lumen_case GTest::gtest benchmark::benchmark_main)
+
+  # sizes are compared with those of VTK's files, which zlib compresses
+  find_package(ZLIB REQUIRED)
+  add_executable(open_bench
+    ${CMAKE_CURRENT_SOURCE_DIR}/bench/open_bench.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp)
+  target_include_directories(open_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(open_bench PRIVATE lumen_case GTest::gtest ZLIB::ZLIB)
 endif()

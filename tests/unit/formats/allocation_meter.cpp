@@ -11,24 +11,57 @@ namespace {
 
 std::atomic<std::size_t> live{0}, peak{0}, start{0};
 
-}  // namespace
-
-void* operator new(std::size_t size) {
+void* allocate(std::size_t size) noexcept {
   void* block = std::malloc(size);
-  if (block == nullptr) throw std::bad_alloc();
+  if (block == nullptr) return nullptr;
   const std::size_t now = live += malloc_usable_size(block);
   if (now > peak) peak = now;
   return block;
 }
 
-void operator delete(void* block) noexcept {
+void release(void* block) noexcept {
   live -= malloc_usable_size(block);
   std::free(block);
 }
 
+void* allocateOrThrow(std::size_t size) {
+  void* block = allocate(size);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+}  // namespace
+
+// All forms that libraries use: a sanitizer's own ones would not match ours.
+void* operator new(std::size_t size) {
+  return allocateOrThrow(size);
+}
+void* operator new[](std::size_t size) {
+  return allocateOrThrow(size);
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return allocate(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return allocate(size);
+}
+void operator delete(void* block) noexcept {
+  release(block);
+}
+void operator delete[](void* block) noexcept {
+  release(block);
+}
 void operator delete(void* block, std::size_t) noexcept {
-  live -= malloc_usable_size(block);
-  std::free(block);
+  release(block);
+}
+void operator delete[](void* block, std::size_t) noexcept {
+  release(block);
+}
+void operator delete(void* block, const std::nothrow_t&) noexcept {
+  release(block);
+}
+void operator delete[](void* block, const std::nothrow_t&) noexcept {
+  release(block);
 }
 
 namespace lumen::formats::test {

@@ -104,6 +104,7 @@ TEST(Binary, SurvivesEveryChangedByteOfEveryChunk) {
   EXPECT_GT(accepted, 0u);  // some bytes are the low parts of coordinates
 }
 
+// spec: M12
 TEST(Binary, RefusesAnUnknownCriticalChunkByName) {
   const auto result =
       decodeBinary(tampered([](Bytes& f) { f[entryOf(f, "NRAD")] = std::byte{'Q'}; }));
@@ -112,15 +113,20 @@ TEST(Binary, RefusesAnUnknownCriticalChunkByName) {
   EXPECT_NE(result.error().message.find("QRAD"), std::string::npos);
 }
 
-TEST(Binary, IgnoresUnknownChunksThatAreNotCritical) {
+// spec: M13, M14
+TEST(Binary, KeepsUnknownChunksThatAreNotCritical) {
   Case expected = test::richCase();
   expected.tree.inlierRate.clear();
+  const Bytes good = encodeBinary(test::richCase());
+  const auto rates = good.begin() + static_cast<std::ptrdiff_t>(dataOf(good, "NINL"));
+  expected.otherChunks = {{"qINL", 1, false, 0, 24, Bytes(rates, rates + 24)}};
   const auto result =
       decodeBinary(tampered([](Bytes& f) { f[entryOf(f, "NINL")] = std::byte{'q'}; }));
   ASSERT_TRUE(result) << result.error().text();
   EXPECT_EQ(*result, expected);
 }
 
+// spec: M13
 TEST(Binary, IgnoresTheEncodingOfAnUnknownChunk) {
   EXPECT_EQ(codeOf(decodeBinary(tampered([](Bytes& f) {
               const std::size_t entry = entryOf(f, "NINL");
@@ -131,6 +137,7 @@ TEST(Binary, IgnoresTheEncodingOfAnUnknownChunk) {
             "OK");
 }
 
+// spec: M9, M13
 TEST(Binary, ChecksTheBytesOfChunksThatItIgnores) {
   Bytes file = tampered([](Bytes& f) { f[entryOf(f, "NINL")] = std::byte{'q'}; });
   file[dataOf(file, "qINL")] ^= std::byte{1};
@@ -161,6 +168,7 @@ void shorten(Bytes& file, const std::string& type, std::uint64_t size) {
 
 class BinaryFault : public testing::TestWithParam<Fault> {};
 
+// spec: M1, M22, M23, M24, M26, M27, M28
 TEST_P(BinaryFault, IsFound) {
   EXPECT_EQ(codeOf(decodeBinary(tampered(GetParam().change))), GetParam().code);
 }
@@ -170,8 +178,14 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Fault{"chunk_version", [](Bytes& f) { f[entryOf(f, "NRAD") + 4] = std::byte{2}; },
               "CHUNK_VERSION"},
-        Fault{"chunk_encoding", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{1}; },
+        Fault{"chunk_encoding", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{3}; },
               "CHUNK_ENCODING"},
+        Fault{"draco_radii", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{2}; },
+              "CHUNK_ENCODING"},
+        Fault{"no_zstd_frame", [](Bytes& f) { f[entryOf(f, "NRAD") + 7] = std::byte{1}; },
+              "CHUNK_DECODE"},
+        Fault{"no_draco_cloud", [](Bytes& f) { f[entryOf(f, "PPOS") + 7] = std::byte{2}; },
+              "CHUNK_DECODE"},
         Fault{"not_critical", [](Bytes& f) { f[entryOf(f, "NRAD") + 6] = std::byte{0}; },
               "CHUNK_FIELD"},
         Fault{"needlessly_critical", [](Bytes& f) { f[entryOf(f, "PPOS") + 6] = std::byte{1}; },
@@ -183,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
               "CHUNK_MISSING"},
         Fault{"partial_float", [](Bytes& f) { shorten(f, "NRAD", 23); }, "CHUNK_LENGTH"},
         Fault{"partial_vector", [](Bytes& f) { shorten(f, "PPOS", 44); }, "CHUNK_LENGTH"},
-        Fault{"one_node_less", [](Bytes& f) { shorten(f, "NRAD", 20); }, "ARRAY_LENGTH"},
+        Fault{"one_node_less", [](Bytes& f) { shorten(f, "NRAD", 20); }, "CHUNK_LENGTH"},
         Fault{"partial_branch", [](Bytes& f) { shorten(f, "BREC", 71); }, "CHUNK_LENGTH"},
         Fault{"kernel_record_short", [](Bytes& f) { shorten(f, "MKER", 23); }, "CHUNK_LENGTH"},
         Fault{"kernel_reserved", [](Bytes& f) { setData(f, "MKER", 3, std::uint8_t{1}); },
@@ -224,6 +238,7 @@ TEST(Binary, PlacesSyntaxErrorsOfTheMetadataByTheirByteInTheFile) {
   EXPECT_EQ(result.error().place, "byte " + std::to_string(dataOf(file, "META") + 3));
 }
 
+// spec: M43, M44
 TEST(Binary, IgnoresUnknownMetadataOfANewerMinorVersionOnly) {
   const auto renameVoxelSize = [](Bytes& f) {
     const std::size_t at = dataOf(f, "META");

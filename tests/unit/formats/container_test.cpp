@@ -137,6 +137,7 @@ struct Fault {
 
 class ContainerFault : public testing::TestWithParam<Fault> {};
 
+// spec: M1, M6, M7, M8, M9, M10, M11, M43
 TEST_P(ContainerFault, IsFound) {
   const Fault& fault = GetParam();
   Bytes file = twoChunks();
@@ -164,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"chunk_count_huge", 24, 0xffffffff, 4, "CHUNK_COUNT"},
                     Fault{"one_chunk_less", 24, 1, 4, "CHUNK_OFFSET"},
                     Fault{"type_with_space", 64, ' ', 1, "CHUNK_TYPE"},
-                    Fault{"reserved_flag", 70, 3, 1, "CHUNK_FIELD"},
+                    Fault{"reserved_flag", 70, 5, 1, "CHUNK_FIELD"},
                     Fault{"reserved_entry_byte", 64 + 63, 1, 1, "CHUNK_FIELD"},
                     Fault{"hole", 72, 256, 8, "CHUNK_OFFSET"},
                     Fault{"overlap", 128 + 8, 192, 8, "CHUNK_OFFSET"},
@@ -173,6 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"size_huge", 80, kHuge, 8, "CHUNK_SIZE"},
                     Fault{"size_beyond_file", 128 + 16, 65, 8, "CHUNK_SIZE"},
                     Fault{"raw_size_differs", 88, 4, 8, "CHUNK_SIZE"},
+
                     Fault{"padding", 192 + 63, 1, 1, "CHUNK_PADDING"}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
@@ -184,6 +186,22 @@ TEST(Container, IsRefusedIfItsLastChunkEndsBeforeItDoes) {
   EXPECT_EQ(errorOf(file), "TRAILING_BYTES");
 }
 
+// spec: M16, M42
+TEST(Container, RefusesAnEncodedChunkThatExpandsToMoreThan256Times) {
+  Bytes file = twoChunks();
+  file[71] = std::byte{1};                         // zstd
+  storeLittle(&file[88], std::uint64_t{3 * 256});  // raw size of 3 stored bytes
+  test::resign(file);
+  EXPECT_EQ(errorOf(file), "OK");
+  storeLittle(&file[88], std::uint64_t{3 * 257 + 256});
+  test::resign(file);
+  EXPECT_EQ(errorOf(file), "CHUNK_EXPANSION");
+  storeLittle(&file[88], kHuge);
+  test::resign(file);
+  EXPECT_EQ(errorOf(file), "CHUNK_EXPANSION");
+}
+
+// spec: M9
 TEST(Container, FindsWrongHeaderAndTableChecksums) {
   Bytes header = twoChunks(), table = twoChunks();
   header[60] ^= std::byte{1};
@@ -192,6 +210,7 @@ TEST(Container, FindsWrongHeaderAndTableChecksums) {
   EXPECT_EQ(errorOf(table), "TABLE_CHECKSUM");
 }
 
+// spec: M44
 TEST(Container, IgnoresReservedBytesOfANewerMinorVersion) {
   Bytes file = twoChunks();
   file[11] = std::byte{1};   // version 1.1, readable from 1.0 on

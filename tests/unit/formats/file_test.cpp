@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include "converters/common/random.h"
 #include "unit/formats/sample_case.h"
 
 namespace lumen::formats {
@@ -178,6 +185,44 @@ TEST_F(CaseFile, IsNotWrittenOverADirectoryOrADevice) {
   EXPECT_EQ(codeOf(writeFileAtomically({}, "/dev/null")), "IO_NOT_A_FILE");
   EXPECT_EQ(codeOf(write("absent/a", "x")), "IO_WRITE");
   EXPECT_EQ(names(), std::vector<std::string>{"sub"});
+}
+
+TEST_F(CaseFile, IsWrittenWithoutTheLeftoversOfWritersThatWereKilled) {
+  put(".lumen-1234-5.tmp", "half");
+  put(".lumen-1234-6.tmp", "locked");
+  put("lumen-1.tmp", "of somebody else");
+  const int locked = ::open(path(".lumen-1234-6.tmp").c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(locked, LOCK_EX), 0);
+  EXPECT_EQ(codeOf(write("a", "x")), "OK");
+  ::close(locked);
+  EXPECT_EQ(names(), (std::vector<std::string>{".lumen-1234-6.tmp", "a", "lumen-1.tmp"}));
+}
+
+// Kills a process at a random moment while it writes one of two contents over and over. The
+// environment variable LUMEN_KILLS sets how many times.
+TEST_F(CaseFile, IsTheOldOrTheNewOneWheneverTheWriterIsKilled) {
+  const char* kills = std::getenv("LUMEN_KILLS");
+  const int count = kills == nullptr ? 20 : std::atoi(kills);
+  const std::string contents[2] = {std::string(400'000, 'a'), std::string(700'000, 'b')};
+  ASSERT_EQ(codeOf(write("f", contents[0])), "OK");
+  Random random(11);
+  int seen[2] = {0, 0};
+  for (int i = 0; i < count; ++i) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0)
+      for (std::size_t k = 0;; ++k) (void)write("f", contents[k % 2]);
+    std::this_thread::sleep_for(std::chrono::microseconds(random.next() % 20000));
+    ASSERT_EQ(::kill(child, SIGKILL), 0);
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    const std::string found = get("f");
+    ASSERT_TRUE(found == contents[0] || found == contents[1]) << found.size();
+    ++seen[found == contents[1] ? 1 : 0];
+  }
+  EXPECT_GT(seen[0], 0);
+  EXPECT_GT(seen[1], 0);
+  EXPECT_EQ(codeOf(write("f", "last")), "OK");
+  EXPECT_EQ(names(), std::vector<std::string>{"f"});
 }
 
 // Limits the size of files, so that a write fails half way as on a full disk.

@@ -27,8 +27,10 @@ TEST(Json, GivesBackEveryField) {
   EXPECT_EQ(*decoded, test::richCase());
 }
 
+// spec: M35
 TEST(Json, GivesTheSameBinaryBytesAfterBinaryToJsonToBinary) {
-  for (const Case& value : {test::richCase(), test::smallestCase(), test::longCase(50, 3, 2)}) {
+  for (const Case& value :
+       {test::richCase(), test::fullCase(), test::smallestCase(), test::longCase(50, 3, 2)}) {
     const auto first = encodeBinary(value);
     const auto fromBinary = decodeBinary(first);
     ASSERT_TRUE(fromBinary);
@@ -83,6 +85,7 @@ TEST(Json, WritesFloatsInTheirShortestForm) {
   EXPECT_NE(text.find("\"width\": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]"), std::string::npos) << text;
 }
 
+// spec: M34
 TEST(Json, KeepsEveryBitPatternOfFiniteFloats) {
   Random random(7);
   Case value = test::smallestCase();
@@ -101,6 +104,7 @@ TEST(Json, KeepsEveryBitPatternOfFiniteFloats) {
   EXPECT_EQ(encodeBinary(*decoded), encodeBinary(value));
 }
 
+// spec: M30
 TEST(Json, KeepsIntegersAndDoublesApart) {
   Case value = test::smallestCase();
   Step step{"s", "t", {}};
@@ -160,6 +164,7 @@ struct Fault {
 
 class JsonFault : public testing::TestWithParam<Fault> {};
 
+// spec: M1, M28, M32, M33, M45
 TEST_P(JsonFault, IsFoundAtItsPlace) {
   const Fault& fault = GetParam();
   const auto result = decodeJson(replaced(fault.from, fault.to));
@@ -234,6 +239,7 @@ const Fault kFaults[] = {
 INSTANTIATE_TEST_SUITE_P(All, JsonFault, testing::ValuesIn(kFaults),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
+// spec: M31
 TEST(JsonSyntax, IsStrict) {
   const std::string good = encodeJson(test::smallestCase());
   ASSERT_EQ(codeOf(decodeJson(good)), "OK");
@@ -272,6 +278,7 @@ TEST(JsonSyntax, RefusesEveryTruncation) {
     ASSERT_FALSE(decodeJson(std::string(text, 0, size))) << size;
 }
 
+// spec: M41
 TEST(JsonDepth, OfSixtyFourIsAllowedAndNoMore) {
   const auto nested = [](std::size_t depth) {
     return replaced("\"tree\": {", "\"x-deep\": " + std::string(depth, '[') +

@@ -43,6 +43,13 @@ TEST(Memory, OfDecodingJsonIsBoundedByItsText) {
     for (const char* piece : {"[],", "{},", "0,"})
       expectBounded(repeated("{\"metadata\":{\"steps\":[", piece, count, "0]}}"));
     expectBounded(repeated("[", "\"\",", count, "0]"));
+    expectBounded(repeated("{\"otherChunks\":[", "{\"data\":\"AAAA\"},", count, "0]}"));
+    expectBounded(repeated("{\"tree\":{\"links\":[", "[],", count, ""));
+    expectBounded(repeated("{\"nodeArrays\":{\"a\":[", "0,", count, ""));
+    std::string arrays = "{\"nodeArrays\":{";
+    for (std::size_t i = 0; i < count; ++i)
+      arrays.append("\"").append(std::to_string(i)).append("\":[],");
+    expectBounded(arrays + "\"\":0}}");
     expectBounded(repeated("{\"tree\":{\"centre\":[", "[],", count, ""));
     expectBounded(repeated("{\"tree\":{\"radius\":[", "0,", count, ""));
     std::string keys = "{";
@@ -52,6 +59,7 @@ TEST(Memory, OfDecodingJsonIsBoundedByItsText) {
   }
 }
 
+// spec: M42
 TEST(Memory, OfDecodingHostileCountsIsNotAskedFor) {
   // every 32-bit word of header, table and records becomes huge in turn
   const Bytes good = encodeBinary(test::richCase());

@@ -21,6 +21,10 @@ Case smallestCase();
 /// Two vessels and an aneurysm, six nodes, points, Cauchy models and every kind of metadata.
 Case richCase();
 
+/// The rich case with everything else that a file can hold: links, compact models, a note, the
+/// parent's digest, quantised points, two node arrays of an extension, and two chunks of others.
+Case fullCase();
+
 /// A straight case of `nodes` nodes with so many points and blobs each, for the benchmark.
 Case longCase(std::size_t nodes, std::size_t pointsPerNode, std::size_t blobsPerNode);
 
@@ -33,8 +37,11 @@ std::size_t dataOf(const Bytes& file, const std::string& type);
 /// would.
 void resign(Bytes& file);
 
-/// The sample file with `change` applied and all checksums made right again.
+/// The file of the rich case with `change` applied and all checksums made right again.
 Bytes tampered(const std::function<void(Bytes&)>& change);
+
+/// The same for the full case.
+Bytes tamperedFull(const std::function<void(Bytes&)>& change);
 
 /// The code of the error that reading gives, or "OK".
 std::string codeOf(const Result<Case>& result);

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The specification and the code say the same.
+// The specification, the code, the schemas and the tests say the same.
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
-#include "formats/case/chunks.h"
 #include "formats/case/enum_names.h"
-#include "formats/case/limits.h"
+#include "formats/container/case_chunks.h"
+#include "formats/container/limits.h"
 #include "unit/formats/sample_case.h"
+#include "unit/formats/spec_tables.h"
 
 namespace lumen::formats {
 namespace {
@@ -36,27 +39,47 @@ std::string block(const std::string& language) {
   return text.substr(begin, text.find("```", begin) - begin);
 }
 
-TEST(Specification, ListsEveryErrorWithItsMeaningAndNoOther) {
+const std::filesystem::path kSpec = LUMEN_TEST_DATA "/../../spec";
+const std::filesystem::path kTests = LUMEN_TEST_DATA "/..";
+
+// `ninja write_spec && tests/write_spec ../../spec ../../tests` in the build folder makes them
+// anew.
+TEST(Specification, HasTheErrorsOfTheCode) {
+  EXPECT_EQ(test::readText(kSpec / "errors.md"), test::errorsPage());
+}
+
+TEST(Specification, HasThePropertiesOfTheSchemas) {
   const std::string text = specification();
-  const std::string table =
-      text.substr(text.find("## Errors"), text.find("## Example") - text.find("## Errors"));
-  std::size_t rows = 0;
-  for (std::size_t at = table.find("\n| `"); at != std::string::npos;
-       at = table.find("\n| `", at + 1))
-    ++rows;
-  EXPECT_EQ(rows, errorRules().size());
-  for (const ErrorRule& rule : errorRules()) {
-    std::string row = "| `";
-    row.append(rule.name).append("` | ").append(rule.meaning).append(" |\n");
-    EXPECT_TRUE(contains(table, row)) << row;
+  EXPECT_EQ(text, test::specificationWithTables(text, test::propertyTables(kSpec / "schema")));
+}
+
+TEST(Specification, HasATestForEveryRequirement) {
+  std::set<std::string> tested;
+  for (const auto& reference : test::testReferences(kTests)) tested.insert(reference.number);
+  std::set<std::string> known;
+  for (const auto& requirement : test::requirements(specification())) {
+    EXPECT_TRUE(known.insert(requirement.number).second) << requirement.number << " occurs twice";
+    EXPECT_TRUE(tested.contains(requirement.number)) << requirement.number << " has no test";
   }
+  for (const std::string& number : tested)
+    EXPECT_TRUE(known.contains(number)) << number << " is no requirement";
+}
+
+TEST(Specification, HasTheTableFromRequirementsToTests) {
+  EXPECT_EQ(test::readText(kSpec / "coverage.md"), test::coveragePage(specification(), kTests));
 }
 
 TEST(Specification, ListsEveryChunkAndWhetherItIsCritical) {
   const std::string text = specification();
   for (const ChunkRule& rule : kChunkRules) {
-    const std::string row =
-        "| `" + chunkName(rule.type) + (rule.critical ? "` | yes |" : "` | no |");
+    const std::string needed = rule.need == ChunkNeed::Always          ? "always"
+                               : rule.need == ChunkNeed::Points        ? "points"
+                               : rule.need == ChunkNeed::Models        ? "models"
+                               : rule.need == ChunkNeed::CompactModels ? "compact models"
+                                                                       : "";
+    const std::string row = "| `" + chunkName(rule.type) +
+                            (rule.critical ? "` | yes |" : "` | no |") +
+                            (needed.empty() ? "" : " " + needed) + " | ";
     EXPECT_TRUE(contains(text, row)) << row;
   }
 }
@@ -75,13 +98,19 @@ TEST(Specification, StatesTheLimitsOfTheCode) {
   const std::pair<const char*, std::size_t> limits[] = {
       {"| nodes | ", kMaxNodes},
       {"| points | ", kMaxPoints},
-      {"| blobs | ", kMaxBlobs},
+      {"| blobs of the models; of the compact models | ", kMaxBlobs},
       {"| branches | ", kMaxBranches},
       {"| steps | ", kMaxSteps},
       {"| chunks in a file | ", kMaxChunks},
       {"| parameters of a step | ", kMaxParameters},
-      {"| bytes of a label; of a name of a step, tool or parameter | ", kMaxNameBytes},
-      {"| bytes of a parameter that is a text | ", kMaxTextBytes},
+      {"| links | ", kMaxLinks},
+      {"| extensions used | ", kMaxExtensions},
+      {"| node arrays | ", kMaxNodeArrays},
+      {"| components of a node array | ", kMaxComponents},
+      {"| chunks of unknown types that are not critical | ", kMaxOtherChunks},
+      {"| raw size of an encoded chunk, in stored sizes | ", kMaxExpansion},
+      {"| bytes of a label, a name or a unit | ", kMaxNameBytes},
+      {"| bytes of the note; of a parameter that is a text | ", kMaxTextBytes},
       {"| levels of nested JSON arrays and objects | ", kMaxJsonDepth}};
   for (const auto& [row, value] : limits)
     EXPECT_TRUE(contains(text, row + std::to_string(value) + " |")) << row;

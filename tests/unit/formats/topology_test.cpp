@@ -44,6 +44,24 @@ TEST(Neighbours, WithinADistanceCrossBranchesNearestFirst) {
   EXPECT_EQ(neighbours.within(4, 100), (Nodes{4, 3, 1, 0, 2, 5}));
 }
 
+// spec: M5
+TEST(Neighbours, AreJoinedByLinksToo) {
+  CenterlineTree linked = tree();
+  const auto count = static_cast<std::uint32_t>(linked.nodeCount());
+  linked.links = {{0, count - 1}};
+  const Neighbours neighbours(linked);
+  EXPECT_EQ(neighbours.of(0).back(), count - 1);
+  EXPECT_EQ(neighbours.of(count - 1).front(), 0u);
+}
+
+TEST(Neighbours, WithinADistanceAreFoundOnceAroundALoop) {
+  CenterlineTree ring;
+  ring.centre.resize(4);
+  ring.parent = {-1, 0, 1, 2};
+  ring.links = {{0, 3}};
+  EXPECT_EQ(Neighbours(ring).within(0, 9), (std::vector<std::uint32_t>{0, 1, 3, 2}));
+}
+
 TEST(Neighbours, OfASingleNodeAreNone) {
   const Neighbours neighbours(test::smallestCase().tree);
   EXPECT_TRUE(neighbours.of(0).empty());

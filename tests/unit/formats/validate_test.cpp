@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "formats/case/limits.h"
+#include "formats/container/limits.h"
 #include "unit/formats/sample_case.h"
 
 namespace lumen::formats {
@@ -30,7 +30,12 @@ SourceVolume& source(Case& c) {
 }
 
 const Breach kTreeBreaches[] = {
-    {"no_node", [](Case& c) { c.tree = {}; }, "TREE_EMPTY", "/tree/centre"},
+    {"no_node",
+     [](Case& c) {
+       c.tree = {};
+       c.nodeArrays.clear();
+     },
+     "TREE_EMPTY", "/tree/centre"},
     {"direction_count", [](Case& c) { c.tree.direction.pop_back(); }, "ARRAY_LENGTH",
      "/tree/direction"},
     {"radius_count", [](Case& c) { c.tree.radius.push_back(1); }, "ARRAY_LENGTH", "/tree/radius"},
@@ -186,10 +191,124 @@ const Breach kPayloadBreaches[] = {
      "/metadata/steps/0/parameters/t"},
 };
 
+void setExtensions(Case& c, std::vector<std::string> used, std::vector<std::string> required) {
+  c.metadata.extensionsUsed = std::move(used);
+  c.metadata.extensionsRequired = std::move(required);
+}
+
+const Breach kFullBreaches[] = {
+    {"link_beyond",
+     [](Case& c) {
+       c.tree.links[2] = {4, 6};
+     },
+     "LINK_NODE", "/tree/links/2"},
+    {"link_backwards",
+     [](Case& c) {
+       c.tree.links[1] = {4, 2};
+     },
+     "LINK_ORDER", "/tree/links/1"},
+    {"link_to_itself",
+     [](Case& c) {
+       c.tree.links[1] = {4, 4};
+     },
+     "LINK_ORDER", "/tree/links/1"},
+    {"link_twice", [](Case& c) { c.tree.links[1] = c.tree.links[0]; }, "LINK_ORDER",
+     "/tree/links/1"},
+    {"links_unsorted", [](Case& c) { std::swap(c.tree.links[1], c.tree.links[2]); }, "LINK_ORDER",
+     "/tree/links/2"},
+    {"link_to_parent",
+     [](Case& c) {
+       c.tree.links[1] = {2, 5};
+     },
+     "LINK_PARENT", "/tree/links/1"},
+    {"too_many_links", [](Case& c) { c.tree.links.resize((std::size_t{1} << 20) + 1); }, "LIMIT",
+     "/tree/links"},
+    {"compact_cauchy", [](Case& c) { c.compactModels->kernel = Kernel::Cauchy; },
+     "KERNEL_PARAMETER", "/compactModels/kernelParameter"},
+    {"compact_gaussian",
+     [](Case& c) {
+       c.compactModels->kernel = Kernel::Gaussian;
+       c.compactModels->kernelParameter = 1;
+     },
+     "COMPACT_KERNEL", "/compactModels/kernel"},
+    {"compact_alone", [](Case& c) { c.models.reset(); }, "COMPACT_ALONE", "/compactModels"},
+    {"compact_width", [](Case& c) { c.compactModels->width[1] = -1; }, "WIDTH_RANGE",
+     "/compactModels/width/1"},
+    {"compact_offset", [](Case& c) { c.compactModels->offset[6] = 1; }, "OFFSET_ORDER",
+     "/compactModels/offset/6"},
+    {"parent_digest", [](Case& c) { c.metadata.parentSha256 = "abc"; }, "PARENT_SHA256",
+     "/metadata/parentSha256"},
+    {"quantisation_bits", [](Case& c) { c.metadata.pointQuantisation->bits = 31; },
+     "POINT_QUANTISATION", "/metadata/pointQuantisation/bits"},
+    {"quantisation_step", [](Case& c) { c.metadata.pointQuantisation->step = 0; },
+     "POINT_QUANTISATION", "/metadata/pointQuantisation/step"},
+    {"note_long", [](Case& c) { c.metadata.note = std::string(65536, 'x'); }, "TEXT_LENGTH",
+     "/metadata/note"},
+    {"note_lines", [](Case& c) { c.metadata.note = "a\nb"; }, "TEXT_CONTROL", "/metadata/note"},
+    {"random_seed_negative",
+     [](Case& c) { c.metadata.steps[0].parameters["random-seed"] = std::int64_t{-1}; },
+     "RANDOM_SEED", "/metadata/steps/0/parameters/random-seed"},
+    {"random_seed_real", [](Case& c) { c.metadata.steps[0].parameters["random-seed"] = 1.0; },
+     "RANDOM_SEED", "/metadata/steps/0/parameters/random-seed"},
+    {"extension_without_vendor",
+     [](Case& c) {
+       setExtensions(c, {"ACME_flow", "LAB2_tags", "flow"}, {});
+     },
+     "EXTENSION_NAME", "/metadata/extensionsUsed/2"},
+    {"extension_in_lower_case",
+     [](Case& c) {
+       setExtensions(c, {"ACME_flow", "LAB2_tags", "acme_flow"}, {});
+     },
+     "EXTENSION_NAME", "/metadata/extensionsUsed/2"},
+    {"extension_twice",
+     [](Case& c) {
+       setExtensions(c, {"ACME_flow", "LAB2_tags", "ACME_flow"}, {});
+     },
+     "EXTENSION_DUPLICATE", "/metadata/extensionsUsed/2"},
+    {"extension_required_unused",
+     [](Case& c) {
+       setExtensions(c, {"ACME_flow", "LAB2_tags"}, {"ACME_other"});
+     },
+     "EXTENSION_UNLISTED", "/metadata/extensionsRequired/0"},
+    {"extension_required",
+     [](Case& c) {
+       setExtensions(c, {"ACME_flow", "LAB2_tags"}, {"ACME_flow"});
+     },
+     "EXTENSION_REQUIRED", "/metadata/extensionsRequired/0"},
+    {"array_of_unused_extension", [](Case& c) { setExtensions(c, {"ACME_flow"}, {}); },
+     "EXTENSION_UNLISTED", "/metadata/nodeArrays/1/name"},
+    {"array_name", [](Case& c) { c.nodeArrays[1].name = "LAB2_tags"; }, "NODE_ARRAY_NAME",
+     "/metadata/nodeArrays/1/name"},
+    {"array_twice", [](Case& c) { c.nodeArrays[1].name = c.nodeArrays[0].name; }, "NODE_ARRAY_NAME",
+     "/metadata/nodeArrays/1/name"},
+    {"array_without_components", [](Case& c) { c.nodeArrays[0].components = 0; },
+     "NODE_ARRAY_COMPONENTS", "/metadata/nodeArrays/0/components"},
+    {"array_of_17_components", [](Case& c) { c.nodeArrays[0].components = 17; },
+     "NODE_ARRAY_COMPONENTS", "/metadata/nodeArrays/0/components"},
+    {"array_length", [](Case& c) { c.nodeArrays[0].components = 2; }, "ARRAY_LENGTH",
+     "/nodeArrays/ACME_flow.velocity"},
+    {"array_nan", [](Case& c) { std::get<0>(c.nodeArrays[0].values)[4] = kNan; }, "NOT_FINITE",
+     "/nodeArrays/ACME_flow.velocity/4"},
+    {"other_chunk_is_known", [](Case& c) { c.otherChunks[0].type = "NRAD"; }, "JSON_CHUNK_DATA",
+     "/otherChunks/0"},
+    {"other_chunk_type", [](Case& c) { c.otherChunks[0].type = "a b"; }, "JSON_CHUNK_DATA",
+     "/otherChunks/0"},
+    {"other_chunk_size", [](Case& c) { c.otherChunks[0].rawSize = 4; }, "JSON_CHUNK_DATA",
+     "/otherChunks/0"},
+    {"too_many_extensions",
+     [](Case& c) { c.metadata.extensionsUsed = std::vector<std::string>(257, "ACME_flow"); },
+     "LIMIT", "/metadata/extensionsUsed"},
+    {"too_many_arrays", [](Case& c) { c.nodeArrays.resize(257, c.nodeArrays[0]); }, "LIMIT",
+     "/metadata/nodeArrays"},
+    {"too_many_other_chunks", [](Case& c) { c.otherChunks.resize(3801, c.otherChunks[0]); },
+     "LIMIT", "/otherChunks"},
+};
+
 class Validate : public testing::TestWithParam<Breach> {};
 
+// spec: M2, M3, M4, M29, M38, M39, M41
 TEST_P(Validate, NamesTheBrokenRuleAndItsPlace) {
-  Case value = test::richCase();
+  Case value = test::fullCase();
   GetParam().change(value);
   const auto result = validate(value);
   ASSERT_FALSE(result);
@@ -200,20 +319,24 @@ TEST_P(Validate, NamesTheBrokenRuleAndItsPlace) {
 
 const auto breachName = [](const auto& instance) { return std::string(instance.param.name); };
 INSTANTIATE_TEST_SUITE_P(Tree, Validate, testing::ValuesIn(kTreeBreaches), breachName);
+INSTANTIATE_TEST_SUITE_P(Full, Validate, testing::ValuesIn(kFullBreaches), breachName);
 INSTANTIATE_TEST_SUITE_P(Payload, Validate, testing::ValuesIn(kPayloadBreaches), breachName);
 
 TEST(ValidateRules, OfTheModelAllHaveABreachAbove) {
   std::set<std::string> covered;
   for (const Breach& breach : kTreeBreaches) covered.insert(breach.code);
   for (const Breach& breach : kPayloadBreaches) covered.insert(breach.code);
+  for (const Breach& breach : kFullBreaches) covered.insert(breach.code);
   for (const ErrorRule& rule : errorRules())
-    if (rule.code >= ErrorCode::Limit && rule.code < ErrorCode::IoMissing) {
+    if (rule.code >= ErrorCode::Limit && rule.code < ErrorCode::PrivacyDate &&
+        rule.severity == Severity::Error) {
       EXPECT_TRUE(covered.contains(rule.name)) << rule.name;
     }
 }
 
 TEST(ValidateRules, HoldForTheSampleCases) {
   EXPECT_EQ(test::codeOf(validate(test::richCase())), "OK");
+  EXPECT_EQ(test::codeOf(validate(test::fullCase())), "OK");
   EXPECT_EQ(test::codeOf(validate(test::smallestCase())), "OK");
 }
 

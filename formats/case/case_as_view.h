@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case in memory as the rules and the binary encoding see it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "formats/case/case.h"
+#include "formats/container/case_view.h"
+
+namespace lumen::formats {
+
+/// The view and the branch records that it leads to; the case must outlive it. It is neither copied
+/// nor moved.
+class CaseAsView {
+public:
+  explicit CaseAsView(const Case& value);
+  CaseAsView(const CaseAsView&) = delete;
+  CaseAsView& operator=(const CaseAsView&) = delete;
+  [[nodiscard]] const CaseView& view() const { return m_view; }
+
+private:
+  std::vector<std::byte> m_records;
+  std::string m_labels;
+  CaseView m_view;
+};
+
+/// The content of the chunk BREC, and of BLAB.
+std::vector<std::byte> branchRecords(const std::vector<Branch>& branches);
+std::string joinedLabels(const std::vector<Branch>& branches);
+
+}  // namespace lumen::formats

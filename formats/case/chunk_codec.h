@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The optional encodings of chunks: zstd for any, Draco for positions of points.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "formats/case/case.h"
+#include "formats/container/container.h"
+
+namespace lumen::formats {
+
+/// One zstd frame (RFC 8878), or nothing if that is not smaller or expands too much to be legal.
+std::optional<std::vector<std::byte>> compressZstd(std::span<const std::byte> bytes);
+
+struct QuantisedPoints {
+  std::vector<std::byte> encoded;  ///< a Draco point cloud in the points' order
+  PointQuantisation quantisation;
+  std::size_t count = 0;
+  [[nodiscard]] std::vector<Vec3f> decoded() const;
+};
+
+/// Points rounded to 1 to 30 bits per coordinate of their bounding box; nothing without points, or
+/// if the box is too large for a float.
+std::optional<QuantisedPoints> quantise(std::span<const Vec3f> points, int bits);
+
+/// The bytes that an encoded chunk stands for, or nothing, with an issue. Asks for memory in
+/// proportion to the chunk's raw size, which readContainer() has bounded by the stored one.
+std::optional<std::vector<std::byte>> decodeChunk(const Chunk& chunk, IssueList& issues);
+
+}  // namespace lumen::formats

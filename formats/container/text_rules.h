@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every text in a case must be, and texts of errors.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "formats/container/issue.h"
+
+namespace lumen::formats {
+
+/// True for well-formed UTF-8 (RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF).
+bool isUtf8(std::string_view text);
+
+/// TEXT_LENGTH, TEXT_UTF8 or TEXT_CONTROL (U+0000 to U+001F, U+007F to U+009F), the first that
+/// applies, or nothing.
+std::optional<Issue> checkText(std::string_view text, std::size_t maxBytes,
+                               const std::string& pointer);
+/// The same, reported.
+void checkText(std::string_view text, std::size_t maxBytes, const std::string& pointer,
+               IssueList& issues);
+
+/// One step of a JSON pointer (RFC 6901).
+std::string jsonPointerToken(std::string_view key);
+
+/// The shortest text that reads back as `value`; "nan" and "inf" included.
+template <class Number>
+std::string shortText(Number value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return std::string(buffer, result.ptr);
+}
+
+/// An issue of the model: "found F, expected E".
+Issue foundIssue(ErrorCode code, std::string pointer, const std::string& found,
+                 const std::string& expected);
+
+/// An issue of a count beyond its published maximum, or of a text's length.
+Issue limitIssue(ErrorCode code, std::string pointer, std::size_t found, std::size_t limit);
+
+}  // namespace lumen::formats

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// The validator that collects: every issue with its code, severity, arguments and places.
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "formats/container/bytes.h"
+#include "unit/formats/sample_case.h"
+
+namespace lumen::formats {
+namespace {
+
+using test::Bytes;
+using test::dataOf;
+using test::tamperedFull;
+
+std::vector<std::string> codes(const ValidationReport& report) {
+  std::vector<std::string> found;
+  for (const FormatError& issue : report.issues) found.push_back(issue.code);
+  return found;
+}
+
+ValidationReport reportOf(const Bytes& file, std::size_t maxIssues = 100) {
+  return validateBytes(file, {maxIssues, false});
+}
+
+ValidationReport reportOf(const std::string& text) {
+  return validateBytes(std::as_bytes(std::span(text)), {});
+}
+
+using Codes = std::vector<std::string>;
+
+TEST(Report, OfAValidFileTellsOnlyOfUnknownChunks) {
+  const auto report = reportOf(encodeBinary(test::fullCase()));
+  EXPECT_TRUE(report.valid());
+  EXPECT_TRUE(report.complete);
+  EXPECT_EQ(codes(report), (Codes{"CHUNK_IGNORED", "CHUNK_IGNORED"}));
+  EXPECT_EQ(report.issues[0].severity, Severity::Information);
+  EXPECT_TRUE(reportOf(encodeJson(test::richCase())).issues.empty());
+}
+
+Bytes manyFaults() {
+  return tamperedFull([](Bytes& f) {
+    storeLittle(&f[dataOf(f, "NRAD") + 4], -1.0f);
+    storeLittle(&f[dataOf(f, "NRAD") + 8], 0.0f);
+    storeLittle(&f[dataOf(f, "NPAR") + 12], 77);
+    storeLittle(&f[dataOf(f, "LINK") + 4], 99u);
+    storeLittle(&f[dataOf(f, "MWID")], -0.5f);
+  });
+}
+
+TEST(Report, HasEveryFaultOfABinaryFile) {
+  auto found = codes(reportOf(manyFaults()));
+  std::erase(found, "CHUNK_IGNORED");
+  EXPECT_EQ(found, (Codes{"RADIUS_RANGE", "RADIUS_RANGE", "NODE_PARENT", "BRANCH_PARENT",
+                          "LINK_NODE", "WIDTH_RANGE"}));
+}
+
+TEST(Report, PlacesFaultsOfABinaryFileByByteAndByPointer) {
+  const Bytes file = manyFaults();
+  const auto report = reportOf(file);
+  const auto found = std::find_if(report.issues.begin(), report.issues.end(),
+                                  [](const FormatError& e) { return e.code == "WIDTH_RANGE"; });
+  ASSERT_NE(found, report.issues.end());
+  EXPECT_EQ(found->offset, dataOf(file, "MWID"));
+  EXPECT_EQ(found->place, "byte " + std::to_string(dataOf(file, "MWID")));
+  EXPECT_EQ(found->pointer, "/models/width/0");
+  EXPECT_EQ(found->text(), "WIDTH_RANGE at byte " + std::to_string(dataOf(file, "MWID")) +
+                               " (/models/width/0): found -0.5, expected more than 0 mm");
+}
+
+TEST(Report, HasTheArgumentsOfTheRule) {
+  const auto report = reportOf(manyFaults());
+  const std::vector<Argument> expected = {{"found", "-1"}, {"expected", "more than 0 mm"}};
+  EXPECT_EQ(report.issues[2].arguments, expected) << report.issues[2].text();
+}
+
+TEST(Report, StopsAtItsMaximumAndSaysSo) {
+  const auto report = reportOf(manyFaults(), 3);
+  EXPECT_EQ(report.issues.size(), 3u);
+  EXPECT_FALSE(report.valid());
+  EXPECT_FALSE(report.complete);
+}
+
+TEST(Report, CountsErrorsThatHadNoRoom) {
+  EXPECT_FALSE(reportOf(manyFaults(), 0).valid());
+}
+
+TEST(Report, HasEveryFaultOfJson) {
+  std::string text = encodeJson(test::richCase());
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("\"LPS\"", "\"RAS\"");
+  replace("\"units\": \"mm\",", "");
+  replace("\"aneurysm\"", "\"vein\"");
+  EXPECT_EQ(codes(reportOf(text)), (Codes{"COORDINATE_SYSTEM", "JSON_KEY_MISSING", "ENUM_VALUE"}));
+}
+
+TEST(Report, HasEveryWrongChecksum) {
+  Bytes file = encodeBinary(test::richCase());
+  file[dataOf(file, "NRAD")] ^= std::byte{1};
+  file[dataOf(file, "MWID")] ^= std::byte{1};
+  EXPECT_EQ(codes(reportOf(file)), (Codes{"CHUNK_CHECKSUM", "CHUNK_CHECKSUM"}));
+}
+
+TEST(Report, WarnsOfANegativeZero) {
+  const auto report =
+      reportOf(tamperedFull([](Bytes& f) { storeLittle(&f[dataOf(f, "NCEN")], -0.0f); }));
+  EXPECT_TRUE(report.valid());
+  const auto found = codes(report);
+  EXPECT_EQ(std::count(found.begin(), found.end(), "NEGATIVE_ZERO"), 1);
+}
+
+TEST(Report, WarnsOfChunksInAnotherOrder) {
+  const Bytes file = encodeBinary(test::smallestCase());
+  const auto container = readContainer(file);
+  ASSERT_TRUE(container);
+  std::vector<ChunkSource> chunks;
+  for (const Chunk& chunk : container->chunks)
+    chunks.push_back({chunk.type, 1, true, {chunk.stored.begin(), chunk.stored.end()}});
+  std::swap(chunks[3], chunks[4]);
+  const auto report = reportOf(writeContainer(chunks));
+  EXPECT_TRUE(report.valid());
+  EXPECT_EQ(codes(report), Codes{"CHUNK_ORDER"});
+}
+
+TEST(Report, OfWhatIsNoCaseSaysSo) {
+  EXPECT_EQ(codes(reportOf(std::string("solid cube"))), Codes{"NOT_LUMEN"});
+  EXPECT_EQ(codes(validateFile("/nowhere/a.lumen", {})), Codes{"IO_MISSING"});
+}
+
+TEST(Report, PlacesValuesOfEveryArrayInTheirChunk) {
+  struct Place {
+    const char* chunk;
+    std::size_t at;
+    const char* pointer;
+  };
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const Place& place :
+       {Place{"NCEN", 12 * 2 + 4, "/tree/centre/2/1"}, Place{"NDIR", 12 + 8, "/tree/direction/1/2"},
+        Place{"NRAD", 8, "/tree/radius/2"}, Place{"NHEI", 4, "/tree/height/1"},
+        Place{"NINL", 20, "/tree/inlierRate/5"}, Place{"PPOS", 12 + 8, "/points/position/1/2"},
+        Place{"MCEN", 12, "/models/centre/1/0"}, Place{"MWID", 8, "/models/width/2"},
+        Place{"CCEN", 4, "/compactModels/centre/0/1"}, Place{"CWID", 4, "/compactModels/width/1"},
+        Place{"BREC", 24 + 20, "/tree/branches/1/meanInlierRate"},
+        Place{"NARR", 16, "/nodeArrays/ACME_flow.velocity/4"}}) {
+    std::size_t at = 0;
+    const auto result = decodeBinary(tamperedFull([&](Bytes& f) {
+      at = dataOf(f, place.chunk) + place.at;
+      storeLittle(&f[at], nan);
+    }));
+    ASSERT_FALSE(result) << place.pointer;
+    EXPECT_EQ(result.error().code, "NOT_FINITE") << result.error().text();
+    EXPECT_EQ(result.error().offset, at) << result.error().text();
+    EXPECT_EQ(result.error().pointer, place.pointer);
+  }
+}
+
+TEST(Report, PlacesALabelInItsChunk) {
+  const Bytes file = tamperedFull([](Bytes& f) { f[dataOf(f, "BLAB") + 8] = std::byte{0xff}; });
+  const auto result = decodeBinary(file);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, "TEXT_UTF8");
+  EXPECT_EQ(result.error().offset, dataOf(file, "BLAB") + 8);
+}
+
+// Whatever goes wrong, the arguments are those that the rule declares.
+TEST(Report, HasNoArgumentThatItsRuleDoesNotDeclare) {
+  const Bytes good = encodeBinary(test::fullCase());
+  const std::string text = encodeJson(test::fullCase());
+  std::set<std::string> seen;
+  const auto check = [&seen](const ValidationReport& report) {
+    for (const FormatError& issue : report.issues) {
+      const auto rules = errorRules();
+      const auto rule = std::find_if(rules.begin(), rules.end(),
+                                     [&](const ErrorRule& r) { return issue.code == r.name; });
+      ASSERT_NE(rule, rules.end());
+      seen.insert(issue.code);
+      std::istringstream words(rule->arguments);
+      const std::set<std::string> declared{std::istream_iterator<std::string>(words), {}};
+      for (const Argument& argument : issue.arguments)
+        ASSERT_TRUE(declared.contains(argument.name)) << issue.code << " " << argument.name;
+    }
+  };
+  for (std::size_t at = 0; at < good.size(); ++at) {
+    Bytes file = good;
+    file[at] ^= std::byte{0xff};
+    check(reportOf(file));
+    test::resign(file);
+    check(reportOf(file));
+  }
+  for (std::size_t at = 0; at < text.size(); ++at)
+    for (const char c : {'-', '9', '"', 'x'}) {
+      std::string changed = text;
+      changed[at] = c;
+      check(reportOf(changed));
+    }
+  EXPECT_GE(seen.size(), 45u);
+}
+
+}  // namespace
+}  // namespace lumen::formats
