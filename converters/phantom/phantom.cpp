@@ -78,7 +78,7 @@ std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() cons
           {"noise", noise},
           {"bias", bias},
           {"psf", psf},
-          {"seed", static_cast<std::int64_t>(seed)}};
+          {"random-seed", static_cast<std::int64_t>(seed)}};
 }
 
 const std::vector<std::string>& phantomNames() {
