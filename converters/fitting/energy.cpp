@@ -60,11 +60,12 @@ CohesionResidual cohesionResidual(const Blob& first, const Blob& second, double 
            -slope * dz, 3.0 * cube / second.width}};
 }
 
-void Energy::setPoints(std::span<const formats::Vec3d> points) {
+void Energy::setPoints(std::span<const formats::Vec3d> points, std::span<const formats::Vec3d> ties,
+                       double tieShare) {
   m_count = points.size();
-  m_padded = roundUp(m_count, kLanes);
+  m_padded = roundUp(m_count + ties.size(), kLanes);
   m_active = 0;
-  for (auto* buffer : {&m_x, &m_y, &m_z, &m_weight, &m_field, &m_gradient2}) {
+  for (auto* buffer : {&m_x, &m_y, &m_z, &m_weight, &m_share, &m_field, &m_gradient2, &m_slope2}) {
     reserve(*buffer, m_padded);
   }
   for (auto& sums : m_frozen) {
@@ -73,12 +74,15 @@ void Energy::setPoints(std::span<const formats::Vec3d> points) {
   }
   reserve(m_residual, 2 * m_padded);
   const double weight = 1.0 / std::sqrt(static_cast<double>(m_count));
+  const double tied = ties.empty() ? 0.0 : std::sqrt(tieShare / static_cast<double>(ties.size()));
   for (std::size_t k = 0; k < m_padded; ++k) {
-    const formats::Vec3d& p = points[std::min(k, m_count - 1)];
+    const bool isTie = k >= m_count && k < m_count + ties.size();
+    const formats::Vec3d& p = isTie ? ties[k - m_count] : points[std::min(k, m_count - 1)];
     m_x[k] = p.x;
     m_y[k] = p.y;
     m_z[k] = p.z;
-    m_weight[k] = k < m_count ? weight : 0.0;
+    m_share[k] = k < m_count ? weight : 0.0;
+    m_weight[k] = isTie ? tied : m_share[k];
   }
 }
 
@@ -120,9 +124,11 @@ double Energy::run(std::span<const Blob> blobs, bool withJacobian) {
     block.y = m_y.data() + k;
     block.z = m_z.data() + k;
     block.weight = m_weight.data() + k;
+    block.share = m_share.data() + k;
     for (std::size_t i = 0; i < 10; ++i) block.frozen[i] = m_frozen[i].data() + k;
     block.field = m_field.data() + k;
     block.gradient2 = m_gradient2.data() + k;
+    block.slope2 = m_slope2.data() + k;
     block.dataResidual = m_residual.data() + k;
     block.curvatureResidual = m_residual.data() + m_padded + k;
     block.jacobian = withJacobian ? m_jacobian.data() + k : nullptr;
@@ -150,14 +156,20 @@ double Energy::sumTerms(std::span<const Blob> blobs) {
     }
     m_terms.cohesion = total * pairWeight(blobs.size());
   }
-  return m_terms.data + m_parameters.cohesionWeight * m_terms.cohesion + curvature;
+  m_terms.evenness = 0;
+  for (const Blob& blob : blobs) {
+    const double r = blob.width / m_parameters.evenWidth - 1.0;
+    m_terms.evenness += r * r;
+  }
+  return m_terms.data + m_parameters.cohesionWeight * m_terms.cohesion + curvature +
+         m_parameters.evennessWeight * m_terms.evenness;
 }
 
 double Energy::meanSlope() const {
   double lanes[kLanes] = {};
   for (std::size_t k = 0; k < m_padded; k += kLanes) {
     for (std::size_t l = 0; l < kLanes; ++l) {
-      lanes[l] += m_weight[k + l] * m_weight[k + l] * m_gradient2[k + l];
+      lanes[l] += m_share[k + l] * m_share[k + l] * m_slope2[k + l];
     }
   }
   return sumLanes(lanes) + kFlatField;
@@ -173,6 +185,7 @@ void Energy::normalEquations(std::span<const Blob> blobs, std::span<double> a,
   multiplyTransposed(m_jacobian.data() + m_padded, stride, n, m_residual.data() + m_padded,
                      m_padded, a.data(), b.data());
   if (blobs.size() > 1 && m_parameters.cohesionWeight > 0) addCohesion(blobs, a, b);
+  if (m_parameters.evennessWeight > 0) addEvenness(blobs, a, b);
 }
 
 /// From the plain residuals r to the normalised ones s r, s^2 = reference / slope, whose Jacobian
@@ -190,6 +203,17 @@ void Energy::normaliseData(std::size_t n, std::span<double> a, std::span<double>
     }
   }
   for (std::size_t i = 0; i < n; ++i) b[i] = s2 * b[i] + squares * factor * m_slopeGradient[i];
+}
+
+void Energy::addEvenness(std::span<const Blob> blobs, std::span<double> a,
+                         std::span<double> b) const {
+  const std::size_t n = 4 * (blobs.size() - m_active);
+  const double slope = 1.0 / m_parameters.evenWidth, weight = m_parameters.evennessWeight * slope;
+  for (std::size_t j = m_active; j < blobs.size(); ++j) {
+    const std::size_t i = 4 * (j - m_active) + 3;
+    a[i * n + i] += weight * slope;
+    b[i] += weight * (blobs[j].width * slope - 1.0);
+  }
 }
 
 void Energy::addCohesion(std::span<const Blob> blobs, std::span<double> a,

@@ -2,21 +2,30 @@
 // The energy of a local implicit model as a sum of squares, with its analytic Jacobian (thesis 4.3
 // and appendix B; design notes section 2).
 //
-//   E = E_d + alpha E_LJ + beta E_kappa
-//   E_d     = 1/Np sum_k (T - f(P_k))^2 * S / (1/Np sum_k |grad f(P_k)|^2)
+//   E = E_d + alpha E_LJ + beta E_kappa + omega E_w
+//   E_d     = 1/Np sum_k u(P_k)^2 * S / (1/Np sum_k |grad u(P_k)|^2)
 //   E_LJ    = 1/(Nb (Nb - 1)) sum_{i != j} sigma_ij^3 (sigma_ij^3 - 2),  sigma_ij = s^2 w_i w_j /
 //   |C_i - C_j|^2 E_kappa = 1/Np sum_k kappa(P_k)^2,  kappa = (G^T H G - |G|^2 tr H) / (2 |G|^3)
+//
+//   E_w     = sum_j (w_j / w - 1)^2
 //
 // Because a (a - 2) = (a - 1)^2 - 1, E_LJ is 2/(Nb (Nb - 1)) sum_{i < j} (sigma_ij^3 - 1)^2 minus a
 // constant, so that E + alpha (when Nb > 1) is a sum of squares: that sum is the energy here.
 //
+// u is T - f for all kernels but Cauchy's, as in the thesis. There u = 4 T ((T / f)^(1/4) - 1),
+// which is the same to first order at the surface. Far from a Cauchy blob f falls with the fourth
+// power of the distance, so that u is nearly a multiple of the distance to the wall on both of its
+// sides, where T - f grows inward and levels off outward: noise would move the surface.
+//
 // The last factor of E_d is not in the thesis. Without it the plain squares have a useless minimum
 // below every good one: f = T and flat at all points, made by a few wide blobs far away, because
-// noise of standard deviation q costs q^2 |grad f|^2. A minimiser that converges drifts there.
-// Divided by the mean |grad f|^2 the sum is a mean squared distance (G. Taubin: Estimation of
+// noise of standard deviation q costs q^2 |grad u|^2. A minimiser that converges drifts there.
+// Divided by the mean |grad u|^2 the sum is a mean squared distance (G. Taubin: Estimation of
 // planar curves, surfaces, and nonplanar space curves, 1991); S is that mean for the starting
 // model, where both forms agree, so that alpha and beta keep their meaning. S = 0 gives the plain
 // squares.
+//
+// E_w, not in the thesis either, says that the widths of a model's blobs hardly differ.
 //
 // Everything is in the fit's own frame: origin at the node, and a unit of length in which the voxel
 // of the source volume measures kReferenceVoxel. The thesis' alpha, beta and s, tuned at 0.2 mm,
@@ -54,12 +63,13 @@ struct EnergyParameters {
   double curvatureWeight = 1e-3;  ///< beta
   double cohesionScale = 2.0;     ///< s
   double referenceSlope = 0;      ///< S
+  double evennessWeight = 0;      ///< omega
+  double evenWidth = 1;           ///< w
 };
 
-/// The three terms, unweighted, of which E_LJ is the sum of squares (its thesis value plus 1, if Nb
-/// > 1).
+/// The terms, unweighted, of which E_LJ is the sum of squares (its thesis value plus 1, if Nb > 1).
 struct EnergyTerms {
-  double data = 0, cohesion = 0, curvature = 0;
+  double data = 0, cohesion = 0, curvature = 0, evenness = 0;
 };
 
 /// Evaluates the energy of models over one point set. Its buffers only grow, so that an object that
@@ -70,12 +80,15 @@ public:
 
   [[nodiscard]] const EnergyParameters& parameters() const { return m_parameters; }
   void setParameters(const EnergyParameters& parameters) { m_parameters = parameters; }
-  /// The points to fit, in the fit's frame. There must be at least one.
-  void setPoints(std::span<const formats::Vec3d> points);
+  /// The points to fit, in the fit's frame; there must be at least one. `ties` are points that
+  /// count in E_d only, all together as much as `tieShare` times all points; pointCount(), slope()
+  /// and the field leave them out.
+  void setPoints(std::span<const formats::Vec3d> points, std::span<const formats::Vec3d> ties = {},
+                 double tieShare = 0);
   [[nodiscard]] std::size_t pointCount() const { return m_count; }
   [[nodiscard]] formats::Vec3d point(std::size_t k) const;
 
-  /// Mean |grad f|^2 over the points, of the last evaluate() or linearise().
+  /// Mean |grad u|^2 over the points, of the last evaluate() or linearise().
   [[nodiscard]] double slope() const { return m_slope; }
 
   /// Sums the field of blobs[0] .. blobs[active - 1] once; until the next call they must stay as
@@ -103,6 +116,7 @@ private:
   double sumTerms(std::span<const Blob> blobs);
   [[nodiscard]] double meanSlope() const;
   void normaliseData(std::size_t n, std::span<double> a, std::span<double> b);
+  void addEvenness(std::span<const Blob> blobs, std::span<double> a, std::span<double> b) const;
   void addCohesion(std::span<const Blob> blobs, std::span<double> a, std::span<double> b) const;
 
   EnergyParameters m_parameters;
@@ -112,10 +126,10 @@ private:
   EnergyTerms m_terms;
   double m_slope = 0;
   std::vector<double> m_slopeGradient;
-  std::vector<double> m_x, m_y, m_z, m_weight;
+  std::vector<double> m_x, m_y, m_z, m_weight, m_share;
   std::array<std::vector<double>, 10>
       m_frozen;  ///< f, G (3), Gamma (xx, yy, zz, xy, xz, yz) of the frozen blobs
-  std::vector<double> m_field, m_gradient2;
+  std::vector<double> m_field, m_gradient2, m_slope2;
   std::vector<double> m_residual;  ///< data rows, then curvature rows, m_padded of each
   std::vector<double> m_jacobian;  ///< one column of 2 m_padded rows for every unknown
   std::vector<double> m_scratch;

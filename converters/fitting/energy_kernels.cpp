@@ -25,8 +25,24 @@ struct KernelLanes {
   double phi, d1, d2, d3;
 };
 
+/// What the data term measures instead of f, of first order T - f at the surface (energy.h).
+struct Residual {
+  double value;
+  double slope;   ///< -du/df
+  double second;  ///< d2u/df2
+};
+
+struct PlainResidual {
+  LUMEN_INLINE static Residual residual(double f, double level) { return {level - f, 1.0, 0.0}; }
+};
+
 struct Cauchy {
   double s2;
+  LUMEN_INLINE static Residual residual(double f, double level) {
+    const double bounded = f > 1e-12 * level ? f : 1e-12 * level;
+    const double ratio = level / bounded, root = std::sqrt(std::sqrt(ratio));
+    return {4.0 * level * (root - 1.0), ratio * root, 1.25 * ratio * root / bounded};
+  }
   LUMEN_INLINE KernelLanes operator()(double x) const {
     const double u = 1.0 / (1.0 + s2 * x);
     const double phi = u * u;
@@ -64,7 +80,7 @@ LUMEN_INLINE double expOfMinus(double t) {
   return p * std::bit_cast<double>(power);
 }
 
-struct Gaussian {
+struct Gaussian : PlainResidual {
   double a2;
   LUMEN_INLINE KernelLanes operator()(double x) const {
     const double phi = expOfMinus(a2 * x);
@@ -74,7 +90,7 @@ struct Gaussian {
   }
 };
 
-struct Quartic {
+struct Quartic : PlainResidual {
   LUMEN_INLINE KernelLanes operator()(double x) const {
     const double inside = x < 1.0 ? 1.0 : 0.0;
     const double u = inside * (1.0 - x);
@@ -82,7 +98,7 @@ struct Quartic {
   }
 };
 
-struct SoftObject {
+struct SoftObject : PlainResidual {
   LUMEN_INLINE KernelLanes operator()(double x) const {
     const double inside = x < 1.0 ? 1.0 : 0.0;
     const double y = inside * x;
@@ -98,6 +114,8 @@ using Lane = double[kBlock];
 /// them.
 struct alignas(64) Sums {
   Lane f, gx, gy, gz, ax, ay, az, wx, wy, wz, c;
+  Lane dataSlope;  ///< -du/df
+  Lane slopeTurn;  ///< what a change of f alone adds to the slope row, per row of the data
 };
 
 LUMEN_INLINE void start(const Block& in, Sums& s) {
@@ -183,24 +201,30 @@ LUMEN_INLINE void addCurvature(const Block& in, const Blob& blob, Sums& s,
 
 /// Residuals; and W, c such that d kappa = W . dG + c (G^T dH G - |G|^2 tr dH), scaled as the
 /// residual is.
+template <class Phi>
 LUMEN_INLINE void finishPoints(const BlockParameters& p, const Block& in, Sums& s) {
   const std::size_t count = in.count;
   const double level = p.isoLevel, beta = p.curvatureScale;
-  const double* __restrict weight = in.weight;
+  const double* __restrict weight = in.weight, * __restrict share = in.share;
   double* __restrict field = in.field, * __restrict gradient2 = in.gradient2;
   double* __restrict data = in.dataResidual, * __restrict curvature = in.curvatureResidual;
+  double* __restrict slope2 = in.slope2;
   LUMEN_INDEPENDENT
   for (std::size_t k = 0; k < count; ++k) {
     const double gx = s.gx[k], gy = s.gy[k], gz = s.gz[k];
     const double g2 = gx * gx + gy * gy + gz * gz;
     const double inverse2 = 1.0 / (g2 + kFlatField);
     const double inverse3 = inverse2 * std::sqrt(inverse2);
-    const double scale = weight[k] * beta;
+    const double scale = share[k] * beta;
     const double kappa = 0.5 * inverse3 * (gx * s.ax[k] + gy * s.ay[k] + gz * s.az[k]);
     const double direct = scale * inverse3, radial = scale * 3.0 * kappa * inverse2;
     field[k] = s.f[k];
     gradient2[k] = g2;
-    data[k] = weight[k] * (level - s.f[k]);
+    const Residual r = Phi::residual(s.f[k], level);
+    data[k] = weight[k] * r.value;
+    slope2[k] = r.slope * r.slope * g2;
+    s.dataSlope[k] = r.slope;
+    s.slopeTurn[k] = 2.0 * r.slope * r.second * g2 * share[k];
     curvature[k] = scale * kappa;
     s.wx[k] = direct * s.ax[k] - radial * gx;
     s.wy[k] = direct * s.ay[k] - radial * gy;
@@ -209,14 +233,15 @@ LUMEN_INLINE void finishPoints(const BlockParameters& p, const Block& in, Sums& 
   }
 }
 
-/// Third pass over a blob: the curvature and slope rows of the Jacobian.
+/// Third pass over a blob: the curvature and slope rows of the Jacobian, and the data rows from
+/// those of T - f to those of u(f).
 LUMEN_INLINE void differentiateCurvature(const Block& in, const Blob& blob, const Sums& s,
                                          const double* __restrict scratch,
-                                         double* __restrict column) {
+                                         double* __restrict data) {
   const std::size_t count = in.count, stride = in.columnStride;
   const double inverse = 1.0 / blob.width;
-  const double* __restrict gradient2 = in.gradient2, * __restrict weight = in.weight;
-  double* __restrict slope = column + in.rowStride;
+  const double* __restrict gradient2 = in.gradient2, * __restrict share = in.share;
+  double* __restrict column = data + in.rowStride, * __restrict slope = column + in.rowStride;
   LUMEN_INDEPENDENT
   for (std::size_t k = 0; k < count; ++k) {
     const double dx = scratch[k], dy = scratch[kBlock + k], dz = scratch[2 * kBlock + k];
@@ -234,11 +259,16 @@ LUMEN_INLINE void differentiateCurvature(const Block& in, const Blob& blob, cons
     column[3 * stride + k] = -2.0 * inverse * (2.0 * d2 * x + d1) * wd +
                              c8 * (d2 * (2.0 * g2 * x - u * u) - d3 * x * t) -
                              0.5 * c8 * (d2 * t - d1 * g2);
-    const double w = -4.0 * inverse * weight[k] * weight[k], w2 = 2.0 * w * d2 * u, w1 = w * d1;
-    slope[k] = w2 * dx + w1 * s.gx[k];
-    slope[stride + k] = w2 * dy + w1 * s.gy[k];
-    slope[2 * stride + k] = w2 * dz + w1 * s.gz[k];
-    slope[3 * stride + k] = w2 * x + w1 * u;
+    const double w = -4.0 * inverse * share[k] * share[k], w2 = 2.0 * w * d2 * u, w1 = w * d1;
+    const double d = s.dataSlope[k], d2u = d * d, turn = s.slopeTurn[k];
+    slope[k] = d2u * (w2 * dx + w1 * s.gx[k]) + turn * data[k];
+    slope[stride + k] = d2u * (w2 * dy + w1 * s.gy[k]) + turn * data[stride + k];
+    slope[2 * stride + k] = d2u * (w2 * dz + w1 * s.gz[k]) + turn * data[2 * stride + k];
+    slope[3 * stride + k] = d2u * (w2 * x + w1 * u) + turn * data[3 * stride + k];
+    data[k] *= d;
+    data[stride + k] *= d;
+    data[2 * stride + k] *= d;
+    data[3 * stride + k] *= d;
   }
 }
 
@@ -255,11 +285,11 @@ LUMEN_INLINE void evaluate(const Phi& phi, const BlockParameters& parameters, co
   for (std::size_t j = 0; j < blobs.size(); ++j) {
     addCurvature(in, blobs[j], sums, in.scratch + j * kScratchArrays * kBlock);
   }
-  finishPoints(parameters, in, sums);
+  finishPoints<Phi>(parameters, in, sums);
   if constexpr (kJacobian) {
     for (std::size_t j = 0; j < blobs.size(); ++j) {
       differentiateCurvature(in, blobs[j], sums, in.scratch + j * kScratchArrays * kBlock,
-                             in.jacobian + 4 * j * in.columnStride + in.rowStride);
+                             in.jacobian + 4 * j * in.columnStride);
     }
   }
 }
@@ -313,7 +343,8 @@ void evaluateBlock(const BlockParameters& parameters, const Block& block,
     case formats::Kernel::Cauchy:
       return evaluate(Cauchy{parameters.kernelParameter}, parameters, block, blobs, withJacobian);
     case formats::Kernel::Gaussian:
-      return evaluate(Gaussian{parameters.kernelParameter}, parameters, block, blobs, withJacobian);
+      return evaluate(Gaussian{{}, parameters.kernelParameter}, parameters, block, blobs,
+                      withJacobian);
     case formats::Kernel::Quartic:
       return evaluate(Quartic{}, parameters, block, blobs, withJacobian);
     case formats::Kernel::SoftObject:
@@ -331,7 +362,7 @@ void accumulateField(const BlockParameters& parameters, std::size_t count, const
         accumulate(Cauchy{parameters.kernelParameter}, count, x, y, z, blob, sums);
         break;
       case formats::Kernel::Gaussian:
-        accumulate(Gaussian{parameters.kernelParameter}, count, x, y, z, blob, sums);
+        accumulate(Gaussian{{}, parameters.kernelParameter}, count, x, y, z, blob, sums);
         break;
       case formats::Kernel::Quartic:
         accumulate(Quartic{}, count, x, y, z, blob, sums);

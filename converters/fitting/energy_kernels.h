@@ -23,16 +23,18 @@ constexpr std::size_t kScratchArrays = 8;
 struct Block {
   std::size_t count = 0;  ///< a multiple of kLanes, at most kBlock
   const double *x = nullptr, *y = nullptr, *z = nullptr;
-  const double* weight = nullptr;  ///< square root of a point's share of the energy; 0 for padding
+  const double* weight = nullptr;  ///< square root of a point's share of E_d; 0 for padding
+  const double* share = nullptr;   ///< the same of the curvature and of the mean slope
   const double* frozen[10] = {};   ///< f, G (3), Gamma (6) of the blobs that are not unknowns
   double* field = nullptr;
   double* gradient2 = nullptr;
-  double* dataResidual = nullptr;       ///< weight (T - f)
-  double* curvatureResidual = nullptr;  ///< weight sqrt(beta) kappa
+  double* slope2 = nullptr;             ///< |grad u|^2
+  double* dataResidual = nullptr;       ///< weight u(f)
+  double* curvatureResidual = nullptr;  ///< share sqrt(beta) kappa
   double* jacobian = nullptr;           ///< this block's rows of the first column
   std::size_t columnStride = 0;         ///< from one column to the next
   /// From a column's data row of a point to its curvature row, and on to its slope row: the
-  /// derivative of weight^2 |grad f|^2.
+  /// derivative of share^2 |grad u|^2.
   std::size_t rowStride = 0;
   double* scratch = nullptr;  ///< blobs x kScratchArrays x kBlock
 };

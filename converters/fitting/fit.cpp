@@ -5,28 +5,19 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/fitting/local_model.h"
+#include "converters/fitting/seam.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {
 namespace {
 
+/// Nodes within so many edges cut a seam.
+constexpr int kSeamNeighbourhood = 2;
+
+using fitting::Ball;
 using fitting::Blob;
 using formats::Vec3d;
 using formats::Vec3f;
-
-/// From case coordinates (mm, LPS) to the frame of a node's fit: x' = (x - centre) * scale.
-struct Frame {
-  Vec3d centre;
-  double scale;
-
-  [[nodiscard]] Vec3d toLocal(const Vec3f& p) const {
-    return {(p.x - centre.x) * scale, (p.y - centre.y) * scale, (p.z - centre.z) * scale};
-  }
-  [[nodiscard]] Vec3f toCase(const Blob& b) const {
-    return {static_cast<float>(centre.x + b.x / scale), static_cast<float>(centre.y + b.y / scale),
-            static_cast<float>(centre.z + b.z / scale)};
-  }
-};
 
 /// The unit in which the voxel measures fitting::kReferenceVoxel; without a voxel size, the
 /// iso-level stands for half a voxel.
@@ -46,35 +37,151 @@ fitting::LocalModelOptions localOptions(const FitOptions& o, double scale) {
   return local;
 }
 
-struct Worker {
-  fitting::LocalModel model;
-  std::vector<Vec3d> points;
+/// The models of a case in the making. A node's frame is x' = (x - centre) * scale.
+class Models {
+public:
+  Models(const formats::Case& value, const FitOptions& options)
+      : m_case(value),
+        m_tree(value.tree),
+        m_options(options),
+        m_scale(frameScale(value, options)),
+        m_local(localOptions(options, m_scale)),
+        m_neighbours(value.tree),
+        m_blobs(value.tree.nodeCount()),
+        m_energy(value.tree.nodeCount()),
+        m_seam(value.tree.nodeCount()),
+        m_workers([this] {
+          return Worker{fitting::LocalModel(m_local), {}, {}, {}};
+        }) {}
+
+  /// Fits every node for itself.
+  void fit(Progress& progress) {
+    forEachNode(progress, [&](std::uint32_t node, Worker& worker) {
+      gather(node, worker);
+      set(node, worker.model.fit(data(node, worker), progress));
+      m_energy[node] = worker.model.parameters();
+    });
+  }
+
+  /// Brings the surfaces of adjacent models together where they meet. Reads the models of the sweep
+  /// before only, so that the order of the nodes does not matter.
+  void refine(Progress& progress) {
+    tbb::parallel_for(std::uint32_t{0}, nodeCount(), [&](std::uint32_t node) { meet(node); });
+    forEachNode(progress, [&](std::uint32_t node, Worker& worker) {
+      gather(node, worker);
+      gatherTies(node, worker.ties);
+      set(node, worker.model.refine(data(node, worker), worker.ties, m_blobs[node],
+                                    m_options.seamWeight, m_energy[node]));
+    });
+  }
+
+  [[nodiscard]] formats::BlobbyModels assemble() const;
+
+private:
+  struct Worker {
+    fitting::LocalModel model;
+    std::vector<Vec3d> points, ties;
+    std::vector<Ball> lumen;
+  };
+
+  [[nodiscard]] std::uint32_t nodeCount() const {
+    return static_cast<std::uint32_t>(m_tree.nodeCount());
+  }
+  [[nodiscard]] Vec3d toLocal(std::uint32_t node, const Vec3f& p) const {
+    const Vec3f& c = m_tree.centre[node];
+    return {(double{p.x} - c.x) * m_scale, (double{p.y} - c.y) * m_scale,
+            (double{p.z} - c.z) * m_scale};
+  }
+  /// The ball of a node, in the frame of another.
+  [[nodiscard]] Ball ball(std::uint32_t frame, std::uint32_t node) const {
+    return {toLocal(frame, m_tree.centre[node]), m_tree.radius[node] * m_scale};
+  }
+  [[nodiscard]] fitting::NodeData data(std::uint32_t node, const Worker& worker) const {
+    const Vec3f& d = m_tree.direction[node];
+    return {worker.points, m_tree.radius[node] * m_scale, {d.x, d.y, d.z}, worker.lumen};
+  }
+  void set(std::uint32_t node, std::span<const Blob> blobs) {
+    m_blobs[node].assign(blobs.begin(), blobs.end());
+  }
+
+  template <class Action>
+  void forEachNode(Progress& progress, const Action& action) {
+    tbb::parallel_for(std::uint32_t{0}, nodeCount(), [&](std::uint32_t node) {
+      progress.check();
+      action(node, m_workers.local());
+      progress.advance();
+    });
+  }
+
+  void gather(std::uint32_t node, Worker& worker) const;
+  void gatherTies(std::uint32_t node, std::vector<Vec3d>& ties) const;
+  void meet(std::uint32_t node);
+
+  const formats::Case& m_case;
+  const formats::CenterlineTree& m_tree;
+  const FitOptions& m_options;
+  double m_scale;
+  fitting::LocalModelOptions m_local;
+  formats::Neighbours m_neighbours;
+  std::vector<std::vector<Blob>> m_blobs;           ///< in the frame of their node
+  std::vector<fitting::EnergyParameters> m_energy;  ///< that every node's fit ended with
+  std::vector<std::vector<Vec3d>> m_seam;  ///< between a node and its parent, in the node's frame
+  tbb::enumerable_thread_specific<Worker> m_workers;
 };
 
-void gatherPoints(const formats::PointSets& points, const std::vector<std::uint32_t>& nodes,
-                  const Frame& frame, std::vector<Vec3d>& out) {
-  out.clear();
-  for (const std::uint32_t node : nodes) {
-    for (std::uint32_t k = points.offset[node]; k < points.offset[node + 1]; ++k) {
-      out.push_back(frame.toLocal(points.position[k]));
+/// What the nodes of the neighbourhood say about its wall and its inside.
+void Models::gather(std::uint32_t node, Worker& worker) const {
+  const std::vector<std::uint32_t>& offset = m_case.points->offset;
+  worker.points.clear();
+  worker.lumen.clear();
+  for (const std::uint32_t near : m_neighbours.within(node, m_options.neighbourhood)) {
+    worker.lumen.push_back(ball(node, near));
+    for (std::uint32_t k = offset[near]; k < offset[near + 1]; ++k) {
+      worker.points.push_back(toLocal(node, m_case.points->position[k]));
     }
   }
 }
 
-formats::BlobbyModels assemble(const formats::Case& value, const FitOptions& options, double scale,
-                               const std::vector<std::vector<Blob>>& perNode) {
+/// The points of all seams of a node, in its frame.
+void Models::gatherTies(std::uint32_t node, std::vector<Vec3d>& ties) const {
+  ties = m_seam[node];
+  for (const std::uint32_t child : m_neighbours.of(node)) {
+    if (m_tree.parent[child] != static_cast<std::int32_t>(node)) continue;
+    const Vec3d shift = toLocal(node, m_tree.centre[child]);
+    for (const Vec3d& p : m_seam[child]) {
+      ties.push_back({p.x + shift.x, p.y + shift.y, p.z + shift.z});
+    }
+  }
+}
+
+/// Finds the seam of a node and its parent.
+void Models::meet(std::uint32_t node) {
+  if (m_tree.parent[node] == formats::kNoParent) return;
+  const auto parent = static_cast<std::uint32_t>(m_tree.parent[node]);
+  std::vector<Ball> others;
+  for (const std::uint32_t end : {node, parent}) {
+    for (const std::uint32_t near : m_neighbours.within(end, kSeamNeighbourhood)) {
+      if (near != node && near != parent) others.push_back(ball(node, near));
+    }
+  }
+  m_seam[node] = fitting::seamPoints(m_local.energy, {ball(node, node), m_blobs[node]},
+                                     {ball(node, parent), m_blobs[parent]}, others);
+}
+
+formats::BlobbyModels Models::assemble() const {
   formats::BlobbyModels models;
-  models.kernel = options.kernel;
-  models.kernelParameter = *options.kernelParameter;
-  models.isoLevel = *options.isoLevel;
-  models.offset.reserve(perNode.size() + 1);
+  models.kernel = m_options.kernel;
+  models.kernelParameter = *m_options.kernelParameter;
+  models.isoLevel = *m_options.isoLevel;
+  models.offset.reserve(m_blobs.size() + 1);
   models.offset.push_back(0);
-  for (std::size_t i = 0; i < perNode.size(); ++i) {
-    const Vec3f& c = value.tree.centre[i];
-    const Frame frame{{c.x, c.y, c.z}, scale};
-    for (const Blob& blob : perNode[i]) {
-      models.centre.push_back(frame.toCase(blob));
-      models.width.push_back(static_cast<float>(blob.width / scale));
+  for (std::size_t i = 0; i < m_blobs.size(); ++i) {
+    const Vec3f& c = m_tree.centre[i];
+    for (const Blob& blob : m_blobs[i]) {
+      models.centre.push_back({static_cast<float>(c.x + blob.x / m_scale),
+                               static_cast<float>(c.y + blob.y / m_scale),
+                               static_cast<float>(c.z + blob.z / m_scale)});
+      models.width.push_back(static_cast<float>(blob.width / m_scale));
     }
     models.offset.push_back(static_cast<std::uint32_t>(models.centre.size()));
   }
@@ -88,32 +195,13 @@ void fit(formats::Case& target, const FitOptions& options, Progress& progress) {
     throw invalidInput("fit: the case has no wall points; expected a tracked case with its points");
   }
   const FitOptions full = options.resolved(target.metadata.voxelSize.value_or(0.0));
-  const double scale = frameScale(target, full);
-  const fitting::LocalModelOptions local = localOptions(full, scale);
-  const formats::CenterlineTree& tree = target.tree;
-  const formats::Neighbours neighbours(tree);
-  std::vector<std::vector<Blob>> perNode(tree.nodeCount());
-  tbb::enumerable_thread_specific<Worker> workers([&local] {
-    return Worker{fitting::LocalModel(local), {}};
-  });
-
-  progress.begin("fit", tree.nodeCount());
-  tbb::parallel_for(std::size_t{0}, tree.nodeCount(), [&](std::size_t i) {
-    progress.check();
-    Worker& worker = workers.local();
-    const Vec3f &c = tree.centre[i], &d = tree.direction[i];
-    const Frame frame{{c.x, c.y, c.z}, scale};
-    gatherPoints(*target.points,
-                 neighbours.within(static_cast<std::uint32_t>(i), full.neighbourhood), frame,
-                 worker.points);
-    const auto blobs =
-        worker.model.fit(worker.points, tree.radius[i] * scale, {d.x, d.y, d.z}, progress);
-    perNode[i].assign(blobs.begin(), blobs.end());
-    progress.advance();
-  });
+  Models models(target, full);
+  const auto passes = static_cast<std::size_t>(1 + full.seamSweeps);
+  progress.begin("fit", passes * target.tree.nodeCount());
+  models.fit(progress);
+  for (int sweep = 0; sweep < full.seamSweeps; ++sweep) models.refine(progress);
   progress.end();
-
-  target.models = assemble(target, full, scale, perNode);
+  target.models = models.assemble();
   target.metadata.steps.push_back({"fit", "lumen " LUMEN_VERSION, full.parameters()});
 }
 

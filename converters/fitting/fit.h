@@ -23,9 +23,11 @@ struct FitOptions {
   double cohesionScale = 2.0;             ///< s, of the Lennard-Jones energy
   int maxSubdivisions = 100;              ///< N_s, at most 1000
   int neighbourhood =
-      2;  ///< topological distance of the nodes whose points are fitted, at most 100
-  std::optional<double> isoLevel;     ///< T, mm *: half a voxel
-  std::optional<double> accuracy;     ///< t_g, mm *: 1.5 voxels
+      2;               ///< topological distance of the nodes whose points are fitted, at most 100
+  int seamSweeps = 2;  ///< joint refinements of adjacent models, at most 100
+  double seamWeight = 64;          ///< of a node's seams in E_d, in the weight of all of its points
+  std::optional<double> isoLevel;  ///< T, mm *: half a voxel
+  std::optional<double> accuracy;  ///< t_g, mm *: 1.5 voxels
   std::optional<double> maxDistance;  ///< farther blobs are dropped, mm from the node *: 100 voxels
   std::optional<double> minWidth;     ///< narrower blobs are dropped, mm *: 0.1 voxel
 
@@ -36,11 +38,15 @@ struct FitOptions {
 };
 
 /// The thesis' algorithm on the same energy, with these differences, each for accuracy on narrow or
-/// noisy vessels: E_d is normalised by the field's mean squared slope (energy.h); beta falls with
-/// the fourth power of the radius below ten voxels; all unknowns move together, by
-/// Levenberg-Marquardt steps; a new blob stays only if it lowers the energy by enough, and blobs
-/// are added beyond the accuracy asked for while they do, up to a twentieth of the node's radius;
-/// blobs stay near the points.
+/// noisy vessels: E_d measures distances rather than differences of the field (energy.h); beta
+/// falls with the fourth power of the radius below ten voxels, and once there is an estimate of the
+/// noise, follows its variance; the widths of a model's blobs are expected to differ by a tenth;
+/// all unknowns move together, by Levenberg-Marquardt steps; a new blob stays only if it lowers the
+/// energy by enough, and blobs are added beyond the accuracy asked for while they do, up to a
+/// twentieth of the node's radius; the centre of every blob stays in the lumen, within the radius
+/// of a node of the neighbourhood; and afterwards adjacent models are refined together: in every
+/// sweep each pair gets points on its radical plane, halfway between the two surfaces, and all
+/// models are minimised with those points.
 ///
 /// Adds (or replaces) the blobby models of a case that has wall points, and appends the "fit" step
 /// to its metadata. Nodes whose neighbourhood has too few points get the two starting blobs. The

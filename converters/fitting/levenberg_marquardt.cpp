@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "converters/common/simd.h"
 
@@ -18,6 +19,27 @@ constexpr double kFirstDamping = 1e-3;
 constexpr double kLargestDamping = 1e12;
 /// Added to the diagonal, relative to its largest entry: an unknown without influence stays put.
 constexpr double kFloor = 1e-14;
+
+/// Moves a centre that is outside all balls to the surface of the one that it is least far from.
+void keepWithin(std::span<const Ball> balls, Blob& blob) {
+  const Ball* nearest = nullptr;
+  double away = 0, least = std::numeric_limits<double>::infinity();
+  for (const Ball& ball : balls) {
+    const double dx = blob.x - ball.centre.x, dy = blob.y - ball.centre.y;
+    const double dz = blob.z - ball.centre.z;
+    const double distance = std::sqrt(dx * dx + dy * dy + dz * dz);
+    if (distance <= ball.radius) return;
+    if (distance - ball.radius >= least) continue;
+    least = distance - ball.radius;
+    away = distance;
+    nearest = &ball;
+  }
+  if (nearest == nullptr) return;
+  const double back = nearest->radius / away;
+  blob.x = nearest->centre.x + back * (blob.x - nearest->centre.x);
+  blob.y = nearest->centre.y + back * (blob.y - nearest->centre.y);
+  blob.z = nearest->centre.z + back * (blob.z - nearest->centre.z);
+}
 
 }  // namespace
 
@@ -61,7 +83,8 @@ bool LevenbergMarquardt::solve(std::size_t n, double damping) {
                         std::span(m_step).first(n));
 }
 
-double LevenbergMarquardt::tryStep(std::span<const Blob> blobs, std::size_t active, double reach) {
+double LevenbergMarquardt::tryStep(std::span<const Blob> blobs, std::size_t active,
+                                   const MinimiseOptions& options) {
   const std::size_t n = 4 * (blobs.size() - active);
   double excess = 1;
   for (std::size_t j = active; j < blobs.size(); ++j) {
@@ -76,11 +99,13 @@ double LevenbergMarquardt::tryStep(std::span<const Blob> blobs, std::size_t acti
     const Blob& from = blobs[j];
     Blob& to = m_trial[j];
     to = {from.x + step[0], from.y + step[1], from.z + step[2], from.width + step[3]};
+    keepWithin(options.lumen, to);
     const double distance = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
-    if (distance <= reach) continue;
-    to.x *= reach / distance;
-    to.y *= reach / distance;
-    to.z *= reach / distance;
+    if (distance <= options.reach) continue;
+    const double back = options.reach / distance;
+    to.x *= back;
+    to.y *= back;
+    to.z *= back;
   }
   // the decrease of the quadratic model, |r|^2 - |r + J step|^2
   double predicted = 0;
@@ -111,7 +136,7 @@ MinimiseResult LevenbergMarquardt::minimise(Energy& energy, std::span<Blob> blob
   while (result.iterations < options.maxIterations && damping < kLargestDamping) {
     double predicted = 0, next = result.energy;
     if (solve(n, damping)) {
-      predicted = tryStep(blobs, active, options.reach);
+      predicted = tryStep(blobs, active, options);
       if (predicted < 0.1 * options.tolerance * result.energy) break;
       next = energy.linearise(m_trial);
       ++result.iterations;

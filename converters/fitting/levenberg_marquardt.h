@@ -11,12 +11,20 @@
 
 namespace lumen::convert::fitting {
 
+/// In the fit's frame.
+struct Ball {
+  formats::Vec3d centre;
+  double radius = 0;
+};
+
 struct MinimiseOptions {
   int maxIterations = 50;
   /// Stops when a step lowers the energy by less than this share of it.
   double tolerance = 1e-4;
   /// No centre moves farther from the origin.
   double reach = std::numeric_limits<double>::infinity();
+  /// No centre moves out of the union of these balls, if there are any.
+  std::span<const Ball> lumen = {};
 };
 
 struct MinimiseResult {
@@ -36,7 +44,7 @@ public:
 
 private:
   bool solve(std::size_t n, double damping);
-  double tryStep(std::span<const Blob> blobs, std::size_t active, double reach);
+  double tryStep(std::span<const Blob> blobs, std::size_t active, const MinimiseOptions& options);
 
   std::vector<double> m_a, m_b;  ///< normal equations
   std::vector<double> m_factor, m_step;

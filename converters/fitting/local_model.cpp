@@ -22,10 +22,17 @@ constexpr double kShareWhenFar = 0.5;
 /// good model lie inside the vessel. Those that get there are dropped.
 constexpr double kReach = 1.5;
 /// Subdivisions in vain, in one fit, before it stops.
-constexpr std::size_t kMostRefusals = 3;
+constexpr std::size_t kMostRefusals = 10;
 constexpr MinimiseOptions kAlone{20, 1e-3};
 constexpr MinimiseOptions kTogether{10, 1e-2};
 constexpr MinimiseOptions kAll{60, 1e-4};
+constexpr MinimiseOptions kRefine{10, 1e-4};
+/// The thesis' beta, in whose place the prior's weight comes once the noise is known.
+constexpr double kTunedCurvatureWeight = 1e-3;
+/// Standard deviation of the mean curvature of a wall, in units of the inverse radius, and of the
+/// widths of a model's blobs, as a share of their mean: what the priors expect.
+constexpr double kCurvatureSpread = 1.0;
+constexpr double kWidthSpread = 0.1;
 /// Trial positions of a new blob, and their spacing in tenths of the old width.
 constexpr int kPartingSteps = 12;
 constexpr double kPartingStride = 2.5;
@@ -77,8 +84,14 @@ LocalModel::LocalModel(const LocalModelOptions& options)
 
 /// Two blobs half way to the ends of the points along the node's direction. Farther out they would
 /// bulge beyond the points of an open end, where nothing calls them back.
-void LocalModel::start(std::span<const formats::Vec3d> points, double radius,
-                       const formats::Vec3d& direction) {
+void LocalModel::start(const NodeData& node) {
+  if (!node.start.empty()) {
+    m_blobs.assign(node.start.begin(), node.start.end());
+    return;
+  }
+  const std::span<const formats::Vec3d> points = node.points;
+  const formats::Vec3d& direction = node.direction;
+  const double radius = node.radius;
   double low = -radius, high = radius;
   if (points.size() >= kFewestPoints) {
     m_along.clear();
@@ -108,16 +121,22 @@ void LocalModel::start(std::span<const formats::Vec3d> points, double radius,
 /// swell and smooth narrow vessels by a share of their radius that grows as they get narrower.
 /// Scaled with the fourth power of the radius the share stays that of the vessel which the weight
 /// was tuned on.
-void LocalModel::beginEnergy(std::span<const formats::Vec3d> points) {
+EnergyParameters LocalModel::scaledEnergy() const {
   EnergyParameters parameters = m_options.energy;
   const double relative = std::min(1.0, m_radius / kTunedRadius);
   parameters.curvatureWeight *= relative * relative * relative * relative;
   // the width of a blob of given surface depends on the kernel: s counts widths of the thesis' one
-  const double tuned = formats::widthForRadius(
-      formats::Kernel::Cauchy, formats::defaultKernelParameter(formats::Kernel::Cauchy), m_radius,
-      parameters.isoLevel, 2);
-  parameters.cohesionScale *= tuned / m_blobs.front().width;
-  parameters.referenceSlope = 0;
+  const auto width = [&](formats::Kernel kernel, double parameter) {
+    return formats::widthForRadius(kernel, parameter, m_radius, parameters.isoLevel, 2);
+  };
+  constexpr auto kTuned = formats::Kernel::Cauchy;
+  parameters.cohesionScale *= width(kTuned, formats::defaultKernelParameter(kTuned)) /
+                              width(parameters.kernel, parameters.kernelParameter);
+  return parameters;
+}
+
+void LocalModel::beginEnergy(std::span<const formats::Vec3d> points) {
+  EnergyParameters parameters = scaledEnergy();
   m_energy.setParameters(parameters);
   m_energy.setPoints(points);
   m_energy.evaluate(m_blobs);
@@ -139,6 +158,7 @@ bool LocalModel::cleanUp() {
 void LocalModel::minimise(std::size_t active, MinimiseOptions options) {
   m_energy.freeze(m_blobs, active);
   options.reach = m_reach;
+  options.lumen = m_lumen;
   m_value = m_minimiser.minimise(m_energy, m_blobs, active, options).energy;
 }
 
@@ -200,10 +220,30 @@ void LocalModel::part(const Blob& kept) {
   added = best;
 }
 
+/// The priors weigh what they do against noise of the variance that E_d estimates: against points
+/// without noise they would only bend the surface away. E_d is a mean over all points, and so the
+/// evenness of one blob counts as much as one of them.
+void LocalModel::weighPriors() {
+  EnergyParameters parameters = m_energy.parameters();
+  const double variance = m_energy.terms().data;
+  const double spread = m_radius / kCurvatureSpread;
+  parameters.curvatureWeight =
+      m_options.energy.curvatureWeight / kTunedCurvatureWeight * variance * spread * spread;
+  double sum = 0;
+  for (const Blob& blob : m_blobs) sum += blob.width;
+  parameters.evenWidth = sum / static_cast<double>(m_blobs.size());
+  parameters.evennessWeight =
+      variance / (static_cast<double>(m_energy.pointCount()) * kWidthSpread * kWidthSpread);
+  m_energy.setParameters(parameters);
+  m_energy.freeze(m_blobs, 0);
+  m_value = m_energy.evaluate(m_blobs);
+}
+
 /// One round of selection, subdivision and optimisation. The new model stays if it lowers the
 /// energy, and if the farthest point was within the accuracy already, only if it lowers it by more
 /// than four more unknowns lower that of noise. False if the fit is good enough or nothing helps.
 bool LocalModel::subdivide() {
+  weighPriors();
   double distance = 0;
   const std::size_t farthest = farthestPoint(distance);
   if (distance < std::min(m_options.accuracy, kRelativeAccuracy * m_radius)) return false;
@@ -233,19 +273,34 @@ bool LocalModel::subdivide() {
   return distance >= m_options.accuracy && m_refused.size() < kMostRefusals;
 }
 
-std::span<const Blob> LocalModel::fit(std::span<const formats::Vec3d> points, double radius,
-                                      const formats::Vec3d& direction, const Progress& progress) {
-  start(points, radius, direction);
-  m_radius = radius;
+std::span<const Blob> LocalModel::fit(const NodeData& node, const Progress& progress) {
+  start(node);
+  m_radius = node.radius;
+  m_lumen = node.lumen;
   m_subdivisions = 0;
   m_value = 0;
   m_refused.clear();
-  if (points.size() < kFewestPoints) return m_blobs;
-  m_reach = std::min(m_options.maxDistance, kReach * farthestFromOrigin(points));
-  beginEnergy(points);
+  if (node.points.size() < kFewestPoints) return m_blobs;
+  m_reach = std::min(m_options.maxDistance, kReach * farthestFromOrigin(node.points));
+  beginEnergy(node.points);
   minimiseAll();
   while (m_subdivisions < m_options.maxSubdivisions && subdivide()) progress.check();
+  weighPriors();
   if (m_subdivisions > 0) minimiseAll();
+  return m_blobs;
+}
+
+std::span<const Blob> LocalModel::refine(const NodeData& node, std::span<const formats::Vec3d> ties,
+                                         std::span<const Blob> blobs, double tieShare,
+                                         const EnergyParameters& parameters) {
+  m_blobs.assign(blobs.begin(), blobs.end());
+  if (node.points.size() < kFewestPoints) return m_blobs;
+  m_radius = node.radius;
+  m_lumen = node.lumen;
+  m_reach = std::min(m_options.maxDistance, kReach * farthestFromOrigin(node.points));
+  m_energy.setParameters(parameters);
+  m_energy.setPoints(node.points, ties, tieShare);
+  minimise(0, kRefine);
   return m_blobs;
 }
 

@@ -20,6 +20,18 @@ struct LocalModelOptions {
   double minWidth = 0.02;     ///< narrower blobs are dropped
 };
 
+/// A node at the origin.
+struct NodeData {
+  std::span<const formats::Vec3d> points;  ///< of its neighbourhood
+  double radius = 0;
+  formats::Vec3d direction;  ///< unit vector along the vessel
+  /// Inscribed balls of the neighbourhood: the centre of every blob stays in one of them, if there
+  /// are any. Where the points end, a wide blob out there would fit them as well as a good one.
+  std::span<const Ball> lumen = {};
+  /// The model to begin with; if empty, two blobs along the direction.
+  std::span<const Blob> start = {};
+};
+
 /// Fewer points than this say less than the two blobs that the fit begins with.
 constexpr std::size_t kFewestPoints = 8;
 
@@ -28,21 +40,30 @@ class LocalModel {
 public:
   explicit LocalModel(const LocalModelOptions& options);
 
-  /// The model of the node at the origin, of that radius and unit direction, for the points of its
-  /// neighbourhood. At least one blob; valid until the next call. Throws Error(Cancelled).
-  std::span<const Blob> fit(std::span<const formats::Vec3d> points, double radius,
-                            const formats::Vec3d& direction, const Progress& progress);
+  /// The model of a node. At least one blob; valid until the next call, which must not outlive the
+  /// node's points and lumen. Throws Error(Cancelled).
+  std::span<const Blob> fit(const NodeData& node, const Progress& progress);
 
-  /// Of the last fit().
+  /// Moves and resizes the blobs of a model that fit() gave for `node`, to bring its surface closer
+  /// to points that it shares with its neighbours' models: they weigh `tieShare` times as much as
+  /// all points of the node. `parameters` are those that the fit ended with.
+  std::span<const Blob> refine(const NodeData& node, std::span<const formats::Vec3d> ties,
+                               std::span<const Blob> blobs, double tieShare,
+                               const EnergyParameters& parameters);
+
+  /// Of the last fit(), in the weights that it ended with.
+  [[nodiscard]] const EnergyParameters& parameters() const { return m_energy.parameters(); }
+  /// Of the last fit() or refine().
   [[nodiscard]] double energy() const { return m_value; }
   [[nodiscard]] int subdivisions() const { return m_subdivisions; }
 
 private:
-  void start(std::span<const formats::Vec3d> points, double radius,
-             const formats::Vec3d& direction);
+  void start(const NodeData& node);
+  [[nodiscard]] EnergyParameters scaledEnergy() const;
   void beginEnergy(std::span<const formats::Vec3d> points);
   void minimise(std::size_t active, MinimiseOptions options);
   void minimiseAll();
+  void weighPriors();
   bool subdivide();
   void part(const Blob& kept);
   bool cleanUp();
@@ -54,6 +75,7 @@ private:
   LevenbergMarquardt m_minimiser;
   std::vector<Blob> m_blobs, m_spare;
   std::vector<double> m_along;
+  std::span<const Ball> m_lumen;
   std::vector<std::size_t> m_refused;  ///< points that a subdivision did not help
   double m_value = 0, m_radius = 0, m_reach = 0;
   int m_subdivisions = 0;

@@ -60,6 +60,8 @@ FitOptions FitOptions::resolved(double voxelSize) const {
   requireRange("cohesion-scale", cohesionScale, 1e-3, 1e3);
   requireRange("max-subdivisions", maxSubdivisions, 0, 1000);
   requireRange("neighbourhood", neighbourhood, 0, 100);
+  requireRange("seam-sweeps", seamSweeps, 0, 100);
+  requireRange("seam-weight", seamWeight, 0, 1e6);
   scaleWithVoxel("iso-level", full.isoLevel, 0.5, voxelSize);
   scaleWithVoxel("accuracy", full.accuracy, 1.5, voxelSize);
   scaleWithVoxel("max-distance", full.maxDistance, 100, voxelSize);
@@ -74,7 +76,9 @@ std::map<std::string, formats::ParameterValue> FitOptions::parameters() const {
       {"curvature-weight", curvatureWeight},
       {"cohesion-scale", cohesionScale},
       {"max-subdivisions", std::int64_t{maxSubdivisions}},
-      {"neighbourhood", std::int64_t{neighbourhood}}};
+      {"neighbourhood", std::int64_t{neighbourhood}},
+      {"seam-sweeps", std::int64_t{seamSweeps}},
+      {"seam-weight", seamWeight}};
   const auto add = [&values](const char* name, const std::optional<double>& value) {
     if (value) values.emplace(name, *value);
   };

@@ -1,5 +1,5 @@
 lumen_test(fitting_test
-  LIBS lumen_fitting
+  LIBS lumen_fitting lumen_reproduce
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/conjugate_gradients.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/energy_test.cpp
@@ -8,6 +8,8 @@ lumen_test(fitting_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/fit_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/levenberg_marquardt_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/local_model_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/reproduce_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/seam_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/shapes.cpp)
 
 if(LUMEN_BUILD_BENCHMARKS)

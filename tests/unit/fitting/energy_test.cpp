@@ -59,9 +59,9 @@ double& coordinate(Blob& b, std::size_t i) {
 
 /// Largest difference between analytic and central differences, relative to the largest derivative.
 double derivativeError(const EnergyParameters& parameters, std::vector<Blob> blobs,
-                       std::size_t active) {
+                       std::size_t active, const std::vector<Vec3d>& ties = {}) {
   Energy energy(parameters);
-  energy.setPoints(scatteredPoints());
+  energy.setPoints(scatteredPoints(), ties, 2);
   energy.freeze(blobs, active);
   const std::size_t n = 4 * (blobs.size() - active);
   std::vector<double> a(n * n), b(n);
@@ -84,6 +84,22 @@ double derivativeError(const EnergyParameters& parameters, std::vector<Blob> blo
   return worst / largest;
 }
 
+TEST(Energy, TiesCountInTheDataTermOnly) {
+  EnergyParameters p = parametersFor(Kernel::Cauchy);
+  p.cohesionWeight = 0;
+  const std::vector<Vec3d> points = scatteredPoints(), ties{{0.5, 0.2, 0.1}, {-0.4, 0.3, 0.9}};
+  const std::vector<Blob> blobs = scatteredBlobs(0.6);
+  Energy plain(p), tied(p), ofTies(p);
+  plain.setPoints(points);
+  tied.setPoints(points, ties, 3);
+  ofTies.setPoints(ties);
+  for (Energy* energy : {&plain, &tied, &ofTies}) energy->evaluate(blobs);
+  EXPECT_NEAR(tied.terms().data, plain.terms().data + 3 * ofTies.terms().data, 1e-14);
+  EXPECT_NEAR(tied.terms().curvature, plain.terms().curvature, 1e-12);
+  EXPECT_NEAR(tied.slope(), plain.slope(), 1e-14);
+  EXPECT_EQ(tied.field().size(), points.size());
+}
+
 class EnergyOfKernel : public testing::TestWithParam<Kernel> {
 protected:
   [[nodiscard]] static double width() { return GetParam() >= Kernel::Quartic ? 3.0 : 0.6; }
@@ -102,12 +118,27 @@ TEST_P(EnergyOfKernel, NormalisedDataDerivativesMatchCentralDifferences) {
   EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0), 1e-6);
 }
 
+TEST_P(EnergyOfKernel, DerivativesWithTiesMatchCentralDifferences) {
+  EnergyParameters p = parametersFor(GetParam());
+  p.referenceSlope = 0.3;
+  const std::vector<Vec3d> ties{{0.5, 0.2, 0.1}, {-0.4, 0.3, 0.9}, {0.1, -0.7, 0.3}};
+  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0, ties), 1e-6);
+}
+
 TEST_P(EnergyOfKernel, CurvatureDerivativesMatchCentralDifferences) {
   EnergyParameters p = parametersFor(GetParam());
   p.isoLevel = 0;
   p.cohesionWeight = 0;
   p.curvatureWeight = 1e8;  // leaves the data term below the tolerance
   EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0), 1e-5);
+}
+
+TEST_P(EnergyOfKernel, EvennessDerivativesMatchCentralDifferences) {
+  EnergyParameters p = parametersFor(GetParam());
+  p.cohesionWeight = p.curvatureWeight = 0;
+  p.evennessWeight = 1e6;
+  p.evenWidth = 0.5;
+  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0), 1e-6);
 }
 
 TEST_P(EnergyOfKernel, CohesionDerivativesMatchCentralDifferences) {
@@ -166,11 +197,48 @@ INSTANTIATE_TEST_SUITE_P(All, EnergyOfKernel,
                          [](const auto& tested) { return test::kernelName(tested.param); });
 
 TEST(Energy, DataTermIsTheMeanSquareOfTMinusF) {
-  // f = 0.5 at the centre of a blob of width 0.5, and 0.5 (1 + 0.2 * 4)^-2 = 0.154321 at two widths
-  Energy energy({});
-  energy.setPoints(std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}});
+  // f = 0.5 at the centre of a blob of width 0.5, and 0.5 (1 - 0.25)^2 = 0.28125 at half a width
+  Energy energy(parametersFor(Kernel::Quartic));
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 0}, {0.25, 0, 0}});
   energy.evaluate(std::vector<Blob>{{0, 0, 0, 0.5}});
-  EXPECT_NEAR(energy.terms().data, (0.4 * 0.4 + 0.0543210 * 0.0543210) / 2, 1e-8);
+  EXPECT_NEAR(energy.terms().data, (0.4 * 0.4 + 0.18125 * 0.18125) / 2, 1e-12);
+}
+
+TEST(Energy, DataTermOfCauchyBlobsComesFromTheFourthRootOfTheField) {
+  // f = 1.6 in the centre, and 1.6 (1 + 0.2 * 15)^-2 = 0.1 = T at sqrt(15) widths: u = 4 T (1/2 -
+  // 1)
+  Energy energy({});
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 0}, {1.6 * std::sqrt(15.0), 0, 0}});
+  energy.evaluate(std::vector<Blob>{{0, 0, 0, 1.6}});
+  EXPECT_NEAR(energy.terms().data, 0.2 * 0.2 / 2, 1e-12);
+}
+
+TEST(Energy, NoiseOfAFifthOfTheRadiusMovesASphereByLessThanATenth) {
+  // as many points 0.2 inside the unit sphere as outside it
+  std::vector<Vec3d> points;
+  for (const Vec3d& p : scatteredPoints()) {
+    const double norm = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+    for (const double r : {0.8, 1.2})
+      points.push_back({r * p.x / norm, r * p.y / norm, r * p.z / norm});
+  }
+  Energy energy({});
+  energy.setPoints(points);
+  const auto derivative = [&](double radius) {
+    const double width = formats::widthForRadius(Kernel::Cauchy, 0.2, radius, 0.1);
+    const auto at = [&](double w) { return energy.evaluate(std::vector<Blob>{{0, 0, 0, w}}); };
+    return at(width + 1e-4) - at(width - 1e-4);
+  };
+  EXPECT_LT(derivative(0.98), 0);
+  EXPECT_GT(derivative(1.07), 0);
+}
+
+TEST(Energy, EvennessIsTheSquaredDeviationOfTheWidths) {
+  EnergyParameters p;
+  p.evenWidth = 0.5;
+  Energy energy(p);
+  energy.setPoints(scatteredPoints());
+  energy.evaluate(std::vector<Blob>{{0, 0, 0, 0.4}, {1, 0, 0, 0.65}});
+  EXPECT_NEAR(energy.terms().evenness, 0.04 + 0.09, 1e-12);
 }
 
 TEST(Energy, NormalisedDataTermIsThePlainOneWhereTheSlopeIsTheReference) {

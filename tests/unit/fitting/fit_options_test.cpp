@@ -65,6 +65,8 @@ TEST(FitOptions, OutOfRangeValuesAreRefusedByName) {
   expectRefused(with(&FitOptions::maxSubdivisions, -1), "max-subdivisions");
   expectRefused(with(&FitOptions::maxSubdivisions, 1001), "max-subdivisions");
   expectRefused(with(&FitOptions::neighbourhood, -1), "neighbourhood");
+  expectRefused(with(&FitOptions::seamSweeps, 101), "seam-sweeps");
+  expectRefused(with(&FitOptions::seamWeight, -1.0), "seam-weight");
   expectRefused(with(&FitOptions::isoLevel, 0.0), "iso-level");
   expectRefused(with(&FitOptions::accuracy, -0.1), "accuracy");
   expectRefused(with(&FitOptions::maxDistance, std::numeric_limits<double>::infinity()),
@@ -78,7 +80,8 @@ TEST(FitOptions, ParametersHaveTheNamesOfTheOptions) {
   for (const auto& [name, value] : values) names += name + " ";
   EXPECT_EQ(names,
             "accuracy cohesion-scale cohesion-weight curvature-weight iso-level kernel "
-            "kernel-parameter max-distance max-subdivisions min-width neighbourhood ");
+            "kernel-parameter max-distance max-subdivisions min-width neighbourhood seam-sweeps "
+            "seam-weight ");
   EXPECT_EQ(std::get<std::string>(values.at("kernel")), "cauchy");
   EXPECT_EQ(std::get<std::int64_t>(values.at("max-subdivisions")), 100);
   EXPECT_DOUBLE_EQ(std::get<double>(values.at("iso-level")), 0.1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/fitting/fit.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <string>
@@ -10,11 +11,15 @@
 #include <tbb/global_control.h>
 
 #include "converters/fitting/error_of_fit.h"
+#include "formats/case/blobby.h"
+#include "formats/case/topology.h"
 #include "shapes.h"
+#include "tests/reproduce/seams.h"
 
 namespace lumen::convert {
 namespace {
 
+using formats::Vec3d;
 using test::TrackedShape;
 using test::TrackingOptions;
 
@@ -40,6 +45,12 @@ struct Vessel {
   double radius, noise;  // mm
 };
 
+std::string vesselName(const testing::TestParamInfo<Vessel>& tested) {
+  const Vessel& v = tested.param;
+  return std::string(v.shape) + std::to_string(std::lround(1000 * v.radius)) + "Noise" +
+         std::to_string(std::lround(1000 * v.noise));
+}
+
 class FitOfVessel : public testing::TestWithParam<Vessel> {};
 
 TEST_P(FitOfVessel, WallIsWithinATenthOfAVoxelWithSixBlobs) {
@@ -60,12 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Synthetic, FitOfVessel,
                                          Vessel{"bifurcation", 1, 0.05},
                                          Vessel{"bifurcation", 2, 0.1},
                                          Vessel{"capsule", 0.5, 0.05}, Vessel{"capsule", 2, 0.1}),
-                         [](const auto& tested) {
-                           const Vessel& v = tested.param;
-                           return std::string(v.shape) +
-                                  std::to_string(std::lround(1000 * v.radius)) + "Noise" +
-                                  std::to_string(std::lround(1000 * v.noise));
-                         });
+                         vesselName);
 
 class FitWithKernel : public testing::TestWithParam<formats::Kernel> {};
 
@@ -80,6 +86,96 @@ INSTANTIATE_TEST_SUITE_P(All, FitWithKernel,
                          testing::Values(formats::Kernel::Gaussian, formats::Kernel::Quartic,
                                          formats::Kernel::SoftObject),
                          [](const auto& tested) { return test::kernelName(tested.param); });
+
+double distanceTo(const formats::Vec3f& p, const formats::Vec3d& q) {
+  return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+}
+
+/// How far, mm, the node's surface lies beyond the farthest point of its neighbourhood, seen from
+/// the node along its direction and against it.
+double overshoot(const formats::Case& value, std::uint32_t node) {
+  const formats::Vec3f &c = value.tree.centre[node], &d = value.tree.direction[node];
+  double farthest = 0, surface = 0;
+  for (const std::uint32_t near : formats::Neighbours(value.tree).within(node, 2)) {
+    for (std::uint32_t k = value.points->offset[near]; k < value.points->offset[near + 1]; ++k) {
+      farthest = std::max(farthest, distanceTo(value.points->position[k], {c.x, c.y, c.z}));
+    }
+  }
+  for (const double sign : {-1.0, 1.0}) {
+    double t = 0;
+    const auto inside = [&] {
+      const Vec3d p{c.x + sign * t * d.x, c.y + sign * t * d.y, c.z + sign * t * d.z};
+      return formats::evaluateField(*value.models, node, p).f > value.models->isoLevel;
+    };
+    while (t < 20 && inside()) t += 0.02;
+    surface = std::max(surface, t);
+  }
+  return surface - farthest;
+}
+
+TEST(Fit, NarrowNoisyVesselsEndWithinTwoRadiiOfTheirPoints) {
+  constexpr double kRadius = 0.25;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    TrackingOptions tracking{0.04};
+    tracking.rays = 60;
+    tracking.seed = seed;
+    formats::Case value = test::trackShape("tube", kRadius, tracking).value;
+    Progress progress;
+    fit(value, {}, progress);
+    for (std::uint32_t node = 0; node < value.tree.nodeCount(); ++node) {
+      EXPECT_LT(overshoot(value, node), 2 * kRadius) << "seed " << seed << ", node " << node;
+    }
+  }
+}
+
+TEST(Fit, BlobsLieInTheLumen) {
+  const formats::Case value = fitted("bifurcation", 0.3, 0.05).value;
+  const formats::Neighbours neighbours(value.tree);
+  for (std::uint32_t node = 0; node < value.tree.nodeCount(); ++node) {
+    const auto near = neighbours.within(node, 2);
+    for (std::uint32_t j = value.models->offset[node]; j < value.models->offset[node + 1]; ++j) {
+      const formats::Vec3f& c = value.models->centre[j];
+      EXPECT_TRUE(std::any_of(near.begin(), near.end(),
+                              [&](std::uint32_t i) {
+                                return distanceTo(value.tree.centre[i], {c.x, c.y, c.z}) <=
+                                       1.0001 * value.tree.radius[i];
+                              }))
+          << "node " << node;
+    }
+  }
+}
+
+class SeamsOfVessel : public testing::TestWithParam<Vessel> {};
+
+TEST_P(SeamsOfVessel, AreWithinATwentiethOfAVoxel) {
+  const auto& [shape, radius, noise] = GetParam();
+  Progress progress;
+  const auto seams = reproduce::measureSeams(fitted(shape, radius, noise).value, progress);
+  ASSERT_GT(seams.jump.size(), 300U);
+  EXPECT_EQ(seams.lost, 0U);
+  EXPECT_LT(reproduce::quantile(seams.jump, 0.99), 0.05 * kVoxel);
+}
+
+INSTANTIATE_TEST_SUITE_P(Synthetic, SeamsOfVessel,
+                         testing::Values(Vessel{"tube", 0.3, 0.025}, Vessel{"tube", 1, 0.05},
+                                         Vessel{"bend", 0.5, 0.05}, Vessel{"bend", 2, 0.1}),
+                         vesselName);
+
+TEST(Fit, SeamsOfABifurcationAreWithinATenthOfAVoxel) {
+  Progress progress;
+  const auto seams = reproduce::measureSeams(fitted("bifurcation", 1, 0.05).value, progress);
+  EXPECT_LT(reproduce::quantile(seams.jump, 0.5), 0.01 * kVoxel);
+  EXPECT_LT(reproduce::quantile(seams.jump, 0.99), 0.1 * kVoxel);
+}
+
+TEST(Fit, WithoutSweepsSeamsAreWider) {
+  Progress progress;
+  FitOptions alone;
+  alone.seamSweeps = 0;
+  const auto before = reproduce::measureSeams(fitted("bend", 1, 0.05, alone).value, progress);
+  const auto after = reproduce::measureSeams(fitted("bend", 1, 0.05).value, progress);
+  EXPECT_GT(reproduce::quantile(before.jump, 0.99), 3 * reproduce::quantile(after.jump, 0.99));
+}
 
 TEST(Fit, ErrorOfFitIsThatOfTheNoise) {
   const TrackedShape tracked = fitted("tube", 1, 0.05);
@@ -222,7 +318,7 @@ TEST(Fit, CancelledStopsAndLeavesTheCaseAlone) {
   EXPECT_EQ(value, before);
 }
 
-TEST(Fit, ReportsEveryNode) {
+TEST(Fit, ReportsEveryNodeOnceAndOnceForEverySweep) {
   class Counter : public Progress {
   public:
     void begin(std::string_view, std::size_t total) override { m_total = total; }
@@ -232,8 +328,9 @@ TEST(Fit, ReportsEveryNode) {
   } progress;
   formats::Case value = test::trackShape("tube", 1, {}).value;
   fit(value, {}, progress);
-  EXPECT_EQ(progress.m_total, value.tree.nodeCount());
-  EXPECT_EQ(progress.m_done, value.tree.nodeCount());
+  const std::size_t passes = 1 + static_cast<std::size_t>(FitOptions().seamSweeps);
+  EXPECT_EQ(progress.m_total, passes * value.tree.nodeCount());
+  EXPECT_EQ(progress.m_done, progress.m_total);
 }
 
 }  // namespace

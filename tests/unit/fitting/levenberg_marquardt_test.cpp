@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/fitting/levenberg_marquardt.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -107,6 +108,25 @@ TEST(LevenbergMarquardt, CentresStayWithinReach) {
   options.reach = 1;
   LevenbergMarquardt().minimise(energy, blobs, 0, options);
   for (const Blob& b : blobs) EXPECT_LE(b.x * b.x + b.y * b.y + b.z * b.z, 1 + 1e-12);
+}
+
+TEST(LevenbergMarquardt, CentresStayInTheUnionOfTheBalls) {
+  const std::vector<Vec3d> points = tubePoints(8, 0);
+  const std::vector<Ball> balls{{{-0.2, 0, 0}, 0.1}, {{0.2, 0, 0}, 0.1}};
+  const auto outside = [&](const Blob& b) {
+    return std::none_of(balls.begin(), balls.end(), [&](const Ball& ball) {
+      return std::hypot(b.x - ball.centre.x, b.y, b.z) <= ball.radius + 1e-12;
+    });
+  };
+  std::vector<Blob> free{{-0.2, 0, 0, 0.35}, {0.2, 0, 0, 0.35}}, kept = free;
+  Energy energy(normalised(points, free));
+  energy.setPoints(points);
+  LevenbergMarquardt().minimise(energy, free, 0, {});
+  EXPECT_TRUE(std::any_of(free.begin(), free.end(), outside));
+  MinimiseOptions options;
+  options.lumen = balls;
+  LevenbergMarquardt().minimise(energy, kept, 0, options);
+  EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), outside));
 }
 
 TEST(LevenbergMarquardt, EndsAtNoHigherEnergyThanTheThesisConjugateGradients) {

@@ -96,7 +96,7 @@ TEST(Split, APointInTheCentreStillPartsTheHalves) {
 
 TEST(LocalModel, NoPointsGiveTwoBlobsAsWideAsTheNode) {
   LocalModel model({});
-  const auto blobs = model.fit({}, 1, kAlongX, Progress());
+  const auto blobs = model.fit({{}, 1, kAlongX, {}}, Progress());
   ASSERT_EQ(blobs.size(), 2U);
   EXPECT_EQ(blobs[0].x, -0.5);
   EXPECT_EQ(blobs[1].x, 0.5);
@@ -108,13 +108,13 @@ TEST(LocalModel, NoPointsGiveTwoBlobsAsWideAsTheNode) {
 TEST(LocalModel, SevenPointsAreTooFew) {
   LocalModel model({});
   const std::vector<Vec3d> points(7, Vec3d{0, 0, 3});
-  EXPECT_EQ(model.fit(points, 1, kAlongX, Progress())[0].x, -0.5);
+  EXPECT_EQ(model.fit({points, 1, kAlongX, {}}, Progress())[0].x, -0.5);
 }
 
 TEST(LocalModel, EightEqualPointsGiveAFiniteModel) {
   LocalModel model({});
   const std::vector<Vec3d> points(8, Vec3d{0, 0, 1});
-  for (const Blob& b : model.fit(points, 1, kAlongX, Progress())) {
+  for (const Blob& b : model.fit({points, 1, kAlongX, {}}, Progress())) {
     EXPECT_TRUE(std::isfinite(b.x + b.y + b.z + b.width));
     EXPECT_GT(b.width, 0);
   }
@@ -125,7 +125,7 @@ TEST(LocalModel, ReproducesASphereToAThousandth) {
   options.energy.cohesionWeight = options.energy.curvatureWeight = 0;
   options.accuracy = 1e-3;
   LocalModel model(options);
-  const auto blobs = model.fit(spherePoints(1), 1, kAlongX, Progress());
+  const auto blobs = model.fit({spherePoints(1), 1, kAlongX, {}}, Progress());
   for (const Vec3d& p : spherePoints(1)) {
     const double outward = fieldAt(blobs, {1.001 * p.x, 1.001 * p.y, 1.001 * p.z});
     const double inward = fieldAt(blobs, {0.999 * p.x, 0.999 * p.y, 0.999 * p.z});
@@ -135,7 +135,7 @@ TEST(LocalModel, ReproducesASphereToAThousandth) {
 
 TEST(LocalModel, ATubeIsAsWideAtItsNodeAsItsPoints) {
   LocalModel model({});
-  const auto blobs = model.fit(tubePoints(0.05), 1, kAlongX, Progress());
+  const auto blobs = model.fit({tubePoints(0.05), 1, kAlongX, {}}, Progress());
   for (const double x : {-0.5, -0.25, 0.0, 0.25, 0.5}) EXPECT_NEAR(radiusAt(blobs, x), 1, 0.04);
 }
 
@@ -143,14 +143,15 @@ TEST(LocalModel, AFewOutliersDoNotMoveTheWall) {
   std::vector<Vec3d> points = tubePoints(0.05);
   for (const double x : {-0.8, 0.0, 0.9}) points.push_back({x, 1.6, 0});
   LocalModel model({});
-  const auto blobs = model.fit(points, 1, kAlongX, Progress());
+  const auto blobs = model.fit({points, 1, kAlongX, {}}, Progress());
   for (const double x : {-0.5, 0.0, 0.5}) EXPECT_NEAR(radiusAt(blobs, x), 1, 0.05);
 }
 
 TEST(LocalModel, AWrongStartingRadiusDoesNotMatter) {
   LocalModel model({});
   for (const double radius : {0.7, 1.0, 1.4}) {
-    EXPECT_NEAR(radiusAt(model.fit(tubePoints(0.05), radius, kAlongX, Progress()), 0), 1, 0.04)
+    EXPECT_NEAR(radiusAt(model.fit({tubePoints(0.05), radius, kAlongX, {}}, Progress()), 0), 1,
+                0.04)
         << radius;
   }
 }
@@ -159,7 +160,7 @@ TEST(LocalModel, NoSubdivisionLeavesTwoBlobs) {
   LocalModelOptions options;
   options.maxSubdivisions = 0;
   LocalModel model(options);
-  EXPECT_EQ(model.fit(tubePoints(0), 1, kAlongX, Progress()).size(), 2U);
+  EXPECT_EQ(model.fit({tubePoints(0), 1, kAlongX, {}}, Progress()).size(), 2U);
   EXPECT_EQ(model.subdivisions(), 0);
 }
 
@@ -170,7 +171,7 @@ TEST(LocalModel, MoreSubdivisionsNeverEndAtAHigherEnergy) {
     options.maxSubdivisions = subdivisions;
     options.accuracy = 0.01;
     LocalModel model(options);
-    model.fit(tubePoints(0.02), 1, kAlongX, Progress());
+    model.fit({tubePoints(0.02), 1, kAlongX, {}}, Progress());
     EXPECT_LE(model.energy(), 1.001 * previous);
     previous = model.energy();
   }
@@ -178,9 +179,9 @@ TEST(LocalModel, MoreSubdivisionsNeverEndAtAHigherEnergy) {
 
 TEST(LocalModel, AFitDoesNotDependOnTheOneBefore) {
   LocalModel fresh({}), used({});
-  const auto expected = fresh.fit(tubePoints(0.05), 1, kAlongX, Progress());
-  used.fit(spherePoints(2), 2, kAlongX, Progress());
-  const auto found = used.fit(tubePoints(0.05), 1, kAlongX, Progress());
+  const auto expected = fresh.fit({tubePoints(0.05), 1, kAlongX, {}}, Progress());
+  used.fit({spherePoints(2), 2, kAlongX, {}}, Progress());
+  const auto found = used.fit({tubePoints(0.05), 1, kAlongX, {}}, Progress());
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].x, expected[i].x);
@@ -192,7 +193,7 @@ TEST(LocalModel, BlobsOfAFitLieWithinMaxDistance) {
   LocalModelOptions options;
   options.maxDistance = 1.2;
   LocalModel model(options);
-  for (const Blob& b : model.fit(tubePoints(0), 1, kAlongX, Progress())) {
+  for (const Blob& b : model.fit({tubePoints(0), 1, kAlongX, {}}, Progress())) {
     EXPECT_LE(std::sqrt(b.x * b.x + b.y * b.y + b.z * b.z), 1.2);
   }
 }

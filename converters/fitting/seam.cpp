@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/fitting/seam.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+namespace lumen::convert::fitting {
+namespace {
+
+using Eigen::Vector3d;
+using formats::Vec3d;
+
+/// Cosines of multiples of a sixteenth of a turn; the C library's differ between machines.
+constexpr std::array<double, kSeamRays> kCosine = {
+    1,  0.92387953251128674,  0.70710678118654752,  0.38268343236508977,
+    0,  -0.38268343236508977, -0.70710678118654752, -0.92387953251128674,
+    -1, -0.92387953251128674, -0.70710678118654752, -0.38268343236508977,
+    0,  0.38268343236508977,  0.70710678118654752,  0.92387953251128674};
+
+constexpr double kLongestRay = 3;  // of the wider radius
+constexpr double kStep = 0.1;      // of the wider radius
+constexpr int kRefinements = 40;
+constexpr double kPrecision = 1e-5;  // of the wider radius
+
+Vector3d toEigen(const Vec3d& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// A ray from a point that is inside.
+class Ray {
+public:
+  Ray(const EnergyParameters& parameters, const Vector3d& origin, const Vector3d& direction,
+      double unit)
+      : m_parameters(parameters), m_origin(origin), m_direction(direction), m_unit(unit) {}
+
+  /// Where it leaves the inside of a model first.
+  [[nodiscard]] std::optional<double> leave(const SeamSide& side) const {
+    double low = 0, atLow = excess(side, 0), high = 0, atHigh = atLow;
+    if (!(atLow > 0)) return {};
+    while (atHigh > 0) {
+      low = high;
+      atLow = atHigh;
+      high += kStep * m_unit;
+      if (high > kLongestRay * m_unit) return {};
+      atHigh = excess(side, high);
+    }
+    return bracketed(side, low, atLow, high, atHigh);
+  }
+
+private:
+  /// Regula falsi with the Illinois rule.
+  [[nodiscard]] double bracketed(const SeamSide& side, double low, double atLow, double high,
+                                 double atHigh) const {
+    int kept = 0;
+    for (int i = 0; i < kRefinements && high - low > kPrecision * m_unit; ++i) {
+      const double t = (low * atHigh - high * atLow) / (atHigh - atLow), value = excess(side, t);
+      if (value > 0) {
+        low = t;
+        atLow = value;
+        if (kept > 0) atHigh *= 0.5;
+        kept = 1;
+      } else {
+        high = t;
+        atHigh = value;
+        if (kept < 0) atLow *= 0.5;
+        kept = -1;
+      }
+      if (value == 0) break;
+    }
+    return (low * atHigh - high * atLow) / (atHigh - atLow);
+  }
+
+  [[nodiscard]] double excess(const SeamSide& side, double t) const {
+    const Vector3d p = m_origin + t * m_direction - toEigen(side.node.centre);
+    double f = -m_parameters.isoLevel;
+    for (const Blob& blob : side.blobs) {
+      const double dx = p.x() - blob.x, dy = p.y() - blob.y, dz = p.z() - blob.z;
+      const double x = (dx * dx + dy * dy + dz * dz) / (blob.width * blob.width);
+      f += blob.width *
+           formats::evaluateKernel(m_parameters.kernel, m_parameters.kernelParameter, x).phi;
+    }
+    return f;
+  }
+
+  const EnergyParameters& m_parameters;
+  Vector3d m_origin, m_direction;
+  double m_unit;
+};
+
+double power(const Ball& ball, const Vector3d& p) {
+  return (p - toEigen(ball.centre)).squaredNorm() - ball.radius * ball.radius;
+}
+
+}  // namespace
+
+std::vector<Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide& first,
+                              const SeamSide& second, std::span<const Ball> others) {
+  std::vector<Vec3d> points;
+  const Vector3d from = toEigen(first.node.centre), way = toEigen(second.node.centre) - from;
+  const double distance = way.norm(), r0 = first.node.radius, r1 = second.node.radius;
+  if (!(distance > 0)) return points;
+  const Vector3d normal = way / distance;
+  const Vector3d origin = from + 0.5 * (distance + (r0 - r1) * (r0 + r1) / distance) * normal;
+  const Vector3d side = normal.unitOrthogonal(), up = normal.cross(side);
+  const double farthest = 0.5 * std::min(r0, r1);
+  for (std::size_t i = 0; i < kSeamRays; ++i) {
+    const Vector3d direction =
+        kCosine[i] * side + kCosine[(i + 3 * kSeamRays / 4) % kSeamRays] * up;
+    const Ray ray(parameters, origin, direction, std::max(r0, r1));
+    const std::optional<double> a = ray.leave(first);
+    if (!a) continue;
+    const std::optional<double> b = ray.leave(second);
+    if (!b || std::abs(*a - *b) > farthest) continue;
+    const Vector3d p = origin + 0.5 * (*a + *b) * direction;
+    const double own = power(first.node, p);
+    if (std::any_of(others.begin(), others.end(),
+                    [&](const Ball& other) { return power(other, p) < own; })) {
+      continue;
+    }
+    points.push_back({p.x(), p.y(), p.z()});
+  }
+  return points;
+}
+
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the models of two adjacent nodes meet: the radical plane, on which both have the same power
+// |X - C|^2 - r^2.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "converters/fitting/levenberg_marquardt.h"
+
+namespace lumen::convert::fitting {
+
+/// A node and its model. All centres are in one frame; the blobs are in the frame of their node.
+struct SeamSide {
+  Ball node;
+  std::span<const Blob> blobs;
+};
+
+/// Rays per seam.
+constexpr std::size_t kSeamRays = 16;
+
+/// Points halfway between the two surfaces, along rays in the radical plane, in the frame of the
+/// centres: at most kSeamRays. None where a ray meets one of the surfaces only, where they are
+/// farther apart than half of the narrower radius, or where one of `others` has a smaller power.
+std::vector<formats::Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide& first,
+                                       const SeamSide& second, std::span<const Ball> others);
+
+}  // namespace lumen::convert::fitting
