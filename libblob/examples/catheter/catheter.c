@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Pushes a rod into a vessel and tells how its tip went and what the wall cost. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rod.h"
+#include "score.h"
+
+typedef struct options {
+  const char *model, *mesh, *truth, *path;
+  double node, steps, speed, tilt, roll, local, exact;
+  rod_def rod;
+} options;
+
+static const char kUsage[] =
+    "Usage: catheter MODEL.lumen [--NAME VALUE]...\n"
+    "  mesh FILE.obj     ask this mesh for the wall, not the model\n"
+    "  truth FILE.lumen  the surface that gaps are measured to; the model\n"
+    "  path FILE.csv     write the tip: step, x, y, z (mm), touches, contacts, wall_us, solver_us\n"
+    "  node N            push in at this node, towards its child; 0\n"
+    "  tilt DEGREES      turn the guide off the vessel's axis; 0\n"
+    "  roll DEGREES      and then about the vessel's axis; 0\n"
+    "  steps N           2000\n"
+    "  speed MM/S        50\n"
+    "  local 1           BLOB_LOCAL;  exact 1: BLOB_DISTANCE_EXACT\n"
+    "  elements N 200, element MM 0.5, radius MM 0.15, young N/MM2 1e5, friction 0.1,\n"
+    "  iterations N 4, once 1: ask for the wall once in a step\n";
+
+static int set_number(options* o, const char* name, const char* text) {
+  double elements = (double)o->rod.elements, iterations = o->rod.iterations, once = 0;
+  const struct {
+    const char* name;
+    double* value;
+  } known[] = {{"node", &o->node},
+               {"roll", &o->roll},
+               {"tilt", &o->tilt},
+               {"steps", &o->steps},
+               {"speed", &o->speed},
+               {"local", &o->local},
+               {"exact", &o->exact},
+               {"elements", &elements},
+               {"element", &o->rod.element_length},
+               {"radius", &o->rod.radius},
+               {"young", &o->rod.young},
+               {"iterations", &iterations},
+               {"friction", &o->rod.friction},
+               {"once", &once}};
+  for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
+    if (strcmp(name, known[i].name) != 0) continue;
+    char* end;
+    *known[i].value = strtod(text, &end);
+    if (*end != '\0' || end == text || !(*known[i].value >= 0)) return 0;
+    o->rod.elements = (size_t)elements;
+    o->rod.iterations = (int)iterations;
+    if (strcmp(name, "once") == 0) o->rod.detect_once = once > 0;
+    return o->rod.elements >= 2 && o->rod.element_length > 0;
+  }
+  return 0;
+}
+
+static int set_option(options* o, const char* name, const char* value) {
+  if (strncmp(name, "--", 2) != 0) return 0;
+  name += 2;
+  if (strcmp(name, "mesh") == 0) return o->mesh = value, 1;
+  if (strcmp(name, "truth") == 0) return o->truth = value, 1;
+  if (strcmp(name, "path") == 0) return o->path = value, 1;
+  return set_number(o, name, value);
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The first child of a node; a node without a parent if there is none. */
+static blob_node child_of(const blob_model* model, uint32_t node) {
+  const size_t count = blob_model_describe(model).node_count;
+  blob_node child = {{0, 0, 0}, 0, -1};
+  for (uint32_t i = 0; i < count && child.parent != (int32_t)node; ++i)
+    child = blob_model_node(model, i);
+  if (child.parent != (int32_t)node) child.parent = -1;
+  return child;
+}
+
+/* The way in: from a node along the vessel, tilted and rolled. */
+static int find_entry(const blob_model* model, const options* o, rod_def* def) {
+  const uint32_t node = (uint32_t)o->node;
+  const blob_node at = blob_model_node(model, node), child = child_of(model, node);
+  if (child.parent < 0) return 0;
+  double along[3], side[3], up[3];
+  for (int a = 0; a < 3; ++a) along[a] = child.centre[a] - at.centre[a];
+  const double length = sqrt(dot(along, along));
+  for (int a = 0; a < 3; ++a) along[a] /= length;
+  const int least = fabs(along[0]) < 0.6 ? 0 : 1;
+  for (int a = 0; a < 3; ++a)
+    side[a] = ((a == least) - along[least] * along[a]) / sqrt(1 - along[least] * along[least]);
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    up[a] = along[b] * side[c] - along[c] * side[b];
+  }
+  const double degree = 3.14159265358979324 / 180, tilt = o->tilt * degree, roll = o->roll * degree;
+  for (int a = 0; a < 3; ++a) {
+    def->entry[a] = at.centre[a];
+    def->direction[a] =
+        cos(tilt) * along[a] + sin(tilt) * (cos(roll) * side[a] + sin(roll) * up[a]);
+  }
+  return 1;
+}
+
+typedef struct record {
+  size_t steps, contacts, most_contacts;
+  double (*tip)[3];
+  unsigned char* touches;
+  double *wall_seconds, *solver_seconds; /* of each step */
+  double deepest;                        /* mm beyond the wall at the end */
+} record;
+
+static int push(const options* o, const rod_def* def, const wall* w, const blob_model* truth,
+                record* log) {
+  rod r;
+  FILE* csv = o->path != NULL ? fopen(o->path, "w") : NULL;
+  if ((o->path != NULL && csv == NULL) || !rod_create(&r, def, w, 0)) return 0;
+  if (csv != NULL) fprintf(csv, "step,x,y,z,touches,contacts,wall_us,solver_us\n");
+  for (size_t k = 0; k < log->steps; ++k) {
+    rod_step(&r, w, o->speed);
+    const double* tip = r.position[0];
+    memcpy(log->tip[k], tip, sizeof log->tip[k]);
+    log->touches[k] = r.contact[0].force > 0;
+    log->contacts += r.contact_count;
+    if (r.contact_count > log->most_contacts) log->most_contacts = r.contact_count;
+    log->wall_seconds[k] = r.wall_seconds;
+    log->solver_seconds[k] = r.solver_seconds;
+    if (csv != NULL)
+      fprintf(csv, "%zu,%.9g,%.9g,%.9g,%d,%zu,%.3f,%.3f\n", k, tip[0], tip[1], tip[2],
+              log->touches[k], r.contact_count, 1e6 * r.wall_seconds, 1e6 * r.solver_seconds);
+  }
+  /* the rod's deepest node at the end: a rod that left the lumen is seen here */
+  log->deepest = -INFINITY;
+  for (size_t i = 0; i < r.free_count; ++i) {
+    blob_sample s;
+    blob_query(truth, BLOB_DISTANCE_EXACT, r.position[i], NULL, &s);
+    log->deepest = fmax(log->deepest, s.distance + def->radius);
+  }
+  rod_destroy(&r);
+  return csv == NULL || fclose(csv) == 0;
+}
+
+static int compare(const void* a, const void* b) {
+  const double x = *(const double*)a, y = *(const double*)b;
+  return (x > y) - (x < y);
+}
+
+/* Of the last tenth of the steps, when most of the rod is in; the system's interruptions drop out.
+ */
+static double median_ms(const record* log, double* seconds) {
+  const size_t tail = log->steps / 10 + 1;
+  double* last = seconds + log->steps - tail;
+  qsort(last, tail, sizeof *last, compare);
+  return 1e3 * last[tail / 2];
+}
+
+static void report(const options* o, const wall* w, record* log, const score* s) {
+  const double* tip = log->tip[log->steps - 1];
+  const double n = (double)log->steps;
+  printf("{\"wall\": \"%s\", \"primitives\": %zu, \"steps\": %zu,\n", o->mesh ? "mesh" : "model",
+         w->primitives, log->steps);
+  printf(" \"tip\": [%.6f, %.6f, %.6f], \"deepest_mm\": %.6f,\n", tip[0], tip[1], tip[2],
+         log->deepest);
+  printf(" \"contacts_mean\": %.1f, \"contacts_most\": %zu,\n", (double)log->contacts / n,
+         log->most_contacts);
+  printf(" \"wall_ms\": %.5f, \"solver_ms\": %.5f,\n", median_ms(log, log->wall_seconds),
+         median_ms(log, log->solver_seconds));
+  printf(" \"used\": %zu, \"line_rms_mm\": %.7f, \"gap_jerk_mm\": %.7f,\n", s->used, s->line_rms,
+         s->gap_jerk);
+  printf(" \"gap_mm\": {\"min\": %.7f, \"median\": %.7f, \"p90\": %.7f, \"max\": %.7f}}\n",
+         s->gap_min, s->gap_median, s->gap_90, s->gap_max);
+}
+
+static int run(options* o, const blob_model* model, const blob_model* truth) {
+  const uint32_t flags = (o->local > 0 ? BLOB_LOCAL : 0) | (o->exact > 0 ? BLOB_DISTANCE_EXACT : 0);
+  if (!find_entry(model, o, &o->rod)) {
+    fprintf(stderr, "catheter: node %.0f has no child to push towards\n", o->node);
+    return 1;
+  }
+  wall w = {0};
+  if (o->mesh == NULL) w = wall_of_model(model, flags, (uint32_t)o->node);
+#ifdef CATHETER_HAS_EMBREE
+  if (o->mesh != NULL) w = wall_of_obj(o->mesh, 1.0);
+#endif
+  if (w.self == NULL) {
+    fprintf(stderr, "catheter: no wall from %s\n", o->mesh ? o->mesh : o->model);
+    return 1;
+  }
+  record log = {.steps = (size_t)o->steps};
+  log.tip = calloc(log.steps + 1, sizeof log.tip[0]);
+  log.touches = calloc(log.steps + 1, 1);
+  log.wall_seconds = calloc(log.steps + 1, sizeof(double));
+  log.solver_seconds = calloc(log.steps + 1, sizeof(double));
+  const int good = log.steps > 0 && log.tip && log.touches && log.wall_seconds &&
+                   log.solver_seconds && push(o, &o->rod, &w, truth, &log);
+  if (good) {
+    const score s =
+        score_path(truth, log.steps, (const double(*)[3])log.tip, log.touches, o->rod.radius);
+    report(o, &w, &log, &s);
+  }
+  free(log.tip);
+  free(log.touches);
+  free(log.wall_seconds);
+  free(log.solver_seconds);
+  w.close(w.self);
+  return good ? 0 : 1;
+}
+
+static blob_model* open_model(const char* path) {
+  char message[300] = "";
+  blob_open_def def = blob_open_def_default();
+  def.message = message;
+  def.message_size = sizeof message;
+  blob_model* model = NULL;
+  if (blob_model_open(path, &def, &model) != BLOB_OK)
+    fprintf(stderr, "catheter: %s: %s\n", path, message);
+  return model;
+}
+
+int main(int argc, char** argv) {
+  options o = {.steps = 2000, .speed = 50, .rod = rod_def_default()};
+  int good = argc >= 2 && argc % 2 == 0;
+  for (int i = 2; good && i < argc; i += 2) good = set_option(&o, argv[i], argv[i + 1]);
+  if (!good) {
+    fputs(kUsage, stderr);
+    return 2;
+  }
+  o.model = argv[1];
+  blob_model* model = open_model(o.model);
+  blob_model* truth = model != NULL && o.truth != NULL ? open_model(o.truth) : model;
+  const int status = model == NULL || truth == NULL ? 1 : run(&o, model, truth);
+  if (truth != model) blob_model_close(truth);
+  blob_model_close(model);
+  return status;
+}

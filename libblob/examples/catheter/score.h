@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* How smoothly a tip slid along a wall (thesis 5.5.3). */
+#ifndef CATHETER_SCORE_H
+#define CATHETER_SCORE_H
+
+#include <stddef.h>
+
+#include "blob.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Positions from the first to the last that touches. */
+typedef struct score {
+  size_t used;
+  /* Root mean square distance, mm, from the line fitted to them in the plane of the wall at the
+   * first. It means something where the true path is straight, as in a capsule. */
+  double line_rms;
+  /* Of |gap|, the tip's surface to the true wall, mm. */
+  double gap_min, gap_median, gap_90, gap_max;
+  /* Root mean square of the gap's second differences from position to position, mm: jerks. */
+  double gap_jerk;
+} score;
+
+/* `truth` is the surface that `positions` slid on, `touches[i]` whether the tip touched at i,
+ * `radius` the tool's. Distances are exact. used is 0 if fewer than three positions remain or
+ * memory ran out. */
+score score_path(const blob_model* truth, size_t count, const double (*positions)[3],
+                 const unsigned char* touches, double radius);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a rod asks of the wall around it, whatever represents the wall. */
+#ifndef CATHETER_WALL_H
+#define CATHETER_WALL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "blob.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct wall {
+  void* self;
+  /* For `count` points (mm): the signed distance to the wall, negative in the lumen, and the
+   * outward unit normal there. `cursors` holds one number for each point, kept from call to call,
+   * that begins as start_cursor: the point's node, or its last triangle. */
+  void (*query)(void* self, size_t count, const double (*points)[3], uint32_t* cursors,
+                double* distances, double (*normals)[3]);
+  void (*close)(void* self);
+  uint32_t start_cursor;
+  size_t primitives; /* blobs or triangles */
+} wall;
+
+/* The wall of a model, which must outlive it. `flags` are those of blob_query(); `start` is the
+ * node that points begin at. */
+wall wall_of_model(const blob_model* model, uint32_t flags, uint32_t start);
+
+/* The wall of a triangle mesh, by Embree's closest point. Farther than `reach` mm from it the
+ * distance is -reach: nothing touches. Triangles face outwards. The arrays are copied. self is null
+ * if memory ran out. */
+wall wall_of_mesh(size_t vertex_count, const float (*vertices)[3], size_t triangle_count,
+                  const uint32_t (*triangles)[3], double reach);
+
+/* The same from a Wavefront OBJ file's v and f lines; self is null if it cannot be read. */
+wall wall_of_obj(const char* path, double reach);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C boundary.
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "build.h"
+#include "nearest.h"
+#include "open.h"
+#include "path.h"
+#include "segment.h"
+#include "support.h"
+
+namespace {
+
+using namespace lumen::blob;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint32_t kOpenCookie = 0x626c6f31U, kModelCookie = 0x626c6f32U;
+
+std::atomic<blob_misuse_handler> g_misuseHandler{nullptr};
+
+[[maybe_unused]] void reportMisuse(const char* condition, const char* file, int line) noexcept {
+  if (const blob_misuse_handler handler = g_misuseHandler.load())
+    handler(condition, file, line);
+  else
+    std::abort();
+}
+
+#ifdef NDEBUG
+#define BLOB_REQUIRE(condition) static_cast<void>(0)
+#else
+#define BLOB_REQUIRE(condition) \
+  ((condition) ? static_cast<void>(0) : reportMisuse(#condition, __FILE__, __LINE__))
+#endif
+
+// Runs a construction; only memory can fail.
+template <class Construct>
+blob_status construct(blob_model** model, Construct run) noexcept {
+  if (model == nullptr) return BLOB_ERROR_ARGUMENT;
+  *model = nullptr;
+  try {
+    return run();
+  } catch (...) {
+    return BLOB_ERROR_MEMORY;
+  }
+}
+
+// The node of a query at a point that can be evaluated; false for the others.
+bool enter(const blob_model& model, std::uint32_t flags, const double* point, std::uint32_t* cursor,
+           std::uint32_t& node) noexcept {
+  node = cursor != nullptr ? *cursor : BLOB_NOWHERE;
+  if (!isFinitePoint(point)) return false;
+  node = nodeFor(model, flags, point, node);
+  if (cursor != nullptr) *cursor = node;
+  return isNear(model.nodes[node], point);
+}
+
+bool hasNan(const double* p) noexcept {
+  return std::isnan(p[0]) || std::isnan(p[1]) || std::isnan(p[2]);
+}
+
+void fill(double* values, int count, double value) noexcept {
+  for (int i = 0; i < count; ++i) values[i] = value;
+}
+
+}  // namespace
+
+namespace lumen::blob {
+
+std::uint32_t nodeFor(const blob_model& model, std::uint32_t flags, const double* point,
+                      std::uint32_t cursor) noexcept {
+  const std::uint32_t node = cursor < model.nodes.size() ? cursor : locateNode(model, point);
+  if ((flags & BLOB_HOLD) != 0 || !isNear(model.nodes[node], point)) return node;
+  return model.path(flags).follow(model, point, node);
+}
+
+void answerRemote(const blob_model& model, const double* point, std::uint32_t node,
+                  blob_sample& sample) noexcept {
+  const bool nan = hasNan(point), finite = isFinitePoint(point);
+  sample.value = nan ? kNan : 0.0;
+  sample.distance = nan ? kNan : std::numeric_limits<double>::infinity();
+  fill(sample.gradient, 3, sample.value);
+  fill(sample.normal, 3, sample.value);
+  sample.node = node;
+  sample.state = 0;
+  if (!finite) return;
+  const NodeRecord& record = model.nodes[node];
+  double way[3];
+  for (int i = 0; i < 3; ++i) way[i] = point[i] - record.centre[i];
+  const double length = std::hypot(way[0], way[1], way[2]);
+  sample.distance = length - double{record.radius()};
+  if (!(length < std::numeric_limits<double>::infinity())) return;
+  for (int i = 0; i < 3; ++i) sample.normal[i] = way[i] / length;
+}
+
+}  // namespace lumen::blob
+
+extern "C" {
+
+const char* blob_status_text(blob_status status) noexcept {
+  switch (status) {
+    case BLOB_OK:
+      return "done";
+    case BLOB_ERROR_MEMORY:
+      return "the system has no more memory";
+    case BLOB_ERROR_ARGUMENT:
+      return "a pointer is null, or the definition was not made by its default function";
+    case BLOB_ERROR_FILE:
+      return "the file cannot be opened or read, or is empty";
+    case BLOB_ERROR_FORMAT:
+      return "the bytes are not a .lumen file, or break a rule of the format";
+    case BLOB_ERROR_CHECKSUM:
+      return "the bytes do not match their checksum";
+    case BLOB_ERROR_ENCODING:
+      return "a chunk that is needed is stored compressed";
+    case BLOB_ERROR_NO_MODELS:
+      return "the case has no models";
+    case BLOB_ERROR_EMPTY:
+      return "there is no node";
+    case BLOB_ERROR_LIMIT:
+      return "there are more nodes, blobs or links than the limits allow";
+    case BLOB_ERROR_RANGE:
+      return "a number is not finite or out of its range";
+    case BLOB_ERROR_TOPOLOGY:
+      return "a parent, link or offset names what does not exist";
+    case BLOB_ERROR_KERNEL:
+      return "there is no such kernel";
+  }
+  return "unknown status";
+}
+
+blob_open_def blob_open_def_default(void) noexcept {
+  return {1, BLOB_SIMD_BEST, nullptr, 0, kOpenCookie};
+}
+
+blob_model_def blob_model_def_default(void) noexcept {
+  blob_model_def def{};
+  def.blobs.kernel = BLOB_CAUCHY;
+  def.blobs.kernel_parameter = 0.2;
+  def.blobs.iso_level = 0.1;
+  def.simd = BLOB_SIMD_BEST;
+  def.cookie = kModelCookie;
+  return def;
+}
+
+blob_columns blob_columns_default(void) noexcept {
+  blob_columns columns{};
+  columns.point_stride = sizeof(double);
+  columns.cursor_stride = sizeof(std::uint32_t);
+  columns.answer_stride = sizeof(double);
+  columns.state_stride = 1;
+  return columns;
+}
+
+blob_status blob_model_open(const char* path, const blob_open_def* def,
+                            blob_model** model) noexcept {
+  const blob_open_def used = def != nullptr ? *def : blob_open_def_default();
+  return construct(model, [&] {
+    if (path == nullptr || used.cookie != kOpenCookie) return BLOB_ERROR_ARGUMENT;
+    return openFile(path, used, model);
+  });
+}
+
+blob_status blob_model_open_bytes(const void* bytes, size_t size, const blob_open_def* def,
+                                  blob_model** model) noexcept {
+  const blob_open_def used = def != nullptr ? *def : blob_open_def_default();
+  return construct(model, [&] {
+    if (bytes == nullptr || used.cookie != kOpenCookie) return BLOB_ERROR_ARGUMENT;
+    return openBytes(bytes, size, used, model);
+  });
+}
+
+blob_status blob_model_create(const blob_model_def* def, blob_model** model) noexcept {
+  return construct(model, [&] {
+    if (def == nullptr || def->cookie != kModelCookie) return BLOB_ERROR_ARGUMENT;
+    const blob_status status = checkDefinition(*def);
+    if (status == BLOB_OK) *model = buildModel(*def).release();
+    return status;
+  });
+}
+
+void blob_model_close(blob_model* model) noexcept {
+  delete model;
+}
+
+blob_model_info blob_model_describe(const blob_model* model) noexcept {
+  BLOB_REQUIRE(model != nullptr);
+  blob_model_info info{};
+  info.node_count = model->nodes.size();
+  info.blob_count = model->blobCount;
+  info.kernel = model->main.kernel;
+  info.kernel_parameter = model->main.kernelParameter;
+  info.iso_level = model->main.isoLevel;
+  info.has_twin = model->hasTwin() ? 1 : 0;
+  info.simd = model->simd;
+  for (int i = 0; i < 3; ++i) {
+    info.low[i] = model->low[i];
+    info.high[i] = model->high[i];
+  }
+  info.bytes = memoryOf(*model);
+  return info;
+}
+
+blob_node blob_model_node(const blob_model* model, uint32_t node) noexcept {
+  BLOB_REQUIRE(model != nullptr);
+  blob_node result{{kNan, kNan, kNan}, kNan, -1};
+  if (node >= model->nodes.size()) return result;
+  for (int i = 0; i < 3; ++i) result.centre[i] = model->nodes[node].centre[i];
+  result.radius = model->nodes[node].radius();
+  result.parent = model->parent[node];
+  return result;
+}
+
+size_t blob_model_neighbours(const blob_model* model, uint32_t node, uint32_t* neighbours,
+                             size_t capacity) noexcept {
+  BLOB_REQUIRE(model != nullptr && (neighbours != nullptr || capacity == 0));
+  if (node >= model->nodes.size()) return 0;
+  const NodeRecord& record = model->nodes[node];
+  std::size_t count = 0;
+  for (std::uint32_t b = record.fan; b < record.fan + record.fanCount; ++b)
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (isPadding(model->fans[b], lane)) continue;
+      if (count < capacity) neighbours[count] = model->fans[b].node[lane];
+      ++count;
+    }
+  return count;
+}
+
+uint32_t blob_cursor_locate(const blob_model* model, const double point[3]) noexcept {
+  BLOB_REQUIRE(model != nullptr && point != nullptr);
+  return isFinitePoint(point) ? locateNode(*model, point) : BLOB_NOWHERE;
+}
+
+uint32_t blob_cursor_follow(const blob_model* model, const double point[3],
+                            uint32_t cursor) noexcept {
+  BLOB_REQUIRE(model != nullptr && point != nullptr);
+  return isFinitePoint(point) ? nodeFor(*model, 0, point, cursor) : cursor;
+}
+
+void blob_query(const blob_model* model, uint32_t flags, const double point[3], uint32_t* cursor,
+                blob_sample* sample) noexcept {
+  BLOB_REQUIRE(model != nullptr && point != nullptr && sample != nullptr);
+  Job job{blob_columns_default(), sample};
+  job.columns.count = 1;
+  for (int i = 0; i < 3; ++i) job.columns.point[i] = point + i;
+  job.columns.cursor = cursor;
+  model->path(flags).query(*model, flags, job);
+}
+
+void blob_query_many(const blob_model* model, uint32_t flags, size_t count,
+                     const double (*points)[3], uint32_t* cursors, blob_sample* samples) noexcept {
+  BLOB_REQUIRE(model != nullptr && ((points != nullptr && samples != nullptr) || count == 0));
+  if (count == 0) return;
+  Job job{blob_columns_default(), samples};
+  job.columns.count = count;
+  for (int i = 0; i < 3; ++i) job.columns.point[i] = &points[0][i];
+  job.columns.point_stride = 3 * sizeof(double);
+  job.columns.cursor = cursors;
+  model->path(flags).query(*model, flags, job);
+}
+
+void blob_query_columns(const blob_model* model, uint32_t flags,
+                        const blob_columns* columns) noexcept {
+  BLOB_REQUIRE(model != nullptr && columns != nullptr);
+  model->path(flags).query(*model, flags, Job{*columns, nullptr});
+}
+
+int blob_inside(const blob_model* model, uint32_t flags, const double point[3],
+                uint32_t* cursor) noexcept {
+  BLOB_REQUIRE(model != nullptr && point != nullptr);
+  std::uint32_t node;
+  if (!enter(*model, flags, point, cursor, node)) return 0;
+  return model->path(flags).inside(*model, flags, point, node) ? 1 : 0;
+}
+
+void blob_nearest(const blob_model* model, uint32_t flags, const double point[3], uint32_t* cursor,
+                  double tolerance, uint32_t max_steps, blob_nearest_point* nearest) noexcept {
+  BLOB_REQUIRE(model != nullptr && point != nullptr && nearest != nullptr);
+  std::uint32_t node;
+  if (enter(*model, flags, point, cursor, node)) {
+    findNearest(*model, flags, point, node, tolerance, max_steps, *nearest);
+    return;
+  }
+  blob_sample sample;
+  answerRemote(*model, point, node, sample);
+  *nearest = {};
+  for (int i = 0; i < 3; ++i) {
+    nearest->normal[i] = sample.normal[i];
+    nearest->point[i] = isFinitePoint(point) ? point[i] - sample.distance * sample.normal[i] : kNan;
+  }
+  nearest->distance = sample.distance;
+  nearest->node = node;
+}
+
+void blob_query_second(const blob_model* model, uint32_t flags, const double point[3],
+                       uint32_t* cursor, blob_second* second) noexcept {
+  BLOB_REQUIRE(model != nullptr && point != nullptr && second != nullptr);
+  std::uint32_t node;
+  if (enter(*model, flags, point, cursor, node)) {
+    evaluateSecond(*model, flags, point, node, *second);
+    return;
+  }
+  *second = {};
+  second->mean_curvature = second->gaussian_curvature = kNan;
+  if (!hasNan(point)) return;
+  second->value = kNan;
+  fill(second->gradient, 3, kNan);
+  fill(second->hessian, 6, kNan);
+}
+
+void blob_segment_hit(const blob_model* model, uint32_t flags, const double from[3],
+                      const double to[3], uint32_t* cursor, double tolerance, uint32_t max_steps,
+                      blob_hit* hit) noexcept {
+  BLOB_REQUIRE(model != nullptr && from != nullptr && to != nullptr && hit != nullptr);
+  *hit = {};
+  std::uint32_t node;
+  const bool near = enter(*model, flags, from, cursor, node);
+  if (near && isFinitePoint(to)) {
+    findHit(*model, flags, from, to, node, tolerance, max_steps, *hit);
+    return;
+  }
+  fill(hit->point, 3, kNan);
+  fill(hit->normal, 3, kNan);
+  hit->t = kNan;
+  hit->node = node;
+}
+
+void blob_capsule_approach(const blob_model* model, uint32_t flags, const double from[3],
+                           const double to[3], double radius, uint32_t* cursor,
+                           blob_approach* approach) noexcept {
+  BLOB_REQUIRE(model != nullptr && from != nullptr && to != nullptr && approach != nullptr);
+  std::uint32_t node;
+  const bool near = enter(*model, flags, from, cursor, node);
+  *approach = {};
+  if (near && isFinitePoint(to)) {
+    findDeepest(*model, flags, from, to, node, *approach);
+  } else {
+    fill(approach->point, 3, kNan);
+    fill(approach->normal, 3, kNan);
+    approach->t = approach->distance = kNan;
+    approach->node = node;
+  }
+  approach->depth = approach->distance + radius;
+}
+
+void blob_set_misuse_handler(blob_misuse_handler handler) noexcept {
+  g_misuseHandler.store(handler);
+}
+
+}  // extern "C"

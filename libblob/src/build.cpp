@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "build.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "locate.h"
+#include "neighbourhood.h"
+#include "path.h"
+
+namespace lumen::blob {
+namespace {
+
+double straightLevel(blob_kernel kernel, double level) {
+  if (kernel == BLOB_CAUCHY) return 1.0 / std::sqrt(level);
+  return kernel == BLOB_GAUSSIAN ? -std::log(level) : -std::sqrt(level);
+}
+
+// What |X - C|^2 is multiplied by.
+double scaleOf(const blob_blobs& blobs, double width) {
+  const bool hasParameter = blobs.kernel == BLOB_CAUCHY || blobs.kernel == BLOB_GAUSSIAN;
+  return (hasParameter ? blobs.kernel_parameter : 1.0) / (width * width);
+}
+
+// Where f > T, some blob of the model's `count` is nearer than this, as one of them exceeds T /
+// count.
+double reachOf(const blob_blobs& blobs, double width, double count) {
+  const double ratio = width * count / blobs.iso_level;
+  double u = 1;
+  if (blobs.kernel == BLOB_CAUCHY) u = std::sqrt(ratio) - 1.0;
+  if (blobs.kernel == BLOB_GAUSSIAN) u = std::log(ratio);
+  return u > 0 ? std::sqrt(u / scaleOf(blobs, width)) : 0.0;
+}
+
+void extendReach(const blob_model_def& def, const blob_blobs& blobs, blob_model& model) {
+  for (std::size_t i = 0; i < def.node_count; ++i) {
+    const std::uint32_t begin = blobs.offset[i], end = blobs.offset[i + 1];
+    for (std::uint32_t j = begin; j < end; ++j) {
+      const double reach = reachOf(blobs, blobs.width[j], end - begin);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double x = blobs.centre[j][axis];
+        model.reachLow[axis] = std::min(model.reachLow[axis], x - reach);
+        model.reachHigh[axis] = std::max(model.reachHigh[axis], x + reach);
+      }
+    }
+  }
+}
+
+// Appends the blobs of a node, relative to its centre.
+FieldNode layOut(const blob_model_def& def, const blob_blobs& blobs, std::size_t node,
+                 std::vector<BlobBlock>& blocks) {
+  const std::uint32_t begin = blobs.offset[node], end = blobs.offset[node + 1];
+  const std::size_t first = blocks.size(), count = (end - begin + kLanes - 1) / kLanes;
+  blocks.resize(first + count, BlobBlock{});
+  for (std::uint32_t j = begin; j < end; ++j) {
+    BlobBlock& block = blocks[first + (j - begin) / kLanes];
+    const std::uint32_t lane = (j - begin) % kLanes;
+    block.x[lane] = static_cast<float>(double{blobs.centre[j][0]} - double{def.centre[node][0]});
+    block.y[lane] = static_cast<float>(double{blobs.centre[j][1]} - double{def.centre[node][1]});
+    block.z[lane] = static_cast<float>(double{blobs.centre[j][2]} - double{def.centre[node][2]});
+    block.a[lane] = static_cast<float>(scaleOf(blobs, blobs.width[j]));
+    block.w[lane] = blobs.width[j];
+  }
+  return {{0, 0, 0, def.radius[node]},
+          static_cast<std::uint32_t>(first),
+          static_cast<std::uint32_t>(count)};
+}
+
+// A node without blobs answers with those of the nearest node along the tree that has some.
+void lendBlobs(const blob_model_def& def, const Neighbourhood& edges,
+               std::vector<FieldNode>& nodes) {
+  std::vector<std::uint32_t> queue, lender(nodes.size(), BLOB_NOWHERE);
+  for (std::uint32_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].blockCount > 0) {
+      queue.push_back(i);
+      lender[i] = i;
+    }
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const std::uint32_t from = queue[head];
+    for (std::uint32_t e = edges.offset[from]; e < edges.offset[from + 1]; ++e) {
+      const std::uint32_t node = edges.node[e];
+      if (lender[node] != BLOB_NOWHERE) continue;
+      lender[node] = lender[from];
+      nodes[node] = nodes[lender[from]];
+      nodes[node].place[3] = def.radius[node];
+      for (int axis = 0; axis < 3; ++axis)
+        nodes[node].place[axis] = static_cast<float>(double{def.centre[node][axis]} -
+                                                     double{def.centre[lender[node]][axis]});
+      queue.push_back(node);
+    }
+  }
+}
+
+std::vector<FieldNode> buildField(const blob_model_def& def, const blob_blobs& blobs,
+                                  const Neighbourhood& edges, Field& field) {
+  field.kernel = blobs.kernel;
+  field.kernelParameter = blobs.kernel_parameter;
+  field.isoLevel = blobs.iso_level;
+  field.straightLevel = straightLevel(blobs.kernel, blobs.iso_level);
+  std::vector<FieldNode> nodes;
+  nodes.reserve(def.node_count);
+  for (std::size_t i = 0; i < def.node_count; ++i)
+    nodes.push_back(layOut(def, blobs, i, field.blocks));
+  lendBlobs(def, edges, nodes);
+  return nodes;
+}
+
+// The greatest square of the lengths of a node's edges, mm^2.
+std::vector<double> spacings(const blob_model_def& def, const Neighbourhood& edges) {
+  std::vector<double> result(def.node_count, 0.0);
+  for (std::size_t i = 0; i < def.node_count; ++i)
+    for (std::uint32_t e = edges.offset[i]; e < edges.offset[i + 1]; ++e) {
+      double square = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double d = double{def.centre[edges.node[e]][axis]} - double{def.centre[i][axis]};
+        square += d * d;
+      }
+      result[i] = std::max(result[i], square);
+    }
+  return result;
+}
+
+// Of an edge, a share of the square of its length: along a straight chain two models blend in that
+// share of the way between two nodes, and one is alone near a node. A farther pair blends no wider:
+// it has a say only where its nodes nearly tie.
+double blendingWidth(const blob_model_def& def, std::size_t i, std::size_t k, double square,
+                     bool isEdge, double spacing) {
+  constexpr double kShare = 0.6;
+  constexpr double kLeast = 1e-3;  // of a radius squared: nodes in one place share evenly
+  const double radius = std::min(def.radius[i], def.radius[k]);
+  const double width = isEdge ? kShare * square : std::min(0.5 * square, kShare * spacing);
+  return std::max(width, kLeast * radius * radius);
+}
+
+void addRival(const blob_model_def& def, std::size_t i, std::uint32_t k, bool isEdge,
+              double spacing, std::size_t lane, FanBlock& fan) {
+  double offset[3], square = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    offset[axis] = double{def.centre[k][axis]} - double{def.centre[i][axis]};
+    square += offset[axis] * offset[axis];
+  }
+  const double ri = def.radius[i], rk = def.radius[k];
+  fan.nx[lane] = static_cast<float>(-2.0 * offset[0]);
+  fan.ny[lane] = static_cast<float>(-2.0 * offset[1]);
+  fan.nz[lane] = static_cast<float>(-2.0 * offset[2]);
+  fan.c[lane] = static_cast<float>(square - rk * rk + ri * ri);
+  fan.inverseTau[lane] =
+      static_cast<float>(1.0 / blendingWidth(def, i, k, square, isEdge, spacing));
+  fan.node[lane] = k;
+}
+
+void addFan(const blob_model_def& def, const Neighbourhood& around,
+            const std::vector<double>& spacing, std::size_t i, blob_model& model) {
+  const std::uint32_t begin = around.offset[i], end = around.offset[i + 1];
+  const std::size_t first = model.fans.size(), count = (end - begin + kLanes - 1) / kLanes;
+  FanBlock empty{};
+  std::fill_n(empty.c, kLanes, kNeverLess);
+  std::fill_n(empty.inverseTau, kLanes, 1.0f);
+  model.fans.resize(first + count, empty);
+  for (std::uint32_t e = begin; e < end; ++e)
+    addRival(def, i, around.node[e], around.isEdge[e], 0.5 * (spacing[i] + spacing[around.node[e]]),
+             (e - begin) % kLanes, model.fans[first + (e - begin) / kLanes]);
+  model.nodes[i].fan = static_cast<std::uint32_t>(first);
+  model.nodes[i].fanCount = static_cast<std::uint32_t>(count);
+}
+
+void buildNodes(const blob_model_def& def, blob_model& model) {
+  model.nodes.resize(def.node_count);
+  for (int axis = 0; axis < 3; ++axis) {
+    model.low[axis] = std::numeric_limits<double>::infinity();
+    model.high[axis] = -model.low[axis];
+  }
+  for (std::size_t i = 0; i < def.node_count; ++i) {
+    NodeRecord& node = model.nodes[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      node.centre[axis] = def.centre[i][axis];
+      model.low[axis] = std::min(model.low[axis], node.centre[axis] - double{def.radius[i]});
+      model.high[axis] = std::max(model.high[axis], node.centre[axis] + double{def.radius[i]});
+    }
+  }
+  model.parent.assign(def.node_count, -1);
+  if (def.parent != nullptr) std::copy_n(def.parent, def.node_count, model.parent.begin());
+}
+
+}  // namespace
+
+std::unique_ptr<blob_model> buildModel(const blob_model_def& def) {
+  auto model = std::make_unique<blob_model>();
+  const Neighbourhood edges = edgesOf(def);
+  const Neighbourhood around = neighbourhoodOf(def, edges);
+  buildNodes(def, *model);
+  const std::vector<double> spacing = spacings(def, edges);
+  for (std::size_t i = 0; i < def.node_count; ++i) addFan(def, around, spacing, i, *model);
+  const std::vector<FieldNode> fields = buildField(def, def.blobs, edges, model->main);
+  for (std::size_t i = 0; i < def.node_count; ++i) model->nodes[i].field = fields[i];
+  if (def.twin != nullptr) model->twinNodes = buildField(def, *def.twin, edges, model->twin);
+  model->blobCount = def.blobs.offset[def.node_count];
+  std::copy_n(model->low, 3, model->reachLow);
+  std::copy_n(model->high, 3, model->reachHigh);
+  extendReach(def, def.blobs, *model);
+  if (def.twin != nullptr) extendReach(def, *def.twin, *model);
+  model->locate = buildLocateTree(model->nodes);
+  model->simd = def.simd;
+  model->mainPath = choosePath(def.blobs.kernel, model->simd);
+  if (def.twin != nullptr) model->twinPath = choosePath(def.twin->kernel, model->simd);
+  return model;
+}
+
+std::size_t memoryOf(const blob_model& model) noexcept {
+  const auto bytes = [](const auto& values) { return values.size() * sizeof(values[0]); };
+  std::size_t sum = sizeof model + bytes(model.nodes) + bytes(model.fans) +
+                    bytes(model.main.blocks) + bytes(model.twin.blocks) + bytes(model.twinNodes) +
+                    bytes(model.parent) + bytes(model.locate.leaves);
+  for (const auto& level : model.locate.levels) sum += bytes(level);
+  return sum;
+}
+
+}  // namespace lumen::blob

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file's bytes, read only.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace lumen::blob {
+
+/// Mapped into memory where the system can, read into memory elsewhere.
+class MappedFile {
+public:
+  /// False as a bool if the file cannot be opened, is no regular file, or is empty.
+  explicit MappedFile(const char* path);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  explicit operator bool() const { return m_data != nullptr; }
+  [[nodiscard]] const void* data() const { return m_data; }
+  [[nodiscard]] std::size_t size() const { return m_size; }
+
+private:
+  const void* m_data = nullptr;
+  std::size_t m_size = 0;
+  std::vector<double> m_copy;  ///< where files cannot be mapped; doubles for their alignment
+};
+
+}  // namespace lumen::blob

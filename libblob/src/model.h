@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a blob_model holds: arrays laid out for queries, never changed after construction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "blob.h"
+
+namespace lumen::blob {
+
+constexpr int kLanes = 8;
+constexpr double kFar = 1e9;         ///< mm from a node; beyond, f counts as zero
+constexpr float kVanished = 1e-20f;  ///< mm; below, the terms of grad f may underflow
+
+/// Eight blobs relative to their node's centre. Padding has a = w = 0 and adds exactly nothing.
+struct alignas(32) BlobBlock {
+  float x[kLanes], y[kLanes], z[kLanes];  ///< mm
+  float a[kLanes];                        ///< what |X - C|^2 is multiplied by: p / w^2, or 1 / w^2
+  float w[kLanes];                        ///< mm
+};
+
+/// Eight neighbours k of a node i: p_k - p_i = n . (X - O_i) + c, in square millimetres. Padding
+/// has n = 0 and a c that no point undercuts.
+struct alignas(32) FanBlock {
+  float nx[kLanes], ny[kLanes], nz[kLanes], c[kLanes];
+  float inverseTau[kLanes];  ///< 1 / tau_ik of the blending weights, 1/mm^2
+  std::uint32_t node[kLanes];
+};
+
+/// Where the blobs that answer for a node are.
+struct FieldNode {
+  float place[4];  ///< the node's centre relative to the origin of the blocks, and its radius, mm
+  std::uint32_t block, blockCount;
+};
+
+constexpr float kNeverLess = 3e38f;  ///< the power difference of padding, mm^2
+
+inline bool isPadding(const FanBlock& fan, int lane) noexcept {
+  return fan.c[lane] == kNeverLess;
+}
+
+struct alignas(64) NodeRecord {
+  double centre[4];  ///< mm, LPS, and zero
+  FieldNode field;
+  std::uint32_t fan, fanCount;
+
+  [[nodiscard]] float radius() const noexcept { return field.place[3]; }
+};
+static_assert(sizeof(NodeRecord) == 64, "one cache line");
+
+/// One kind of implicit function on all nodes.
+struct Field {
+  blob_kernel kernel = BLOB_CAUCHY;
+  double kernelParameter = 0, isoLevel = 0;
+  double straightLevel = 0;  ///< h at the iso-level, see straightened()
+  std::vector<BlobBlock> blocks;
+};
+
+/// A box and a bound on r^2 for eight children of an 8-ary tree over the nodes.
+struct alignas(64) LocateBlock {
+  double low[3][kLanes], high[3][kLanes], radius2[kLanes];
+};
+struct alignas(64) LocateLeaf {
+  double centre[3][kLanes], radius2[kLanes];
+  std::uint32_t node[kLanes];
+};
+
+/// Bounds are loosened by more than their rounding, so that an equal power is never pruned.
+constexpr double kLoose = 1e-14;
+
+/// levels.back() holds the root's children; child c of block b of a level is block 8 b + c of the
+/// level below, or leaf 8 b + c of the lowest.
+struct LocateTree {
+  std::vector<LocateLeaf> leaves;
+  std::vector<std::vector<LocateBlock>> levels;
+};
+
+struct PathTable;
+
+}  // namespace lumen::blob
+
+struct blob_model {
+  std::vector<lumen::blob::NodeRecord> nodes;
+  std::vector<lumen::blob::FanBlock> fans;
+  lumen::blob::Field main, twin;
+  std::vector<lumen::blob::FieldNode> twinNodes;  ///< empty without a twin
+  lumen::blob::LocateTree locate;
+  std::vector<std::int32_t> parent;
+  std::size_t blobCount = 0;
+  double low[3]{}, high[3]{};            ///< box of the nodes' balls, mm
+  double reachLow[3]{}, reachHigh[3]{};  ///< a box that holds every wall, mm
+  blob_simd simd = BLOB_SIMD_SCALAR;
+  const lumen::blob::PathTable *mainPath = nullptr, *twinPath = nullptr;
+
+  [[nodiscard]] bool hasTwin() const noexcept { return !twinNodes.empty(); }
+  [[nodiscard]] bool usesTwin(std::uint32_t flags) const noexcept {
+    return (flags & BLOB_TWIN) != 0 && hasTwin();
+  }
+  [[nodiscard]] const lumen::blob::Field& field(std::uint32_t flags) const noexcept {
+    return usesTwin(flags) ? twin : main;
+  }
+  [[nodiscard]] const lumen::blob::FieldNode& fieldNode(std::uint32_t flags,
+                                                        std::uint32_t node) const noexcept {
+    return usesTwin(flags) ? twinNodes[node] : nodes[node].field;
+  }
+  [[nodiscard]] const lumen::blob::PathTable& path(std::uint32_t flags) const noexcept {
+    return usesTwin(flags) ? *twinPath : *mainPath;
+  }
+};

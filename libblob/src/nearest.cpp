@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nearest.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "path.h"
+#include "support.h"
+#include "vector.h"
+
+namespace lumen::blob {
+namespace {
+
+// A unit vector across the vessel at a node, for points where grad f is zero.
+Vec acrossVessel(const blob_model& model, std::uint32_t node) {
+  const NodeRecord& record = model.nodes[node];
+  Vec along{1, 0, 0};
+  if (record.fanCount > 0) {
+    const FanBlock& fan = model.fans[record.fan];
+    const Vec towards{fan.nx[0], fan.ny[0], fan.nz[0]};
+    if (dot(towards, towards) > 0) along = towards;
+  }
+  return perpendicular(along);
+}
+
+class Search {
+public:
+  Search(const blob_model& model, std::uint32_t flags, const double* point, std::uint32_t node,
+         double tolerance, std::uint32_t maxSteps)
+      : m_model(model),
+        m_flags(flags & ~static_cast<std::uint32_t>(BLOB_DISTANCE_EXACT)),
+        m_query{point[0], point[1], point[2]},
+        m_radius(model.nodes[node].radius()),
+        m_tolerance(tolerance > 0 ? tolerance : 1e-5 * m_radius),
+        m_maxSteps(maxSteps > 0 ? maxSteps : 40) {
+    m_best.at = m_query;
+    m_best.node = node;
+  }
+
+  void run(blob_nearest_point& nearest) {
+    Foot foot{m_query, m_best.node, 0};
+    blob_sample first = sample(foot);
+    const bool inside = (first.state & BLOB_INSIDE) != 0;
+    if (project(foot, first)) {
+      m_best = foot;
+      while (m_steps < m_maxSteps && !m_converged && improve()) {
+      }
+    } else {
+      m_best = foot;
+    }
+    report(inside, nearest);
+  }
+
+private:
+  struct Foot {
+    Vec at;
+    std::uint32_t node;
+    double length;  // to the query point, mm
+  };
+
+  blob_sample sample(Foot& foot) {
+    ++m_steps;
+    const double p[3] = {foot.at.x, foot.at.y, foot.at.z};
+    return sampleAt(m_model, m_flags, p, foot.node);
+  }
+
+  // Newton's method to the wall along the normals.
+  bool project(Foot& foot, blob_sample here) {
+    for (;;) {
+      if (!(here.value > kVanished) && !(std::abs(here.distance) > 0)) return false;
+      Vec normal{here.normal[0], here.normal[1], here.normal[2]};
+      if (!(dot(normal, normal) > 0)) normal = acrossVessel(m_model, foot.node);
+      foot.at = foot.at - here.distance * normal;
+      foot.length = norm(m_query - foot.at);
+      if (std::abs(here.distance) <= 0.5 * m_tolerance) return true;
+      if (m_steps >= m_maxSteps) return false;
+      here = sample(foot);
+    }
+  }
+
+  // One step along the wall, shortened until the way is shorter; false when there is none.
+  bool improve() {
+    ++m_steps;
+    const double p[3] = {m_best.at.x, m_best.at.y, m_best.at.z};
+    blob_second second;
+    evaluateSecond(m_model, m_flags, p, m_best.node, second);
+    const Vec gradient{second.gradient[0], second.gradient[1], second.gradient[2]};
+    const double slope = norm(gradient);
+    if (!(slope > 0)) return false;
+    Vec step = stepAlong(gradient, slope, second.hessian);
+    // what the step could still shorten the way by
+    const Vec way = m_query - m_best.at;
+    const double gain = 0.5 * dot(way, step);
+    m_converged = norm(step) <= m_tolerance || gain <= 0.1 * m_tolerance * m_best.length;
+    if (m_converged) return true;
+    for (int tries = 0; tries < 8 && m_steps < m_maxSteps; ++tries, step = 0.5 * step) {
+      Foot foot{m_best.at + step, m_best.node, 0};
+      const blob_sample there = sample(foot);
+      if (!project(foot, there)) return false;
+      if (foot.length < m_best.length) {
+        m_best = foot;
+        return true;
+      }
+    }
+    // no shorter way in this direction: rounding, or a ring of equally near points
+    m_converged = m_steps < m_maxSteps && gain <= 1e-3 * m_best.length * m_best.length;
+    return false;
+  }
+
+  // Solves (I + d S) step = tangential part of the way, S the shape operator of the wall and d the
+  // distance. Directions in which the foot is a farthest point are followed downhill.
+  [[nodiscard]] Vec stepAlong(const Vec& gradient, double slope, const double* h) const {
+    const Vec normal = (-1.0 / slope) * gradient;
+    const Vec way = m_query - m_best.at;
+    const double distance = dot(way, normal);
+    const Vec e1 = perpendicular(normal), e2 = cross(normal, e1);
+    const Vec h1 = multiply(h, e1), h2 = multiply(h, e2);
+    const double scale = -distance / slope;
+    const double a = 1.0 + scale * dot(e1, h1), b = scale * dot(e1, h2),
+                 c = 1.0 + scale * dot(e2, h2);
+    const double mean = 0.5 * (a + c), root = std::hypot(0.5 * (a - c), b);
+    const double angle = 0.5 * std::atan2(2.0 * b, a - c);
+    const Vec v1 = std::cos(angle) * e1 + std::sin(angle) * e2;
+    const Vec v2 = std::cos(angle) * e2 - std::sin(angle) * e1;
+    const Vec step = along(v1, way, mean + root) + along(v2, way, mean - root);
+    const double length = norm(step), longest = 0.5 * m_radius;
+    return length > longest ? (longest / length) * step : step;
+  }
+
+  [[nodiscard]] Vec along(const Vec& direction, const Vec& way, double eigenvalue) const {
+    constexpr double kFlat = 0.02;
+    const double part = dot(direction, way);
+    if (eigenvalue < -kFlat && std::abs(part) < m_tolerance) return (0.1 * m_radius) * direction;
+    return (part / std::max(std::abs(eigenvalue), kFlat)) * direction;
+  }
+
+  void report(bool inside, blob_nearest_point& nearest) {
+    const blob_sample at = sample(m_best);
+    nearest.point[0] = m_best.at.x;
+    nearest.point[1] = m_best.at.y;
+    nearest.point[2] = m_best.at.z;
+    for (int i = 0; i < 3; ++i) nearest.normal[i] = at.normal[i];
+    nearest.distance = inside ? -m_best.length : m_best.length;
+    nearest.node = m_best.node;
+    nearest.steps = m_steps;
+    nearest.converged = m_converged ? 1 : 0;
+  }
+
+  const blob_model& m_model;
+  std::uint32_t m_flags;
+  Vec m_query;
+  double m_radius, m_tolerance;
+  std::uint32_t m_maxSteps, m_steps = 0;
+  Foot m_best{};
+  bool m_converged = false;
+};
+
+}  // namespace
+
+blob_sample sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
+                     std::uint32_t& node) noexcept {
+  blob_sample sample;
+  Job job{blob_columns_default(), &sample};
+  job.columns.count = 1;
+  for (int i = 0; i < 3; ++i) job.columns.point[i] = point + i;
+  job.columns.cursor = &node;
+  model.path(flags).query(model, flags, job);
+  return sample;
+}
+
+void findNearest(const blob_model& model, std::uint32_t flags, const double* point,
+                 std::uint32_t node, double tolerance, std::uint32_t maxSteps,
+                 blob_nearest_point& nearest) noexcept {
+  Search(model, flags, point, node, tolerance, maxSteps).run(nearest);
+}
+
+void refineSample(const blob_model& model, std::uint32_t flags, const double* point,
+                  blob_sample& sample) noexcept {
+  blob_nearest_point nearest;
+  findNearest(model, flags, point, sample.node, 0, 0, nearest);
+  sample.distance = nearest.distance;
+  for (int i = 0; i < 3; ++i) sample.normal[i] = nearest.normal[i];
+  if (nearest.converged == 0) sample.state |= BLOB_NOT_CONVERGED;
+}
+
+}  // namespace lumen::blob

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions that exist once for each set of SIMD instructions. All give the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "model.h"
+
+namespace lumen::blob {
+
+/// Answers go to the columns, and to `samples` unless that is null.
+struct Job {
+  blob_columns columns;
+  blob_sample* samples;
+};
+
+struct PathTable {
+  /// The node of least power. The point is finite.
+  std::uint32_t (*locate)(const blob_model&, const double* point);
+  /// The node that the cursor at `node` moves to. The point is finite.
+  std::uint32_t (*follow)(const blob_model&, const double* point, std::uint32_t node);
+  /// f > T at a finite point within kFar of `node`; the cursor has followed.
+  bool (*inside)(const blob_model&, std::uint32_t flags, const double* point, std::uint32_t node);
+  /// Bounds on f in the ball of `radius` mm around a point; radius at most half of the node's.
+  void (*bounds)(const blob_model&, std::uint32_t flags, const double* point, std::uint32_t node,
+                 float radius, float* least, float* greatest);
+  /// Any points.
+  void (*query)(const blob_model&, std::uint32_t flags, const Job&);
+};
+
+/// Null where the build has no such path.
+const PathTable* scalarPath(blob_kernel kernel) noexcept;
+const PathTable* portablePath(blob_kernel kernel) noexcept;
+const PathTable* avx2Path(blob_kernel kernel) noexcept;
+const PathTable* avx512Path(blob_kernel kernel) noexcept;
+
+/// The wanted path, or the next below that this build and processor have; `wanted` is set to it.
+const PathTable* choosePath(blob_kernel kernel, blob_simd& wanted) noexcept;
+
+}  // namespace lumen::blob

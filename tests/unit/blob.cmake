@@ -1,0 +1,38 @@
+lumen_test(blob_test
+  LIBS lumen_options lumen::blob_static lumen_case
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/batch_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/closed_form_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/cursor_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/derivative_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/open_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/robust_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/seam_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/wall_test.cpp)
+target_include_directories(blob_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)
+
+# The header as C99 and as C++11, pedantic.
+foreach(language C CXX)
+  set(name blob_header_${language})
+  add_executable(${name} ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/$<IF:$<STREQUAL:${language},C>,blob_header.c,blob_header_cpp.cpp>)
+  target_link_libraries(${name} PRIVATE lumen::blob)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -pedantic -Werror)
+  set_target_properties(${name} PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF
+    CXX_STANDARD 11 CXX_EXTENSIONS OFF)
+  add_test(NAME BlobHeader.IsUsedFrom${language} COMMAND ${name})
+endforeach()
+
+# Installs the library elsewhere and builds a plain C project against it, by CMake and by pkg-config.
+if(NOT LUMEN_SANITIZE)
+  add_test(NAME BlobInstall.APlainCProjectUsesIt
+    COMMAND ${CMAKE_COMMAND}
+      -D BUILD=${PROJECT_BINARY_DIR} -D WORK=${CMAKE_CURRENT_BINARY_DIR}/blob_install
+      -D PROJECT=${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/consumer
+      -D LIBDIR=${CMAKE_INSTALL_LIBDIR} -D CC=${CMAKE_C_COMPILER}
+      -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/consume.cmake)
+endif()
+
+if(LUMEN_BUILD_BENCHMARKS)
+  include(bench/query/query.cmake)
+endif()

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: Apache-2.0
+// blob_header.c again, as C++11.
+#include "blob_header.c"

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "blob.h"
+#include "tree.h"
+
+namespace lumen::blob::test {
+namespace {
+
+double power(const Tree& tree, std::size_t node, const Point& p) {
+  double square = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double d = p[i] - double{tree.centre[node][i]};
+    square += d * d;
+  }
+  return square - double{tree.radius[node]} * double{tree.radius[node]};
+}
+
+std::uint32_t leastPower(const Tree& tree, const Point& p) {
+  std::uint32_t best = 0;
+  for (std::uint32_t i = 1; i < tree.centre.size(); ++i)
+    if (power(tree, i, p) < power(tree, best, p)) best = i;
+  return best;
+}
+
+Tree scattered(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-30, 30), r(0.2, 3);
+  Tree tree;
+  for (int i = 0; i < count; ++i) tree.addNode({u(random), u(random), u(random)}, r(random));
+  tree.offset.back() = 0;
+  return tree;
+}
+
+TEST(BlobLocate, IsTheNodeOfLeastPowerForEverySizeOfTree) {
+  for (const int count : {1, 2, 7, 8, 9, 63, 64, 65, 513, 5000}) {
+    const Tree tree = scattered(count, static_cast<unsigned>(count));
+    const Model model = tree.build();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> u(-45, 45);
+    for (int n = 0; n < 300; ++n) {
+      const Point p{u(random), u(random), u(random)};
+      ASSERT_EQ(blob_cursor_locate(model.get(), p.data()), leastPower(tree, p)) << count;
+    }
+  }
+}
+
+TEST(BlobLocate, AmongEqualNodesTheFirstIsFound) {
+  Tree tree;
+  for (int i = 0; i < 100; ++i) tree.addNode({1, 2, 3}, 1.0);
+  const Point p{1.5, 2, 3};
+  EXPECT_EQ(blob_cursor_locate(tree.build().get(), p.data()), 0U);
+}
+
+TEST(BlobLocate, AnInfinitePointIsNowhere) {
+  const Point p{1, HUGE_VAL, 0};
+  EXPECT_EQ(blob_cursor_locate(oneBlob().build().get(), p.data()), BLOB_NOWHERE);
+}
+
+// A point on the trunk or an arm, carried along from the trunk's start.
+TEST(BlobFollow, WalkingATreeFindsWhatBruteForceFinds) {
+  const Tree tree = fork(0.6, 0.0);
+  const Model model = tree.build();
+  for (const double side : {1.0, -1.0}) {
+    std::uint32_t cursor = 0;
+    for (int n = 0; n <= 1500; ++n) {
+      const double s = -6 + 0.01 * n;
+      const double x = s < 0 ? s : s * std::cos(0.6), y = s < 0 ? 0 : side * s * std::sin(0.6);
+      const Point p{x, y, 0.5 * std::sin(s)};
+      cursor = blob_cursor_follow(model.get(), p.data(), cursor);
+      ASSERT_NEAR(power(tree, cursor, p), power(tree, leastPower(tree, p), p), 1e-5) << s;
+    }
+  }
+}
+
+TEST(BlobFollow, FromAnyNodeOfAStraightVesselTheNearestIsReached) {
+  const Tree tree = tube(100);
+  const Model model = tree.build();
+  for (std::uint32_t start = 0; start < 100; start += 9)
+    for (double x = -1; x < 61; x += 0.37) {
+      const Point p{x, 0.3, -0.4};
+      const std::uint32_t node = blob_cursor_follow(model.get(), p.data(), start);
+      ASSERT_NEAR(power(tree, node, p), power(tree, leastPower(tree, p), p), 1e-5);
+    }
+}
+
+TEST(BlobFollow, ALinkIsAStepAsGoodAsAParent) {
+  Tree tree;
+  addVessel(tree, straight({0, 0, 0}, {6, 0, 0}, 11), 1.0, -1, 0);
+  addVessel(tree, straight({6.6, 0, 0}, {12, 0, 0}, 10), 1.0, -1, 0);
+  const Point p{12, 0, 0};
+  EXPECT_EQ(blob_cursor_follow(tree.build().get(), p.data(), 0), 10U);
+  tree.links.push_back({10, 11});
+  EXPECT_EQ(blob_cursor_follow(tree.build().get(), p.data(), 0), 20U);
+}
+
+TEST(BlobFollow, AThinNodeBetweenTwoWideOnesIsNoBarrier) {
+  Tree tree;
+  tree.addNode({0, 0, 0}, 2.0);
+  tree.addNode({0.5, 0, 0}, 1.0, 0);  // its cell lies outside of the vessel
+  tree.addNode({1.0, 0, 0}, 2.0, 1);
+  const Point p{1.2, 0, 0};
+  EXPECT_EQ(blob_cursor_follow(tree.build().get(), p.data(), 0), 2U);
+}
+
+TEST(BlobFollow, WalksAtMost256Steps) {
+  const Model model = tube(2000).build();
+  const Point p{1199, 0, 0};
+  EXPECT_EQ(blob_cursor_follow(model.get(), p.data(), 0), 512U);  // two nodes a step
+}
+
+TEST(BlobFollow, CrossesTheMouthOfAFork) {
+  const Model model = fork(0.45, 0.0).build();
+  Point p{1.3, 0.5, 0};
+  const std::uint32_t upper = blob_cursor_locate(model.get(), p.data());
+  p[1] = -0.5;
+  EXPECT_EQ(blob_cursor_follow(model.get(), p.data(), upper),
+            blob_cursor_locate(model.get(), p.data()));
+}
+
+TEST(BlobNeighbours, AreSymmetric) {
+  const Model model = fork(0.3, 0.0).build();
+  const auto count = static_cast<std::uint32_t>(blob_model_describe(model.get()).node_count);
+  const auto neighbours = [&](std::uint32_t node) {
+    std::vector<std::uint32_t> result(64);
+    result.resize(blob_model_neighbours(model.get(), node, result.data(), result.size()));
+    return result;
+  };
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (const std::uint32_t k : neighbours(i)) {
+      const auto back = neighbours(k);
+      EXPECT_NE(std::find(back.begin(), back.end(), i), back.end()) << i << " " << k;
+    }
+}
+
+// Both vessels are swept by a tool that is pressed against, and through, the common wall.
+TEST(BlobKissing, APointInOneVesselNeverReportsTheOther) {
+  const Model model = kissing(0.02).build();
+  for (const std::uint32_t flags : {BLOB_BLENDED, BLOB_LOCAL}) {
+    std::uint32_t lower = 0, upper = 59;
+    for (int n = 0; n <= 1740; ++n) {
+      const double x = 0.01 * n, press = 0.9 + 0.4 * std::sin(0.1 * n);
+      const Point p{x, press, 0}, q{17.4 - x, 2.02 - press, 0};
+      blob_sample a, b;
+      blob_query(model.get(), flags, p.data(), &lower, &a);
+      blob_query(model.get(), flags, q.data(), &upper, &b);
+      ASSERT_LT(lower, 30U);
+      ASSERT_GE(upper, 30U);
+      if (x > 2 && x < 15) {
+        ASSERT_NEAR(a.distance, press - 1, 0.06);
+        ASSERT_GT(a.normal[1], 0.99);
+        ASSERT_LT(b.normal[1], -0.99);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lumen::blob::test

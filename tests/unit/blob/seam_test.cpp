@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Value, gradient and distance along paths that cross seams between models that disagree.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "blob.h"
+#include "tree.h"
+
+namespace lumen::blob::test {
+namespace {
+
+// Smoothness is promised in the lumen and a little beyond the wall, mm.
+constexpr double kOutside = 0.3;
+
+struct Jumps {
+  double value = 0, gradient = 0, distance = 0;
+  int seams = 0;
+};
+
+Point between(const Point& a, const Point& b, double t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
+
+// Adds the differences between what two nodes answer at one point.
+void compare(const Model& model, std::uint32_t flags, const Point& p, std::uint32_t a,
+             std::uint32_t b, Jumps& jumps) {
+  blob_sample s, t;
+  blob_query(model.get(), flags | BLOB_HOLD, p.data(), &a, &s);
+  blob_query(model.get(), flags | BLOB_HOLD, p.data(), &b, &t);
+  if (s.distance > kOutside) return;
+  double change[3];
+  for (int i = 0; i < 3; ++i) change[i] = s.gradient[i] - t.gradient[i];
+  jumps.value = std::max(jumps.value, std::abs(s.value - t.value));
+  jumps.gradient = std::max(jumps.gradient, norm(change));
+  jumps.distance = std::max(jumps.distance, std::abs(s.distance - t.distance));
+  ++jumps.seams;
+}
+
+// Walks from one point to another and compares the two nodes wherever the cursor changes.
+Jumps sweep(const Model& model, std::uint32_t flags, const Point& from, const Point& to) {
+  constexpr int kSteps = 20000;
+  Jumps jumps;
+  std::uint32_t cursor = blob_cursor_locate(model.get(), from.data());
+  for (int n = 1; n <= kSteps; ++n) {
+    const std::uint32_t before = cursor;
+    double low = static_cast<double>(n - 1) / kSteps, high = static_cast<double>(n) / kSteps;
+    cursor = blob_cursor_follow(model.get(), between(from, to, high).data(), before);
+    if (cursor == before) continue;
+    while (high - low > 1e-12) {
+      const double middle = 0.5 * (low + high);
+      const bool moved =
+          blob_cursor_follow(model.get(), between(from, to, middle).data(), before) != before;
+      (moved ? high : low) = middle;
+    }
+    compare(model, flags, between(from, to, high), before, cursor, jumps);
+  }
+  return jumps;
+}
+
+// Widths of neighbours differ by 10 %: the models disagree by a tenth of the radius.
+TEST(BlobSeam, LocalModelsJump) {
+  const Jumps jumps = sweep(tube(12, 0.05).build(), BLOB_LOCAL, {0, 0.8, 0}, {6, 0.8, 0});
+  EXPECT_EQ(jumps.seams, 10);
+  EXPECT_GT(jumps.distance, 0.05);
+}
+
+TEST(BlobSeam, BlendedModelsDoNotJumpAlongATube) {
+  const Jumps jumps = sweep(tube(12, 0.05).build(), BLOB_BLENDED, {0, 0.8, 0}, {6, 0.8, 0});
+  EXPECT_EQ(jumps.seams, 10);
+  EXPECT_LT(jumps.value, 1e-6);
+  EXPECT_LT(jumps.gradient, 2e-6);
+  EXPECT_LT(jumps.distance, 2e-6);
+}
+
+TEST(BlobSeam, BlendedModelsDoNotJumpThroughAFork) {
+  for (const double halfAngle : {0.4, 0.7, 1.2}) {
+    const Model model = fork(halfAngle, 0.04).build();
+    for (const double z : {0.0, 0.5}) {
+      const double x = 3 * std::cos(halfAngle), y = 3 * std::sin(halfAngle);
+      for (const double side : {1.0, -1.0}) {
+        const Jumps along = sweep(model, BLOB_BLENDED, {-3, 0.3, z}, {x, side * y, z});
+        EXPECT_LT(along.value, 1e-6) << halfAngle;
+        EXPECT_LT(along.gradient, 1e-5) << halfAngle;
+      }
+      const Jumps across = sweep(model, BLOB_BLENDED, {1.0, 0.9, z}, {1.0, -0.9, z});
+      EXPECT_LT(across.value, 1e-6) << halfAngle;
+      EXPECT_LT(across.gradient, 1e-5) << halfAngle;
+    }
+  }
+}
+
+// The value does not depend on which of the nodes near the point is the cursor.
+TEST(BlobSeam, ABlendedValueIsTheSameFromEitherNodeOfASeam) {
+  const Model model = tube(12, 0.05).build();
+  const Point p{3.3, 0.4, -0.6};  // half way between nodes 5 and 6
+  std::uint32_t a = 5, b = 6;
+  blob_sample fromA, fromB;
+  blob_query(model.get(), BLOB_HOLD, p.data(), &a, &fromA);
+  blob_query(model.get(), BLOB_HOLD, p.data(), &b, &fromB);
+  EXPECT_NEAR(fromA.value, fromB.value, 1e-7);
+  EXPECT_NEAR(fromA.distance, fromB.distance, 1e-6);
+}
+
+TEST(BlobSeam, AtANodeOfAStraightTubeItsModelAnswersAlone) {
+  const Model model = tube(12, 0.05).build();
+  const Point p{3.0, 0.7, 0};  // the plane of node 5
+  std::uint32_t a = 5, b = 5;
+  blob_sample blended, local;
+  blob_query(model.get(), BLOB_BLENDED, p.data(), &a, &blended);
+  blob_query(model.get(), BLOB_LOCAL, p.data(), &b, &local);
+  EXPECT_NEAR(blended.value, local.value, 1e-7);
+}
+
+// A second vessel that touches changes nothing, not even the last bit.
+TEST(BlobSeam, AVesselThatTouchesHasNoInfluence) {
+  const Model both = kissing(0.0).build();
+  const Model alone = tube(30).build();
+  std::uint32_t a = 0, b = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const Point p{0.0174 * n, 0.99, 0.1};
+    blob_sample s, t;
+    blob_query(both.get(), BLOB_BLENDED, p.data(), &a, &s);
+    blob_query(alone.get(), BLOB_BLENDED, p.data(), &b, &t);
+    ASSERT_TRUE(sameBits(s, t)) << n;
+  }
+}
+
+}  // namespace
+}  // namespace lumen::blob::test
