@@ -162,6 +162,10 @@ void addFitOptions(CLI::App& app, FitArguments& fit) {
       .add("--neighbourhood", o.neighbourhood, "N",
            "Topological distance of the nodes whose points a node is fitted to")
       ->check(within(0, 100));
+  group.add("--seam-sweeps", o.seamSweeps, "N", "Sweeps that tie adjacent models to one another")
+      ->check(within(0, 100));
+  group.add("--seam-weight", o.seamWeight, "W", "Weight of a tie, in wall points")
+      ->check(kNotNegative);
   group.addScaled("--iso-level", o.isoLevel, "Iso-level T", "half a voxel");
   group.addScaled("--accuracy", o.accuracy, "Subdivide until no point is farther than this",
                   "1.5 voxels");
