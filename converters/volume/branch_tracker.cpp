@@ -32,13 +32,6 @@ std::string rateText(double best, double needed) {
   return text.data();
 }
 
-/// Half the sum of the two middle values, or the middle one; of a non-empty list.
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-}
-
 constexpr std::size_t kNoTurn = std::numeric_limits<std::size_t>::max();
 
 /// Where a track that has come back to itself turned round, as the number of nodes before, or
@@ -61,16 +54,16 @@ std::size_t turningPoint(const std::vector<TrackedNode>& nodes, const TrackedNod
   return kNoTurn;
 }
 
-/// Where a vessel goes from its first point, as far as the user said.
-std::optional<Vector3d> directionOf(const SeedBranch& seed) {
-  if (seed.direction) return seed.direction;
-  if (seed.points.size() < 2) return std::nullopt;
-  return (seed.points[1].position - seed.points[0].position).normalized();
-}
-
-TrackedNode reversed(TrackedNode node) {
-  node.direction = -node.direction;
-  return node;
+/// Where a path is heading: between its last direction and the chord over its last radius and a
+/// half, which on a thin vessel are two witnesses better than one.
+Vector3d courseOf(const std::vector<TrackedNode>& nodes) {
+  const TrackedNode& last = nodes.back();
+  for (std::size_t i = nodes.size() - 1; i-- > 0;) {
+    const Vector3d chord = last.centre - nodes[i].centre;
+    if (i >= 3 && chord.norm() >= 1.5 * last.radius)
+      return (last.direction + chord.normalized()).normalized();
+  }
+  return last.direction;
 }
 
 /// Drops the last nodes if they are much wider than those before: they saw the rounded end of the
@@ -86,6 +79,17 @@ void dropTip(std::vector<TrackedNode>& nodes) {
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+TrackedNode reversed(TrackedNode node) {
+  node.direction = -node.direction;
+  return node;
+}
 
 ChainPoint closestOnChain(const std::vector<TrackedNode>& chain, const Vector3d& point) {
   ChainPoint best;
@@ -213,10 +217,16 @@ bool BranchTracker::isSwollen(const std::vector<TrackedNode>& nodes,
   return next.inlierRate < m_options.inlierRate && next.radius > 1.5 * recent(nodes).radius;
 }
 
-/// Whether a node that was fitted to a guess is the beginning of a vessel: a second one follows.
-bool BranchTracker::leadsOn(const TrackedNode& start, Random& random) {
-  const auto next = fitNode(predict(start, 1, start.direction), 0.5 * m_options.inlierRate, random);
-  return next && turningPoint({start}, *next) == kNoTurn;
+/// How many steps, up to kTrialSteps, a track from a node that was fitted to a guess goes on.
+int BranchTracker::stepsFrom(const TrackedNode& start, Random& random) {
+  std::vector<TrackedNode> nodes{start};
+  for (int step = 0; step < kTrialSteps; ++step) {
+    auto next = fitNode(predict(nodes.back(), 1, nodes.back().direction),
+                        0.5 * m_options.inlierRate, random);
+    if (!next || isSwollen(nodes, *next) || turningPoint(nodes, *next) != kNoTurn) return step;
+    nodes.push_back(std::move(*next));
+  }
+  return kTrialSteps;
 }
 
 /// Where the next step finds nothing: the nearest place ahead at which two consecutive nodes fit as
@@ -287,7 +297,7 @@ void BranchTracker::follow(TrackedBranch& branch, std::span<const TrackedBranch*
     m_progress.check();
     if (nodes.size() >= static_cast<std::size_t>(m_options.maxNodes))
       return stop(StopReason::StepLimit);
-    const Guess guess = predict(nodes.back(), 1, nodes.back().direction);
+    const Guess guess = predict(nodes.back(), 1, courseOf(nodes));
     if (!m_volume.geometry().containsWorld(guess.centre)) return stop(StopReason::LeftVolume);
     std::optional<TrackedNode> node = fitNode(guess, 0.5 * m_options.inlierRate, random);
     if (node && isSwollen(nodes, *node)) node.reset();
@@ -306,122 +316,6 @@ void BranchTracker::follow(TrackedBranch& branch, std::span<const TrackedBranch*
         return stop(StopReason::MetBranch);
       }
   }
-}
-
-/// A node at a click. Without a radius, trial radii from about one voxel up; the first that is
-/// accepted, else the best.
-std::optional<TrackedNode> BranchTracker::startAt(const SeedPoint& point, const Vector3d& direction,
-                                                  bool smooth, Random& random) {
-  std::vector<double> radii;
-  if (point.radius)
-    radii = {*point.radius};
-  else
-    for (double voxels = 1.25; voxels < 24; voxels *= 1.5)
-      radii.push_back(voxels * m_volume.geometry().voxelSize());
-  std::optional<TrackedNode> best;
-  for (const double radius : radii) {
-    std::optional<TrackedNode> node =
-        fitNode({point.position, direction, radius, smooth}, 0.5 * m_options.inlierRate, random);
-    if (!node || (best && node->inlierRate <= best->inlierRate)) continue;
-    best = std::move(node);
-    if (best->inlierRate >= m_options.inlierRate && best->points.size() > m_rays.rayCount() / 2)
-      break;
-  }
-  return best;
-}
-
-/// A node from one of several guesses, each with several radii: the first that leads on and is not
-/// in the lumen of `parent`, else the first that is not; well fitted ones before others.
-std::optional<TrackedNode> BranchTracker::startBeside(const TrackedBranch& parent,
-                                                      std::span<const Guess> guesses,
-                                                      std::span<const double> radii,
-                                                      Random& random) {
-  std::optional<TrackedNode> fallback;
-  for (const double minRate : {m_options.inlierRate, 0.5 * m_options.inlierRate})
-    for (Guess guess : guesses)
-      for (const double radius : radii) {
-        guess.radius = radius;
-        std::optional<TrackedNode> node = fitNode(guess, minRate, random);
-        if (!node) continue;
-        const ChainPoint nearest = closestOnChain(parent.nodes, node->centre);
-        if (nearest.distance < 0.75 * nearest.radius) {
-          m_inParent = true;
-          continue;
-        }
-        if (leadsOn(*node, random)) return node;
-        if (!fallback) fallback = std::move(node);
-      }
-  return fallback;
-}
-
-/// The first nodes of a child, and where they hang on its parent. A click near the parent: beyond
-/// the parent's wall on the way to the click (thesis section 3.6), else at the click itself. A
-/// click farther away: there, and from there back to the parent.
-std::vector<TrackedNode> BranchTracker::startChild(const SeedBranch& seed,
-                                                   const TrackedBranch& parent, int& parentNode,
-                                                   Random& random) {
-  const SeedPoint& click = seed.points[0];
-  const ChainPoint root = closestOnChain(parent.nodes, click.position);
-  parentNode = static_cast<int>(root.node);
-  const Vector3d toClick = root.distance > 0
-                               ? Vector3d((click.position - root.position) / root.distance)
-                               : parent.nodes[root.node].direction;
-  const Vector3d outward = seed.direction.value_or(toClick);
-  const Guess atParent{root.position + m_options.branchOffset * root.radius * outward, outward};
-  const Guess atClick{click.position, directionOf(seed).value_or(toClick), 0,
-                      directionOf(seed).has_value()};
-  std::vector<double> radii{click.radius.value_or(root.radius)};
-  if (!click.radius)
-    for (const double share : {0.7, 0.5, 0.35, 0.25}) radii.push_back(share * root.radius);
-  const bool far = root.distance > 2.0 * m_options.branchOffset * root.radius;
-  std::vector<Guess> guesses{atClick};
-  if (!far) guesses.insert(guesses.begin(), atParent);
-  const auto start = startBeside(parent, guesses, radii, random);
-  if (!start) return {};
-  if (!far) return {*start};
-  std::vector<TrackedNode> nodes = trackBack(*start, parent, random);
-  parentNode = static_cast<int>(closestOnChain(parent.nodes, nodes.front().centre).node);
-  return nodes;
-}
-
-/// The nodes from `goal` to `start`, in that order, by tracking from `start` against its direction;
-/// `start` alone if that does not lead to `goal`, or not by a way that is straight enough to be
-/// believed.
-std::vector<TrackedNode> BranchTracker::trackBack(const TrackedNode& start,
-                                                  const TrackedBranch& goal, Random& random) {
-  TrackedBranch back;
-  back.nodes.push_back(reversed(start));
-  const TrackedBranch* const end = &goal;
-  follow(back, {&end, 1}, random);
-  double way = 0;
-  for (std::size_t i = 1; i < back.nodes.size(); ++i)
-    way += (back.nodes[i].centre - back.nodes[i - 1].centre).norm();
-  const ChainPoint reached = closestOnChain(goal.nodes, back.nodes.back().centre);
-  const bool arrived =
-      back.stopReason == StopReason::MetBranch || reached.distance < 2.0 * reached.radius;
-  if (!arrived || way > 3.0 * closestOnChain(goal.nodes, start.centre).distance)
-    back.nodes.resize(1);
-  std::reverse(back.nodes.begin(), back.nodes.end());
-  for (TrackedNode& node : back.nodes) node = reversed(std::move(node));
-  return std::move(back.nodes);
-}
-
-/// A further click on the same vessel that the track has missed: tracks from there back to the
-/// track, gives up what the track has beyond the place of meeting, and goes on from the click.
-/// False if nothing fits there.
-bool BranchTracker::passThrough(const SeedPoint& point, TrackedBranch& branch,
-                                std::span<const TrackedBranch* const> finished, Random& random) {
-  std::vector<TrackedNode>& nodes = branch.nodes;
-  const ChainPoint closest = closestOnChain(nodes, point.position);
-  if (closest.distance <= closest.radius) return true;
-  const Vector3d away = (point.position - closest.position) / closest.distance;
-  const auto start = startAt(point, away, false, random);
-  if (!start) return false;
-  std::vector<TrackedNode> way = trackBack(*start, branch, random);
-  nodes.resize(closestOnChain(nodes, way.front().centre).node + 1);
-  std::move(way.begin(), way.end(), std::back_inserter(nodes));
-  follow(branch, finished, random);
-  return true;
 }
 
 TrackedBranch BranchTracker::track(const SeedBranch& seed, const TrackedBranch* parent,
@@ -464,53 +358,6 @@ TrackedBranch BranchTracker::track(const SeedBranch& seed, const TrackedBranch* 
   if (branch.nodes.size() < 2) {
     branch.nodes.clear();
     branch.failure = "a single cylinder fits at the seed, and nothing follows it";
-  }
-  return branch;
-}
-
-TrackedBranch BranchTracker::capture(const SeedBranch& seed, const TrackedBranch* parent) {
-  TrackedBranch branch;
-  branch.stopReason = StopReason::EndOfSeeds;
-  for (const SeedPoint& point : seed.points) {
-    m_rays.cast(point.position, 3.0 * point.radius.value(), m_points);
-    if (m_points.count() == 0) continue;
-    const float strongest = *std::max_element(m_points.strength.begin(), m_points.strength.end());
-    TrackedNode node;
-    node.centre = point.position;
-    std::vector<double> distances;
-    for (std::size_t i = 0; i < m_points.count(); ++i) {
-      if (m_points.strength[i] < m_options.aneurysmGradient * strongest) continue;
-      const Eigen::Vector3f p = (m_points.origin + m_points.offset(i)).cast<float>();
-      node.points.push_back({p.x(), p.y(), p.z()});
-      distances.push_back(m_points.offset(i).norm());
-    }
-    node.radius = median(distances);
-    node.inlierRate =
-        static_cast<double>(node.points.size()) / static_cast<double>(m_rays.rayCount());
-    branch.nodes.push_back(std::move(node));
-  }
-  if (branch.nodes.empty()) {
-    branch.failure = "no ray from its points met a wall";
-    return branch;
-  }
-  const std::size_t count = branch.nodes.size();
-  if (parent) {
-    const ChainPoint root = closestOnChain(parent->nodes, branch.nodes[0].centre);
-    branch.parentNode = static_cast<int>(root.node);
-    if (count == 1)
-      branch.nodes[0].direction = (branch.nodes[0].centre - root.position).normalized();
-  } else if (count == 1) {
-    branch.nodes[0].direction = seed.direction.value_or(Vector3d::UnitZ());
-  }
-  if (count == 1) branch.nodes[0].height = branch.nodes[0].radius;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const Vector3d segment = branch.nodes[i + 1].centre - branch.nodes[i].centre;
-    branch.nodes[i].height = segment.norm();
-    branch.nodes[i].direction = segment.normalized();
-  }
-  if (count > 1) {
-    branch.nodes[count - 1].height = branch.nodes[count - 2].height;
-    branch.nodes[count - 1].direction = branch.nodes[count - 2].direction;
   }
   return branch;
 }

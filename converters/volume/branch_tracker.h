@@ -37,6 +37,15 @@ struct TrackedBranch {
       parentNode = -1;  ///< position in the seeds' order, node within that branch
 };
 
+/// The same, looking the other way.
+TrackedNode reversed(TrackedNode node);
+
+/// Half the sum of the two middle values, or the middle one; of a non-empty list.
+double median(std::vector<double> values);
+
+/// Where a vessel goes from its first point (unit, LPS), as far as the user said.
+std::optional<Eigen::Vector3d> directionOf(const SeedBranch& seed);
+
 /// The closest place on a chain of nodes.
 struct ChainPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -66,6 +75,7 @@ public:
   TrackedBranch capture(const SeedBranch& seed, const TrackedBranch* parent);
 
 private:
+  static constexpr int kTrialSteps = 4;  ///< that a start must lead to
   struct Guess {
     Eigen::Vector3d centre, direction;
     double radius = 0;
@@ -83,7 +93,7 @@ private:
   static Recent recent(const std::vector<TrackedNode>& nodes);
   bool isNoise(const TrackedNode& node) const;
   bool isSwollen(const std::vector<TrackedNode>& nodes, const TrackedNode& next) const;
-  bool leadsOn(const TrackedNode& start, Random& random);
+  int stepsFrom(const TrackedNode& start, Random& random);
   Guess predict(const TrackedNode& from, double steps, const Eigen::Vector3d& direction) const;
   std::vector<TrackedNode> lookAhead(const std::vector<TrackedNode>& nodes, Random& random);
   bool recover(std::vector<TrackedNode>& nodes, std::size_t& longest, Random& random);
