@@ -192,7 +192,8 @@ BLOB_API blob_node blob_model_node(const blob_model* model, uint32_t node) BLOB_
 
 /* The neighbours that a cursor at `node` may step to: those one or two edges away (parents, children and
  * links are edges), up to six where the nodes between are too thin to have cells of their own, and, around
- * a bifurcation, nodes of the other arms whose balls overlap well with this one's. Symmetric. Writes the first `capacity` of them, returns their number. */
+ * a bifurcation, nodes of the other arms whose balls overlap well with this one's. Symmetric.
+ * Writes the first `capacity` of them, returns their number. */
 BLOB_API size_t blob_model_neighbours(const blob_model* model, uint32_t node, uint32_t* neighbours,
                                       size_t capacity) BLOB_NOEXCEPT;
 
@@ -202,8 +203,8 @@ BLOB_API size_t blob_model_neighbours(const blob_model* model, uint32_t node, ui
 #define BLOB_NOWHERE UINT32_MAX
 
 /* The node of least power |X - O|^2 - r^2 in the whole tree, the lowest index among equals; BLOB_NOWHERE
- * for a point that is not finite. Through a tree of boxes: about 0.2 to 1 us for 10,000 nodes. Use it when a tool
- * point appears, not in every step: it sees no walls, so a point in a vessel that touches another is
+ * for a point that is not finite. Through a tree of boxes: about 0.2 to 1 us for 10,000 nodes. Use it when a
+ * tool point appears, not in every step: it sees no walls, so a point in a vessel that touches another is
  * located in whichever is nearer. */
 BLOB_API uint32_t blob_cursor_locate(const blob_model* model, const double point[3]) BLOB_NOEXCEPT;
 
@@ -263,8 +264,9 @@ typedef struct blob_sample {
    *     |d| < 0.2 R   0.002   0.017        0.4 R to 0.7 R outside  0.033  0.16
    *     to 0.4 R deep 0.010   0.08         0.7 R to 1 R outside    0.07   0.27
    *     to 0.8 R deep 0.028   0.24         the axis                0.05   0.37 (bifurcations, aneurysm)
-   * Cost on one core of an AMD EPYC (Zen 4): 16 ns LOCAL, 42 ns BLENDED in batches; 80 and 105 ns alone. It is once continuously differentiable
-   * where f is twice. Outside, where grad f nearly vanishes between two parts of a vessel, it is cut at the
+   * Cost on one core of an AMD EPYC (Zen 4): 14 ns LOCAL, 42 ns BLENDED in batches; 33 and 65 ns
+   * alone. It is once continuously differentiable where f is twice. Outside, where grad f nearly vanishes
+   * between two parts of a vessel, it is cut at the
    * distance to the far side of the node's ball.
    *
    * BLOB_DISTANCE_EXACT: the distance to the nearest point of the wall, found as by blob_nearest(). Error

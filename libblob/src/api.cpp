@@ -243,11 +243,8 @@ uint32_t blob_cursor_follow(const blob_model* model, const double point[3],
 void blob_query(const blob_model* model, uint32_t flags, const double point[3], uint32_t* cursor,
                 blob_sample* sample) noexcept {
   BLOB_REQUIRE(model != nullptr && point != nullptr && sample != nullptr);
-  Job job{blob_columns_default(), sample};
-  job.columns.count = 1;
-  for (int i = 0; i < 3; ++i) job.columns.point[i] = point + i;
-  job.columns.cursor = cursor;
-  model->path(flags).query(*model, flags, job);
+  std::uint32_t unknown = BLOB_NOWHERE;
+  model->path(flags).queryOne(*model, flags, point, cursor != nullptr ? *cursor : unknown, *sample);
 }
 
 void blob_query_many(const blob_model* model, uint32_t flags, size_t count,

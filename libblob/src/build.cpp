@@ -61,9 +61,12 @@ FieldNode layOut(const blob_model_def& def, const blob_blobs& blobs, std::size_t
     block.a[lane] = static_cast<float>(scaleOf(blobs, blobs.width[j]));
     block.w[lane] = blobs.width[j];
   }
-  return {{0, 0, 0, def.radius[node]},
-          static_cast<std::uint32_t>(first),
-          static_cast<std::uint32_t>(count)};
+  FieldNode result{};
+  result.place[3] = def.radius[node];
+  result.block = static_cast<std::uint32_t>(first);
+  result.blockCount = static_cast<std::uint32_t>(count) & 0x7FFFFFFFU;
+  result.isSimple = count == 1;
+  return result;
 }
 
 // A node without blobs answers with those of the nearest node along the tree that has some.
@@ -83,6 +86,7 @@ void lendBlobs(const blob_model_def& def, const Neighbourhood& edges,
       lender[node] = lender[from];
       nodes[node] = nodes[lender[from]];
       nodes[node].place[3] = def.radius[node];
+      nodes[node].isSimple = 0;
       for (int axis = 0; axis < 3; ++axis)
         nodes[node].place[axis] = static_cast<float>(double{def.centre[node][axis]} -
                                                      double{def.centre[lender[node]][axis]});

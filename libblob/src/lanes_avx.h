@@ -94,9 +94,20 @@ inline F4 operator-(F4 a, F4 b) {
 inline F4 operator*(F4 a, F4 b) {
   return {_mm_mul_ps(a.v, b.v)};
 }
-/// a - b of four doubles each, as floats.
-inline F4 differenceOf(const double* a, const double* b) {
-  return {_mm256_cvtpd_ps(_mm256_sub_pd(_mm256_loadu_pd(a), _mm256_loadu_pd(b)))};
+/// Four doubles.
+struct D4 {
+  __m256d v;
+};
+inline D4 load4(const double* p) {
+  return {_mm256_loadu_pd(p)};
+}
+/// Three, and zero.
+inline D4 load3(const double* p) {
+  return {_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_load_sd(p + 2), 1)};
+}
+/// a - b as floats.
+inline F4 differenceOf(D4 a, D4 b) {
+  return {_mm256_cvtpd_ps(_mm256_sub_pd(a.v, b.v))};
 }
 /// One of the four in all lanes.
 template <int lane>
@@ -138,6 +149,14 @@ inline void fromRows(const float (*rows)[4], F8 columns[4]) {
     columns[i].v = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[i])),
                                         _mm_loadu_ps(rows[i + 4]), 1);
   turn(columns);
+}
+/// The row of the first lanes.
+inline F4 firstLanes(const F8 columns[4]) {
+  const __m128 a =
+      _mm_unpacklo_ps(_mm256_castps256_ps128(columns[0].v), _mm256_castps256_ps128(columns[1].v));
+  const __m128 b =
+      _mm_unpacklo_ps(_mm256_castps256_ps128(columns[2].v), _mm256_castps256_ps128(columns[3].v));
+  return {_mm_movelh_ps(a, b)};
 }
 inline void toRows(const F8 columns[4], float (*rows)[4]) {
   F8 m[4] = {columns[0], columns[1], columns[2], columns[3]};

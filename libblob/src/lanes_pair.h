@@ -134,6 +134,10 @@ inline void fromRows(const float (*rows)[4], F8 columns[4]) {
     columns[c].hi = F4{rows[4][c], rows[5][c], rows[6][c], rows[7][c]};
   }
 }
+/// The row of the first lanes.
+inline F4 firstLanes(const F8 columns[4]) {
+  return F4{columns[0].lo[0], columns[1].lo[0], columns[2].lo[0], columns[3].lo[0]};
+}
 inline void toRows(const F8 columns[4], float (*rows)[4]) {
   for (int c = 0; c < 4; ++c)
     for (int i = 0; i < 4; ++i) {
@@ -141,10 +145,21 @@ inline void toRows(const F8 columns[4], float (*rows)[4]) {
       rows[i + 4][c] = columns[c].hi[i];
     }
 }
-/// a - b of four doubles each, as floats.
-inline F4 differenceOf(const double* a, const double* b) {
-  return F4{static_cast<float>(a[0] - b[0]), static_cast<float>(a[1] - b[1]),
-            static_cast<float>(a[2] - b[2]), static_cast<float>(a[3] - b[3])};
+/// Four doubles.
+struct D4 {
+  double v[4];
+};
+inline D4 load4(const double* p) {
+  return {{p[0], p[1], p[2], p[3]}};
+}
+/// Three, and zero.
+inline D4 load3(const double* p) {
+  return {{p[0], p[1], p[2], 0.0}};
+}
+/// a - b as floats.
+inline F4 differenceOf(const D4& a, const D4& b) {
+  return F4{static_cast<float>(a.v[0] - b.v[0]), static_cast<float>(a.v[1] - b.v[1]),
+            static_cast<float>(a.v[2] - b.v[2]), static_cast<float>(a.v[3] - b.v[3])};
 }
 /// One of the four in all lanes.
 template <int lane>

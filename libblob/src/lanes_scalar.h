@@ -114,10 +114,21 @@ inline F4 operator*(F4 a, F4 b) {
   for (int i = 0; i < 4; ++i) a.v[i] *= b.v[i];
   return a;
 }
-/// a - b of four doubles each, as floats.
-inline F4 differenceOf(const double* a, const double* b) {
+/// Four doubles.
+struct D4 {
+  double v[4];
+};
+inline D4 load4(const double* p) {
+  return {{p[0], p[1], p[2], p[3]}};
+}
+/// Three, and zero.
+inline D4 load3(const double* p) {
+  return {{p[0], p[1], p[2], 0.0}};
+}
+/// a - b as floats.
+inline F4 differenceOf(const D4& a, const D4& b) {
   F4 r;
-  for (int i = 0; i < 4; ++i) r.v[i] = static_cast<float>(a[i] - b[i]);
+  for (int i = 0; i < 4; ++i) r.v[i] = static_cast<float>(a.v[i] - b.v[i]);
   return r;
 }
 /// One of the four in all lanes.
@@ -145,6 +156,10 @@ inline F4 sums(F8 a, F8 b, F8 c, F8 d) {
 /// Eight rows of four numbers as four columns, and back.
 inline void fromRows(const float (*rows)[4], F8 columns[4]) {
   for (int c = 0; c < 4; ++c) LUMEN_EACH columns[c].v[i] = rows[i][c];
+}
+/// The row of the first lanes.
+inline F4 firstLanes(const F8 columns[4]) {
+  return {{columns[0].v[0], columns[1].v[0], columns[2].v[0], columns[3].v[0]}};
 }
 inline void toRows(const F8 columns[4], float (*rows)[4]) {
   for (int c = 0; c < 4; ++c) LUMEN_EACH rows[i][c] = columns[c].v[i];

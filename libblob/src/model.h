@@ -33,8 +33,11 @@ struct alignas(32) FanBlock {
 /// Where the blobs that answer for a node are.
 struct FieldNode {
   float place[4];  ///< the node's centre relative to the origin of the blocks, and its radius, mm
-  std::uint32_t block, blockCount;
+  std::uint32_t block;
+  std::uint32_t blockCount : 31;  ///< at most BLOB_MAX_BLOBS
+  std::uint32_t isSimple : 1;     ///< one block, and `place` is zero
 };
+static_assert(sizeof(FieldNode) == 24, "part of a NodeRecord");
 
 constexpr float kNeverLess = 3e38f;  ///< the power difference of padding, mm^2
 

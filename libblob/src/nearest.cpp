@@ -160,11 +160,7 @@ private:
 blob_sample sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
                      std::uint32_t& node) noexcept {
   blob_sample sample;
-  Job job{blob_columns_default(), &sample};
-  job.columns.count = 1;
-  for (int i = 0; i < 3; ++i) job.columns.point[i] = point + i;
-  job.columns.cursor = &node;
-  model.path(flags).query(model, flags, job);
+  model.path(flags).queryOne(model, flags, point, node, sample);
   return sample;
 }
 

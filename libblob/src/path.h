@@ -25,6 +25,9 @@ struct PathTable {
   /// Bounds on f in the ball of `radius` mm around a point; radius at most half of the node's.
   void (*bounds)(const blob_model&, std::uint32_t flags, const double* point, std::uint32_t node,
                  float radius, float* least, float* greatest);
+  /// Any point; the bits of `query`.
+  void (*queryOne)(const blob_model&, std::uint32_t flags, const double* point, std::uint32_t& node,
+                   blob_sample& sample);
   /// Any points.
   void (*query)(const blob_model&, std::uint32_t flags, const Job&);
 };

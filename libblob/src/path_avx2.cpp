@@ -24,6 +24,7 @@ namespace avx2 {
 #include "path_locate.h"
 #include "path_distance.h"
 #include "path_query.h"
+#include "path_table.h"
 }  // namespace avx2
 #if defined(__clang__)
 #pragma clang attribute pop

@@ -25,6 +25,7 @@ namespace avx512 {
 #include "path_locate.h"
 #include "path_distance.h"
 #include "path_query.h"
+#include "path_table.h"
 }  // namespace avx512
 #if defined(__clang__)
 #pragma clang attribute pop

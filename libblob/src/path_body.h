@@ -35,14 +35,15 @@ struct View {
   const blob_model& model;
 };
 
-// A point relative to a node's centre; `point` has four doubles, the last of any value.
-inline F4 relative(const NodeRecord& node, const double* point) {
-  return differenceOf(point, node.centre);
+// A point relative to a node's centre; the fourth number is of any value.
+inline F4 relative(const NodeRecord& node, const D4& point) {
+  return differenceOf(point, load4(node.centre));
 }
 
 // A row's first three numbers, each in all lanes.
 struct Splats {
   explicit Splats(F4 row) : x(splat<0>(row)), y(splat<1>(row)), z(splat<2>(row)) {}
+  explicit Splats(const float* row) : x(set1(row[0])), y(set1(row[1])), z(set1(row[2])) {}
   F8 x, y, z;
 };
 
@@ -116,21 +117,33 @@ inline float leastExponent(const BlobBlock* blocks, std::uint32_t count, const S
   return leastOf(least);
 }
 
+// What eight blobs add to f and grad f.
+struct Terms {
+  F8 f, x, y, z;
+};
+
+template <int kernel>
+inline Terms termsOf(const BlobBlock& block, const Splats& at, float shift) {
+  Offsets d = offsetsOf(block, at);
+  if constexpr (kernel == BLOB_GAUSSIAN) d.u = d.u - set1(shift);
+  F8 value, slope;
+  kernelTerms<kernel>(d.u, load(block.a), load(block.w), value, slope);
+  return {value, slope * d.x, slope * d.y, slope * d.z};
+}
+
 // f, then grad f.
 template <int kernel>
 inline F4 sumBlocks(const BlobBlock* blocks, std::uint32_t count, const Splats& at, float shift) {
-  F8 f = set1(0.0f), gx = f, gy = f, gz = f;
-  for (std::uint32_t b = 0; b < count; ++b) {
-    Offsets d = offsetsOf(blocks[b], at);
-    if constexpr (kernel == BLOB_GAUSSIAN) d.u = d.u - set1(shift);
-    F8 value, slope;
-    kernelTerms<kernel>(d.u, load(blocks[b].a), load(blocks[b].w), value, slope);
-    f = f + value;
-    gx = gx + slope * d.x;
-    gy = gy + slope * d.y;
-    gz = gz + slope * d.z;
+  if (count == 0) return set4(0.0f);
+  Terms sum = termsOf<kernel>(blocks[0], at, shift);
+  for (std::uint32_t b = 1; b < count; ++b) {
+    const Terms next = termsOf<kernel>(blocks[b], at, shift);
+    sum.f = sum.f + next.f;
+    sum.x = sum.x + next.x;
+    sum.y = sum.y + next.y;
+    sum.z = sum.z + next.z;
   }
-  return sums(f, gx, gy, gz);
+  return sums(sum.f, sum.x, sum.y, sum.z);
 }
 
 // f and grad f of one node's model at x, relative to the node's centre.
@@ -171,7 +184,7 @@ inline std::uint32_t lowerNeighbour(const View& view, std::uint32_t node, const 
 
 // Rounding could let two nodes each see less power in the other: never straight back.
 // x is the point relative to the node, before and after.
-inline std::uint32_t followFrom(const View& view, const double* point, std::uint32_t node, F4& x) {
+inline std::uint32_t followFrom(const View& view, const D4& point, std::uint32_t node, F4& x) {
   constexpr int kMaxSteps = 256;
   std::uint32_t before = node;
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -288,7 +301,7 @@ inline Lane evaluateLocal(const View& view, std::uint32_t node, F4 x) {
 }
 
 template <int kernel>
-inline Lane evaluateBlended(const View& view, const double* point, std::uint32_t node, F4 x) {
+inline Lane evaluateBlended(const View& view, const D4& point, std::uint32_t node, F4 x) {
   ActiveNodes active;
   active.add(node);
   F4 weight = weigh(view, node, x, active);

@@ -66,26 +66,20 @@ inline F8 wallDistance(F8 difference, F8 slope, F8 radius, M8 inside) {
   return select(less(zero, d), distance, zero);
 }
 
+// From f, grad f, the point relative to its node and the radius: distance and normal; f and grad f
+// without their shift; which lanes are inside.
 template <int kernel>
-LUMEN_NOINLINE void finishGroup(const View& view, Group& g) {
+inline M8 finishLanes(const View& view, F8 field[4], const F8 at[4], F8 shift, F8 wall[4]) {
   const F8 zero = set1(0.0f), one = set1(1.0f);
-  F8 field[4], at[4];
-  fromRows(g.field, field);
-  fromRows(g.at, at);
-  const F8 f = field[0], shift = load(g.shift), radius = at[3];
-  F8 scaled = f;
+  const F8 f = field[0], radius = at[3];
+  const F8 inverseF = one / f;
+  F8 ex = field[1] * inverseF, ey = field[2] * inverseF, ez = field[3] * inverseF;
   if constexpr (kernel == BLOB_GAUSSIAN) {
     const F8 kept = exponential(max(zero - shift, set1(-87.0f)));
     const F8 scale = select(less(set1(87.0f), shift), zero, kept);
-    scaled = f * scale;
-    const F8 columns[4] = {scaled, field[1] * scale, field[2] * scale, field[3] * scale};
-    toRows(columns, g.field);
+    for (int i = 0; i < 4; ++i) field[i] = field[i] * scale;
   }
-  const M8 inside = less(set1(view.level), scaled);
-  g.insideBits = maskBits(inside);
-
-  const F8 inverseF = one / f;
-  F8 ex = field[1] * inverseF, ey = field[2] * inverseF, ez = field[3] * inverseF;
+  const M8 inside = less(set1(view.level), field[0]);
   F8 length = sqrt((ex * ex + ey * ey) + ez * ez);
   F8 h, slope;
   straighten<kernel>(f, inverseF, length, shift, h, slope);
@@ -93,15 +87,30 @@ LUMEN_NOINLINE void finishGroup(const View& view, Group& g) {
 
   // The wall is no farther than the other side of the node's ball: a bound where grad f is nearly
   // zero outside. Where f vanishes there is only the ball.
-  const F8 toCentre = sqrt((at[0] * at[0] + at[1] * at[1]) + at[2] * at[2]);
-  const M8 usable = less(set1(kVanished), f);
-  distance = select(inside, distance, min(distance, toCentre + radius));
-  distance = select(usable, distance, max(toCentre - radius, zero));
-  ex = select(usable, ex, zero - at[0]);
-  ey = select(usable, ey, zero - at[1]);
-  ez = select(usable, ez, zero - at[2]);
-  length = select(usable, length, toCentre);
+  if (maskBits(inside) != (1U << kLanes) - 1U) {
+    const F8 toCentre = sqrt((at[0] * at[0] + at[1] * at[1]) + at[2] * at[2]);
+    const M8 usable = less(set1(kVanished), f);
+    distance = select(inside, distance, min(distance, toCentre + radius));
+    distance = select(usable, distance, max(toCentre - radius, zero));
+    ex = select(usable, ex, zero - at[0]);
+    ey = select(usable, ey, zero - at[1]);
+    ez = select(usable, ez, zero - at[2]);
+    length = select(usable, length, toCentre);
+  }
   const F8 inverse = select(less(zero, length), set1(-1.0f) / length, zero);
-  const F8 wall[4] = {distance, ex * inverse, ey * inverse, ez * inverse};
+  wall[0] = distance;
+  wall[1] = ex * inverse;
+  wall[2] = ey * inverse;
+  wall[3] = ez * inverse;
+  return inside;
+}
+
+template <int kernel>
+LUMEN_NOINLINE void finishGroup(const View& view, Group& g) {
+  F8 field[4], at[4], wall[4];
+  fromRows(g.field, field);
+  fromRows(g.at, at);
+  g.insideBits = maskBits(finishLanes<kernel>(view, field, at, load(g.shift), wall));
+  if constexpr (kernel == BLOB_GAUSSIAN) toRows(field, g.field);
   toRows(wall, g.wall);
 }

@@ -24,6 +24,7 @@ namespace portable {
 #include "path_locate.h"
 #include "path_distance.h"
 #include "path_query.h"
+#include "path_table.h"
 }  // namespace portable
 }  // namespace
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading points, finding their nodes, writing answers; and the functions of the table. Include after
-// path_distance.h.
+// Reading points, finding their nodes, writing answers. Include after path_distance.h.
 
 template <class T>
 inline T* column(T* first, std::size_t index, std::ptrdiff_t stride) {
@@ -16,9 +15,11 @@ inline void put(T* first, std::size_t index, std::ptrdiff_t stride, V value) {
 
 // The point relative to its node, which is located first if unknown; false for a point that is not
 // finite or too far away.
-inline bool enterNode(const View& view, const double* point, std::uint32_t& node, F4& x) {
+inline bool enterNode(const View& view, const D4& point, std::uint32_t& node, F4& x) {
   if (node >= view.nodeCount) {
-    node = locateAny(view.model, point);
+    double p[4];
+    std::memcpy(p, &point, sizeof p);
+    node = locateAny(view.model, p);
     if (node >= view.nodeCount) return false;
   }
   x = relative(view.nodes[node], point);
@@ -33,8 +34,8 @@ inline void leaveEmpty(Group& g, std::size_t i) {
 }
 
 // Finds the node of a point; false for a point that needs answerRemote().
-inline bool placeLane(const View& view, bool hold, const double* point, std::uint32_t& node,
-                      Group& g, std::size_t i) {
+inline bool placeLane(const View& view, bool hold, const D4& point, std::uint32_t& node, Group& g,
+                      std::size_t i) {
   F4 x;
   if (!enterNode(view, point, node, x)) return false;
   if (!hold) node = followFrom(view, point, node, x);
@@ -43,7 +44,7 @@ inline bool placeLane(const View& view, bool hold, const double* point, std::uin
 }
 
 template <int kernel, bool local>
-inline void evaluateLane(const View& view, const double* point, std::uint32_t node, Group& g,
+inline void evaluateLane(const View& view, const D4& point, std::uint32_t node, Group& g,
                          std::size_t i) {
   const F4 x = load4(g.at[i]);
   Lane lane;
@@ -135,7 +136,7 @@ LUMEN_NOINLINE unsigned placeGroup(const View& view, bool hold, std::size_t coun
                                    Group& g) {
   unsigned remote = 0;
   for (std::size_t i = 0; i < count; ++i)
-    if (!placeLane(view, hold, in.point[i], in.node[i], g, i)) remote |= 1U << i;
+    if (!placeLane(view, hold, load4(in.point[i]), in.node[i], g, i)) remote |= 1U << i;
   return remote;
 }
 
@@ -144,15 +145,96 @@ LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned 
                                   const Inputs& in, Group& g) {
   if (remote == 0) {
     for (std::size_t i = 0; i < count; ++i)
-      evaluateLane<kernel, local>(view, in.point[i], in.node[i], g, i);
+      evaluateLane<kernel, local>(view, load4(in.point[i]), in.node[i], g, i);
   } else {
     for (std::size_t i = 0; i < count; ++i)
       if ((remote >> i & 1U) != 0)
         leaveEmpty(g, i);
       else
-        evaluateLane<kernel, local>(view, in.point[i], in.node[i], g, i);
+        evaluateLane<kernel, local>(view, load4(in.point[i]), in.node[i], g, i);
   }
   for (std::size_t i = count; i < kLanes; ++i) leaveEmpty(g, i);
+}
+
+// A few points side by side, so that one's chain of operations fills the pauses of another's: the
+// processor does not look far enough ahead to find the next point by itself.
+constexpr std::size_t kTogether = 4;
+
+// Bits of those whose cursors may move, or all if a node does not have one block of
+// neighbours; the others are placed.
+inline unsigned stayTogether(const View& view, bool hold, const Inputs& in, Group& g,
+                             std::size_t first) {
+  constexpr unsigned kAll = (1U << kTogether) - 1U;
+  const NodeRecord* node[kTogether];
+  unsigned others = 0;
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    const std::uint32_t index = in.node[first + k];
+    if (index >= view.nodeCount) return kAll;
+    node[k] = view.nodes + index;
+    others |= node[k]->fanCount ^ 1U;
+  }
+  if (others != 0) return kAll;
+  F4 squares = set4(0.0f);
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    const F4 x = relative(*node[k], load4(in.point[first + k]));
+    store4(g.at[first + k], x);
+    squares = squares + x * x;
+  }
+  if (!isWithin(squares, static_cast<float>(kFar * kFar))) return kAll;
+  if (hold) return 0;
+  unsigned moving = 0;
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    const F8 difference = powerDifference(view.fans[node[k]->fan], Splats(g.at[first + k]));
+    moving |= (maskBits(less(difference, set1(0.0f))) != 0 ? 1U : 0U) << k;
+  }
+  return moving;
+}
+
+template <int kernel>
+inline void evaluateTogether(const View& view, const Inputs& in, Group& g, std::size_t first) {
+  Terms terms[kTogether];
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    const FieldNode& node = view.node(in.node[first + k]);
+    const Splats at(g.at[first + k]);
+    const BlobBlock& block = view.blocks[node.block];
+    const float shift = kernel == BLOB_GAUSSIAN ? leastExponent(&block, 1, at) : 0.0f;
+    terms[k] = termsOf<kernel>(block, at, shift);
+    g.shift[first + k] = shift;
+    g.at[first + k][3] = node.place[3];
+  }
+  for (std::size_t k = 0; k < kTogether; ++k)
+    store4(g.field[first + k], sums(terms[k].f, terms[k].x, terms[k].y, terms[k].z));
+}
+
+// Bits of the points that need answerRemote().
+LUMEN_NOINLINE unsigned placeTogether(const View& view, bool hold, std::size_t count, Inputs& in,
+                                      Group& g) {
+  if (count != kLanes) return placeGroup(view, hold, count, in, g);
+  unsigned remote = 0;
+  for (std::size_t first = 0; first < kLanes; first += kTogether) {
+    unsigned left = stayTogether(view, hold, in, g, first);
+    for (; left != 0; left &= left - 1) {
+      const std::size_t i = first + static_cast<std::size_t>(__builtin_ctz(left));
+      if (!placeLane(view, hold, load4(in.point[i]), in.node[i], g, i)) remote |= 1U << i;
+    }
+  }
+  return remote;
+}
+
+template <int kernel>
+LUMEN_NOINLINE unsigned answerLocal(const View& view, bool hold, std::size_t count, Inputs& in,
+                                    Group& g) {
+  const unsigned remote = placeTogether(view, hold, count, in, g);
+  unsigned simple = count == kLanes && remote == 0 ? 1U : 0U;
+  if (simple != 0)
+    for (const std::uint32_t node : in.node) simple &= view.node(node).isSimple;
+  if (simple == 0) {
+    evaluateGroup<kernel, true>(view, count, remote, in, g);
+    return remote;
+  }
+  for (std::size_t first = 0; first < kLanes; first += kTogether)
+    evaluateTogether<kernel>(view, in, g, first);
+  return remote;
 }
 
 inline void writeCursors(const blob_columns& c, std::size_t first, std::size_t count,
@@ -196,137 +278,16 @@ inline void queryBatch(const View& view, std::uint32_t flags, const Job& job, st
   for (std::size_t g = 0; g < groups; ++g) {
     readInputs(job.columns, first + g * kLanes, sizeOf(g), batch.in[g]);
     Inputs& in = batch.in[g];
-    const unsigned remote =
-        placeGroup(view, (flags & BLOB_HOLD) != 0, sizeOf(g), in, batch.group[g]);
-    batch.remote[g] = remote;
-    if ((flags & BLOB_LOCAL) != 0)
-      evaluateGroup<kernel, true>(view, sizeOf(g), remote, in, batch.group[g]);
-    else
-      evaluateGroup<kernel, false>(view, sizeOf(g), remote, in, batch.group[g]);
+    const bool hold = (flags & BLOB_HOLD) != 0;
+    if ((flags & BLOB_LOCAL) != 0) {
+      batch.remote[g] = answerLocal<kernel>(view, hold, sizeOf(g), in, batch.group[g]);
+    } else {
+      batch.remote[g] = placeTogether(view, hold, sizeOf(g), in, batch.group[g]);
+      evaluateGroup<kernel, false>(view, sizeOf(g), batch.remote[g], in, batch.group[g]);
+    }
   }
   for (std::size_t g = 0; g < groups; ++g) finishGroup<kernel>(view, batch.group[g]);
   for (std::size_t g = 0; g < groups; ++g)
     writeGroup(view, flags, job, first + g * kLanes, sizeOf(g), batch.in[g], batch.group[g],
                batch.remote[g]);
-}
-
-// ---------------------------------------------------------------- the table's functions
-
-// With the fourth, zero coordinate.
-struct alignas(32) Point4 {
-  explicit Point4(const double* p) : at{p[0], p[1], p[2], 0} {}
-  double at[4];
-};
-
-inline std::uint32_t tableFollow(const blob_model& model, const double* point, std::uint32_t node) {
-  const Point4 p(point);
-  const View view(model, 0);
-  F4 x = relative(view.nodes[node], p.at);
-  return followFrom(view, p.at, node, x);
-}
-
-// f of one node, without its gradient.
-template <int kernel>
-inline float valueOfNode(const View& view, const FieldNode& node, F4 x) {
-  const Splats at(x + load4(node.place));
-  F8 f = set1(0.0f);
-  for (std::uint32_t b = node.block; b < node.block + node.blockCount; ++b) {
-    const BlobBlock& block = view.blocks[b];
-    F8 value, slope;
-    kernelTerms<kernel>(offsetsOf(block, at).u, load(block.a), load(block.w), value, slope);
-    f = f + value;
-  }
-  return sumOf(f);
-}
-
-template <int kernel>
-inline bool tableInside(const blob_model& model, std::uint32_t flags, const double* point,
-                        std::uint32_t node) {
-  const Point4 p(point);
-  const View view(model, flags);
-  const F4 x = relative(view.nodes[node], p.at);
-  if ((flags & BLOB_LOCAL) != 0) return valueOfNode<kernel>(view, view.node(node), x) > view.level;
-  const Lane lane = evaluateBlended<kernel>(view, p.at, node, x);
-  const float scale = kernel == BLOB_GAUSSIAN ? exponential(0.0f - lane.shift) : 1.0f;
-  return firstOf(lane.field) * scale > view.level;
-}
-
-// Every blob's part falls with the distance from its centre, so the ends of the ball along the line
-// through the centre bound it.
-template <int kernel>
-inline void boundNode(const View& view, const FieldNode& node, F4 x, float radius, float& least,
-                      float& greatest) {
-  const Splats at(x + load4(node.place));
-  F8 low = set1(0.0f), high = low;
-  for (std::uint32_t b = node.block; b < node.block + node.blockCount; ++b) {
-    const Offsets d = offsetsOf(view.blocks[b], at);
-    const F8 a = load(view.blocks[b].a), w = load(view.blocks[b].w);
-    const F8 r = sqrt((d.x * d.x + d.y * d.y) + d.z * d.z);
-    const F8 far = r + set1(radius), near = max(r - set1(radius), set1(0.0f));
-    F8 value, slope;
-    kernelTerms<kernel>(a * (far * far), a, w, value, slope);
-    low = low + value;
-    kernelTerms<kernel>(a * (near * near), a, w, value, slope);
-    high = high + value;
-  }
-  constexpr float kRounding = 1e-5f;
-  const float lowSum = sumOf(low) * (1.0f - kRounding), highSum = sumOf(high) * (1.0f + kRounding);
-  least = lowSum < least ? lowSum : least;
-  greatest = highSum > greatest ? highSum : greatest;
-}
-
-// A neighbour may take part somewhere in the ball unless it stays beaten, by tau if blended.
-template <int kernel>
-inline void tableBounds(const blob_model& model, std::uint32_t flags, const double* point,
-                        std::uint32_t node, float radius, float* least, float* greatest) {
-  const Point4 p(point);
-  const View view(model, flags);
-  const float margin = (flags & BLOB_LOCAL) != 0 ? 0.0f : 1.0f;
-  const NodeRecord& record = view.nodes[node];
-  const F4 x = relative(record, p.at);
-  *least = 3e38f;
-  *greatest = 0;
-  boundNode<kernel>(view, view.node(node), x, radius, *least, *greatest);
-  if ((flags & BLOB_HOLD) != 0 && (flags & BLOB_LOCAL) != 0) return;
-  for (std::uint32_t b = record.fan; b < record.fan + record.fanCount; ++b) {
-    const FanBlock& fan = view.fans[b];
-    const F8 nx = load(fan.nx), ny = load(fan.ny), nz = load(fan.nz);
-    const F8 reach = set1(radius) * sqrt((nx * nx + ny * ny) + nz * nz);
-    const F8 lowest = (powerDifference(fan, Splats(x)) - reach) * load(fan.inverseTau);
-    for (unsigned rivals = maskBits(less(lowest, set1(margin))); rivals != 0;
-         rivals &= rivals - 1) {
-      const std::uint32_t k = fan.node[__builtin_ctz(rivals)];
-      boundNode<kernel>(view, view.node(k), relative(view.nodes[k], p.at), radius, *least,
-                        *greatest);
-    }
-  }
-}
-
-template <int kernel>
-inline void tableQuery(const blob_model& model, std::uint32_t flags, const Job& job) {
-  const View view(model, flags);
-  Batch batch;
-  constexpr std::size_t kMost = kGroups * kLanes;
-  for (std::size_t first = 0; first < job.columns.count; first += kMost) {
-    const std::size_t left = job.columns.count - first;
-    queryBatch<kernel>(view, flags, job, first, left < kMost ? left : kMost, batch);
-  }
-}
-
-template <int kernel>
-constexpr PathTable kTable{&locateLeast, &tableFollow, &tableInside<kernel>, &tableBounds<kernel>,
-                           &tableQuery<kernel>};
-
-inline const PathTable* tableOf(blob_kernel kernel) {
-  switch (kernel) {
-    case BLOB_CAUCHY:
-      return &kTable<BLOB_CAUCHY>;
-    case BLOB_GAUSSIAN:
-      return &kTable<BLOB_GAUSSIAN>;
-    case BLOB_QUARTIC:
-      return &kTable<BLOB_QUARTIC>;
-    case BLOB_SOFT_OBJECT:
-      break;
-  }
-  return &kTable<BLOB_SOFT_OBJECT>;
 }

@@ -15,6 +15,7 @@ namespace scalar {
 #include "path_locate.h"
 #include "path_distance.h"
 #include "path_query.h"
+#include "path_table.h"
 }  // namespace scalar
 }  // namespace
 

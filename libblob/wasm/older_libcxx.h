@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What emscripten 3.1.6 in Debian 12 lacks of the C++20 library (its libc++ is 13), for forced inclusion.
+// What emscripten 3.1.6 in Debian 12 lacks of the C++20 library (its libc++ is 13), for forced
+// inclusion.
 #pragma once
 
 #ifdef __cplusplus

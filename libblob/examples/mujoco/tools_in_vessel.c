@@ -168,19 +168,18 @@ static outcome simulate(const mjModel* m, const blob_model* vessel, uint32_t roo
   return o;
 }
 
-static int run(const blob_model* vessel, uint32_t node) {
-  const uint32_t root = root_of(vessel, node);
+static int run(const blob_model* vessel, uint32_t root, int sides) {
   int good = 1;
-  for (int side = 0; side < 6; ++side) {
+  for (int side = 0; side < sides; ++side) {
     double gravity[3] = {0, 0, 0};
-    gravity[side / 2] = side % 2 == 0 ? -1 : 1;
-    mjModel* m = build(vessel, node, gravity);
+    gravity[side % 3] = side < 3 ? -1 : 1;
+    mjModel* m = build(vessel, root, gravity);
     if (m == NULL || !vessel_attach(m, "vessel", vessel, 1)) return 1;
     const outcome o = simulate(m, vessel, root);
     printf(
-        "node %u, gravity %+g %+g %+g: deepest %.4f mm in the wall, travelled %.2f mm, "
+        "root %u, gravity %+g %+g %+g: deepest %.4f mm in the wall, travelled %.2f mm, "
         "outside %d, in another vessel %d\n",
-        node, gravity[0], gravity[1], gravity[2], o.deepest, o.travel, o.left, o.crossings);
+        root, gravity[0], gravity[1], gravity[2], o.deepest, o.travel, o.left, o.crossings);
     good = good && o.left == 0 && o.crossings == 0;
     vessel_detach();
     mj_deleteModel(m);
@@ -189,9 +188,11 @@ static int run(const blob_model* vessel, uint32_t node) {
 }
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    fputs("Usage: tools_in_vessel MODEL.lumen [NODE]...\nTools start at each node; 0 by default.\n",
-          stderr);
+  if (argc < 2 || argc > 3) {
+    fputs(
+        "Usage: tools_in_vessel MODEL.lumen [SIDES]\n"
+        "SIDES 1 to 6: gravity towards -x, -y, -z, +x, +y, +z; all by default.\n",
+        stderr);
     return 2;
   }
   blob_model* vessel = NULL;
@@ -200,8 +201,11 @@ int main(int argc, char** argv) {
     fprintf(stderr, "tools_in_vessel: %s: %s\n", argv[1], blob_status_text(status));
     return 1;
   }
-  int failed = argc == 2 ? run(vessel, 0) : 0;
-  for (int i = 2; i < argc; ++i) failed |= run(vessel, (uint32_t)strtoul(argv[i], NULL, 10));
+  const int sides = argc == 3 ? atoi(argv[2]) : 6;
+  const size_t count = blob_model_describe(vessel).node_count;
+  int failed = 0;
+  for (uint32_t i = 0; i < count; ++i)
+    if (blob_model_node(vessel, i).parent < 0) failed |= run(vessel, i, sides < 6 ? sides : 6);
   blob_model_close(vessel);
   return failed;
 }
