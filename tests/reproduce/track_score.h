@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// One tracking of a phantom, scored branch by branch and node by node.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "converters/compare/compare.h"
+#include "converters/phantom/phantom.h"
+#include "converters/volume/tracker.h"
+
+namespace lumen::reproduce {
+
+/// Of a vessel of the truth.
+struct BranchOutcome {
+  double radius = 0;  ///< mean of the true nodes, voxels
+  double length = 0;  ///< true, mm
+  bool started = false;
+  bool leaked =
+      false;  ///< a node lies outside its own vessel, in another one that is no child of it
+  convert::CenterlineScore score;
+};
+
+/// Of a tracked vessel; its first nodes are left out as far as they lie in the true parent's lumen.
+struct NodeOutcome {
+  double trueRadius = 0;   ///< at the nearest point of the true branch, voxels
+  double radiusError = 0;  ///< found minus true, voxels
+  double centreError = 0;  ///< distance to the true centerline of the branch, voxels
+  double inlierRate = 0;
+};
+
+struct TrackOutcome {
+  double voxel = 0;  ///< mm
+  convert::CenterlineScore score;
+  std::vector<BranchOutcome> branches;
+  std::vector<NodeOutcome> nodes;
+};
+
+/// Tracks with default options and the given seeds.
+TrackOutcome trackAndScore(const convert::Phantom& phantom, Progress& progress);
+
+/// Errors of the clicks on vessels. Directions and radii are those of the nearest true node.
+struct ClickError {
+  double offset = 0;  ///< across the vessel, in true radii
+  double tilt = 0;    ///< degrees off the true direction; negative: no direction is given
+  double factor =
+      0;  ///< on the true radius; 0: the radius is left as it was, negative: none is given
+};
+
+/// Moves the first click of every vessel in a random direction.
+void disturbClicks(convert::Phantom& phantom, const ClickError& error, std::uint64_t seed);
+
+}  // namespace lumen::reproduce
