@@ -144,6 +144,8 @@ install_validator() {
 
 run_tests() {
   have_node || packages+=(nodejs npm)
+  # libblob's examples and bindings, each left out where it is missing
+  packages+=(libembree-dev libmujoco-dev emscripten python3-numpy)
   install_packages "${packages[@]}"
   configure_and_build
   install_validator

@@ -104,7 +104,7 @@ public:
     ChunkSource source;
     source.type = chunk::kPointPosition;
     source.rawSize = points.size() * 12;
-    if (source.rawSize / kMaxExpansion > quantised->encoded.size())
+    if (source.rawSize > kMaxExpansion * quantised->encoded.size())
       return add(chunk::kPointPosition, packed(quantised->decoded()));
     source.encoding = static_cast<std::uint8_t>(ChunkEncoding::Draco);
     source.bytes = quantised->encoded;

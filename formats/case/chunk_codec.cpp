@@ -39,7 +39,7 @@ std::optional<std::vector<std::byte>> compressZstd(std::span<const std::byte> by
   std::vector<std::byte> stored(ZSTD_compressBound(bytes.size()));
   const std::size_t size =
       ZSTD_compress(stored.data(), stored.size(), bytes.data(), bytes.size(), kLevel);
-  if (ZSTD_isError(size) != 0 || size >= bytes.size() || bytes.size() / kMaxExpansion > size)
+  if (ZSTD_isError(size) != 0 || size >= bytes.size() || bytes.size() > kMaxExpansion * size)
     return std::nullopt;
   stored.resize(size);
   return stored;

@@ -111,7 +111,8 @@ std::optional<FormatVersion> parseVersion(std::string_view text) {
   const auto major = std::from_chars(text.data(), end, version.major);
   if (major.ec != std::errc{} || major.ptr == end || *major.ptr != '.') return std::nullopt;
   const auto minor = std::from_chars(major.ptr + 1, end, version.minor);
-  if (minor.ec != std::errc{} || minor.ptr != end || version.major == 0) return std::nullopt;
+  if (minor.ec != std::errc{} || minor.ptr != end || end - major.ptr > 4) return std::nullopt;
+  if (text.front() == '0') return std::nullopt;
   return version;
 }
 
@@ -192,10 +193,18 @@ OtherChunk readChunk(const json& value, const std::string& place, JsonReadState&
   chunk.version = fields.integer<std::uint16_t>("version");
   chunk.independent = fields.boolean("independent");
   chunk.encoding = fields.integer<std::uint8_t>("encoding");
-  if (fields.find("rawSize") != nullptr) {
+  const bool hasRawSize = fields.find("rawSize") != nullptr;
+  if (hasRawSize) {
     const auto size = fields.integer<std::int64_t>("rawSize");
+    if (size < 0)
+      state.fail(ErrorCode::NumberRange, place + "/rawSize", "found a size below 0",
+                 {{"found", std::to_string(size)}});
     chunk.rawSize = size < 0 ? 0 : static_cast<std::uint64_t>(size);
   }
+  if (hasRawSize != (chunk.encoding != 0))
+    state.fail(ErrorCode::JsonChunkData, place + "/rawSize",
+               "a raw size belongs to chunks of another encoding than 0, and to those alone",
+               {{"chunk", chunk.type.substr(0, 4)}});
   const std::string data = fields.text("data");
   fields.finish();
   if (auto bytes = fromBase64(data)) {

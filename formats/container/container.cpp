@@ -235,7 +235,7 @@ Expected<Chunk, Failure> locateChunk(Bytes bytes, const Entry& entry, std::uint6
                     {"expected", std::to_string(chunk.rawSize)}}};
   const bool known = chunk.encoding == static_cast<std::uint8_t>(ChunkEncoding::Zstd) ||
                      chunk.encoding == static_cast<std::uint8_t>(ChunkEncoding::Draco);
-  if (known && chunk.rawSize / kMaxExpansion > entry.storedSize)
+  if (known && chunk.rawSize > kMaxExpansion * entry.storedSize)
     return Failure{ErrorCode::ChunkExpansion,
                    entryAt + 24,
                    name + " states " + std::to_string(chunk.rawSize) + " raw bytes for " +

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/seeds_input.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "converters/common/error.h"
+#include "converters/volume/seeds.h"
+#include "fuzz/fuzz_support.h"
+
+namespace lumen::fuzz {
+namespace {
+
+/// One file in memory for the life of the program.
+int memoryFile() {
+  static const int file = memfd_create("seeds", 0);
+  expect(file >= 0, "there is a file in memory");
+  return file;
+}
+
+void checkRules(const std::vector<convert::SeedBranch>& branches) {
+  std::set<std::string> labels;
+  for (const convert::SeedBranch& branch : branches) {
+    expect(!branch.label.empty() && branch.label.size() <= 255, "labels have 1 to 255 bytes");
+    expect(!branch.points.empty(), "branches have a point");
+    expect(!branch.parent || labels.count(*branch.parent) == 1, "parents come first");
+    expect(labels.insert(branch.label).second, "labels are unique");
+    for (const convert::SeedPoint& point : branch.points) {
+      expect(point.position.allFinite(), "positions are finite");
+      expect(!point.radius || *point.radius > 0, "radii are positive");
+    }
+    expect(!branch.direction || std::abs(branch.direction->norm() - 1) < 1e-9,
+           "directions are unit vectors");
+  }
+}
+
+}  // namespace
+
+void readSeedsOf(const std::uint8_t* data, std::size_t size) {
+  const int file = memoryFile();
+  expect(ftruncate(file, 0) == 0, "the file can be emptied");
+  expect(pwrite(file, data, size, 0) == static_cast<ssize_t>(size), "the file can be written");
+  try {
+    checkRules(convert::readSeeds("/proc/self/fd/" + std::to_string(file)));
+  } catch (const lumen::Error& error) {
+    expect(error.kind() == lumen::ErrorKind::InvalidInput, "bad seeds are invalid input");
+  }
+}
+
+}  // namespace lumen::fuzz
