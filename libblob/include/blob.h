@@ -37,7 +37,8 @@
  *
  * Arithmetic. Points are doubles. Within a node's neighbourhood the work is done in floats relative to
  * the node's centre, a relative error of some 1e-6. Every SIMD path gives the same bits as the scalar one
- * on every machine, batches give the bits of single queries, and no result depends on the number of
+ * on every machine (BLOB_DISTANCE_EXACT also calls the C library's hypot, sin and cos: the last bits are
+ * that library's), batches give the bits of single queries, and no result depends on the number of
  * threads.
  */
 #ifndef LUMEN_BLOB_H
@@ -231,7 +232,9 @@ BLOB_API uint32_t blob_cursor_follow(const blob_model* model, const double point
  *
  * Measured on a fitted tree of 40 vessels (LOCAL in brackets): at 22,763 seams value, gradient and distance
  * jump by at most 2e-7 in 99.9 % (0.08 mm, 0.55, 0.12 mm), and by more than 1e-5 at one, outside of the
- * lumen, where nodes far apart along the tree can tie. At most 24 models blend.
+ * lumen, where nodes far apart along the tree can tie. At most 24 models blend. On a real angiogram with
+ * vessels of one voxel, 32 of 46,525 seams jump, 15 of them in the lumen, by up to 0.65 mm in f: there the
+ * blend is not continuous.
  */
 #define BLOB_BLENDED 0u
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Differential: a case that our reader accepts is the same after every way of writing and reading
 // it again, and its canonical bytes are a fixed point.
-#include "formats/case/case_as_view.h"
+#include <cstdint>
+
 #include "formats/case/case_file.h"
 #include "formats/container/case_view.h"
 #include "fuzz/fuzz_support.h"
@@ -10,6 +11,13 @@ namespace {
 
 using namespace lumen::formats;
 using lumen::fuzz::expect;
+
+// JSON states raw sizes of chunks of others up to 2^63 - 1 (other-chunk.schema.json).
+bool hasJson(const Case& value) {
+  for (const OtherChunk& chunk : value.otherChunks)
+    if (chunk.rawSize > static_cast<std::uint64_t>(INT64_MAX)) return false;
+  return true;
+}
 
 void compareView(const Case& value, const CaseView& view) {
   const CenterlineTree& tree = value.tree;
@@ -42,8 +50,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto view = viewCase(canonical, Verify::All);
   expect(static_cast<bool>(view), "a canonical file can be viewed");
   compareView(*first, *view);
-  const auto json = decodeJson(encodeJson(*first));
-  expect(json && encodeBinary(*json) == canonical, "JSON gives back the same bytes");
+  if (hasJson(*first)) {
+    const auto json = decodeJson(encodeJson(*first));
+    expect(json && encodeBinary(*json) == canonical, "JSON gives back the same bytes");
+  }
   EncodeOptions small;
   small.compress = true;
   const auto compressed = decodeBinary(encodeBinary(*first, small));
