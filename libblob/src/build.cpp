@@ -109,34 +109,7 @@ std::vector<FieldNode> buildField(const blob_model_def& def, const blob_blobs& b
   return nodes;
 }
 
-// The greatest square of the lengths of a node's edges, mm^2.
-std::vector<double> spacings(const blob_model_def& def, const Neighbourhood& edges) {
-  std::vector<double> result(def.node_count, 0.0);
-  for (std::size_t i = 0; i < def.node_count; ++i)
-    for (std::uint32_t e = edges.offset[i]; e < edges.offset[i + 1]; ++e) {
-      double square = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double d = double{def.centre[edges.node[e]][axis]} - double{def.centre[i][axis]};
-        square += d * d;
-      }
-      result[i] = std::max(result[i], square);
-    }
-  return result;
-}
-
-// Of an edge, a share of the square of its length: along a straight chain two models blend in that
-// share of the way between two nodes, and one is alone near a node. A farther pair blends no wider:
-// it has a say only where its nodes nearly tie.
-double blendingWidth(const blob_model_def& def, std::size_t i, std::size_t k, double square,
-                     bool isEdge, double spacing) {
-  constexpr double kShare = 0.6;
-  constexpr double kLeast = 1e-3;  // of a radius squared: nodes in one place share evenly
-  const double radius = std::min(def.radius[i], def.radius[k]);
-  const double width = isEdge ? kShare * square : std::min(0.5 * square, kShare * spacing);
-  return std::max(width, kLeast * radius * radius);
-}
-
-void addRival(const blob_model_def& def, std::size_t i, std::uint32_t k, bool isEdge,
+void addRival(const blob_model_def& def, std::uint32_t i, std::uint32_t k, bool isEdge,
               double spacing, std::size_t lane, FanBlock& fan) {
   double offset[3], square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -148,13 +121,12 @@ void addRival(const blob_model_def& def, std::size_t i, std::uint32_t k, bool is
   fan.ny[lane] = static_cast<float>(-2.0 * offset[1]);
   fan.nz[lane] = static_cast<float>(-2.0 * offset[2]);
   fan.c[lane] = static_cast<float>(square - rk * rk + ri * ri);
-  fan.inverseTau[lane] =
-      static_cast<float>(1.0 / blendingWidth(def, i, k, square, isEdge, spacing));
+  fan.inverseTau[lane] = static_cast<float>(1.0 / blendingWidth(def, i, k, isEdge, spacing));
   fan.node[lane] = k;
 }
 
 void addFan(const blob_model_def& def, const Neighbourhood& around,
-            const std::vector<double>& spacing, std::size_t i, blob_model& model) {
+            const std::vector<double>& spacing, std::uint32_t i, blob_model& model) {
   const std::uint32_t begin = around.offset[i], end = around.offset[i + 1];
   const std::size_t first = model.fans.size(), count = (end - begin + kLanes - 1) / kLanes;
   FanBlock empty{};
@@ -193,8 +165,8 @@ std::unique_ptr<blob_model> buildModel(const blob_model_def& def) {
   const Neighbourhood edges = edgesOf(def);
   const Neighbourhood around = neighbourhoodOf(def, edges);
   buildNodes(def, *model);
-  const std::vector<double> spacing = spacings(def, edges);
-  for (std::size_t i = 0; i < def.node_count; ++i) addFan(def, around, spacing, i, *model);
+  const std::vector<double> spacing = spacingsOf(def, edges);
+  for (std::uint32_t i = 0; i < def.node_count; ++i) addFan(def, around, spacing, i, *model);
   const std::vector<FieldNode> fields = buildField(def, def.blobs, edges, model->main);
   for (std::size_t i = 0; i < def.node_count; ++i) model->nodes[i].field = fields[i];
   if (def.twin != nullptr) model->twinNodes = buildField(def, *def.twin, edges, model->twin);

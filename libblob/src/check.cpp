@@ -37,7 +37,7 @@ blob_status checkOffsets(const std::uint32_t* offset, std::size_t nodeCount) noe
 
 blob_status checkBlobs(const blob_blobs& blobs, std::size_t nodeCount) noexcept {
   if (blobs.offset == nullptr) return BLOB_ERROR_ARGUMENT;
-  const int kernel = blobs.kernel;
+  const int kernel = codeOf(blobs.kernel);
   if (kernel < BLOB_CAUCHY || kernel > BLOB_SOFT_OBJECT) return BLOB_ERROR_KERNEL;
   const bool hasParameter = kernel == BLOB_CAUCHY || kernel == BLOB_GAUSSIAN;
   if (hasParameter && !within(blobs.kernel_parameter, kMinParameter, kMaxParameter))

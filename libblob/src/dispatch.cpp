@@ -32,7 +32,7 @@ const PathTable* pathOf(blob_simd simd, blob_kernel kernel) noexcept {
 }  // namespace
 
 const PathTable* choosePath(blob_kernel kernel, blob_simd& wanted) noexcept {
-  int simd = wanted;
+  int simd = codeOf(wanted);
   if (simd <= BLOB_SIMD_BEST || simd > BLOB_SIMD_AVX512) simd = BLOB_SIMD_AVX512;
   for (; simd > BLOB_SIMD_SCALAR; --simd)
     if (const PathTable* path = pathOf(static_cast<blob_simd>(simd), kernel)) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -14,6 +15,15 @@ namespace lumen::blob {
 constexpr int kLanes = 8;
 constexpr double kFar = 1e9;         ///< mm from a node; beyond, f counts as zero
 constexpr float kVanished = 1e-20f;  ///< mm; below, the terms of grad f may underflow
+
+/// What a caller in C has stored in an enumeration, which may be none of its values.
+template <class Enumeration>
+int codeOf(const Enumeration& stored) noexcept {
+  static_assert(sizeof stored == sizeof(int));
+  int code;
+  std::memcpy(&code, &stored, sizeof code);
+  return code;
+}
 
 /// Eight blobs relative to their node's centre. Padding has a = w = 0 and adds exactly nothing.
 struct alignas(32) BlobBlock {

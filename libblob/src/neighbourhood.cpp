@@ -3,29 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
+
+#include "radical_disc.h"
 
 namespace lumen::blob {
 namespace {
 
 // Bounds on the work and memory of one node, whatever the tree.
-constexpr std::size_t kMaxVisited = 96;
-constexpr std::size_t kMaxDistant = 24;  // neighbours that are not edges
-constexpr int kMaxEdges = 12;
-constexpr int kMaxHidden = 6;        // edges between nodes with only hidden ones between
-constexpr double kSlack = 0.15;      // of a radius squared: a cell this shallow counts as hidden
-constexpr double kMaxPath = 3.0;     // of the sum of both radii
-constexpr double kMaxSpacing = 0.9;  // of the sum: the balls' common disc has 0.44 of a radius
+constexpr std::size_t kMaxVisited = 192;
+constexpr std::uint32_t kMaxDistant = 32;  // neighbours that are not edges
+constexpr double kMaxPath = 4.0;           // along the tree, of the sum of both radii
+constexpr double kMaxDetour = 2.0;         // along the tree, of the distance
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-double distanceOf(const blob_model_def& def, std::uint32_t a, std::uint32_t b) {
+double squareOf(const blob_model_def& def, std::uint32_t a, std::uint32_t b) {
   double square = 0;
   for (int i = 0; i < 3; ++i) {
     const double d = double{def.centre[a][i]} - double{def.centre[b][i]};
     square += d * d;
   }
-  return std::sqrt(square);
+  return square;
+}
+
+double distanceOf(const blob_model_def& def, std::uint32_t a, std::uint32_t b) {
+  return std::sqrt(squareOf(def, a, b));
 }
 
 Neighbourhood fromPairs(std::size_t nodeCount, const std::vector<Pair>& pairs,
@@ -74,7 +78,6 @@ struct Reached {
   std::uint32_t node;
   int edges;         // from the start
   double path;       // length along the tree, mm
-  bool turned;       // a node with three or more edges lies between
   std::size_t from;  // place of the node before in the list
 };
 
@@ -83,91 +86,112 @@ public:
   Search(const blob_model_def& def, const Neighbourhood& edges)
       : m_def(def),
         m_edges(edges),
-        m_distant(def.node_count, 0),
+        m_spacing(spacingsOf(def, edges)),
         m_reachedFrom(def.node_count, BLOB_NOWHERE) {}
 
+  // Nearest along the tree first, as long as both nodes have room.
   std::vector<Pair> distantPairs() {
-    std::vector<Pair> pairs;
+    std::vector<std::pair<double, Pair>> found;
     for (std::uint32_t i = 0; i < m_def.node_count; ++i) {
       reachFrom(i);
-      for (const Reached& there : m_reached) {
-        if (there.edges < 2 || there.node < i || !isNeighbour(there)) continue;
-        if (m_distant[i] >= kMaxDistant || m_distant[there.node] >= kMaxDistant) continue;
-        ++m_distant[i];
-        ++m_distant[there.node];
-        pairs.emplace_back(i, there.node);
+      std::uint32_t room = kMaxDistant;
+      for (std::size_t n = 1; n < m_reached.size() && room > 0; ++n) {
+        const Reached& there = m_reached[n];
+        if (there.edges < 2 || !isNeighbour(there)) continue;
+        found.push_back({there.edges == 2 ? 0.0 : there.path,
+                         {std::min(i, there.node), std::max(i, there.node)}});
+        --room;
       }
+    }
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.second, a.first) < std::tie(b.second, b.first);
+    });
+    found.erase(std::unique(found.begin(), found.end(),
+                            [](const auto& a, const auto& b) { return a.second == b.second; }),
+                found.end());
+    std::sort(found.begin(), found.end());
+    std::vector<std::uint32_t> count(m_def.node_count, 0);
+    std::vector<Pair> pairs;
+    for (const auto& [path, pair] : found) {
+      if (std::max(count[pair.first], count[pair.second]) >= kMaxDistant) continue;
+      ++count[pair.first];
+      ++count[pair.second];
+      pairs.push_back(pair);
     }
     return pairs;
   }
 
 private:
-  [[nodiscard]] std::size_t degree(std::uint32_t node) const {
-    return m_edges.offset[node + 1] - m_edges.offset[node];
-  }
-
-  [[nodiscard]] bool isNeighbour(const Reached& there) const {
+  [[nodiscard]] bool isNeighbour(const Reached& there) {
     if (there.edges == 2) return true;
     const std::uint32_t start = m_reached[0].node;
-    if (there.edges <= kMaxHidden && hidesBetween(start, there)) return true;
     const double sum = double{m_def.radius[start]} + double{m_def.radius[there.node]};
-    return there.turned && there.path <= kMaxPath * sum &&
-           distanceOf(m_def, start, there.node) < kMaxSpacing * sum;
+    const double distance = distanceOf(m_def, start, there.node);
+    if (there.path > kMaxPath * sum) return false;
+    return (distance < sum || there.path < kMaxDetour * distance) && meet(start, there);
   }
 
-  // Half way, by power, from node to node, none of those between has clearly less power than these
-  // two: their cells hardly part the two, so a cursor must be able to pass.
-  [[nodiscard]] bool hidesBetween(std::uint32_t start, const Reached& there) const {
-    const double d = distanceOf(m_def, start, there.node);
-    const double ra = m_def.radius[start], rb = m_def.radius[there.node];
-    const double share =
-        d > 0 ? std::clamp(0.5 * (1.0 + (ra * ra - rb * rb) / (d * d)), 0.0, 1.0) : 0.0;
-    double tie[3];
-    for (int i = 0; i < 3; ++i) {
-      const double a = m_def.centre[start][i], b = m_def.centre[there.node][i];
-      tie[i] = a + share * (b - a);
+  // Do the cells of two nodes meet, within reach of a tool, on the plane where their powers are
+  // equal? The nodes on the path between cut away where their own power is less by more than the
+  // width in which they blend with the two.
+  [[nodiscard]] bool meet(std::uint32_t start, const Reached& there) {
+    RadicalDisc disc(m_def, start, there.node);
+    for (std::size_t at = there.from; at != 0 && !disc.isEmpty(); at = m_reached[at].from) {
+      const Reached& between = m_reached[at];
+      const double width = std::max(widthBetween(start, between.node, between.edges == 1),
+                                    widthBetween(there.node, between.node, at == there.from));
+      disc.cut(m_def, between.node, width);
     }
-    const double thin = std::min(ra, rb);
-    const double level = powerOf(start, tie) - kSlack * thin * thin;
-    for (std::size_t at = there.from; at != 0; at = m_reached[at].from)
-      if (powerOf(m_reached[at].node, tie) < level) return false;
-    return true;
+    return !disc.isEmpty();
   }
 
-  [[nodiscard]] double powerOf(std::uint32_t node, const double* point) const {
-    double power = -double{m_def.radius[node]} * double{m_def.radius[node]};
-    for (int i = 0; i < 3; ++i) {
-      const double d = point[i] - double{m_def.centre[node][i]};
-      power += d * d;
-    }
-    return power;
+  [[nodiscard]] double widthBetween(std::uint32_t a, std::uint32_t b, bool isEdge) const {
+    return blendingWidth(m_def, a, b, isEdge, 0.5 * (m_spacing[a] + m_spacing[b]));
   }
 
   void reachFrom(std::uint32_t start) {
-    m_reached.assign(1, {start, 0, 0.0, false, 0});
+    const double farthest = 2.0 * kMaxPath * m_def.radius[start];
+    m_reached.assign(1, {start, 0, 0.0, 0});
     m_reachedFrom[start] = start;
     for (std::size_t head = 0; head < m_reached.size(); ++head) {
       const Reached from = m_reached[head];
-      if (from.edges >= kMaxEdges) continue;
-      const bool turned = from.turned || (head > 0 && degree(from.node) > 2);
+      if (from.edges >= 2 && from.path > farthest) continue;
       for (std::uint32_t e = m_edges.offset[from.node]; e < m_edges.offset[from.node + 1]; ++e) {
         if (m_reached.size() >= kMaxVisited) return;
         const std::uint32_t node = m_edges.node[e];
         if (m_reachedFrom[node] == start) continue;
         m_reachedFrom[node] = start;
         m_reached.push_back(
-            {node, from.edges + 1, from.path + distanceOf(m_def, from.node, node), turned, head});
+            {node, from.edges + 1, from.path + distanceOf(m_def, from.node, node), head});
       }
     }
   }
 
   const blob_model_def& m_def;
   const Neighbourhood& m_edges;
-  std::vector<std::uint32_t> m_distant, m_reachedFrom;
+  std::vector<double> m_spacing;
+  std::vector<std::uint32_t> m_reachedFrom;
   std::vector<Reached> m_reached;
 };
 
 }  // namespace
+
+std::vector<double> spacingsOf(const blob_model_def& def, const Neighbourhood& edges) {
+  std::vector<double> result(def.node_count, 0.0);
+  for (std::uint32_t i = 0; i < def.node_count; ++i)
+    for (std::uint32_t e = edges.offset[i]; e < edges.offset[i + 1]; ++e)
+      result[i] = std::max(result[i], squareOf(def, i, edges.node[e]));
+  return result;
+}
+
+double blendingWidth(const blob_model_def& def, std::uint32_t i, std::uint32_t k, bool isEdge,
+                     double spacing) {
+  constexpr double kShare = 0.6;
+  constexpr double kLeast = 1e-3;  // of a radius squared: nodes in one place share evenly
+  const double radius = std::min(def.radius[i], def.radius[k]), square = squareOf(def, i, k);
+  const double width = isEdge ? kShare * square : std::min(0.5 * square, kShare * spacing);
+  return std::max(width, kLeast * radius * radius);
+}
 
 Neighbourhood edgesOf(const blob_model_def& def) {
   const std::vector<Pair> pairs = edgePairs(def);

@@ -18,10 +18,20 @@ struct Neighbourhood {
 /// Parents, children and links only. Indices are in range.
 Neighbourhood edgesOf(const blob_model_def& def);
 
-/// The edges; nodes two edges apart; nodes a few edges apart with only nodes between whose cells do
-/// not part them (too thin for their wide neighbours); and nodes of different arms of a bifurcation
-/// that are a short way apart along the tree and whose balls overlap well: there, both vessels are
-/// one lumen.
+/// The greatest square of the lengths of a node's edges, mm^2, for all nodes.
+std::vector<double> spacingsOf(const blob_model_def& def, const Neighbourhood& edges);
+
+/// tau, mm^2. Of an edge, a share of the square of its length: along a straight chain two models
+/// blend in that share of the way between two nodes, and one is alone near a node. A farther pair
+/// blends no wider: it has a say only where its nodes nearly tie. `spacing`: the pair's mean.
+double blendingWidth(const blob_model_def& def, std::uint32_t i, std::uint32_t k, bool isEdge,
+                     double spacing);
+
+/// The edges; nodes two edges apart; and nodes a short way apart along the tree whose balls overlap
+/// and whose cells meet or nearly meet, although others lie between: in the bend of a vessel, in
+/// the crotch of a bifurcation, past nodes too thin for their neighbours. Then the node of least
+/// power among its neighbours is that of least power of all nodes near by along the tree, and a
+/// cursor's node does not depend on the way that it came.
 Neighbourhood neighbourhoodOf(const blob_model_def& def, const Neighbourhood& edges);
 
 }  // namespace lumen::blob

@@ -88,6 +88,19 @@ TEST(BlobFollow, FromAnyNodeOfAStraightVesselTheNearestIsReached) {
     }
 }
 
+// In the bend, cells of nodes far apart along the vessel meet.
+TEST(BlobFollow, InATightBendTheNodeDoesNotDependOnTheWay) {
+  const Model model = bend(0).build();
+  const std::size_t count = blob_model_describe(model.get()).node_count;
+  for (int i = 0; i < 500; ++i) {
+    const double a = 2.4 * i, r = 0.05 * (i % 25);
+    const Point p{0.3 + r * std::cos(a), 0.4 + r * std::sin(a), 0.1 * (i % 11) - 0.5};
+    const std::uint32_t least = blob_cursor_locate(model.get(), p.data());
+    for (std::uint32_t k = 0; k < count; ++k)
+      ASSERT_EQ(blob_cursor_follow(model.get(), p.data(), k), least) << i << ' ' << k;
+  }
+}
+
 TEST(BlobFollow, ALinkIsAStepAsGoodAsAParent) {
   Tree tree;
   addVessel(tree, straight({0, 0, 0}, {6, 0, 0}, 11), 1.0, -1, 0);

@@ -51,7 +51,8 @@ blob_model_def Tree::definition() const {
   def.parent = parent.data();
   def.link_count = links.size();
   def.link = reinterpret_cast<const std::uint32_t(*)[2]>(links.data());
-  def.blobs.kernel = kernel;
+  std::memcpy(&def.blobs.kernel, &kernel,
+              sizeof kernel);  // a test may have stored no kernel at all
   def.blobs.kernel_parameter = parameter;
   def.blobs.iso_level = level;
   def.blobs.offset = offset.data();
@@ -145,6 +146,21 @@ Tree fork(double halfAngle, double disagreement) {
     const double x = std::cos(halfAngle), y = side * std::sin(halfAngle);
     addVessel(tree, straight({0.6 * x, 0.6 * y, 0}, {9 * x, 9 * y, 0}, 15), 1.0, end, disagreement);
   }
+  return tree;
+}
+
+Tree bend(double disagreement) {
+  constexpr double kTurn = 2.0943951023931953, kCurve = 0.5, kSpacing = 0.25;
+  Tree tree;
+  std::vector<Point> line;
+  for (int i = -12; i <= 16; ++i) {
+    const double along = kSpacing * i, arc = std::clamp(along, 0.0, kTurn * kCurve),
+                 rest = along - arc;
+    const double a = arc / kCurve;
+    line.push_back({kCurve * std::sin(a) + rest * std::cos(a),
+                    kCurve * (1 - std::cos(a)) + rest * std::sin(a), 0.02 * (i % 3)});
+  }
+  addVessel(tree, line, 1.0, -1, disagreement);
   return tree;
 }
 

@@ -57,6 +57,9 @@ std::vector<Point> straight(const Point& from, const Point& to, int count);
 Tree tube(int count, double disagreement = 0.0);
 /// A trunk along x and two arms, `halfAngle` radians to either side, radius 1 each.
 Tree fork(double halfAngle, double disagreement);
+/// A tube of radius 1 whose axis turns by 120 degrees in a circle of radius 0.5, so that cells of
+/// nodes in the bend end within the lumen.
+Tree bend(double disagreement);
 /// Two tubes along x of radius 1 at y = 0 (nodes 0 to 29) and y = 2 + gap (nodes 30 to 59).
 Tree kissing(double gap);
 /// A helix of radius 4 and pitch 5 with a tube of radius 0.8.
