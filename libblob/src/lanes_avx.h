@@ -114,6 +114,10 @@ template <int lane>
 inline F8 splat(F4 a) {
   return {_mm256_permutevar8x32_ps(_mm256_castps128_ps256(a.v), _mm256_set1_epi32(lane))};
 }
+/// Four numbers.
+inline F4 rowOf(float a, float b, float c, float d) {
+  return {_mm_setr_ps(a, b, c, d)};
+}
 /// a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return {_mm_blend_ps(a.v, _mm_set_ss(first), 1)};

@@ -166,6 +166,10 @@ template <int lane>
 inline F8 splat(F4 a) {
   return set1(a[lane]);
 }
+/// Four numbers.
+inline F4 rowOf(float a, float b, float c, float d) {
+  return F4{a, b, c, d};
+}
 /// a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return select4(I4{-1, 0, 0, 0}, set4(first), a);

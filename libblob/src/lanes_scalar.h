@@ -136,6 +136,10 @@ template <int lane>
 inline F8 splat(F4 a) {
   return set1(a.v[lane]);
 }
+/// Four numbers.
+inline F4 rowOf(float a, float b, float c, float d) {
+  return {{a, b, c, d}};
+}
 /// a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return {{first, a.v[1], a.v[2], a.v[3]}};

@@ -300,12 +300,12 @@ inline Lane evaluateLocal(const View& view, std::uint32_t node, F4 x) {
   return lane;
 }
 
+// Any number of nodes that blend.
 template <int kernel>
-inline Lane evaluateBlended(const View& view, const D4& point, std::uint32_t node, F4 x) {
+LUMEN_NOINLINE Lane blendAll(const View& view, const D4& point, std::uint32_t node, F4 x) {
   ActiveNodes active;
   active.add(node);
   F4 weight = weigh(view, node, x, active);
-  if (active.count == 1) return evaluateLocal<kernel>(view, node, x);
   Mixture sum;
   addNode<kernel>(view, node, x, weight, sum);
   for (unsigned i = 1; i < active.count; ++i) {
@@ -319,4 +319,68 @@ inline Lane evaluateBlended(const View& view, const D4& point, std::uint32_t nod
       active.count = before;
   }
   return sum.empty ? evaluateLocal<kernel>(view, node, x) : quotient(sum);
+}
+
+// Neighbours in a fan that a node does not beat by tau: all others have no weight.
+inline unsigned rivalsIn(const FanBlock& fan, F8 difference) {
+  return maskBits(less(difference * load(fan.inverseTau), set1(1.0f)));
+}
+
+// Two nodes that have no rivals but each other, as along a tube: their weights are psi and 1 - psi,
+// with sum 1. False if there are more nodes, or if the first has hardly a weight.
+template <int kernel>
+inline bool blendPair(const View& view, const D4& point, std::uint32_t node, const FanBlock& fan,
+                      const float* difference, unsigned rivals, Lane& lane) {
+  const int rival = __builtin_ctz(rivals);
+  const float inverseTau = fan.inverseTau[rival], t = difference[rival] * inverseTau;
+  const NodeRecord& other = view.nodes[fan.node[rival]];
+  if (other.fanCount != 1 || !(t > -0.999f)) return false;
+  const F4 x = relative(other, point);
+  const FanBlock& back = view.fans[other.fan];
+  const unsigned beyond = rivalsIn(back, powerDifference(back, Splats(x)));
+  if ((beyond & (beyond - 1)) != 0) return false;
+  if (beyond != 0 && back.node[__builtin_ctz(beyond)] != node) return false;
+
+  const FieldNode& where = view.node(fan.node[rival]);
+  float shift;
+  F4 field = evaluateNode<kernel>(view, where, x, shift);
+  if constexpr (kernel == BLOB_GAUSSIAN) field = field * set4(exponential(lane.shift - shift));
+  const float s = 0.5f + 0.5f * t, rest = 1.0f - s;
+  const float psi = (s * s) * s * ((6.0f * s - 15.0f) * s + 10.0f);
+  const float slope = (15.0f * ((s * s) * (rest * rest))) * inverseTau;
+  const F4 excess = lane.field - field;
+  const F4 normal = rowOf(0.0f, fan.nx[rival], fan.ny[rival], fan.nz[rival]);
+  lane.field = (field + set4(psi) * excess) + set4(slope * firstOf(excess)) * normal;
+  lane.radius = where.place[3] + psi * (lane.radius - where.place[3]);
+  return true;
+}
+
+// A node's differences of power where it has one fan; else all bits.
+inline unsigned rivalsOf(const View& view, std::uint32_t node, const Splats& x, float* difference) {
+  const NodeRecord& record = view.nodes[node];
+  if (record.fanCount != 1) return ~0U;
+  const FanBlock& fan = view.fans[record.fan];
+  const F8 differences = powerDifference(fan, x);
+  store(difference, differences);
+  return rivalsIn(fan, differences);
+}
+
+// Adds to a node's own answer what its rivals say.
+template <int kernel>
+inline void blendLane(const View& view, const D4& point, std::uint32_t node, F4 x,
+                      const float* difference, unsigned rivals, Lane& lane) {
+  const bool isPair = (rivals & (rivals - 1)) == 0;
+  if (isPair && blendPair<kernel>(view, point, node, view.fans[view.nodes[node].fan], difference,
+                                  rivals, lane))
+    return;
+  lane = blendAll<kernel>(view, point, node, x);
+}
+
+template <int kernel>
+inline Lane evaluateBlended(const View& view, const D4& point, std::uint32_t node, F4 x) {
+  Lane lane = evaluateLocal<kernel>(view, node, x);
+  float difference[kLanes];
+  const unsigned rivals = rivalsOf(view, node, Splats(x), difference);
+  if (rivals != 0) blendLane<kernel>(view, point, node, x, difference, rivals, lane);
+  return lane;
 }

@@ -43,18 +43,10 @@ inline bool placeLane(const View& view, bool hold, const D4& point, std::uint32_
   return true;
 }
 
-template <int kernel, bool local>
-inline void evaluateLane(const View& view, const D4& point, std::uint32_t node, Group& g,
-                         std::size_t i) {
-  const F4 x = load4(g.at[i]);
-  Lane lane;
-  if constexpr (local)
-    lane = evaluateLocal<kernel>(view, node, x);
-  else
-    lane = evaluateBlended<kernel>(view, point, node, x);
+inline void keep(const Lane& lane, Group& g, std::size_t i) {
   store4(g.field[i], lane.field);
   g.at[i][3] = lane.radius;
-  if constexpr (kernel == BLOB_GAUSSIAN) g.shift[i] = lane.shift;
+  g.shift[i] = lane.shift;
 }
 
 inline void fillSample(const Group& g, std::size_t i, std::uint32_t node, blob_sample& sample) {
@@ -140,22 +132,6 @@ LUMEN_NOINLINE unsigned placeGroup(const View& view, bool hold, std::size_t coun
   return remote;
 }
 
-template <int kernel, bool local>
-LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned remote,
-                                  const Inputs& in, Group& g) {
-  if (remote == 0) {
-    for (std::size_t i = 0; i < count; ++i)
-      evaluateLane<kernel, local>(view, load4(in.point[i]), in.node[i], g, i);
-  } else {
-    for (std::size_t i = 0; i < count; ++i)
-      if ((remote >> i & 1U) != 0)
-        leaveEmpty(g, i);
-      else
-        evaluateLane<kernel, local>(view, load4(in.point[i]), in.node[i], g, i);
-  }
-  for (std::size_t i = count; i < kLanes; ++i) leaveEmpty(g, i);
-}
-
 // A few points side by side, so that one's chain of operations fills the pauses of another's: the
 // processor does not look far enough ahead to find the next point by itself.
 constexpr std::size_t kTogether = 4;
@@ -221,20 +197,43 @@ LUMEN_NOINLINE unsigned placeTogether(const View& view, bool hold, std::size_t c
   return remote;
 }
 
+// What each point's node says by itself.
 template <int kernel>
-LUMEN_NOINLINE unsigned answerLocal(const View& view, bool hold, std::size_t count, Inputs& in,
-                                    Group& g) {
-  const unsigned remote = placeTogether(view, hold, count, in, g);
+LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned remote,
+                                  const Inputs& in, Group& g) {
   unsigned simple = count == kLanes && remote == 0 ? 1U : 0U;
   if (simple != 0)
     for (const std::uint32_t node : in.node) simple &= view.node(node).isSimple;
-  if (simple == 0) {
-    evaluateGroup<kernel, true>(view, count, remote, in, g);
-    return remote;
+  if (simple != 0) {
+    for (std::size_t first = 0; first < kLanes; first += kTogether)
+      evaluateTogether<kernel>(view, in, g, first);
+    return;
   }
-  for (std::size_t first = 0; first < kLanes; first += kTogether)
-    evaluateTogether<kernel>(view, in, g, first);
-  return remote;
+  for (std::size_t i = 0; i < kLanes; ++i)
+    if (i >= count || (remote >> i & 1U) != 0)
+      leaveEmpty(g, i);
+    else
+      keep(evaluateLocal<kernel>(view, in.node[i], load4(g.at[i])), g, i);
+}
+
+// First, which points need it: the work for one is long, and a processor guesses badly who is next.
+template <int kernel>
+LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned remote,
+                               const Inputs& in, Group& g) {
+  float difference[kLanes][kLanes];
+  unsigned rivals[kLanes], left = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if ((remote >> i & 1U) != 0) continue;
+    rivals[i] = rivalsOf(view, in.node[i], Splats(g.at[i]), difference[i]);
+    left |= (rivals[i] != 0 ? 1U : 0U) << i;
+  }
+  for (; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(__builtin_ctz(left));
+    Lane lane{load4(g.field[i]), g.shift[i], g.at[i][3]};
+    blendLane<kernel>(view, load4(in.point[i]), in.node[i], load4(g.at[i]), difference[i],
+                      rivals[i], lane);
+    keep(lane, g, i);
+  }
 }
 
 inline void writeCursors(const blob_columns& c, std::size_t first, std::size_t count,
@@ -279,12 +278,10 @@ inline void queryBatch(const View& view, std::uint32_t flags, const Job& job, st
     readInputs(job.columns, first + g * kLanes, sizeOf(g), batch.in[g]);
     Inputs& in = batch.in[g];
     const bool hold = (flags & BLOB_HOLD) != 0;
-    if ((flags & BLOB_LOCAL) != 0) {
-      batch.remote[g] = answerLocal<kernel>(view, hold, sizeOf(g), in, batch.group[g]);
-    } else {
-      batch.remote[g] = placeTogether(view, hold, sizeOf(g), in, batch.group[g]);
-      evaluateGroup<kernel, false>(view, sizeOf(g), batch.remote[g], in, batch.group[g]);
-    }
+    batch.remote[g] = placeTogether(view, hold, sizeOf(g), in, batch.group[g]);
+    evaluateGroup<kernel>(view, sizeOf(g), batch.remote[g], in, batch.group[g]);
+    if ((flags & BLOB_LOCAL) == 0)
+      blendGroup<kernel>(view, sizeOf(g), batch.remote[g], in, batch.group[g]);
   }
   for (std::size_t g = 0; g < groups; ++g) finishGroup<kernel>(view, batch.group[g]);
   for (std::size_t g = 0; g < groups; ++g)
