@@ -10,13 +10,17 @@ namespace {
 
 class Grid : public Method {
 public:
-  [[nodiscard]] std::string name() const override { return "dense grid, 0.2 mm"; }
+  [[nodiscard]] std::string name() const override { return "dense grid, " + inMm(m_cell); }
 
   void prepare(const Surface& surface) override {
+    constexpr double kMost = 2e7;
     const blob_model_info info = blob_model_describe(surface.model);
+    double volume = 1;
+    for (std::size_t i = 0; i < 3; ++i) volume *= info.high[i] - info.low[i] + 2;
+    m_cell = std::max(surface.voxel, std::cbrt(volume / kMost));
     for (std::size_t i = 0; i < 3; ++i) {
       m_low[i] = info.low[i] - 1;
-      m_size[i] = static_cast<std::size_t>((info.high[i] - info.low[i] + 2) / kCell) + 2;
+      m_size[i] = static_cast<std::size_t>((info.high[i] - info.low[i] + 2) / m_cell) + 2;
     }
     m_value.resize(m_size[0] * m_size[1] * m_size[2]);
     std::size_t at = 0;
@@ -24,9 +28,9 @@ public:
     for (std::size_t z = 0; z < m_size[2]; ++z)
       for (std::size_t y = 0; y < m_size[1]; ++y)
         for (std::size_t x = 0; x < m_size[0]; ++x) {
-          const double p[3] = {m_low[0] + kCell * static_cast<double>(x),
-                               m_low[1] + kCell * static_cast<double>(y),
-                               m_low[2] + kCell * static_cast<double>(z)};
+          const double p[3] = {m_low[0] + m_cell * static_cast<double>(x),
+                               m_low[1] + m_cell * static_cast<double>(y),
+                               m_low[2] + m_cell * static_cast<double>(z)};
           cursor = BLOB_NOWHERE;
           blob_sample s;
           blob_query(surface.model, 0, p, &cursor, &s);
@@ -45,13 +49,11 @@ public:
   }
 
 private:
-  static constexpr double kCell = 0.2;
-
   [[nodiscard]] double sample(const double* p, double* gradient) const {
     std::size_t cell[3];
     double t[3];
     for (std::size_t i = 0; i < 3; ++i) {
-      const double x = (p[i] - m_low[i]) / kCell;
+      const double x = (p[i] - m_low[i]) / m_cell;
       cell[i] = std::min(static_cast<std::size_t>(std::max(x, 0.0)), m_size[i] - 2);
       t[i] = x - static_cast<double>(cell[i]);
     }
@@ -62,13 +64,14 @@ private:
                  x11 = v[dy + dz + 1] - v[dy + dz];
     const double c00 = v[0] + t[0] * x00, c10 = v[dy] + t[0] * x10, c01 = v[dz] + t[0] * x01,
                  c11 = v[dy + dz] + t[0] * x11;
-    gradient[0] = mix(mix(x00, x10, t[1]), mix(x01, x11, t[1]), t[2]) / kCell;
-    gradient[1] = mix(c10 - c00, c11 - c01, t[2]) / kCell;
+    gradient[0] = mix(mix(x00, x10, t[1]), mix(x01, x11, t[1]), t[2]) / m_cell;
+    gradient[1] = mix(c10 - c00, c11 - c01, t[2]) / m_cell;
     const double c0 = mix(c00, c10, t[1]), c1 = mix(c01, c11, t[1]);
-    gradient[2] = (c1 - c0) / kCell;
+    gradient[2] = (c1 - c0) / m_cell;
     return mix(c0, c1, t[2]);
   }
 
+  double m_cell = 0.2;  // mm: a voxel of the volume, or as fine as kMost values allow
   double m_low[3]{};
   std::size_t m_size[3]{};
   std::vector<float> m_value;

@@ -23,6 +23,7 @@ struct Surface {
   std::string name;
   const blob_model* model = nullptr;
   Triangles mesh;
+  double voxel = 0.2;  ///< mm, of the volume that the vessel comes from
   std::size_t toolPoints = 0;
   std::vector<double> points;  ///< x, y, z, mm: frames of toolPoints points, one after another
   [[nodiscard]] std::size_t frames() const { return points.size() / 3 / toolPoints; }
@@ -69,5 +70,8 @@ struct Row {
 std::string markdown(const std::vector<Row>& rows);
 std::string json(const std::vector<Row>& rows);
 std::string svg(const std::vector<Row>& rows);
+
+/// "0.25 mm".
+std::string inMm(double length);
 
 }  // namespace lumen::bench

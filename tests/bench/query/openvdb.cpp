@@ -11,15 +11,16 @@ namespace {
 
 class OpenVdb : public Method {
 public:
-  [[nodiscard]] std::string name() const override { return "OpenVDB level set, 0.1 mm"; }
+  [[nodiscard]] std::string name() const override { return "OpenVDB level set, " + inMm(m_voxel); }
 
   void prepare(const Surface& surface) override {
+    m_voxel = 0.5 * surface.voxel;
     openvdb::initialize();
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
     for (const auto& v : surface.mesh.vertex) points.emplace_back(v[0], v[1], v[2]);
     for (const auto& f : surface.mesh.face) triangles.emplace_back(f[0], f[1], f[2]);
-    const auto transform = openvdb::math::Transform::createLinearTransform(kVoxel);
+    const auto transform = openvdb::math::Transform::createLinearTransform(m_voxel);
     // wide enough for the axis of the widest vessel of the tests; unsigned, as ends may be open
     m_grid = openvdb::tools::meshToUnsignedDistanceField<openvdb::FloatGrid>(*transform, points,
                                                                              triangles, {}, kBand);
@@ -41,7 +42,7 @@ public:
   [[nodiscard]] int passes() const override { return 50; }
 
 private:
-  static constexpr double kVoxel = 0.1;
+  double m_voxel = 0.1;               // mm: half of a voxel of the volume
   static constexpr float kBand = 12;  // voxels
   openvdb::FloatGrid::Ptr m_grid;
 };

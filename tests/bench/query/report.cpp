@@ -32,6 +32,12 @@ const char* colourOf(const std::string& method) {
 
 }  // namespace
 
+std::string inMm(double length) {
+  std::ostringstream out;
+  out << std::setprecision(2) << length << " mm";
+  return out.str();
+}
+
 std::string markdown(const std::vector<Row>& rows) {
   std::ostringstream out;
   out << "| surface | method | ns per query | times LOCAL | median error, mm | 99 % error, mm | MB "

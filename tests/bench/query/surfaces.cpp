@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+
 #include "converters/mesh/mesh.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case_file.h"
@@ -81,12 +84,24 @@ Case spiral() {
   return tubeAlong(line, kStep, kTube);
 }
 
-Triangles triangles(const Case& source, double cell) {
+using Meshes = std::vector<convert::BranchMesh>;
+
+Meshes meshes(const Case& source, double cell) {
   Progress progress;
   convert::PolygoniseOptions options;
   options.cell = cell;
+  return convert::polygonise(source, options, progress);
+}
+
+std::size_t facesOf(const Meshes& branches) {
+  std::size_t count = 0;
+  for (const convert::BranchMesh& branch : branches) count += branch.mesh.n_faces();
+  return count;
+}
+
+Triangles triangles(const Meshes& branches) {
   Triangles result;
-  for (const convert::BranchMesh& branch : convert::polygonise(source, options, progress)) {
+  for (const convert::BranchMesh& branch : branches) {
     const auto first = static_cast<std::uint32_t>(result.vertex.size());
     for (const auto v : branch.mesh.vertices()) {
       const auto& p = branch.mesh.point(v);
@@ -103,16 +118,32 @@ Triangles triangles(const Case& source, double cell) {
   return result;
 }
 
-// About 100,000 triangles: their number goes with the inverse square of the cell.
+void decimate(convert::TriMesh& mesh, std::size_t faces) {
+  OpenMesh::Decimater::DecimaterT<convert::TriMesh> decimater(mesh);
+  OpenMesh::Decimater::ModQuadricT<convert::TriMesh>::Handle quadric;
+  decimater.add(quadric);
+  decimater.module(quadric).unset_max_err();
+  decimater.initialize();
+  decimater.decimate_to_faces(0, faces);
+  mesh.garbage_collection();
+}
+
+// About 100,000 triangles: their number goes with the inverse square of the cell, until thin
+// vessels hold it up; then quadric error metrics take away the rest.
 Triangles wantedMesh(const Case& source) {
   constexpr double kWanted = 1e5;
   double cell = 0.2;
-  Triangles mesh = triangles(source, cell);
+  Meshes branches = meshes(source, cell);
   for (int i = 0; i < 2; ++i) {
-    cell *= std::sqrt(static_cast<double>(mesh.face.size()) / kWanted);
-    mesh = triangles(source, cell);
+    cell *= std::sqrt(static_cast<double>(facesOf(branches)) / kWanted);
+    branches = meshes(source, cell);
   }
-  return mesh;
+  const double share = kWanted / static_cast<double>(facesOf(branches));
+  if (share < 0.9)
+    for (convert::BranchMesh& branch : branches)
+      decimate(branch.mesh,
+               static_cast<std::size_t>(share * static_cast<double>(branch.mesh.n_faces())));
+  return triangles(branches);
 }
 
 // The nodes from a root to the leaf that is farthest along the tree.
@@ -194,6 +225,7 @@ OwnedSurface makeSurface(const std::string& what, bool atWall) {
   result.surface.name = std::filesystem::path(what).stem().string();
   result.surface.model = model;
   result.surface.mesh = wantedMesh(source);
+  result.surface.voxel = source.metadata.voxelSize.value_or(result.surface.voxel);
   result.surface.toolPoints = kToolPoints;
   result.surface.points = toolPoints(source.tree, atWall);
   return result;
