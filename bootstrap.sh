@@ -47,9 +47,9 @@ install_packages() {
   fi
   say "Debian packages: installing ${missing[*]}"
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
-  "${as_root[@]}" apt-get update -q
+  "${as_root[@]}" apt-get update -q -o Acquire::Retries=5
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y \
-    --no-install-recommends "${missing[@]}"
+    -o Acquire::Retries=5 --no-install-recommends "${missing[@]}"
 }
 
 # configure_and_build [TARGET...]: everything without a target.
@@ -139,7 +139,7 @@ install_validator() {
   # node brings its own list of authorities; a proxy's certificate is only in the system's
   local authorities=/etc/ssl/certs/ca-certificates.crt
   [ ! -r "$authorities" ] || export NODE_EXTRA_CA_CERTS="${NODE_EXTRA_CA_CERTS:-$authorities}"
-  (cd "$folder" && npm ci --no-audit --no-fund)
+  (cd "$folder" && npm ci --no-audit --no-fund --fetch-retries=5)
 }
 
 run_tests() {

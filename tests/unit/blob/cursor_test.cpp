@@ -150,6 +150,7 @@ TEST(BlobNeighbours, AreSymmetric) {
     }
 }
 
+// spec: M5
 // Both vessels are swept by a tool that is pressed against, and through, the common wall.
 TEST(BlobKissing, APointInOneVesselNeverReportsTheOther) {
   const Model model = kissing(0.02).build();
