@@ -199,6 +199,11 @@ inline std::uint32_t followFrom(const View& view, const D4& point, std::uint32_t
 
 // ---------------------------------------------------------------- blending
 
+// Neighbours in a fan that a node does not beat by tau: all others have no weight.
+inline unsigned rivalsIn(const FanBlock& fan, F8 difference) {
+  return maskBits(less(difference * load(fan.inverseTau), set1(1.0f)));
+}
+
 // One factor of a node's weight for each neighbour k in a fan, psi((p_node - p_k) / tau) with
 // psi(t) = s^3 (6 s^2 - 15 s + 10), s = (1 - t) / 2 in 0 to 1: their product goes to `product`, and
 // the gradient of its logarithm is returned after one unused number.
@@ -238,7 +243,7 @@ inline F4 weigh(const View& view, std::uint32_t node, F4 x, ActiveNodes& active)
   for (std::uint32_t b = record.fan; b < record.fan + record.fanCount; ++b) {
     const FanBlock& fan = view.fans[b];
     const F8 difference = powerDifference(fan, splats);
-    unsigned rivals = maskBits(less(difference * load(fan.inverseTau), set1(1.0f)));
+    unsigned rivals = rivalsIn(fan, difference);
     if (rivals == 0) continue;
     float product;
     const F4 part = weighAgainst(fan, difference, product);
@@ -319,11 +324,6 @@ LUMEN_NOINLINE Lane blendAll(const View& view, const D4& point, std::uint32_t no
       active.count = before;
   }
   return sum.empty ? evaluateLocal<kernel>(view, node, x) : quotient(sum);
-}
-
-// Neighbours in a fan that a node does not beat by tau: all others have no weight.
-inline unsigned rivalsIn(const FanBlock& fan, F8 difference) {
-  return maskBits(less(difference * load(fan.inverseTau), set1(1.0f)));
 }
 
 // Two nodes that have no rivals but each other, as along a tube: their weights are psi and 1 - psi,
