@@ -38,7 +38,8 @@ double sumOfSquares(const double* values, std::size_t count) {
 }
 
 BlockParameters blockParameters(const EnergyParameters& p) {
-  return {p.kernel, p.kernelParameter, p.isoLevel, std::sqrt(p.curvatureWeight)};
+  return {p.kernel, p.kernelParameter, p.isoLevel, std::sqrt(p.curvatureWeight),
+          p.expectedCurvature};
 }
 
 double cohesion(const Blob& a, const Blob& b, double scale) {
@@ -173,6 +174,17 @@ double Energy::meanSlope() const {
     }
   }
   return sumLanes(lanes) + kFlatField;
+}
+
+double Energy::meanCurvature() const {
+  if (!(m_parameters.curvatureWeight > 0)) return m_parameters.expectedCurvature;
+  double lanes[kLanes] = {};
+  for (std::size_t k = 0; k < m_padded; k += kLanes) {
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      lanes[l] += m_share[k + l] * m_residual[m_padded + k + l];
+    }
+  }
+  return m_parameters.expectedCurvature + sumLanes(lanes) / std::sqrt(m_parameters.curvatureWeight);
 }
 
 void Energy::normalEquations(std::span<const Blob> blobs, std::span<double> a,

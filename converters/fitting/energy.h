@@ -5,7 +5,8 @@
 //   E = E_d + alpha E_LJ + beta E_kappa + omega E_w
 //   E_d     = 1/Np sum_k u(P_k)^2 * S / (1/Np sum_k |grad u(P_k)|^2)
 //   E_LJ    = 1/(Nb (Nb - 1)) sum_{i != j} sigma_ij^3 (sigma_ij^3 - 2),  sigma_ij = s^2 w_i w_j /
-//   |C_i - C_j|^2 E_kappa = 1/Np sum_k kappa(P_k)^2,  kappa = (G^T H G - |G|^2 tr H) / (2 |G|^3)
+//   |C_i - C_j|^2 E_kappa = 1/Np sum_k (kappa(P_k) - kappa_0)^2,  kappa = (G^T H G - |G|^2 tr H) /
+//   (2 |G|^3)
 //
 //   E_w     = sum_j (w_j / w - 1)^2
 //
@@ -24,6 +25,9 @@
 // planar curves, surfaces, and nonplanar space curves, 1991); S is that mean for the starting
 // model, where both forms agree, so that alpha and beta keep their meaning. S = 0 gives the plain
 // squares.
+//
+// kappa_0 is 0 in the thesis. A wall that is expected to be flat swells; one that is expected to be
+// evenly curved, as tubes and spheres are, only loses its bumps.
 //
 // E_w, not in the thesis either, says that the widths of a model's blobs hardly differ.
 //
@@ -62,6 +66,7 @@ struct EnergyParameters {
   double cohesionWeight = 1e-5;   ///< alpha
   double curvatureWeight = 1e-3;  ///< beta
   double cohesionScale = 2.0;     ///< s
+  double expectedCurvature = 0;   ///< kappa_0
   double referenceSlope = 0;      ///< S
   double evennessWeight = 0;      ///< omega
   double evenWidth = 1;           ///< w
@@ -90,6 +95,9 @@ public:
 
   /// Mean |grad u|^2 over the points, of the last evaluate() or linearise().
   [[nodiscard]] double slope() const { return m_slope; }
+
+  /// Mean kappa over the points, of the last evaluate() or linearise(); kappa_0 if beta is 0.
+  [[nodiscard]] double meanCurvature() const;
 
   /// Sums the field of blobs[0] .. blobs[active - 1] once; until the next call they must stay as
   /// they are. evaluate() and linearise() then only visit the others, which are the unknowns.

@@ -204,7 +204,7 @@ LUMEN_INLINE void addCurvature(const Block& in, const Blob& blob, Sums& s,
 template <class Phi>
 LUMEN_INLINE void finishPoints(const BlockParameters& p, const Block& in, Sums& s) {
   const std::size_t count = in.count;
-  const double level = p.isoLevel, beta = p.curvatureScale;
+  const double level = p.isoLevel, beta = p.curvatureScale, expected = p.expectedCurvature;
   const double* __restrict weight = in.weight, * __restrict share = in.share;
   double* __restrict field = in.field, * __restrict gradient2 = in.gradient2;
   double* __restrict data = in.dataResidual, * __restrict curvature = in.curvatureResidual;
@@ -225,7 +225,7 @@ LUMEN_INLINE void finishPoints(const BlockParameters& p, const Block& in, Sums& 
     slope2[k] = r.slope * r.slope * g2;
     s.dataSlope[k] = r.slope;
     s.slopeTurn[k] = 2.0 * r.slope * r.second * g2 * share[k];
-    curvature[k] = scale * kappa;
+    curvature[k] = scale * (kappa - expected);
     s.wx[k] = direct * s.ax[k] - radial * gx;
     s.wy[k] = direct * s.ay[k] - radial * gy;
     s.wz[k] = direct * s.az[k] - radial * gz;

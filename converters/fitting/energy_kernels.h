@@ -30,7 +30,7 @@ struct Block {
   double* gradient2 = nullptr;
   double* slope2 = nullptr;             ///< |grad u|^2
   double* dataResidual = nullptr;       ///< weight u(f)
-  double* curvatureResidual = nullptr;  ///< share sqrt(beta) kappa
+  double* curvatureResidual = nullptr;  ///< share sqrt(beta) (kappa - kappa_0)
   double* jacobian = nullptr;           ///< this block's rows of the first column
   std::size_t columnStride = 0;         ///< from one column to the next
   /// From a column's data row of a point to its curvature row, and on to its slope row: the
@@ -43,7 +43,8 @@ struct BlockParameters {
   formats::Kernel kernel;
   double kernelParameter;
   double isoLevel;
-  double curvatureScale;  ///< sqrt(beta)
+  double curvatureScale;     ///< sqrt(beta)
+  double expectedCurvature;  ///< kappa_0
 };
 
 /// Residuals, field and (if `withJacobian`) derivatives for the unknown blobs.

@@ -40,13 +40,13 @@ struct FitOptions {
 /// The thesis' algorithm on the same energy, with these differences, each for accuracy on narrow or
 /// noisy vessels: E_d measures distances rather than differences of the field (energy.h); beta
 /// falls with the fourth power of the radius below ten voxels, and once there is an estimate of the
-/// noise, follows its variance; the widths of a model's blobs are expected to differ by a tenth;
-/// all unknowns move together, by Levenberg-Marquardt steps; a new blob stays only if it lowers the
-/// energy by enough, and blobs are added beyond the accuracy asked for while they do, up to a
-/// twentieth of the node's radius; the centre of every blob stays in the lumen, within the radius
-/// of a node of the neighbourhood; and afterwards adjacent models are refined together: in every
-/// sweep each pair gets points on its radical plane, halfway between the two surfaces, and all
-/// models are minimised with those points.
+/// noise, follows its variance, and the curvature is expected to be even, not small; the widths of
+/// a model's blobs are expected to differ by a tenth; all unknowns move together, by
+/// Levenberg-Marquardt steps; a new blob stays only if it lowers the energy by enough, and blobs
+/// are added beyond the accuracy asked for while they do, up to a twentieth of the node's radius;
+/// the centre of every blob stays in the lumen, within the radius of a node of the neighbourhood;
+/// and afterwards adjacent models are refined together: in every sweep each pair gets points on its
+/// radical plane, halfway between the two surfaces, and all models are minimised with those points.
 ///
 /// Adds (or replaces) the blobby models of a case that has wall points, and appends the "fit" step
 /// to its metadata. Nodes whose neighbourhood has too few points get the two starting blobs. The

@@ -17,10 +17,13 @@ constexpr double kRelativeAccuracy = 0.05;
 constexpr double kUnknownsPerBlob = 4;
 /// The share of that cost which a blob must pay while a point is farther than the accuracy asked
 /// for.
-constexpr double kShareWhenFar = 0.5;
+constexpr double kShareWhenFar = 0.25;
 /// Blobs stay within this many times the distance of the farthest point from the node: those of a
 /// good model lie inside the vessel. Those that get there are dropped.
 constexpr double kReach = 1.5;
+/// No blob is farther than this many radii of the node from all points, if nothing else is known
+/// of the inside.
+constexpr double kAroundPoints = 1.5;
 /// Subdivisions in vain, in one fit, before it stops.
 constexpr std::size_t kMostRefusals = 10;
 constexpr MinimiseOptions kAlone{20, 1e-3};
@@ -29,9 +32,9 @@ constexpr MinimiseOptions kAll{60, 1e-4};
 constexpr MinimiseOptions kRefine{10, 1e-4};
 /// The thesis' beta, in whose place the prior's weight comes once the noise is known.
 constexpr double kTunedCurvatureWeight = 1e-3;
-/// Standard deviation of the mean curvature of a wall, in units of the inverse radius, and of the
-/// widths of a model's blobs, as a share of their mean: what the priors expect.
-constexpr double kCurvatureSpread = 1.0;
+/// Standard deviation of the mean curvature of a wall about its mean, in units of the inverse
+/// radius, and of the widths of a model's blobs, as a share of their mean: what the priors expect.
+constexpr double kCurvatureSpread = 0.5;
 constexpr double kWidthSpread = 0.1;
 /// Trial positions of a new blob, and their spacing in tenths of the old width.
 constexpr int kPartingSteps = 12;
@@ -229,6 +232,7 @@ void LocalModel::weighPriors() {
   const double spread = m_radius / kCurvatureSpread;
   parameters.curvatureWeight =
       m_options.energy.curvatureWeight / kTunedCurvatureWeight * variance * spread * spread;
+  parameters.expectedCurvature = m_energy.meanCurvature();
   double sum = 0;
   for (const Blob& blob : m_blobs) sum += blob.width;
   parameters.evenWidth = sum / static_cast<double>(m_blobs.size());
@@ -273,10 +277,19 @@ bool LocalModel::subdivide() {
   return distance >= m_options.accuracy && m_refused.size() < kMostRefusals;
 }
 
+/// Where nothing says what is inside, at least no blob is farther from all points than the middle
+/// of the vessel is.
+std::span<const Ball> LocalModel::lumenOf(const NodeData& node) {
+  if (!node.lumen.empty()) return node.lumen;
+  m_around.clear();
+  for (const formats::Vec3d& p : node.points) m_around.push_back({p, kAroundPoints * node.radius});
+  return m_around;
+}
+
 std::span<const Blob> LocalModel::fit(const NodeData& node, const Progress& progress) {
   start(node);
   m_radius = node.radius;
-  m_lumen = node.lumen;
+  m_lumen = lumenOf(node);
   m_subdivisions = 0;
   m_value = 0;
   m_refused.clear();
@@ -296,7 +309,7 @@ std::span<const Blob> LocalModel::refine(const NodeData& node, std::span<const f
   m_blobs.assign(blobs.begin(), blobs.end());
   if (node.points.size() < kFewestPoints) return m_blobs;
   m_radius = node.radius;
-  m_lumen = node.lumen;
+  m_lumen = lumenOf(node);
   m_reach = std::min(m_options.maxDistance, kReach * farthestFromOrigin(node.points));
   m_energy.setParameters(parameters);
   m_energy.setPoints(node.points, ties, tieShare);

@@ -25,8 +25,9 @@ struct NodeData {
   std::span<const formats::Vec3d> points;  ///< of its neighbourhood
   double radius = 0;
   formats::Vec3d direction;  ///< unit vector along the vessel
-  /// Inscribed balls of the neighbourhood: the centre of every blob stays in one of them, if there
-  /// are any. Where the points end, a wide blob out there would fit them as well as a good one.
+  /// Inscribed balls of the neighbourhood: the centre of every blob stays in one of them. Where the
+  /// points end, a wide blob out there would fit them as well as a good one. If empty, blobs stay
+  /// close to the points.
   std::span<const Ball> lumen = {};
   /// The model to begin with; if empty, two blobs along the direction.
   std::span<const Blob> start = {};
@@ -59,6 +60,7 @@ public:
 
 private:
   void start(const NodeData& node);
+  std::span<const Ball> lumenOf(const NodeData& node);
   [[nodiscard]] EnergyParameters scaledEnergy() const;
   void beginEnergy(std::span<const formats::Vec3d> points);
   void minimise(std::size_t active, MinimiseOptions options);
@@ -76,6 +78,7 @@ private:
   std::vector<Blob> m_blobs, m_spare;
   std::vector<double> m_along;
   std::span<const Ball> m_lumen;
+  std::vector<Ball> m_around;
   std::vector<std::size_t> m_refused;  ///< points that a subdivision did not help
   double m_value = 0, m_radius = 0, m_reach = 0;
   int m_subdivisions = 0;

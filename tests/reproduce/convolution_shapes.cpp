@@ -17,6 +17,9 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kRadius = 1;  // mm
+/// Points on the whole surface: of the open capsule about 300 then lie within its box. The thesis
+/// says 500 for it, of which 300 were left.
+constexpr std::size_t kPoints = 300, kOpenPoints = 373;
 
 std::vector<Vector3d> arc(const Vector3d& centre, double from, double turn, int steps) {
   std::vector<Vector3d> points;
@@ -144,7 +147,7 @@ bool ConvolutionShape::contains(const Vector3d& p) const {
 
 std::vector<Vector3d> ConvolutionShape::samples(Random& random) const {
   ParticleOptions options;
-  options.count = open ? 500 : 300;
+  options.count = open ? kOpenPoints : kPoints;
   options.rounds = 100;
   std::vector<Vector3d> points = sampleSurface(
       surface(), [this](Random& r) { return besideSkeleton(skeleton, r); }, options, random);

@@ -2,6 +2,7 @@
 find_package(nlohmann_json 3.11 REQUIRED)
 add_library(lumen_reproduce STATIC
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/convolution_shapes.cpp
+  ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/family_fit.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/implicit_surface.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/particles.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/report.cpp

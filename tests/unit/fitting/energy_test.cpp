@@ -270,6 +270,24 @@ TEST(Energy, MeanCurvatureOfATubeIsHalfTheInverseOfItsRadius) {
   EXPECT_NEAR(energy.terms().curvature, 1.0 / 16, 1e-3);
 }
 
+TEST(Energy, ASphereOfTheExpectedCurvatureCostsNothing) {
+  EnergyParameters p;
+  p.expectedCurvature = 0.5;
+  Energy energy(p);
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 2}, {0, 2, 0}});
+  energy.evaluate(std::vector<Blob>{{0, 0, 0, 1}});
+  EXPECT_NEAR(energy.meanCurvature(), 0.5, 1e-4);
+  EXPECT_NEAR(energy.terms().curvature, 0, 1e-8);
+}
+
+TEST(Energy, MeanCurvatureIsThatOfThePoints) {
+  Energy energy({});
+  // spheres of radius 1 and 4 around the same blob: (1 + 1/4) / 2
+  energy.setPoints(std::vector<Vec3d>{{0, 0, 1}, {0, 4, 0}});
+  energy.evaluate(std::vector<Blob>{{0, 0, 0, 1}});
+  EXPECT_NEAR(energy.meanCurvature(), 0.625, 1e-3);
+}
+
 TEST(Energy, CohesionIsLeastAtTwiceTheGeometricMeanOfTheWidths) {
   const auto at = [](double distance) {
     return cohesionResidual({0, 0, 0, 0.5}, {distance, 0, 0, 2}, 2).value;

@@ -8,8 +8,10 @@
 
 #include "formats/case/blobby.h"
 #include "tests/reproduce/convolution_shapes.h"
+#include "tests/reproduce/family_fit.h"
 #include "tests/reproduce/particles.h"
 #include "tests/reproduce/seams.h"
+#include "tests/reproduce/shape_fit.h"
 
 namespace lumen::reproduce {
 namespace {
@@ -105,6 +107,45 @@ TEST(ConvolutionShapes, TheOpenCapsuleIsSampledWithinItsBoxOnly) {
     EXPECT_GE(p.x(), -4.1);
     EXPECT_LE(p.x(), 0);
   }
+}
+
+TEST(FamilyFit, CountsTheChangesThatAShapeHas) {
+  const std::vector<ConvolutionShape> shapes = convolutionShapes();
+  const auto unknowns = [&](std::size_t i) {
+    Random random(1);
+    return FamilyFit(shapes[i], shapes[i].samples(random), Random(2)).unknowns();
+  };
+  EXPECT_EQ(unknowns(0), 9U);   // place, attitude, radius of curvature, length, width
+  EXPECT_EQ(unknowns(1), 18U);  // of two arcs
+  EXPECT_EQ(unknowns(2), 7U);   // no curvature, and its spin changes nothing
+}
+
+TEST(FamilyFit, FindsAShapeThatMoved) {
+  const ConvolutionShape capsule = convolutionShapes()[2];
+  Random random(1);
+  const std::vector<Vector3d> points = capsule.samples(random);
+  Eigen::VectorXd moved(static_cast<Eigen::Index>(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    moved[static_cast<Eigen::Index>(k)] =
+        -0.01 * capsule.surface().at(points[k]).gradient.normalized().z();
+  }
+  const auto distances = FamilyFit(capsule, points, Random(2)).distances(moved);
+  EXPECT_NEAR(distances.back(), 0.01, 1e-4);
+  EXPECT_NEAR(distances.front(), 0, 1e-4);
+}
+
+TEST(FitShape, NoiseDoesNotDriveTheBlobsOfAFlatShapeAway) {
+  const ConvolutionShape fork = convolutionShapes()[1];
+  Random random(1, 1);
+  const std::vector<Vector3d> points =
+      withNoise(fork, fork.samples(random), 0.175, Random(3, 1180));
+  convert::fitting::LocalModelOptions options;
+  options.accuracy = 3 * 0.175;
+  const formats::BlobbyModels model = fitShape(fork, points, options);
+  EXPECT_GE(model.width.size(), 5U);
+  // one wide blob far beside the plane of the fork would have its surface along it; the wall and
+  // 1.5 radii are 2.5 mm
+  for (const formats::Vec3f& c : model.centre) EXPECT_LT(std::abs(c.z), 2.5);
 }
 
 }  // namespace
