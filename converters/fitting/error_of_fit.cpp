@@ -15,6 +15,10 @@
 namespace lumen::convert {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Of the level: fields below it say nothing about where the wall is.
+constexpr double kVanished = 1e-12;
+
 /// The smallest value that at least `share` of the values do not exceed; reorders them.
 float percentile(std::vector<float>& values, double share) {
   const auto count = static_cast<double>(values.size());
@@ -25,18 +29,61 @@ float percentile(std::vector<float>& values, double share) {
   return values[index];
 }
 
-float taubinDistance(const formats::BlobbyModels& models, std::uint32_t node,
-                     const formats::Vec3f& p) {
-  const formats::FieldValue value = formats::evaluateField(models, node, {p.x, p.y, p.z});
-  const formats::Vec3d& g = value.gradient;
-  const double gradient = std::sqrt(g.x * g.x + g.y * g.y + g.z * g.z);
-  return gradient > 0 ? static_cast<float>(std::abs(models.isoLevel - value.f) / gradient)
-                      : std::numeric_limits<float>::infinity();
+/// What there is to say about one point: f, |grad f|, and how far the node is.
+struct At {
+  double f = 0, slope = 0, toNode = 0;
+};
+
+struct Straight {
+  double h = 0, slope = 0;
+};
+
+/// A function of f that grows nearly with the square of the distance from the axis; f > 0.
+Straight straighten(formats::Kernel kernel, double f, double slope) {
+  switch (kernel) {
+    case formats::Kernel::Cauchy:
+      return {1.0 / std::sqrt(f), 0.5 * slope / (f * std::sqrt(f))};
+    case formats::Kernel::Gaussian:
+      return {-formats::repeatableLog(f), slope / f};
+    case formats::Kernel::Quartic:
+    case formats::Kernel::SoftObject:
+      break;
+  }
+  return {-std::sqrt(f), 0.5 * slope / std::sqrt(f)};
+}
+
+/// |grad h| / (2 c) - R of the design notes, without its cancellation.
+double wallDistance(formats::Kernel kernel, double level, const At& at, double radius) {
+  const double farSide = at.toNode + radius;
+  if (!(at.f > kVanished * level)) return farSide;
+  const Straight here = straighten(kernel, at.f, at.slope);
+  const double d = std::abs(straighten(kernel, level, 0).h - here.h), gr = here.slope * radius;
+  const double s = std::sqrt(d * d + gr * gr), t = gr + s;
+  if (!(d > 0)) return 0;
+  if (at.f > level) return radius * d * (t + d) / (t * (d + s));
+  return std::min(radius * d * (t + d) / (t * gr), farSide);
+}
+
+double distanceTo(const formats::Case& value, std::uint32_t node, const formats::Vec3f& p,
+                  FitDistance measure) {
+  const formats::BlobbyModels& models = *value.models;
+  if (models.offset[node] == models.offset[node + 1]) return kInfinity;
+  const auto norm = [](double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); };
+  const formats::FieldValue field = formats::evaluateField(models, node, {p.x, p.y, p.z});
+  const formats::Vec3f& c = value.tree.centre[node];
+  const formats::Vec3d& g = field.gradient;
+  const At at{field.f, norm(g.x, g.y, g.z),
+              norm(double{p.x} - c.x, double{p.y} - c.y, double{p.z} - c.z)};
+  if (measure == FitDistance::Wall) {
+    return wallDistance(models.kernel, models.isoLevel, at, value.tree.radius[node]);
+  }
+  return at.slope > 0 ? std::abs(models.isoLevel - at.f) / at.slope : kInfinity;
 }
 
 }  // namespace
 
-std::vector<float> errorOfFit(const formats::Case& value, int neighbourhood, Progress& progress) {
+std::vector<float> errorOfFit(const formats::Case& value, int neighbourhood, Progress& progress,
+                              FitDistance measure) {
   if (!value.points) throw invalidInput("error of fit: the case has no wall points");
   if (!value.models) throw invalidInput("error of fit: the case has no blobby models");
   const std::size_t count = value.tree.nodeCount();
@@ -52,7 +99,8 @@ std::vector<float> errorOfFit(const formats::Case& value, int neighbourhood, Pro
     distances.clear();
     for (const std::uint32_t near : neighbours.within(node, neighbourhood)) {
       for (std::uint32_t k = points.offset[near]; k < points.offset[near + 1]; ++k) {
-        distances.push_back(taubinDistance(*value.models, node, points.position[k]));
+        distances.push_back(
+            static_cast<float>(distanceTo(value, node, points.position[k], measure)));
       }
     }
     if (!distances.empty()) errors[i] = percentile(distances, 0.9);

@@ -9,11 +9,23 @@
 
 namespace lumen::convert {
 
-/// Per node, the error of fit of thesis 4.8.4, mm: the 90th percentile of Taubin's distance
-/// |T - f| / |grad f| over the points of the nodes within topological distance `neighbourhood`. NaN
-/// for a node whose neighbourhood has no points, infinity where the field is flat. Throws
+enum class FitDistance {
+  /// The distance that libblob answers from one evaluation (design notes section 3): with a
+  /// function
+  /// h of f that grows like the square of the distance from the axis, and the node's radius R. The
+  /// same as Taubin's to first order at the wall; at most R inside, and at most R and the distance
+  /// from the node outside, where a flat field would make Taubin's as large as it likes.
+  Wall,
+  /// |T - f| / |grad f|, as in the thesis; infinity where the field is flat.
+  Taubin
+};
+
+/// Per node, the error of fit of thesis 4.8.4, mm: the 90th percentile of the distances of the
+/// points of the nodes within topological distance `neighbourhood` from the node's surface. NaN for
+/// a node whose neighbourhood has no points, infinity for one without blobs. Throws
 /// Error(InvalidInput) for a case without points or models, and Error(Cancelled).
-std::vector<float> errorOfFit(const formats::Case& value, int neighbourhood, Progress& progress);
+std::vector<float> errorOfFit(const formats::Case& value, int neighbourhood, Progress& progress,
+                              FitDistance measure = FitDistance::Wall);
 
 /// Over the nodes that have an error of fit; all NaN if none has. Percentiles are nearest-rank.
 struct ErrorOfFitSummary {

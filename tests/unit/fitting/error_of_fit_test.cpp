@@ -54,6 +54,32 @@ TEST(ErrorOfFit, CountsThePointsOfTheNeighbours) {
   EXPECT_GT(far, 1);
 }
 
+TEST(ErrorOfFit, FarFromTheWallIsStillADistance) {
+  formats::Case value = twoSpheres();
+  for (auto& p : value.points->position) p = {3, 0, 0};
+  Progress progress;
+  // one blob, whose h is exactly h_0 + c r^2: the distance is exact
+  EXPECT_NEAR(errorOfFit(value, 0, progress)[0], 2, 0.01);
+  EXPECT_GT(errorOfFit(value, 0, progress, FitDistance::Taubin)[0], 10);
+}
+
+TEST(ErrorOfFit, OnTheAxisIsTheRadius) {
+  formats::Case value = twoSpheres();
+  for (auto& p : value.points->position) p = {0, 0, 0};
+  Progress progress;
+  EXPECT_NEAR(errorOfFit(value, 0, progress)[0], 1, 1e-6);
+  EXPECT_EQ(errorOfFit(value, 0, progress, FitDistance::Taubin)[0],
+            std::numeric_limits<float>::infinity());
+}
+
+TEST(ErrorOfFit, WhereACompactKernelVanishesIsTheFarSideOfTheNode) {
+  formats::Case value = twoSpheres();
+  value.models->kernel = formats::Kernel::Quartic;
+  for (auto& p : value.points->position) p = {100, 0, 0};
+  Progress progress;
+  EXPECT_EQ(errorOfFit(value, 0, progress)[0], 101);
+}
+
 TEST(ErrorOfFit, OfANodeWithoutBlobsIsInfinite) {
   formats::Case value = twoSpheres();
   value.models->offset = {0, 0, 2};
