@@ -19,4 +19,9 @@ foreach(program seams four_shapes energy_terms)
   add_executable(lumen_${program} ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/${source})
   target_link_libraries(lumen_${program} PRIVATE lumen_reproduce lumen_terminal)
 endforeach()
+
+add_executable(lumen_patient_fits ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/patient_fits.cpp)
+target_link_libraries(lumen_patient_fits PRIVATE
+  lumen_reproduce lumen_tracking lumen_phantom lumen_mesh lumen_terminal)
+
 include(${CMAKE_CURRENT_LIST_DIR}/tracking.cmake)
