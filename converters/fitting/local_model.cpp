@@ -24,6 +24,11 @@ constexpr double kReach = 1.5;
 /// No blob is farther than this many radii of the node from all points, if nothing else is known
 /// of the inside.
 constexpr double kAroundPoints = 1.5;
+/// A fit whose points are farther, in the mean and in accuracies asked for, is tried again from the
+/// inscribed balls: two blobs beside a much wider vessel may end in neither.
+constexpr double kPoorFit = 1.0 / 3.0;
+/// Balls that the second trial begins with are so many radii of the wider one apart.
+constexpr double kBallsApart = 0.8;
 /// Subdivisions in vain, in one fit, before it stops.
 constexpr std::size_t kMostRefusals = 10;
 constexpr MinimiseOptions kAlone{20, 1e-3};
@@ -117,6 +122,26 @@ void LocalModel::start(const NodeData& node) {
   // quarter and three quarters of the way from one end to the other
   for (const double along : {0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high}) {
     m_blobs.push_back({along * direction.x, along * direction.y, along * direction.z, width});
+  }
+}
+
+/// A blob in every inscribed ball that is not mostly in another one's.
+void LocalModel::startInLumen(const NodeData& node) {
+  const EnergyParameters& e = m_options.energy;
+  m_blobs.clear();
+  std::vector<const Ball*> kept;
+  for (const Ball& ball : node.lumen) {
+    const auto isNear = [&](const Ball* other) {
+      const double dx = ball.centre.x - other->centre.x, dy = ball.centre.y - other->centre.y;
+      const double dz = ball.centre.z - other->centre.z;
+      const double apart = kBallsApart * std::max(ball.radius, other->radius);
+      return dx * dx + dy * dy + dz * dz < apart * apart;
+    };
+    if (std::any_of(kept.begin(), kept.end(), isNear)) continue;
+    kept.push_back(&ball);
+    m_blobs.push_back(
+        {ball.centre.x, ball.centre.y, ball.centre.z,
+         formats::widthForRadius(e.kernel, e.kernelParameter, ball.radius, e.isoLevel, 2)});
   }
 }
 
@@ -286,6 +311,22 @@ std::span<const Ball> LocalModel::lumenOf(const NodeData& node) {
   return m_around;
 }
 
+/// Root mean square of the points' distances, as E_d measures them.
+double LocalModel::meanDistance() const {
+  const double reference = m_energy.parameters().referenceSlope;
+  return reference > 0 ? std::sqrt(m_energy.terms().data / reference) : 0.0;
+}
+
+void LocalModel::grow(const NodeData& node, const Progress& progress) {
+  m_subdivisions = 0;
+  m_refused.clear();
+  beginEnergy(node.points);
+  minimiseAll();
+  while (m_subdivisions < m_options.maxSubdivisions && subdivide()) progress.check();
+  weighPriors();
+  if (m_subdivisions > 0) minimiseAll();
+}
+
 std::span<const Blob> LocalModel::fit(const NodeData& node, const Progress& progress) {
   start(node);
   m_radius = node.radius;
@@ -295,11 +336,18 @@ std::span<const Blob> LocalModel::fit(const NodeData& node, const Progress& prog
   m_refused.clear();
   if (node.points.size() < kFewestPoints) return m_blobs;
   m_reach = std::min(m_options.maxDistance, kReach * farthestFromOrigin(node.points));
-  beginEnergy(node.points);
-  minimiseAll();
-  while (m_subdivisions < m_options.maxSubdivisions && subdivide()) progress.check();
-  weighPriors();
-  if (m_subdivisions > 0) minimiseAll();
+  grow(node, progress);
+  const double distance = meanDistance();
+  if (node.lumen.empty() || distance < kPoorFit * m_options.accuracy) return m_blobs;
+  m_first = m_blobs;
+  const EnergyParameters parameters = m_energy.parameters();
+  const double value = m_value;
+  startInLumen(node);
+  grow(node, progress);
+  if (meanDistance() < distance) return m_blobs;
+  m_blobs = m_first;
+  m_energy.setParameters(parameters);
+  m_value = value;
   return m_blobs;
 }
 

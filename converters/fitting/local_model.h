@@ -60,6 +60,9 @@ public:
 
 private:
   void start(const NodeData& node);
+  void startInLumen(const NodeData& node);
+  void grow(const NodeData& node, const Progress& progress);
+  [[nodiscard]] double meanDistance() const;
   std::span<const Ball> lumenOf(const NodeData& node);
   [[nodiscard]] EnergyParameters scaledEnergy() const;
   void beginEnergy(std::span<const formats::Vec3d> points);
@@ -75,7 +78,7 @@ private:
   LocalModelOptions m_options;
   Energy m_energy;
   LevenbergMarquardt m_minimiser;
-  std::vector<Blob> m_blobs, m_spare;
+  std::vector<Blob> m_blobs, m_spare, m_first;
   std::vector<double> m_along;
   std::span<const Ball> m_lumen;
   std::vector<Ball> m_around;

@@ -156,6 +156,33 @@ TEST(LocalModel, AWrongStartingRadiusDoesNotMatter) {
   }
 }
 
+/// The start of a tube of radius 0.15 along x, and its parent's wall, of radius 0.3 along y, around
+/// (-2, 3.5, 0): a branch whose first click was far from the fork.
+struct FarFork {
+  std::vector<Vec3d> points;
+  std::vector<Ball> lumen{{{0, 0, 0}, 0.15},   {{-2, 3.5, 0}, 0.3}, {{0.15, 0, 0}, 0.15},
+                          {{-2, 3.8, 0}, 0.3}, {{-2, 3.2, 0}, 0.3}, {{0.3, 0, 0}, 0.15}};
+  FarFork() {
+    Random random(10);
+    for (int i = 0; i < 150; ++i) {
+      const double angle = random.uniform(0, 6.283185307179586);
+      const double c = std::cos(angle), s = std::sin(angle);
+      points.push_back({-2 + 0.3 * c, 3.5 + random.uniform(-0.6, 0.6), 0.3 * s});
+      points.push_back({random.uniform(-0.1, 0.4), 0.15 * c, 0.15 * s});
+    }
+  }
+};
+
+TEST(LocalModel, ABranchThatStartsFarFromItsParentCoversBoth) {
+  const FarFork fork;
+  LocalModel model({});
+  const auto blobs = model.fit({fork.points, 0.15, kAlongX, fork.lumen}, Progress());
+  EXPECT_GT(fieldAt(blobs, {-2, 3.5, 0.25}), 0.1);
+  EXPECT_LT(fieldAt(blobs, {-2, 3.5, 0.35}), 0.1);
+  EXPECT_GT(fieldAt(blobs, {0.15, 0, 0.12}), 0.1);
+  EXPECT_LT(fieldAt(blobs, {0.15, 0, 0.18}), 0.1);
+}
+
 TEST(LocalModel, NoSubdivisionLeavesTwoBlobs) {
   LocalModelOptions options;
   options.maxSubdivisions = 0;
