@@ -20,15 +20,36 @@ std::string number(double value) {
   return text;
 }
 
+/// Text as XML has it.
+std::string escaped(const std::string& words) {
+  std::string out;
+  for (const char c : words) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
 std::string text(double x, double y, const std::string& anchor, const std::string& words,
                  const std::string& more = "") {
   return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\"" +
-         more + ">" + words + "</text>\n";
+         more + ">" + escaped(words) + "</text>\n";
 }
 
-std::string segment(double x0, double y0, double x1, double y1, const std::string& stroke) {
+std::string segment(double x0, double y0, double x1, double y1, const std::string& stroke,
+                    const std::string& more = "") {
   return "<line x1=\"" + number(x0) + "\" y1=\"" + number(y0) + "\" x2=\"" + number(x1) +
-         "\" y2=\"" + number(y1) + "\" stroke=\"" + stroke + "\"/>\n";
+         "\" y2=\"" + number(y1) + "\" stroke=\"" + stroke + "\"" + more + "/>\n";
+}
+
+/// How a curve is drawn, in the plot and in its legend.
+std::string styleOf(const Curve& curve) {
+  return std::string(" stroke-width=\"1.8\"") + (curve.dashed ? " stroke-dasharray=\"5 4\"" : "");
 }
 
 /// One axis: its range in data, its ticks, and its range in the picture.
@@ -88,8 +109,8 @@ std::string path(const Curve& curve, const Axis& x, const Axis& y, const std::st
     if (!std::isfinite(py) || (y.logarithmic && !(py > 0))) continue;
     points += number(x.place(px)) + "," + number(y.place(py)) + " ";
   }
-  return "<polyline fill=\"none\" stroke-width=\"1.8\" stroke=\"" + colour + "\"" +
-         (curve.dashed ? " stroke-dasharray=\"5 4\"" : "") + " points=\"" + points + "\"/>\n";
+  return "<polyline fill=\"none\" stroke=\"" + colour + "\"" + styleOf(curve) + " points=\"" +
+         points + "\"/>\n";
 }
 
 }  // namespace
@@ -118,7 +139,7 @@ std::string svg(const Plot& plot) {
     const std::string colour = kColours[i % kColours.size()];
     const double at = kTop + 10 + 20 * static_cast<double>(i);
     out += path(plot.curves[i], x, y, colour);
-    out += segment(x.to + 12, at, x.to + 36, at, colour);
+    out += segment(x.to + 12, at, x.to + 36, at, colour, styleOf(plot.curves[i]));
     out += text(x.to + 42, at + 4, "start", plot.curves[i].name);
   }
   return out + "</svg>\n";
