@@ -44,7 +44,8 @@ struct FitOptions {
 /// a model's blobs are expected to differ by a tenth; all unknowns move together, by
 /// Levenberg-Marquardt steps; a new blob stays only if it lowers the energy by enough, and blobs
 /// are added beyond the accuracy asked for while they do, up to a twentieth of the node's radius;
-/// the centre of every blob stays in the lumen, within the radius of a node of the neighbourhood;
+/// the centre of every blob stays in the lumen, within the radius of a node of the neighbourhood; a
+/// fit that leaves the points far away is tried again from blobs all over that lumen;
 /// and afterwards adjacent models are refined together: in every sweep each pair gets points on its
 /// radical plane, halfway between the two surfaces, and all models are minimised with those points.
 ///
