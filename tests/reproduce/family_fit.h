@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What noise alone costs: the error of a least-squares fit of the family of shapes that the points
-// are of, which no method that does not know the shape can be expected to reach.
+// are of. A fit without bias that does not know the shape has a larger one.
 #pragma once
 
 #include <cstddef>

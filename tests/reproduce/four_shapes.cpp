@@ -219,9 +219,10 @@ void run(const std::filesystem::path& folder, Progress& progress) {
   report.paragraph(
       "Shapes of radius 1 mm, 300 points each (thesis 4.8.2). The fit has the parameters of every "
       "other case. The open capsule is judged within the box that its points were clipped to. "
-      "\"shape known\" is the median that a least-squares fit of the very family of the shape (an "
-      "arc or a segment that moves, turns and changes its length, curvature and width) would have: "
-      "noise costs any fit that must find the shape out at least as much.");
+      "\"shape known\" is the median of a least-squares fit of the very family of the shape: an "
+      "arc "
+      "or a segment that moves, turns and changes its length, curvature and width. It is what the "
+      "noise alone costs a fit without bias that has nothing to find out.");
   report.table(clean);
   report.picture("four_shapes_clean.svg", cleanPlot.title);
   report.table(noisy);
