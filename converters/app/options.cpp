@@ -134,6 +134,12 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
       .add("--aneurysm-gradient", o.aneurysmGradient, "SHARE",
            "Aneurysm points need this share of the strongest gradient seen from their centre")
       ->check(kShare);
+  app.add_option("--point-spread", o.pointSpread,
+                 "Standard deviation of the blur that displaces the walls; 0: no correction "
+                 "[measured in the volume]")
+      ->type_name("MM")
+      ->group("Tracking")
+      ->check(kNotNegative);
   group.add("--max-nodes", o.maxNodes, "N", "Bound on the nodes of one branch")->check(kPositive);
   group.add("--random-seed", o.seed, "K", "Seed of the random numbers");
 }

@@ -2,6 +2,7 @@
 #include "converters/volume/tracker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <unordered_map>
 
@@ -10,6 +11,7 @@
 #include "converters/volume/branch_tracker.h"
 #include "converters/volume/icosphere.h"
 #include "converters/volume/noise_floor.h"
+#include "converters/volume/point_spread.h"
 #include "converters/volume/read_volume.h"
 
 namespace lumen::convert {
@@ -36,6 +38,8 @@ void checkOptions(const TrackOptions& o) {
   require(o.branchOffset > 0 && o.branchOffset <= 10, "branch-offset must be in (0, 10]");
   require(o.aneurysmGradient >= 0 && o.aneurysmGradient <= 1,
           "aneurysm-gradient must be in [0, 1]");
+  require(!o.pointSpread || (*o.pointSpread >= 0 && *o.pointSpread <= 1000),
+          "point-spread must be in 0 .. 1000");
   require(o.maxNodes >= 2, "max-nodes must be at least 2");
 }
 
@@ -147,25 +151,39 @@ void appendBranch(const SeedBranch& seed, const TrackedBranch& branch,
   tree.branches.push_back(std::move(record));
 }
 
+/// The blur by which walls are corrected: as given, as measured, or at least the voxel's own box.
+double pointSpreadOf(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
+                     const std::vector<TrackedBranch>& branches, const TrackOptions& options) {
+  if (options.pointSpread) return *options.pointSpread;
+  std::vector<TrackedBranch> vessels;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    if (seeds[i].kind == BranchKind::Vessel) vessels.push_back(branches[i]);
+  const auto measured = measurePointSpread(volume, vessels, options.dark);
+  return measured.value_or(volume.geometry().voxelSize() / std::sqrt(12.0));
+}
+
 }  // namespace
 
 std::map<std::string, formats::ParameterValue> TrackOptions::parameters() const {
   const auto integer = [](int value) { return static_cast<std::int64_t>(value); };
-  return {{"inlier-rate", inlierRate},
-          {"inlier-band", inlierBand},
-          {"rays", integer(rays)},
-          {"axes", integer(axes)},
-          {"samples", integer(samples)},
-          {"min-trials", integer(minTrials)},
-          {"max-trials", integer(maxTrials)},
-          {"step", step},
-          {"noise-margin", noiseMargin},
-          {"look-ahead", integer(lookAhead)},
-          {"branch-offset", branchOffset},
-          {"aneurysm-gradient", aneurysmGradient},
-          {"max-nodes", integer(maxNodes)},
-          {"dark", dark},
-          {"random-seed", static_cast<std::int64_t>(seed)}};
+  std::map<std::string, formats::ParameterValue> values{
+      {"inlier-rate", inlierRate},
+      {"inlier-band", inlierBand},
+      {"rays", integer(rays)},
+      {"axes", integer(axes)},
+      {"samples", integer(samples)},
+      {"min-trials", integer(minTrials)},
+      {"max-trials", integer(maxTrials)},
+      {"step", step},
+      {"noise-margin", noiseMargin},
+      {"look-ahead", integer(lookAhead)},
+      {"branch-offset", branchOffset},
+      {"aneurysm-gradient", aneurysmGradient},
+      {"max-nodes", integer(maxNodes)},
+      {"dark", dark},
+      {"random-seed", static_cast<std::int64_t>(seed)}};
+  if (pointSpread) values["point-spread"] = *pointSpread;
+  return values;
 }
 
 TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
@@ -179,6 +197,10 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   for (int depth = 0; depth <= ancestry.deepest; ++depth)
     trackWave(spline, seeds, ancestry, options, floor, depth, branches, progress);
   progress.end();
+  TrackOptions used = options;
+  used.pointSpread = pointSpreadOf(spline, seeds, branches, options);
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    correctWalls(branches[i], seeds[i].kind, *used.pointSpread);
 
   TrackResult out;
   out.result.points.emplace();
@@ -192,7 +214,7 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   }
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
   out.result.metadata.source = describeSource(volume);
-  out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, options.parameters()});
+  out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <variant>
 
 #include "converters/common/random.h"
 #include "converters/compare/sampled_path.h"
@@ -80,22 +81,26 @@ std::uint32_t nearestNode(const formats::CenterlineTree& tree, const formats::Br
 
 }  // namespace
 
-TrackOutcome trackAndScore(const convert::Phantom& phantom, Progress& progress) {
+TrackOutcome trackAndScore(const convert::Phantom& phantom, Progress& progress,
+                           const convert::TrackOptions& options) {
   const formats::CenterlineTree& truth = phantom.truth.tree;
   const convert::TrackResult tracked =
-      convert::track(phantom.volume, phantom.seeds, convert::TrackOptions{}, progress);
+      convert::track(phantom.volume, phantom.seeds, options, progress);
   const convert::Comparison comparison =
       convert::compareCases(tracked.result, phantom.truth, progress);
   const formats::CenterlineTree& found = tracked.result.tree;
   TrackOutcome out;
   out.voxel = phantom.volume.geometry.voxelSize();
   out.score = comparison.score;
+  const auto& parameters = tracked.result.metadata.steps.back().parameters;
+  out.pointSpread = std::get<double>(parameters.at("point-spread"));
   const auto index = indexByLabel(found);
   const std::vector<SampledPath> paths = truePaths(truth, out.voxel);
   for (std::uint32_t b = 0; b < truth.branches.size(); ++b) {
     const formats::Branch& branch = truth.branches[b];
     if (branch.kind != formats::BranchKind::Vessel) continue;
     BranchOutcome own;
+    own.label = branch.label;
     own.length = formats::branchLength(truth, branch);
     for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n)
       own.radius += static_cast<double>(truth.radius[n]) / branch.nodeCount / out.voxel;

@@ -13,6 +13,7 @@ namespace lumen::reproduce {
 
 /// Of a vessel of the truth.
 struct BranchOutcome {
+  std::string label;
   double radius = 0;  ///< mean of the true nodes, voxels
   double length = 0;  ///< true, mm
   bool started = false;
@@ -30,14 +31,16 @@ struct NodeOutcome {
 };
 
 struct TrackOutcome {
-  double voxel = 0;  ///< mm
+  double voxel = 0;        ///< mm
+  double pointSpread = 0;  ///< mm, by which the walls were corrected
   convert::CenterlineScore score;
   std::vector<BranchOutcome> branches;
   std::vector<NodeOutcome> nodes;
 };
 
-/// Tracks with default options and the given seeds.
-TrackOutcome trackAndScore(const convert::Phantom& phantom, Progress& progress);
+/// Tracks from the phantom's clicks.
+TrackOutcome trackAndScore(const convert::Phantom& phantom, Progress& progress,
+                           const convert::TrackOptions& options = {});
 
 /// Errors of the clicks on vessels. Directions and radii are those of the nearest true node.
 struct ClickError {

@@ -3,6 +3,7 @@ lumen_test(tracking_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/icosphere_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/cylinder_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/point_spread_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/rays_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/real_volumes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tracker_test.cpp)

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/volume/point_spread.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <variant>
+
+#include <gtest/gtest.h>
+
+#include "tube_volume.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+/// How fast the blurred disc of a radius falls at a distance: the blurred edge, summed around it.
+double fallOfDisc(double radius, double sigma, double distance) {
+  double sum = 0;
+  constexpr int kParts = 180;
+  for (int i = 0; i < kParts; ++i) {
+    const double c = std::cos(2 * std::numbers::pi * i / kParts);
+    const double square = distance * distance + radius * radius - 2 * distance * radius * c;
+    sum += c * std::exp(-square / (2 * sigma * sigma));
+  }
+  return sum * radius / (sigma * sigma * kParts);
+}
+
+double steepestPlace(double radius, double sigma) {
+  double best = 0, strongest = 0;
+  for (double r = 0.2 * radius; r < 2 * radius; r += 2e-4)
+    if (const double fall = fallOfDisc(radius, sigma, r); fall > strongest) {
+      strongest = fall;
+      best = r;
+    }
+  return best;
+}
+
+TEST(PointSpread, TheRadiusOfABlurredDiscIsFoundFromWhereItFallsFastest) {
+  for (const double radius : {1.0, 1.5, 3.0, 6.0})
+    EXPECT_NEAR(cylinderRadius(steepestPlace(radius, 0.65), 0.65), radius, 2e-3) << radius;
+  // s^2/(2R) for a wall that is nearly flat, twice that for a ball's
+  EXPECT_NEAR(cylinderRadius(50.0, 1.0), 50.01, 1e-4);
+  EXPECT_NEAR(ballRadius(50.0, 1.0), 50.02, 1e-4);
+}
+
+TEST(PointSpread, CorrectedRadiiGrowWithTheSeenOnesAndAreNeverBelowHalfOfThem) {
+  double last = 0;
+  for (double seen = 0.5; seen < 12; seen += 0.01) {
+    const double radius = cylinderRadius(seen, 1.0);
+    EXPECT_GE(radius, 0.5 * seen);
+    EXPECT_GT(radius, last);
+    last = radius;
+  }
+}
+
+TEST(PointSpread, ZeroCorrectsNothing) {
+  EXPECT_EQ(cylinderRadius(1.25, 0.0), 1.25);
+  EXPECT_EQ(ballRadius(1.25, 0.0), 1.25);
+}
+
+// askew to the grid, so that its walls pass between voxels in every way
+const Vector3d kCentre(4.71, 4.66, 4.8), kAxis = Vector3d(0.35, 0.25, 1).normalized();
+
+double distanceToAxis(const Vector3d& point) {
+  return (point - kCentre).cross(kAxis).norm();
+}
+
+/// A tube of `radius` blurred by `sigma` across its axis (mm); its values come from their fall.
+Volume blurredTube(double radius, double sigma) {
+  constexpr double kStep = 0.002, kFarthest = 8.5;
+  std::vector<double> profile{0.0};
+  for (double r = kFarthest; r > 0; r -= kStep)
+    profile.push_back(profile.back() + kStep * fallOfDisc(radius, sigma, r - 0.5 * kStep));
+  Volume volume = drawVolume(48, 0.2, [](const Vector3d&) { return 1.0; });
+  auto& voxels = std::get<std::vector<std::int16_t>>(volume.voxels);
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const auto part = [&](std::size_t n) { return 0.2 * static_cast<double>(n % 48); };
+    const double distance = distanceToAxis({part(i), part(i / 48), part(i / 48 / 48)});
+    const auto at = static_cast<std::size_t>((kFarthest - distance) / kStep);
+    voxels[i] = static_cast<std::int16_t>(std::lround(10000 * profile[at]));
+  }
+  return volume;
+}
+
+TrackResult trackTube(const Volume& volume, std::optional<double> pointSpread) {
+  SeedBranch seed;
+  seed.label = "tube";
+  seed.points.push_back({kCentre, {}});
+  TrackOptions options;
+  options.pointSpread = pointSpread;
+  Progress silent;
+  return track(volume, {seed}, options, silent);
+}
+
+double storedSpread(const TrackResult& tracked) {
+  return std::get<double>(tracked.result.metadata.steps.back().parameters.at("point-spread"));
+}
+
+TEST(PointSpread, IsMeasuredInAVolumeAndStoredWithTheCase) {
+  for (const double sigma : {0.16, 0.2, 0.24})
+    EXPECT_NEAR(storedSpread(trackTube(blurredTube(0.8, sigma), {})), sigma, 0.05 * sigma);
+}
+
+TEST(PointSpread, RadiiAndWallPointsOfANarrowBlurredTubeAreThoseOfTheTube) {
+  const Volume volume = blurredTube(0.3, 0.14);  // 1.5 voxels wide, blurred by 0.7
+  const TrackResult seen = trackTube(volume, 0.0), corrected = trackTube(volume, {});
+  EXPECT_EQ(storedSpread(seen), 0.0);
+  ASSERT_GT(corrected.result.tree.nodeCount(), 10u);
+  const auto meanOf = [](const std::vector<float>& radii) {
+    return std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
+  };
+  EXPECT_NEAR(meanOf(seen.result.tree.radius), 0.3 - 0.14 * 0.14 / 0.6, 0.006);
+  EXPECT_NEAR(meanOf(corrected.result.tree.radius), 0.3, 0.006);
+  std::vector<float> distances;
+  for (const formats::Vec3f& p : corrected.result.points->position)
+    distances.push_back(static_cast<float>(distanceToAxis(Vector3d(p.x, p.y, p.z))));
+  EXPECT_NEAR(meanOf(distances), 0.3, 0.006);
+}
+
+}  // namespace
+}  // namespace lumen::convert
