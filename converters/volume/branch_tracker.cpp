@@ -32,6 +32,8 @@ std::string rateText(double best, double needed) {
   return text.data();
 }
 
+constexpr double kOnCourse = 0.77;  // cosine of 40 degrees
+
 constexpr std::size_t kNoTurn = std::numeric_limits<std::size_t>::max();
 
 /// Where a track that has come back to itself turned round, as the number of nodes before, or
@@ -240,6 +242,11 @@ std::vector<TrackedNode> BranchTracker::lookAhead(const std::vector<TrackedNode>
     return node.strength >= 0.5 * mean.strength && node.radius >= 0.6 * last.radius &&
            node.radius <= 1.5 * last.radius;
   };
+  // another vessel that happens to pass beyond the end of this one runs across the way to it
+  const auto onCourse = [&](const TrackedNode& node) {
+    const Vector3d way = node.centre - last.centre;
+    return way.norm() < 2.0 * mean.radius || way.normalized().dot(node.direction) > kOnCourse;
+  };
   const auto [e1, e2] = planeBasis(last.direction);
   for (int steps = 1; steps <= m_options.lookAhead; ++steps)
     for (int side = 0; side <= 6; ++side) {
@@ -252,7 +259,8 @@ std::vector<TrackedNode> BranchTracker::lookAhead(const std::vector<TrackedNode>
       if (!first || !plausible(*first) || turningPoint(nodes, *first) != kNoTurn) continue;
       std::optional<TrackedNode> second =
           fitNode(predict(*first, 1, first->direction), minRate, random);
-      if (!second || !plausible(*second) || turningPoint({last, *first}, *second) != kNoTurn)
+      if (!second || !plausible(*second) || !onCourse(*second) ||
+          turningPoint({last, *first}, *second) != kNoTurn)
         continue;
       return {std::move(*first), std::move(*second)};
     }

@@ -33,7 +33,9 @@ TrackResult trackOne(const Volume& volume, const std::vector<SeedBranch>& seeds)
   return track(volume, seeds, TrackOptions{}, silent);
 }
 
-Vector3d toVector(const formats::Vec3f& v) { return {v.x, v.y, v.z}; }
+Vector3d toVector(const formats::Vec3f& v) {
+  return {v.x, v.y, v.z};
+}
 
 /// A T: a child of half the trunk's radius leaves its middle along x.
 Volume tee(double childRadius) {
@@ -68,7 +70,8 @@ TEST(Tracker, NodesHoldWallPointsWithinTheirHeight) {
     for (std::uint32_t k = points.offset[i]; k < points.offset[i + 1]; ++k) {
       const Vector3d p = toVector(points.position[k]) - toVector(tree.centre[i]);
       EXPECT_LE(std::abs(p.dot(toVector(tree.direction[i]))), 0.5 * tree.height[i] + 1e-3);
-      EXPECT_NEAR(p.cross(toVector(tree.direction[i])).norm(), tree.radius[i], 0.11 * tree.radius[i]);
+      EXPECT_NEAR(p.cross(toVector(tree.direction[i])).norm(), tree.radius[i],
+                  0.11 * tree.radius[i]);
     }
   }
 }
@@ -216,9 +219,21 @@ TEST(NoiseFloor, IsZeroWithoutNoiseAndGrowsInProportionToIt) {
   EXPECT_NEAR(ratio, 4.0, 0.3);
 }
 
+TEST(Tracker, DoesNotJumpFromItsEndToAVesselThatPassesBeyond) {
+  const Vector3d across = Vector3d(1, 0, 0.9).normalized();
+  const Vector3d beyond(6.4, 6.4, 8.0);
+  const Volume volume = drawVolume(64, 0.2, [&](const Vector3d& p) {
+    return std::min(capsule(p, kLow, {6.4, 6.4, 6.0}, 0.4),
+                    capsule(p, beyond - 4.0 * across, beyond + 4.0 * across, 0.4));
+  });
+  SeedBranch seed = seedAt("tube", {6.4, 6.4, 2.5}, 0.4);
+  seed.direction = Vector3d::UnitZ();
+  EXPECT_LT(trackOne(volume, {seed}).result.tree.centre.back().z, 6.6F);
+}
+
 TEST(Tracker, ASecondClickOnTheSameVesselIsRefused) {
-  const TrackResult out = trackOne(
-      straightTube(1.0), {seedAt("first", {6.4, 6.4, 6}, 1.0), seedAt("again", {6.4, 6.4, 8}, 1.0)});
+  const TrackResult out = trackOne(straightTube(1.0), {seedAt("first", {6.4, 6.4, 6}, 1.0),
+                                                       seedAt("again", {6.4, 6.4, 8}, 1.0)});
   ASSERT_EQ(out.failures.size(), 1u);
   EXPECT_EQ(out.failures[0].label, "again");
   EXPECT_NE(out.failures[0].reason.find("another seed"), std::string::npos);
@@ -231,8 +246,8 @@ TEST(Tracker, AVesselThatRunsThroughAnotherOneKeepsThePartWithItsClick) {
     return std::min(capsule(p, kLow, kHigh, 0.8),
                     capsule(p, {0.6, 6.4, 6.4}, {12.2, 6.4, 6.4}, 0.7));
   });
-  const TrackResult out =
-      trackOne(cross, {seedAt("first", {6.4, 6.4, 2.5}, 0.8), seedAt("second", {10.0, 6.4, 6.4}, 0.7)});
+  const TrackResult out = trackOne(
+      cross, {seedAt("first", {6.4, 6.4, 2.5}, 0.8), seedAt("second", {10.0, 6.4, 6.4}, 0.7)});
   ASSERT_EQ(out.result.tree.branches.size(), 2u);
   const formats::Branch& second = out.result.tree.branches[1];
   for (std::uint32_t i = second.firstNode; i < second.firstNode + second.nodeCount; ++i)
@@ -254,8 +269,12 @@ TEST(Tracker, AChildOfAFailedParentNamesIt) {
 }
 
 TEST(Tracker, TouchingTubesStayApart) {
-  const auto left = [](const Vector3d& p) { return capsule(p, {5.4, 6.4, 0.4}, {5.4, 6.4, 12.2}, 1.0); };
-  const auto right = [](const Vector3d& p) { return capsule(p, {7.4, 6.4, 0.4}, {7.4, 6.4, 12.2}, 1.0); };
+  const auto left = [](const Vector3d& p) {
+    return capsule(p, {5.4, 6.4, 0.4}, {5.4, 6.4, 12.2}, 1.0);
+  };
+  const auto right = [](const Vector3d& p) {
+    return capsule(p, {7.4, 6.4, 0.4}, {7.4, 6.4, 12.2}, 1.0);
+  };
   const Volume volume =
       drawVolume(64, 0.2, [&](const Vector3d& p) { return std::min(left(p), right(p)); });
   const TrackResult out =
