@@ -140,6 +140,12 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
       ->type_name("MM")
       ->group("Tracking")
       ->check(kNotNegative);
+  app.add_option("--smoothing", o.smoothing,
+                 "Standard deviation of the Gaussian that the volume is smoothed by; 0: none "
+                 "[by its noise]")
+      ->type_name("MM")
+      ->group("Tracking")
+      ->check(kNotNegative);
   group.add("--max-nodes", o.maxNodes, "N", "Bound on the nodes of one branch")->check(kPositive);
   group.add("--random-seed", o.seed, "K", "Seed of the random numbers");
 }

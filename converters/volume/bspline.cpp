@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "converters/common/simd.h"
+#include "formats/case/blobby.h"
 
 namespace lumen::convert {
 namespace {
@@ -34,14 +36,24 @@ constexpr int kPaddedRow = (kPadded + 3) / 4 * 4;
 
 using Taps = std::array<float, kHalo + 1>;
 
-/// One side of the truncated symmetric filter, scaled so that a constant stays what it is.
-Taps makeTaps() {
+/// One side of the truncated symmetric filter, scaled so that a constant stays what it is: the
+/// prefilter after a Gaussian of `sigma` voxels.
+Taps makeTaps(double sigma) {
   const double pole = std::sqrt(3.0) - 2.0;
-  std::array<double, kHalo + 1> exact{1.0};
-  double sum = 1;
-  for (std::size_t n = 1; n < exact.size(); ++n) {
-    exact[n] = exact[n - 1] * pole;
-    sum += 2 * exact[n];
+  std::array<double, 4 * kHalo + 1> gauss{1.0}, prefilter{1.0};
+  for (std::size_t n = 1; n < gauss.size(); ++n) {
+    const double x = static_cast<double>(n);
+    gauss[n] = sigma > 0 ? formats::repeatableExp(-0.5 * x * x / (sigma * sigma)) : 0.0;
+    prefilter[n] = prefilter[n - 1] * pole;
+  }
+  std::array<double, kHalo + 1> exact{};
+  double sum = 0;
+  for (int n = 0; n <= kHalo; ++n) {
+    double& tap = exact[static_cast<std::size_t>(n)];
+    for (int m = -3 * kHalo; m <= 3 * kHalo; ++m)
+      tap += gauss[static_cast<std::size_t>(std::abs(m))] *
+             prefilter[static_cast<std::size_t>(std::abs(n - m))];
+    sum += n == 0 ? tap : 2 * tap;
   }
   Taps taps{};
   for (std::size_t n = 0; n < taps.size(); ++n) taps[n] = static_cast<float>(exact[n] / sum);
@@ -167,13 +179,14 @@ struct BsplineVolume::Bricks {
   const Volume& volume;
   std::array<int, 3> lastCell{};  ///< cells are 0 .. lastCell; a single voxel still makes one cell
   std::array<int, 3> count{};     ///< bricks along each axis
-  Taps taps = makeTaps();
+  std::array<Taps, 3> taps;
   std::vector<std::atomic<float*>> coefficients;
   std::atomic<std::size_t> built{0};
 
-  explicit Bricks(const Volume& v) : volume(v) {
+  Bricks(const Volume& v, double smoothing) : volume(v) {
     std::size_t total = 1;
     for (std::size_t a = 0; a < 3; ++a) {
+      taps[a] = makeTaps(smoothing / v.geometry.spacing[static_cast<Eigen::Index>(a)]);
       lastCell[a] = std::max(v.geometry.size[a] - 2, 0);
       count[a] = (lastCell[a] >> kBrickShift) + 1;
       total *= static_cast<std::size_t>(count[a]);
@@ -230,16 +243,17 @@ void BsplineVolume::Bricks::filter(const std::vector<T>& voxels, const std::arra
     for (std::size_t y = 0; y < kPadded; ++y) {
       const T* from = voxels.data() + (source[2][z] * ny + source[1][y]) * nx;
       for (std::size_t x = 0; x < kPadded; ++x) line[x] = static_cast<float>(from[source[0][x]]);
-      filterRun(line.data() + kHalo, 1, taps.data(), rows.data() + y * kRow, kStored);
+      filterRun(line.data() + kHalo, 1, taps[0].data(), rows.data() + y * kRow, kStored);
     }
     // rows are contiguous, so the y filter of a whole plane is one run
-    filterRun(rows.data() + kHalo * kRow, kRow, taps.data(), planes.data() + z * kPlane, kPlane);
+    filterRun(rows.data() + kHalo * kRow, kRow, taps[1].data(), planes.data() + z * kPlane, kPlane);
   }
-  filterRun(planes.data() + static_cast<std::size_t>(kHalo) * kPlane, kPlane, taps.data(), out,
+  filterRun(planes.data() + static_cast<std::size_t>(kHalo) * kPlane, kPlane, taps[2].data(), out,
             static_cast<int>(kBrickFloats));
 }
 
-BsplineVolume::BsplineVolume(const Volume& volume) : m_bricks(std::make_unique<Bricks>(volume)) {}
+BsplineVolume::BsplineVolume(const Volume& volume, double smoothing)
+    : m_bricks(std::make_unique<Bricks>(volume, smoothing)) {}
 BsplineVolume::~BsplineVolume() = default;
 
 const VolumeGeometry& BsplineVolume::geometry() const {

@@ -2,6 +2,10 @@
 #include "converters/volume/noise_floor.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "converters/common/random.h"
@@ -13,6 +17,11 @@ namespace {
 constexpr int kPlaces = 64;
 constexpr double kRadiusVoxels = 2.0;  // thin vessels are those that noise is mistaken for
 constexpr std::uint64_t kStream = ~std::uint64_t{0};
+
+constexpr int kReach = 16;                                           // voxels
+constexpr std::array kSmoothing = {0.5, 0.6, 0.7, 0.85, 1.0, 1.25};  // voxels
+constexpr double kStrongEnough = 6.0;
+constexpr double kUsualSpread = 2.0 / 3.0;  // voxels: a scanner's blur and the voxel's own box
 
 /// The element that the share `rank` of all is below; of a non-empty list, which it reorders.
 template <typename T>
@@ -40,6 +49,55 @@ double noiseFloor(const BsplineVolume& volume, const TrackOptions& options) {
     strengths.push_back(points.count() == 0 ? 0.0 : quantile(points.strength, 0.5));
   }
   return quantile(strengths, 0.25);
+}
+
+double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
+                        const TrackOptions& options) {
+  const VolumeGeometry& geometry = volume.geometry();
+  const float sign = options.dark ? -1.0F : 1.0F;
+  std::vector<float> contrasts, values(kReach + 1), inside, around;
+  for (const SeedBranch& seed : seeds) {
+    const Eigen::Vector3d click = geometry.indexFromWorld(seed.points[0].position);
+    if (!geometry.containsIndex(click)) continue;
+    around.clear();
+    for (const Eigen::Vector3d& ray : icosphere(icosphereOrder(42))) {
+      const Eigen::Vector3d step = (geometry.direction.transpose() * ray * geometry.voxelSize())
+                                       .cwiseQuotient(geometry.spacing);
+      volume.sampleLine(click, step, values);
+      inside.clear();
+      for (const float value : values)
+        if (!std::isnan(value)) inside.push_back(sign * value);
+      around.push_back(static_cast<float>(quantile(inside, 0.25)));
+    }
+    contrasts.push_back(sign * volume.sample(click) - static_cast<float>(quantile(around, 0.5)));
+  }
+  return contrasts.empty() ? 0.0 : std::max(0.0, quantile(contrasts, 0.5));
+}
+
+SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                              const TrackOptions& options) {
+  const double voxel = volume.geometry.voxelSize();
+  const double most = BsplineVolume::kMostSmoothing * volume.geometry.spacing.minCoeff();
+  const auto smoothed = [&](double smoothing) {
+    auto spline = std::make_unique<BsplineVolume>(volume, smoothing);
+    const double floor = noiseFloor(*spline, options);
+    return SmoothedVolume{std::move(spline), smoothing, floor};
+  };
+  SmoothedVolume out = smoothed(std::min(options.smoothing.value_or(0.0), most));
+  if (options.smoothing || out.noiseFloor == 0) return out;
+  const double contrast =
+      contrastAtClicks(BsplineVolume(volume, std::min(voxel, most)), seeds, options);
+  if (contrast == 0) return out;
+  const auto enough = [&](const SmoothedVolume& candidate) {
+    // the steepest slope of a straight edge
+    const double spread = std::hypot(candidate.smoothing, kUsualSpread * voxel);
+    const double wall = contrast / (std::sqrt(2.0 * std::numbers::pi) * spread);
+    return wall >= kStrongEnough * candidate.noiseFloor;
+  };
+  if (enough(out)) return out;
+  for (const double scale : kSmoothing)
+    if (SmoothedVolume next = smoothed(std::min(scale * voxel, most)); enough(next)) return next;
+  return out;
 }
 
 }  // namespace lumen::convert

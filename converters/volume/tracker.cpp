@@ -40,6 +40,7 @@ void checkOptions(const TrackOptions& o) {
           "aneurysm-gradient must be in [0, 1]");
   require(!o.pointSpread || (*o.pointSpread >= 0 && *o.pointSpread <= 1000),
           "point-spread must be in 0 .. 1000");
+  require(!o.smoothing || *o.smoothing >= 0, "smoothing must not be negative");
   require(o.maxNodes >= 2, "max-nodes must be at least 2");
 }
 
@@ -159,7 +160,8 @@ double pointSpreadOf(const BsplineVolume& volume, const std::vector<SeedBranch>&
   for (std::size_t i = 0; i < seeds.size(); ++i)
     if (seeds[i].kind == BranchKind::Vessel) vessels.push_back(branches[i]);
   const auto measured = measurePointSpread(volume, vessels, options.dark);
-  return measured.value_or(volume.geometry().voxelSize() / std::sqrt(12.0));
+  return measured.value_or(
+      std::hypot(*options.smoothing, volume.geometry().voxelSize() / std::sqrt(12.0)));
 }
 
 }  // namespace
@@ -182,6 +184,7 @@ std::map<std::string, formats::ParameterValue> TrackOptions::parameters() const 
       {"max-nodes", integer(maxNodes)},
       {"dark", dark},
       {"random-seed", static_cast<std::int64_t>(seed)}};
+  if (smoothing) values["smoothing"] = *smoothing;
   if (pointSpread) values["point-spread"] = *pointSpread;
   return values;
 }
@@ -189,16 +192,20 @@ std::map<std::string, formats::ParameterValue> TrackOptions::parameters() const 
 TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
                   const TrackOptions& options, Progress& progress) {
   checkOptions(options);
-  const BsplineVolume spline(volume);
+  require(options.smoothing.value_or(0.0) <=
+              BsplineVolume::kMostSmoothing * volume.geometry.spacing.minCoeff(),
+          "smoothing must be at most twice the smallest edge of a voxel");
+  const SmoothedVolume smoothed = smoothForNoise(volume, seeds, options);
+  const BsplineVolume& spline = *smoothed.spline;
   const Ancestry ancestry = findAncestry(seeds);
   std::vector<TrackedBranch> branches(seeds.size());
-  const double floor = noiseFloor(spline, options);
   progress.begin("track", seeds.size());
   for (int depth = 0; depth <= ancestry.deepest; ++depth)
-    trackWave(spline, seeds, ancestry, options, floor, depth, branches, progress);
+    trackWave(spline, seeds, ancestry, options, smoothed.noiseFloor, depth, branches, progress);
   progress.end();
   TrackOptions used = options;
-  used.pointSpread = pointSpreadOf(spline, seeds, branches, options);
+  used.smoothing = smoothed.smoothing;
+  used.pointSpread = pointSpreadOf(spline, seeds, branches, used);
   for (std::size_t i = 0; i < seeds.size(); ++i)
     correctWalls(branches[i], seeds[i].kind, *used.pointSpread);
 

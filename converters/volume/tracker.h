@@ -34,6 +34,9 @@ struct TrackOptions {
   /// standard deviation of the blur, mm, by which walls are corrected; 0: not at all; empty:
   /// measured
   std::optional<double> pointSpread;
+  /// standard deviation, mm, of the Gaussian that the volume is smoothed by; empty: what its noise
+  /// asks for
+  std::optional<double> smoothing;
   int maxNodes = 20000;    ///< bound on nodes in one branch
   bool dark = false;       ///< vessels are darker than their background
   std::uint64_t seed = 1;  ///< of the random numbers

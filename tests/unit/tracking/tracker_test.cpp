@@ -219,6 +219,34 @@ TEST(NoiseFloor, IsZeroWithoutNoiseAndGrowsInProportionToIt) {
   EXPECT_NEAR(ratio, 4.0, 0.3);
 }
 
+TEST(Smoothing, IsNoneWithoutNoiseAndGrowsWithIt) {
+  const Volume clean = straightTube(0.6);
+  const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
+  EXPECT_NEAR(contrastAtClicks(BsplineVolume(clean), seeds, TrackOptions{}), 1000, 20);
+  EXPECT_EQ(smoothForNoise(clean, seeds, TrackOptions{}).smoothing, 0.0);
+  double last = 0;
+  for (const double noise : {80.0, 200.0, 400.0}) {
+    const double smoothing = smoothForNoise(noisy(clean, noise), seeds, TrackOptions{}).smoothing;
+    EXPECT_GT(smoothing, last);
+    last = smoothing;
+  }
+  EXPECT_LE(last, 1.25 * 0.2);
+}
+
+TEST(Smoothing, FindsAThinVesselInStrongNoise) {
+  const Volume volume = noisy(straightTube(0.4), 250);  // a quarter of the contrast
+  TrackOptions rough;
+  rough.smoothing = 0.0;
+  Progress silent;
+  const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
+  EXPECT_TRUE(track(volume, seeds, rough, silent).result.tree.branches.empty());
+  const auto tracked = track(volume, seeds, TrackOptions{}, silent).result;
+  ASSERT_EQ(tracked.tree.branches.size(), 1u);
+  EXPECT_LT(tracked.tree.centre.front().z, 1.5F);
+  EXPECT_GT(tracked.tree.centre.back().z, 11.0F);
+  EXPECT_GT(std::get<double>(tracked.metadata.steps[0].parameters.at("smoothing")), 0.1);
+}
+
 TEST(Tracker, DoesNotJumpFromItsEndToAVesselThatPassesBeyond) {
   const Vector3d across = Vector3d(1, 0, 0.9).normalized();
   const Vector3d beyond(6.4, 6.4, 8.0);
