@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -136,6 +137,8 @@ void BranchTracker::finishNode(TrackedNode& node, const Cylinder& cylinder) {
     return std::abs((m_points.origin + m_points.offset(i) - cylinder.centre).dot(cylinder.axis));
   };
   for (const std::size_t i : m_inliers) extent.push_back(along(i));
+  node.meanSquareAlong = std::inner_product(extent.begin(), extent.end(), extent.begin(), 0.0) /
+                         static_cast<double>(extent.size());
   const auto held = static_cast<std::size_t>(std::ceil(0.75 * static_cast<double>(extent.size())));
   std::nth_element(extent.begin(), extent.begin() + static_cast<std::ptrdiff_t>(held - 1),
                    extent.end());

@@ -22,7 +22,8 @@ namespace lumen::convert {
 struct TrackedNode {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
   double radius = 0, height = 0, inlierRate = 0;
-  double strength = 0;  ///< median fall of intensity at the points, voxel units per mm
+  double strength = 0;         ///< median fall of intensity at the points, voxel units per mm
+  double meanSquareAlong = 0;  ///< of the inliers' places along the axis from the centre, mm^2
   std::vector<formats::Vec3f> points;
 };
 

@@ -8,6 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "converters/volume/bends.h"
 #include "converters/volume/branch_tracker.h"
 #include "converters/volume/icosphere.h"
 #include "converters/volume/noise_floor.h"
@@ -206,8 +207,10 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;
   used.pointSpread = pointSpreadOf(spline, seeds, branches, used);
-  for (std::size_t i = 0; i < seeds.size(); ++i)
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
     correctWalls(branches[i], seeds[i].kind, *used.pointSpread);
+    if (seeds[i].kind == BranchKind::Vessel) correctBends(branches[i].nodes);
+  }
 
   TrackResult out;
   out.result.points.emplace();

@@ -259,6 +259,23 @@ TEST(Tracker, DoesNotJumpFromItsEndToAVesselThatPassesBeyond) {
   EXPECT_LT(trackOne(volume, {seed}).result.tree.centre.back().z, 6.6F);
 }
 
+TEST(Tracker, TheCentresOfAWideBentVesselLieOnItsAxis) {
+  // a ring of radius 4.5 mm of a tube of radius 1.4 mm; half of it lies in the volume
+  const Vector3d middle(6.4, 6.4, 0.0);
+  const Volume volume = drawVolume(64, 0.2, [&](const Vector3d& p) {
+    const Vector3d q = p - middle;
+    return std::hypot(std::hypot(q.x(), q.z()) - 4.5, q.y()) - 1.4;
+  });
+  const auto& tree = trackOne(volume, {seedAt("arch", {6.4, 6.4, 4.5}, 1.4)}).result.tree;
+  ASSERT_GT(tree.nodeCount(), 6u);
+  double sum = 0;
+  for (std::size_t n = 2; n + 2 < tree.nodeCount(); ++n) {
+    const Vector3d q = toVector(tree.centre[n]) - middle;
+    sum += std::hypot(q.x(), q.z()) / static_cast<double>(tree.nodeCount() - 4);
+  }
+  EXPECT_NEAR(sum, 4.5, 0.02);
+}
+
 TEST(Tracker, ASecondClickOnTheSameVesselIsRefused) {
   const TrackResult out = trackOne(straightTube(1.0), {seedAt("first", {6.4, 6.4, 6}, 1.0),
                                                        seedAt("again", {6.4, 6.4, 8}, 1.0)});
