@@ -34,6 +34,7 @@ std::string rateText(double best, double needed) {
 }
 
 constexpr double kOnCourse = 0.77;  // cosine of 40 degrees
+constexpr double kMostTurn = 0.64;  // of 50
 
 constexpr std::size_t kNoTurn = std::numeric_limits<std::size_t>::max();
 
@@ -248,7 +249,9 @@ std::vector<TrackedNode> BranchTracker::lookAhead(const std::vector<TrackedNode>
   // another vessel that happens to pass beyond the end of this one runs across the way to it
   const auto onCourse = [&](const TrackedNode& node) {
     const Vector3d way = node.centre - last.centre;
-    return way.norm() < 2.0 * mean.radius || way.normalized().dot(node.direction) > kOnCourse;
+    return way.norm() < 2.0 * mean.radius ||
+           (way.normalized().dot(node.direction) > kOnCourse &&
+            last.direction.dot(node.direction) > kMostTurn);
   };
   const auto [e1, e2] = planeBasis(last.direction);
   for (int steps = 1; steps <= m_options.lookAhead; ++steps)
