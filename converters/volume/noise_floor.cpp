@@ -90,7 +90,8 @@ SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch
   if (contrast == 0) return out;
   const auto enough = [&](const SmoothedVolume& candidate) {
     // the steepest slope of a straight edge
-    const double spread = std::hypot(candidate.smoothing, kUsualSpread * voxel);
+    const double usual = kUsualSpread * voxel;
+    const double spread = std::sqrt(candidate.smoothing * candidate.smoothing + usual * usual);
     const double wall = contrast / (std::sqrt(2.0 * std::numbers::pi) * spread);
     return wall >= kStrongEnough * candidate.noiseFloor;
   };

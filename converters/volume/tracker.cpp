@@ -153,16 +153,17 @@ void appendBranch(const SeedBranch& seed, const TrackedBranch& branch,
   tree.branches.push_back(std::move(record));
 }
 
-/// The blur by which walls are corrected: as given, as measured, or at least the voxel's own box.
+/// The blur by which walls are corrected, mm: as given, as measured, or at least that of the
+/// voxel's own box and of the smoothing, which `options` hold.
 double pointSpreadOf(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
                      const std::vector<TrackedBranch>& branches, const TrackOptions& options) {
   if (options.pointSpread) return *options.pointSpread;
   std::vector<TrackedBranch> vessels;
   for (std::size_t i = 0; i < seeds.size(); ++i)
     if (seeds[i].kind == BranchKind::Vessel) vessels.push_back(branches[i]);
-  const auto measured = measurePointSpread(volume, vessels, options.dark);
-  return measured.value_or(
-      std::hypot(*options.smoothing, volume.geometry().voxelSize() / std::sqrt(12.0)));
+  const double voxel = volume.geometry().voxelSize();
+  return measurePointSpread(volume, vessels, options.dark)
+      .value_or(std::sqrt(*options.smoothing * *options.smoothing + voxel * voxel / 12.0));
 }
 
 }  // namespace
