@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -13,7 +12,6 @@
 #include <tbb/parallel_for.h>
 
 #include "circle_search.h"
-#include "converters/common/terminal_progress.h"
 #include "report.h"
 #include "svg_plot.h"
 
@@ -245,17 +243,5 @@ void run(const std::filesystem::path& folder, Progress& progress) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: lumen_circles FOLDER\n", stderr);
-    return 2;
-  }
-  TerminalProgress progress(TerminalProgress::detectStyle(stderr, Verbosity::Normal));
-  try {
-    run(argv[1], progress);
-  } catch (const std::exception& e) {
-    progress.abandon();
-    std::fprintf(stderr, "lumen_circles: %s\n", e.what());
-    return 1;
-  }
-  return 0;
+  return runReport(argc, argv, "lumen_circles", run);
 }

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -15,7 +14,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/common/terminal_progress.h"
 #include "particles.h"
 #include "report.h"
 #include "seams.h"
@@ -195,17 +193,5 @@ void run(const std::filesystem::path& folder, Progress& progress) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: lumen_energy_terms FOLDER\n", stderr);
-    return 2;
-  }
-  TerminalProgress progress(TerminalProgress::detectStyle(stderr, Verbosity::Normal));
-  try {
-    run(argv[1], progress);
-  } catch (const std::exception& e) {
-    progress.abandon();
-    std::fprintf(stderr, "lumen_energy_terms: %s\n", e.what());
-    return 1;
-  }
-  return 0;
+  return runReport(argc, argv, "lumen_energy_terms", run);
 }

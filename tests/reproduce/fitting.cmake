@@ -9,7 +9,8 @@ add_library(lumen_reproduce STATIC
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/seams.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/shape_fit.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/svg_plot.cpp)
-target_link_libraries(lumen_reproduce PUBLIC lumen_fitting PRIVATE nlohmann_json::nlohmann_json)
+target_link_libraries(lumen_reproduce PUBLIC lumen_fitting
+  PRIVATE lumen_terminal nlohmann_json::nlohmann_json)
 
 foreach(program seams four_shapes energy_terms)
   set(source ${program}.cpp)

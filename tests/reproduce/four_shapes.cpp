@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -13,7 +12,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/common/terminal_progress.h"
 #include "convolution_shapes.h"
 #include "family_fit.h"
 #include "particles.h"
@@ -237,17 +235,5 @@ void run(const std::filesystem::path& folder, Progress& progress) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: lumen_four_shapes FOLDER\n", stderr);
-    return 2;
-  }
-  TerminalProgress progress(TerminalProgress::detectStyle(stderr, Verbosity::Normal));
-  try {
-    run(argv[1], progress);
-  } catch (const std::exception& e) {
-    progress.abandon();
-    std::fprintf(stderr, "lumen_four_shapes: %s\n", e.what());
-    return 1;
-  }
-  return 0;
+  return runReport(argc, argv, "lumen_four_shapes", run);
 }

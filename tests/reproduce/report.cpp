@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include "converters/common/error.h"
+#include "converters/common/terminal_progress.h"
 
 namespace lumen::reproduce {
 namespace {
@@ -90,6 +92,23 @@ void writeText(const std::filesystem::path& file, const std::string& text) {
   out << text;
   out.close();
   if (!out) throw failed(file.string() + ": cannot be written");
+}
+
+int runReport(int argc, char** argv, const std::string& program,
+              void (*run)(const std::filesystem::path& folder, Progress& progress)) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: %s FOLDER\n", program.c_str());
+    return 2;
+  }
+  TerminalProgress progress(TerminalProgress::detectStyle(stderr, Verbosity::Normal));
+  try {
+    run(argv[1], progress);
+  } catch (const std::exception& e) {
+    progress.abandon();
+    std::fprintf(stderr, "%s: %s\n", program.c_str(), e.what());
+    return 1;
+  }
+  return 0;
 }
 
 }  // namespace lumen::reproduce

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "converters/common/progress.h"
+
 namespace lumen::reproduce {
 
 using Cell = std::variant<std::string, double>;
@@ -44,5 +46,10 @@ std::string formatNumber(double value);
 
 /// Throws Error(Failed).
 void writeText(const std::filesystem::path& file, const std::string& text);
+
+/// main() of a program that takes a folder and reports into it: 0, 1 after an error, 2 for a wrong
+/// usage.
+int runReport(int argc, char** argv, const std::string& program,
+              void (*run)(const std::filesystem::path& folder, Progress& progress));
 
 }  // namespace lumen::reproduce
