@@ -146,6 +146,10 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
       ->type_name("MM")
       ->group("Tracking")
       ->check(kNotNegative);
+  app.add_flag("--even-blur,!--no-even-blur", o.evenBlur,
+               "Smooth the finer axes of a volume whose coarsest edge is over 1.5 times as long, "
+               "until all are about as blurred [on]")
+      ->group("Tracking");
   group.add("--max-nodes", o.maxNodes, "N", "Bound on the nodes of one branch")->check(kPositive);
   group.add("--random-seed", o.seed, "K", "Seed of the random numbers");
 }

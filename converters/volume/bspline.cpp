@@ -183,10 +183,11 @@ struct BsplineVolume::Bricks {
   std::vector<std::atomic<float*>> coefficients;
   std::atomic<std::size_t> built{0};
 
-  Bricks(const Volume& v, double smoothing) : volume(v) {
+  Bricks(const Volume& v, const Eigen::Vector3d& smoothing) : volume(v) {
     std::size_t total = 1;
     for (std::size_t a = 0; a < 3; ++a) {
-      taps[a] = makeTaps(smoothing / v.geometry.spacing[static_cast<Eigen::Index>(a)]);
+      const auto axis = static_cast<Eigen::Index>(a);
+      taps[a] = makeTaps(smoothing[axis] / v.geometry.spacing[axis]);
       lastCell[a] = std::max(v.geometry.size[a] - 2, 0);
       count[a] = (lastCell[a] >> kBrickShift) + 1;
       total *= static_cast<std::size_t>(count[a]);
@@ -252,7 +253,7 @@ void BsplineVolume::Bricks::filter(const std::vector<T>& voxels, const std::arra
             static_cast<int>(kBrickFloats));
 }
 
-BsplineVolume::BsplineVolume(const Volume& volume, double smoothing)
+BsplineVolume::BsplineVolume(const Volume& volume, const Eigen::Vector3d& smoothing)
     : m_bricks(std::make_unique<Bricks>(volume, smoothing)) {}
 BsplineVolume::~BsplineVolume() = default;
 

@@ -16,12 +16,14 @@ namespace lumen::convert {
 
 /// The cubic B-spline that interpolates the voxels (Unser, "Splines: a perfect fit for signal and
 /// image processing", 1999), mirrored at the volume's faces; of the volume smoothed by a Gaussian
-/// of `smoothing` mm, where that is not zero. Sampling is thread-safe; the values do not depend on
-/// the order of calls. The volume must outlive the sampler. Memory: one 4-byte coefficient for each
-/// voxel of the bricks that were touched, and about a third for their shared rims.
+/// of `smoothing` mm along each index axis, where that is not zero. Sampling is thread-safe; the
+/// values do not depend on the order of calls. The volume must outlive the sampler. Memory: one
+/// 4-byte coefficient for each voxel of the bricks that were touched, and about a third for their
+/// shared rims.
 class BsplineVolume {
 public:
-  explicit BsplineVolume(const Volume& volume, double smoothing = 0);
+  explicit BsplineVolume(const Volume& volume,
+                         const Eigen::Vector3d& smoothing = Eigen::Vector3d::Zero());
   ~BsplineVolume();
   BsplineVolume(const BsplineVolume&) = delete;
   BsplineVolume& operator=(const BsplineVolume&) = delete;
@@ -38,8 +40,7 @@ public:
   /// One value at an index position; NaN outside.
   [[nodiscard]] float sample(const Eigen::Vector3d& index) const;
 
-  /// The most that `smoothing` may be, in the smallest edges of a voxel: its taps then fit the
-  /// halo.
+  /// The most that `smoothing` may be, in a voxel's edges: its taps then fit the halo.
   static constexpr double kMostSmoothing = 2.0;
 
   /// Bytes held by coefficients now.

@@ -74,19 +74,37 @@ double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranc
   return contrasts.empty() ? 0.0 : std::max(0.0, quantile(contrasts, 0.5));
 }
 
+Eigen::Vector3d smoothingAlongAxes(const VolumeGeometry& geometry, double smoothing,
+                                   bool evenBlur) {
+  // the blur that sampling leaves, in edges (D. Lowe, "Distinctive image features from
+  // scale-invariant keypoints", 2004, section 3.3)
+  constexpr double kSampling = 0.5;
+  constexpr double kBearable = 1.5;  // edges: less of a difference costs less than more blur does
+  const double coarsest = geometry.spacing.maxCoeff();
+  Eigen::Vector3d out;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const double edge = geometry.spacing[a], borne = kBearable * edge;
+    const double missing = evenBlur ? std::max(0.0, coarsest * coarsest - borne * borne) : 0.0;
+    out[a] = std::min(std::sqrt(smoothing * smoothing + kSampling * kSampling * missing),
+                      BsplineVolume::kMostSmoothing * edge);
+  }
+  return out;
+}
+
 SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch>& seeds,
                               const TrackOptions& options) {
   const double voxel = volume.geometry.voxelSize();
   const double most = BsplineVolume::kMostSmoothing * volume.geometry.spacing.minCoeff();
   const auto smoothed = [&](double smoothing) {
-    auto spline = std::make_unique<BsplineVolume>(volume, smoothing);
+    auto spline = std::make_unique<BsplineVolume>(
+        volume, smoothingAlongAxes(volume.geometry, smoothing, options.evenBlur));
     const double floor = noiseFloor(*spline, options);
     return SmoothedVolume{std::move(spline), smoothing, floor};
   };
   SmoothedVolume out = smoothed(std::min(options.smoothing.value_or(0.0), most));
   if (options.smoothing || out.noiseFloor == 0) return out;
-  const double contrast =
-      contrastAtClicks(BsplineVolume(volume, std::min(voxel, most)), seeds, options);
+  const double contrast = contrastAtClicks(
+      BsplineVolume(volume, Eigen::Vector3d::Constant(std::min(voxel, most))), seeds, options);
   if (contrast == 0) return out;
   const auto enough = [&](const SmoothedVolume& candidate) {
     // the steepest slope of a straight edge

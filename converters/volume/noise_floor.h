@@ -23,9 +23,15 @@ double noiseFloor(const BsplineVolume& volume, const TrackOptions& options);
 double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
                         const TrackOptions& options);
 
+/// Standard deviations, mm, of the Gaussian along each index axis: `smoothing`, and if `evenBlur`
+/// what the finer axes need to be about as blurred as one that is more than 1.5 times as coarse.
+/// Without that a round vessel is an ellipse in thick slices, which no cylinder fits. At most what
+/// BsplineVolume takes.
+Eigen::Vector3d smoothingAlongAxes(const VolumeGeometry& geometry, double smoothing, bool evenBlur);
+
 struct SmoothedVolume {
   std::unique_ptr<BsplineVolume> spline;
-  double smoothing = 0;   ///< mm
+  double smoothing = 0;   ///< mm, without what makes the blur even
   double noiseFloor = 0;  ///< of `spline`
 };
 

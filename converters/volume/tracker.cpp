@@ -161,9 +161,10 @@ double pointSpreadOf(const BsplineVolume& volume, const std::vector<SeedBranch>&
   std::vector<TrackedBranch> vessels;
   for (std::size_t i = 0; i < seeds.size(); ++i)
     if (seeds[i].kind == BranchKind::Vessel) vessels.push_back(branches[i]);
-  const double voxel = volume.geometry().voxelSize();
+  const VolumeGeometry& geometry = volume.geometry();
+  const double edge = options.evenBlur ? geometry.spacing.maxCoeff() : geometry.voxelSize();
   return measurePointSpread(volume, vessels, options.dark)
-      .value_or(std::sqrt(*options.smoothing * *options.smoothing + voxel * voxel / 12.0));
+      .value_or(std::sqrt(*options.smoothing * *options.smoothing + edge * edge / 12.0));
 }
 
 }  // namespace
@@ -185,6 +186,7 @@ std::map<std::string, formats::ParameterValue> TrackOptions::parameters() const 
       {"aneurysm-gradient", aneurysmGradient},
       {"max-nodes", integer(maxNodes)},
       {"dark", dark},
+      {"even-blur", evenBlur},
       {"random-seed", static_cast<std::int64_t>(seed)}};
   if (smoothing) values["smoothing"] = *smoothing;
   if (pointSpread) values["point-spread"] = *pointSpread;

@@ -37,6 +37,9 @@ struct TrackOptions {
   /// standard deviation, mm, of the Gaussian that the volume is smoothed by; empty: what its noise
   /// asks for
   std::optional<double> smoothing;
+  /// Smooth the finer axes of a volume whose coarsest edge is over 1.5 times as long, until all are
+  /// about as blurred.
+  bool evenBlur = true;
   int maxNodes = 20000;    ///< bound on nodes in one branch
   bool dark = false;       ///< vessels are darker than their background
   std::uint64_t seed = 1;  ///< of the random numbers

@@ -233,6 +233,21 @@ TEST(Smoothing, IsNoneWithoutNoiseAndGrowsWithIt) {
   EXPECT_LE(last, 1.25 * 0.2);
 }
 
+// Half of an edge along each axis: 0.25 * 1.5^2 = 0.25 * (1.5 * 0.5)^2 + s^2.
+TEST(SmoothingAlongAxes, EvensTheBlurOfThickSlicesOnly) {
+  VolumeGeometry geometry;
+  geometry.spacing = {0.5, 0.5, 1.5};
+  const Eigen::Vector3d thick = smoothingAlongAxes(geometry, 0, true);
+  EXPECT_NEAR(thick[0], 0.6495, 1e-4);
+  EXPECT_EQ(thick[0], thick[1]);
+  EXPECT_EQ(thick[2], 0);
+  EXPECT_EQ(smoothingAlongAxes(geometry, 0, false), Eigen::Vector3d::Zero());
+  EXPECT_EQ(smoothingAlongAxes(geometry, 0.4, false), Eigen::Vector3d::Constant(0.4));
+  EXPECT_NEAR(smoothingAlongAxes(geometry, 0.4, true)[0], std::hypot(0.6495, 0.4), 1e-4);
+  geometry.spacing = {0.7, 0.7, 1.0};
+  EXPECT_EQ(smoothingAlongAxes(geometry, 0, true), Eigen::Vector3d::Zero());
+}
+
 TEST(Smoothing, FindsAThinVesselInStrongNoise) {
   const Volume volume = noisy(straightTube(0.4), 250);  // a quarter of the contrast
   TrackOptions rough;
