@@ -279,7 +279,7 @@ std::vector<TrackedNode> BranchTracker::lookAhead(const std::vector<TrackedNode>
 /// nodes are then as before.
 bool BranchTracker::recover(std::vector<TrackedNode>& nodes, std::size_t& longest, Random& random) {
   const std::size_t count = nodes.size();
-  for (const std::size_t back : {0, 3, 6}) {
+  for (const std::size_t back : {0U, 3U, 6U}) {
     if (back > 0 && (count <= longest || count < back + 2)) return false;
     std::vector<TrackedNode> kept(nodes.begin(), nodes.end() - static_cast<std::ptrdiff_t>(back));
     std::vector<TrackedNode> found = lookAhead(kept, random);

@@ -45,8 +45,8 @@ void RadicalDisc::cut(const blob_model_def& def, std::uint32_t node, double slac
   const double constant = dot(c, c) - radius * radius + m_radius * m_radius + slack;
   const auto excess = [&](const Vec& x) { return constant - 2.0 * dot(c, x); };
   std::array<Vec, kMost> kept;
-  int count = 0;
-  for (int i = 0; i < m_count; ++i) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < m_count; ++i) {
     const Vec &here = m_corner[i], &next = m_corner[(i + 1) % m_count];
     const double e = excess(here), f = excess(next);
     if (count + 2 > kMost) return;

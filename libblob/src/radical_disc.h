@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "blob.h"
@@ -24,13 +25,13 @@ public:
 
 private:
   static constexpr double kReach = 1.5;
-  static constexpr int kMost = 32;  ///< corners; a cut that would add more is left out
-  static constexpr int kEverywhere = kMost + 1;
+  static constexpr std::size_t kMost = 32;  ///< corners; a cut that would add more is left out
+  static constexpr std::size_t kEverywhere = kMost + 1;
 
   Vec m_origin;     ///< the first centre, mm; corners are relative to it
   double m_radius;  ///< the first node's, mm
   std::array<Vec, kMost> m_corner;
-  int m_count = 0;
+  std::size_t m_count = 0;
 };
 
 }  // namespace lumen::blob
