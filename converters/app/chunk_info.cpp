@@ -6,7 +6,7 @@
 
 #include "converters/common/error.h"
 #include "formats/case/case_file.h"
-#include "formats/container/case_chunks.h"
+#include "formats/view/case_chunks.h"
 
 namespace lumen::app {
 

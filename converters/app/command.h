@@ -8,8 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "converters/common/interrupt.h"
-#include "converters/common/terminal_progress.h"
+#include "converters/app/interrupt.h"
+#include "converters/app/terminal_progress.h"
 
 namespace lumen::app {
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "converters/app/file_digest.h"
-#include "converters/volume/seeds.h"
+#include "converters/seeds/seeds.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::app {

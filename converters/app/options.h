@@ -11,8 +11,8 @@
 #include "converters/fitting/fit.h"
 #include "converters/mesh/mesh.h"
 #include "converters/phantom/phantom.h"
+#include "converters/tracking/tracker.h"
 #include "converters/volume/read_volume.h"
-#include "converters/volume/tracker.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::app {

@@ -7,7 +7,8 @@
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
-#include "converters/volume/seeds.h"
+#include "converters/seeds/seeds.h"
+#include "converters/volume/write_volume.h"
 
 namespace lumen::app {
 

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/volume/tracker.h"
+#include "converters/tracking/tracker.h"
 #include "formats/case/case.h"
 
 namespace lumen::app {

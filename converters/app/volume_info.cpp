@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "converters/volume/read_volume.h"
+#include "converters/volume/write_volume.h"
 
 namespace lumen::app {
 

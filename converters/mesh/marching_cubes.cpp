@@ -5,8 +5,8 @@
 #include <array>
 #include <limits>
 
-#include "converters/mesh/case_table.h"
 #include "converters/mesh/disjoint_sets.h"
+#include "converters/mesh/marching_cubes_table.h"
 
 namespace lumen::convert {
 namespace {
@@ -134,7 +134,7 @@ private:
   }
 
   void emitCell(int x, unsigned corners) {
-    for (const CellTriangle& t : CaseTable::instance().triangles(corners)) {
+    for (const CellTriangle& t : MarchingCubesTable::instance().triangles(corners)) {
       const std::size_t inside = sampleAt(t.inside >> 1U, x + (t.inside & 1));
       if (m_state[inside] != SampleState::Inside) continue;
       m_patch.triangle.push_back(

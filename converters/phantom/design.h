@@ -12,7 +12,7 @@
 
 #include "converters/common/progress.h"
 #include "converters/common/random.h"
-#include "converters/volume/seeds.h"
+#include "converters/seeds/seeds.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

@@ -8,7 +8,7 @@
 #include "converters/common/error.h"
 #include "converters/phantom/design.h"
 #include "converters/phantom/render.h"
-#include "converters/volume/read_volume.h"
+#include "converters/volume/write_volume.h"
 
 namespace lumen::convert {
 namespace {

@@ -27,7 +27,7 @@
 #include <vector>
 
 #include "converters/common/progress.h"
-#include "converters/volume/seeds.h"
+#include "converters/seeds/seeds.h"
 #include "converters/volume/volume.h"
 #include "formats/case/case.h"
 

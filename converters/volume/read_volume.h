@@ -37,11 +37,4 @@ Volume readVolume(const std::filesystem::path& path, const ReadVolumeOptions& op
 /// directory.
 bool isVolumePath(const std::filesystem::path& path);
 
-/// Writes .nii, .nii.gz, .nrrd or .mha, atomically; compressed where the format allows it.
-void writeVolume(const Volume& volume, const std::filesystem::path& path);
-
-/// The record of `volume` that a case keeps. The digest is SHA-256 over the voxels, x fastest, in
-/// the in-memory pixel type, little-endian.
-formats::SourceVolume describeSource(const Volume& volume);
-
 }  // namespace lumen::convert

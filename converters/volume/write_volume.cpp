@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/volume/write_volume.h"
+
 #include <cstdint>
 #include <memory>
 #include <system_error>

@@ -8,7 +8,7 @@
 #include "formats/case/chunk_codec.h"
 #include "formats/case/metadata_json.h"
 #include "formats/container/bytes.h"
-#include "formats/container/case_chunks.h"
+#include "formats/view/case_chunks.h"
 
 namespace lumen::formats {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "formats/case/case.h"
-#include "formats/container/case_view.h"
+#include "formats/view/case_view.h"
 
 namespace lumen::formats {
 

@@ -13,7 +13,7 @@
 #include "formats/case/chunk_codec.h"
 #include "formats/case/issue_text.h"
 #include "formats/case/privacy.h"
-#include "formats/container/case_chunks.h"
+#include "formats/view/case_chunks.h"
 
 namespace lumen::formats {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "formats/case/draco_points.h"
 #include "formats/container/bytes.h"
-#include "formats/container/case_chunks.h"
+#include "formats/view/case_chunks.h"
 
 namespace lumen::formats {
 namespace {

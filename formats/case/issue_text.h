@@ -6,7 +6,7 @@
 
 #include "formats/case/case_file.h"
 #include "formats/container/issue.h"
-#include "formats/container/text_rules.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 

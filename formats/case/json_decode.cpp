@@ -7,8 +7,8 @@
 #include "formats/case/json_document.h"
 #include "formats/case/json_fields.h"
 #include "formats/case/metadata_json.h"
-#include "formats/container/case_chunks.h"
-#include "formats/container/limits.h"
+#include "formats/view/case_chunks.h"
+#include "formats/view/limits.h"
 
 namespace lumen::formats {
 namespace {

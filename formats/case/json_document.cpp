@@ -8,7 +8,7 @@
 #include <set>
 
 #include "formats/case/issue_text.h"
-#include "formats/container/limits.h"
+#include "formats/view/limits.h"
 
 namespace lumen::formats {
 namespace {

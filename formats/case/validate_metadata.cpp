@@ -6,8 +6,8 @@
 
 #include "formats/case/issue_text.h"
 #include "formats/case/metadata_json.h"
-#include "formats/container/limits.h"
-#include "formats/container/model_rules.h"
+#include "formats/view/limits.h"
+#include "formats/view/model_rules.h"
 
 namespace lumen::formats {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "build.h"
-#include "formats/container/case_view.h"
+#include "formats/view/case_view.h"
 #include "mapped_file.h"
 
 namespace lumen::blob {

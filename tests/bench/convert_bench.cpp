@@ -21,9 +21,10 @@
 #include "convert_itk.h"
 #include "converters/fitting/fit.h"
 #include "converters/phantom/phantom.h"
+#include "converters/seeds/seeds.h"
+#include "converters/tracking/tracker.h"
 #include "converters/volume/read_volume.h"
-#include "converters/volume/seeds.h"
-#include "converters/volume/tracker.h"
+#include "converters/volume/write_volume.h"
 #include "formats/case/case_file.h"
 #include "tests/reproduce/report.h"
 

@@ -17,7 +17,7 @@
 #include <zlib.h>
 
 #include "formats/case/case_file.h"
-#include "formats/container/case_view.h"
+#include "formats/view/case_view.h"
 #include "unit/formats/sample_case.h"
 
 namespace lumen::formats {

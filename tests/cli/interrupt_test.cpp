@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ctrl-C in the middle of the work.
-#include "converters/common/interrupt.h"
+#include "converters/app/interrupt.h"
 
 #include <chrono>
 #include <thread>

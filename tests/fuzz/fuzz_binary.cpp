@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The binary encoding, as it came and with its checksums made right: all readers of it agree.
 #include "formats/case/case_file.h"
-#include "formats/container/case_view.h"
+#include "formats/view/case_view.h"
 #include "fuzz/fuzz_support.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "formats/case/case_file.h"
-#include "formats/container/case_view.h"
+#include "formats/view/case_view.h"
 #include "fuzz/fuzz_support.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "converters/common/error.h"
-#include "converters/volume/seeds.h"
+#include "converters/seeds/seeds.h"
 #include "fuzz/fuzz_support.h"
 
 namespace lumen::fuzz {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "converters/volume/circles.h"
+#include "converters/tracking/circles.h"
 
 namespace lumen::reproduce {
 

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "converters/common/terminal_progress.h"
+#include "converters/app/terminal_progress.h"
 #include "converters/fitting/error_of_fit.h"
 #include "converters/fitting/fit.h"
 #include "converters/mesh/mesh.h"
 #include "converters/phantom/phantom.h"
-#include "converters/volume/tracker.h"
+#include "converters/tracking/tracker.h"
 #include "formats/case/case_file.h"
 #include "report.h"
 #include "seams.h"

@@ -7,7 +7,7 @@
 #include <exception>
 #include <string>
 
-#include "converters/common/terminal_progress.h"
+#include "converters/app/terminal_progress.h"
 #include "converters/fitting/error_of_fit.h"
 #include "converters/fitting/fit.h"
 #include "formats/case/case_file.h"

@@ -7,7 +7,7 @@
 
 #include "converters/compare/compare.h"
 #include "converters/phantom/phantom.h"
-#include "converters/volume/tracker.h"
+#include "converters/tracking/tracker.h"
 
 namespace lumen::reproduce {
 

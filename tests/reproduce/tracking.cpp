@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-#include "converters/common/terminal_progress.h"
+#include "converters/app/terminal_progress.h"
 #include "report.h"
 #include "seams.h"
 #include "svg_plot.h"

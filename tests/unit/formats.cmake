@@ -26,7 +26,7 @@ add_executable(write_spec EXCLUDE_FROM_ALL
   ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_tables.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/write_spec.cpp)
 target_include_directories(write_spec PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-target_link_libraries(write_spec PRIVATE lumen_container nlohmann_json::nlohmann_json)
+target_link_libraries(write_spec PRIVATE lumen_view nlohmann_json::nlohmann_json)
 
 if(LUMEN_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)

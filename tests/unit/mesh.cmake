@@ -4,7 +4,7 @@ find_package(TinyGLTF REQUIRED)
 lumen_test(mesh_test
   LIBS lumen_mesh draco::draco TinyGLTF::TinyGLTF
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/case_table_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/marching_cubes_table_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/marching_cubes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/node_field_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/patch_test.cpp

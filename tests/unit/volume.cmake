@@ -6,10 +6,8 @@ lumen_test(volume_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_volume_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/leaks.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/markups_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/nifti_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/seeds_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp)
 target_include_directories(volume_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume)
 target_link_libraries(volume_test PRIVATE ZLIB::ZLIB)
 

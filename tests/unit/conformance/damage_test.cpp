@@ -19,7 +19,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/case/case_file.h"
-#include "formats/container/case_view.h"
+#include "formats/view/case_view.h"
 
 namespace lumen::formats {
 namespace {
@@ -53,8 +53,8 @@ Bytes contentsOf(const std::filesystem::path& file) {
 std::vector<std::filesystem::path> filesOf(const std::string& folder,
                                            const std::string& extension) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(
-           std::filesystem::path(LUMEN_CONFORMANCE) / folder))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(LUMEN_CONFORMANCE) / folder))
     if (entry.path().extension() == extension &&
         (extension != ".json" || entry.path().stem().extension() == ".lumen"))
       files.push_back(entry.path());
@@ -122,11 +122,10 @@ TEST(EveryHostileFile, IsRefusedByTheViewUnlessItsMetadataAreAtFault) {
     const auto decoded = decodeBinary(bytes.span());
     ASSERT_FALSE(decoded) << file;
     const std::string pointer = decoded.error().pointer.value_or("");
-    const bool needsMetadata = decoded.error().code.starts_with("JSON_") ||
-                               pointer.starts_with("/metadata") ||
-                               pointer.starts_with("/nodeArrays") ||
-                               file.stem().string().starts_with("node-array-") ||
-                               file.stem() == "length-narr";
+    const bool needsMetadata =
+        decoded.error().code.starts_with("JSON_") || pointer.starts_with("/metadata") ||
+        pointer.starts_with("/nodeArrays") || file.stem().string().starts_with("node-array-") ||
+        file.stem() == "length-narr";
     const auto view = viewCase(bytes.span(), Verify::All);
     EXPECT_TRUE(needsMetadata || !view) << file;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/container/case_view.h"
+#include "formats/view/case_view.h"
 
 #include <algorithm>
 

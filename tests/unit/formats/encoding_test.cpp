@@ -7,7 +7,7 @@
 
 #include "converters/common/random.h"
 #include "formats/container/bytes.h"
-#include "formats/container/case_view.h"
+#include "formats/view/case_view.h"
 #include "unit/formats/allocation_meter.h"
 #include "unit/formats/sample_case.h"
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "formats/case/enum_names.h"
-#include "formats/container/case_chunks.h"
-#include "formats/container/limits.h"
+#include "formats/view/case_chunks.h"
+#include "formats/view/limits.h"
 #include "unit/formats/sample_case.h"
 #include "unit/formats/spec_tables.h"
 

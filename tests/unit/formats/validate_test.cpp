@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "formats/container/limits.h"
+#include "formats/view/limits.h"
 #include "unit/formats/sample_case.h"
 
 namespace lumen::formats {

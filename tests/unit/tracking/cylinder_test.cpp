@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/volume/cylinder.h"
-
-#include <gtest/gtest.h>
+#include "converters/tracking/cylinder.h"
 
 #include <cmath>
 #include <numbers>
 
+#include <gtest/gtest.h>
+
 #include "converters/common/random.h"
-#include "converters/volume/circles.h"
+#include "converters/tracking/circles.h"
 
 namespace lumen::convert {
 namespace {
@@ -17,8 +17,8 @@ struct Truth {
   double radius;
 };
 
-/// `count` points on a cylinder within one radius of its centre along the axis, with radial noise, as
-/// seen from `origin`.
+/// `count` points on a cylinder within one radius of its centre along the axis, with radial noise,
+/// as seen from `origin`.
 Candidates pointsOn(const Truth& truth, const Eigen::Vector3d& origin, int count, double noise) {
   Random random(7);
   const Eigen::Vector3d e1 = truth.axis.unitOrthogonal(), e2 = truth.axis.cross(e1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/volume/icosphere.h"
-
-#include <gtest/gtest.h>
+#include "converters/tracking/icosphere.h"
 
 #include <numbers>
+
+#include <gtest/gtest.h>
 
 namespace lumen::convert {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/volume/point_spread.h"
+#include "converters/tracking/point_spread.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/volume/rays.h"
+#include "converters/tracking/rays.h"
 
 #include <gtest/gtest.h>
 
-#include "converters/volume/icosphere.h"
+#include "converters/tracking/icosphere.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {
@@ -12,7 +12,8 @@ namespace {
 const Eigen::Vector3d kCentre(6.3, 6.1, 6.2);
 
 Volume ball(double radius) {
-  return drawVolume(64, 0.2, [&](const Eigen::Vector3d& p) { return (p - kCentre).norm() - radius; });
+  return drawVolume(64, 0.2,
+                    [&](const Eigen::Vector3d& p) { return (p - kCentre).norm() - radius; });
 }
 
 TEST(Rays, MeetTheWallOfABallInEveryDirection) {
@@ -35,7 +36,8 @@ TEST(Rays, SeeADarkBallOnlyWhenToldSo) {
   RayCaster(spline, icosphere(2), 128, true).cast(kCentre, 6.0, points);
   EXPECT_EQ(points.count(), 42u);
   RayCaster(spline, icosphere(2), 128, false).cast(kCentre, 6.0, points);
-  for (std::size_t i = 0; i < points.count(); ++i) EXPECT_GT(std::abs(points.offset(i).norm() - 2.0), 0.05);
+  for (std::size_t i = 0; i < points.count(); ++i)
+    EXPECT_GT(std::abs(points.offset(i).norm() - 2.0), 0.05);
 }
 
 TEST(Rays, DropWallsNearerThanATwelfthOrFartherThanFourFifthsOfTheirLength) {

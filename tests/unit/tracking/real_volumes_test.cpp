@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracks of real angiograms from the clicks in tests/data. What they should find was judged on projections of the volumes.
-#include <gtest/gtest.h>
-
+// Tracks of real angiograms from the clicks in tests/data. What they should find was judged on
+// projections of the volumes.
 #include <algorithm>
 #include <filesystem>
 
-#include "converters/volume/branch_tracker.h"
+#include <gtest/gtest.h>
+
+#include "converters/tracking/branch_tracker.h"
+#include "converters/tracking/tracker.h"
 #include "converters/volume/read_volume.h"
-#include "converters/volume/tracker.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/volume/tracker.h"
+#include "converters/tracking/tracker.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include "converters/common/random.h"
-#include "converters/volume/noise_floor.h"
+#include "converters/tracking/smoothing.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {

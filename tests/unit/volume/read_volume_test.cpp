@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "converters/volume/write_volume.h"
 #include "fixtures.h"
 
 namespace lumen::convert {

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/tracking/point_spread.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kMostNodes = 256, kLeastNodes = 8;
+constexpr double kWide = 3.0, kWideEnough = 1.0;  // voxels: radii whose walls are measured
+constexpr double kReach = 4.0, kSpacing = 0.1;  // voxels: of a profile, to either side of the wall
+constexpr int kSamples = 2 * static_cast<int>(kReach / kSpacing) + 1;
+constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // of the Gaussian exp(-x^2/2)
+
+/// z I0(z)/I1(z) - 2 as a function of w = z^2, by the continued fraction of Bessel functions'
+/// ratios (Abramowitz and Stegun, 9.1.73, for imaginary arguments).
+double besselTerm(double w) {
+  double tail = 0;
+  for (int k = 2 * 60; k >= 4; k -= 2) tail = w / (k + tail);
+  return tail;
+}
+
+/// The mean over a node's wall points of the intensity on the line from its axis through the point,
+/// at distances radius - kReach .. radius + kReach voxels. Lined up by the cylinder, not by the
+/// points: those follow the noise, and their mean would be steeper than the wall.
+std::vector<double> meanProfile(const BsplineVolume& volume, const TrackedNode& node) {
+  const VolumeGeometry& geometry = volume.geometry();
+  const double voxel = geometry.voxelSize();
+  std::vector<double> sum(kSamples, 0.0);
+  std::vector<float> values(kSamples);
+  for (const formats::Vec3f& p : node.points) {
+    const Vector3d offset = Vector3d(p.x, p.y, p.z) - node.centre;
+    const double along = offset.dot(node.direction);
+    const Vector3d outward = (offset - along * node.direction).normalized();
+    const Vector3d start =
+        node.centre + along * node.direction + (node.radius - kReach * voxel) * outward;
+    const Vector3d step = (geometry.direction.transpose() * outward * (kSpacing * voxel))
+                              .cwiseQuotient(geometry.spacing);
+    volume.sampleLine(geometry.indexFromWorld(start), step, values);
+    for (std::size_t i = 0; i < values.size(); ++i) sum[i] += static_cast<double>(values[i]);
+  }
+  for (double& value : sum) value /= static_cast<double>(node.points.size());
+  return sum;
+}
+
+/// The full width at half height, in samples, of the fall of a profile near its middle; 0 if it
+/// does not fall to half on either side.
+double widthOfFall(const std::vector<double>& profile, double sign) {
+  const std::size_t n = profile.size();
+  std::vector<double> fall(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) fall[i] = sign * (profile[i - 1] - profile[i + 1]);
+  const auto middle = fall.begin() + static_cast<std::ptrdiff_t>(n / 2);
+  const auto quarter = static_cast<std::ptrdiff_t>(n / 8);
+  const auto peak = static_cast<std::size_t>(
+      std::max_element(middle - quarter, middle + quarter + 1) - fall.begin());
+  const double half = 0.5 * fall[peak];
+  if (!(half > 0)) return 0;
+  std::size_t right = peak, left = peak;
+  while (right < n && fall[right] > half) ++right;
+  while (left > 0 && fall[left] > half) --left;
+  if (right + 1 >= n || left == 0) return 0;
+  const auto crossing = [&](std::size_t low, std::size_t high) {
+    return (fall[high] - half) / (fall[high] - fall[low]);
+  };
+  return static_cast<double>(right - left) - 2.0 + crossing(right, right - 1) +
+         crossing(left, left + 1);
+}
+
+/// Standard deviation of the blur under which a disc falls fastest at `seen` from its centre, by a
+/// curve that is `width` wide at half its height; 0 if the disc is too narrow to tell. For wide
+/// discs 1/s^2 = 1/g^2 + 1/(2 seen^2), where g is the Gaussian's of that width; below, a table of
+/// the closed form (see cylinderRadius) for radii of 1.5, 1.75, 2, 2.5 and 3 standard deviations.
+double spreadOf(double seen, double width) {
+  struct Entry {
+    double ratio, share;
+  };
+  constexpr std::array<Entry, 5> kTable = {
+      {{0.6680, 0.4808}, {0.7112, 0.4502}, {0.7747, 0.4284}, {0.9565, 0.4125}, {1.1749, 0.4135}}};
+  const double ratio = seen / width;
+  if (ratio < kTable.front().ratio) return 0;
+  for (std::size_t i = 1; i < kTable.size(); ++i) {
+    const auto& [low, high] = std::pair(kTable[i - 1], kTable[i]);
+    if (ratio > high.ratio) continue;
+    const double t = (ratio - low.ratio) / (high.ratio - low.ratio);
+    return width * (low.share + t * (high.share - low.share));
+  }
+  const double gaussian = width / kWidthAtHalfHeight;
+  return 1.0 / std::sqrt(1.0 / (gaussian * gaussian) + 0.5 / (seen * seen));
+}
+
+/// Nodes whose walls are measured: the wide ones, or the widest ones that there are, spread evenly.
+std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch> vessels, double voxel) {
+  std::vector<const TrackedNode*> wide;
+  for (const double voxels : {kWide, kWideEnough}) {
+    wide.clear();
+    for (const TrackedBranch& branch : vessels)
+      for (const TrackedNode& node : branch.nodes)
+        if (node.radius >= voxels * voxel && node.points.size() >= 32) wide.push_back(&node);
+    if (wide.size() >= kLeastNodes) break;
+  }
+  if (wide.size() <= kMostNodes) return wide;
+  std::vector<const TrackedNode*> even;
+  for (std::size_t i = 0; i < kMostNodes; ++i) even.push_back(wide[i * wide.size() / kMostNodes]);
+  return even;
+}
+
+}  // namespace
+
+double cylinderRadius(double seen, double sigma) {
+  if (!(sigma > 0)) return seen;
+  const double q = seen * seen / (sigma * sigma);
+  if (q > 50) return seen * (1.0 + (0.5 - 0.375 / q) / q);
+  double low = 0.25 * q * q, high = (q + 1) * (q + 1);
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (besselTerm(middle) < q - 1 ? low : high) = middle;
+  }
+  return seen * std::sqrt(high) / q;
+}
+
+double ballRadius(double seen, double sigma) {
+  // both principal curvatures displace the wall by s^2/(2R)
+  return std::max(2.0 * cylinderRadius(seen, sigma) - seen, 0.5 * seen);
+}
+
+std::optional<double> measurePointSpread(const BsplineVolume& volume,
+                                         std::span<const TrackedBranch> vessels, bool dark) {
+  const double voxel = volume.geometry().voxelSize();
+  std::vector<double> spreads;
+  for (const TrackedNode* node : widestNodes(vessels, voxel)) {
+    const double width = widthOfFall(meanProfile(volume, *node), dark ? -1.0 : 1.0);
+    if (width == 0) continue;
+    const double spread = spreadOf(node->radius, width * kSpacing * voxel);
+    if (spread > 0) spreads.push_back(spread);
+  }
+  if (spreads.size() < kLeastNodes) return std::nullopt;
+  return median(std::move(spreads));
+}
+
+void correctWalls(TrackedBranch& branch, formats::BranchKind kind, double sigma) {
+  for (TrackedNode& node : branch.nodes) {
+    const bool vessel = kind == formats::BranchKind::Vessel;
+    const double radius =
+        vessel ? cylinderRadius(node.radius, sigma) : ballRadius(node.radius, sigma);
+    for (formats::Vec3f& p : node.points) {
+      Vector3d outward = Vector3d(p.x, p.y, p.z) - node.centre;
+      if (vessel) outward -= outward.dot(node.direction) * node.direction;
+      const Eigen::Vector3f shift = ((radius - node.radius) * outward.normalized()).cast<float>();
+      p.x += shift.x();
+      p.y += shift.y();
+      p.z += shift.z();
+    }
+    node.radius = radius;
+  }
+}
+
+}  // namespace lumen::convert

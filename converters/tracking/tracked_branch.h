@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What tracking makes of one vessel, before it becomes a case.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// A node with its wall points (mm, LPS).
+struct TrackedNode {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
+  double radius = 0, height = 0, inlierRate = 0;
+  double strength = 0;         ///< median fall of intensity at the points, voxel units per mm
+  double meanSquareAlong = 0;  ///< of the inliers' places along the axis from the centre, mm^2
+  std::vector<formats::Vec3f> points;
+};
+
+struct TrackedBranch {
+  std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
+  std::size_t clickNode = 0;       ///< the one that was fitted at the seed's first point
+  formats::StopReason stopReason = formats::StopReason::Unknown;
+  std::string failure;  ///< why nothing was tracked
+  std::vector<std::string>
+      missedPoints;  ///< one sentence for each further click that was not reached
+  int parentBranch = -1,
+      parentNode = -1;  ///< position in the seeds' order, node within that branch
+};
+
+/// The same, looking the other way.
+TrackedNode reversed(TrackedNode node);
+
+/// The closest place on a chain of nodes.
+struct ChainPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double radius = 0;     ///< mm, interpolated
+  double distance = 0;   ///< mm
+  std::size_t node = 0;  ///< the nearer end of the closest segment
+};
+ChainPoint closestOnChain(const std::vector<TrackedNode>& chain, const Eigen::Vector3d& point);
+
+/// True if `point` lies within half a radius of the axis of one of `branches`: in that lumen's
+/// core.
+bool inCore(std::span<const TrackedBranch* const> branches, const Eigen::Vector3d& point);
+
+}  // namespace lumen::convert

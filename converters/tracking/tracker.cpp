@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/tracking/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <unordered_map>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/tracking/bends.h"
+#include "converters/tracking/branch_tracker.h"
+#include "converters/tracking/icosphere.h"
+#include "converters/tracking/point_spread.h"
+#include "converters/tracking/smoothing.h"
+#include "converters/volume/write_volume.h"
+
+namespace lumen::convert {
+namespace {
+
+using formats::BranchKind;
+using formats::StopReason;
+
+void require(bool holds, const char* rule) {
+  if (!holds) throw invalidInput(std::string("tracking options: ") + rule);
+}
+
+void checkOptions(const TrackOptions& o) {
+  require(o.inlierRate > 0 && o.inlierRate <= 1, "inlier-rate must be in (0, 1]");
+  require(o.inlierBand > 0 && o.inlierBand < 1, "inlier-band must be in (0, 1)");
+  require(icosphereOrder(o.rays) > 0, "rays must be 12, 42, 162 or 642");
+  require(icosphereOrder(2 * o.axes) > 0, "axes must be 6, 21, 81 or 321");
+  require(o.samples >= 8 && o.samples <= 4096, "samples must be in 8 .. 4096");
+  require(o.minTrials >= 1 && o.maxTrials >= o.minTrials,
+          "min-trials must be at least 1 and max-trials at least min-trials");
+  require(o.step > 0 && o.step <= 2, "step must be in (0, 2]");
+  require(o.lookAhead >= 0 && o.lookAhead <= 100, "look-ahead must be in 0 .. 100");
+  require(o.noiseMargin >= 0 && o.noiseMargin <= 100, "noise-margin must be in 0 .. 100");
+  require(o.branchOffset > 0 && o.branchOffset <= 10, "branch-offset must be in (0, 10]");
+  require(o.aneurysmGradient >= 0 && o.aneurysmGradient <= 1,
+          "aneurysm-gradient must be in [0, 1]");
+  require(!o.pointSpread || (*o.pointSpread >= 0 && *o.pointSpread <= 1000),
+          "point-spread must be in 0 .. 1000");
+  require(!o.smoothing || *o.smoothing >= 0, "smoothing must not be negative");
+  require(o.maxNodes >= 2, "max-nodes must be at least 2");
+}
+
+/// For every seed, its parent's position in the list (-1: none) and its depth below a root.
+struct Ancestry {
+  std::vector<int> parent, depth;
+  int deepest = 0;
+};
+
+Ancestry findAncestry(const std::vector<SeedBranch>& seeds) {
+  std::unordered_map<std::string, int> position;
+  Ancestry out;
+  for (const SeedBranch& seed : seeds) {
+    const int parent = seed.parent ? position.at(*seed.parent) : -1;
+    position[seed.label] = static_cast<int>(out.parent.size());
+    out.parent.push_back(parent);
+    out.depth.push_back(parent < 0 ? 0 : out.depth[static_cast<std::size_t>(parent)] + 1);
+    out.deepest = std::max(out.deepest, out.depth.back());
+  }
+  return out;
+}
+
+/// Cuts off what an earlier branch of the same wave has tracked too, on either side of the click.
+void trimDuplicates(std::vector<TrackedBranch>& branches, const std::vector<std::size_t>& wave) {
+  std::vector<const TrackedBranch*> kept;
+  for (const std::size_t b : wave) {
+    TrackedBranch& branch = branches[b];
+    auto& nodes = branch.nodes;
+    const auto met = [&](const TrackedNode& n) { return inCore(kept, n.centre); };
+    const auto click = nodes.begin() + static_cast<std::ptrdiff_t>(branch.clickNode);
+    const auto end = std::find_if(click, nodes.end(), met);
+    if (end != nodes.end()) branch.stopReason = StopReason::MetBranch;
+    if (end == click && !nodes.empty())
+      branch.failure = "the seed leads into a vessel that another seed has tracked";
+    const auto begin = std::find_if(std::make_reverse_iterator(click), nodes.rend(), met).base();
+    nodes.erase(end, nodes.end());
+    nodes.erase(nodes.begin(), end == click ? nodes.end() : begin);
+    kept.push_back(&branch);
+  }
+}
+
+/// One wave: all branches whose parents are done. Branches of a wave do not see one another while
+/// they are tracked, so the outcome does not depend on the order in which threads take them.
+void trackWave(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
+               const Ancestry& ancestry, const TrackOptions& options, double floor, int depth,
+               std::vector<TrackedBranch>& branches, Progress& progress) {
+  std::vector<std::size_t> wave;
+  std::vector<const TrackedBranch*> finished;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    if (ancestry.depth[i] == depth) wave.push_back(i);
+    if (ancestry.depth[i] < depth && seeds[i].kind == BranchKind::Vessel)
+      finished.push_back(&branches[i]);
+  }
+  tbb::parallel_for(std::size_t{0}, wave.size(), [&](std::size_t w) {
+    const std::size_t i = wave[w];
+    const int p = ancestry.parent[i];
+    const TrackedBranch* parent = p < 0 ? nullptr : &branches[static_cast<std::size_t>(p)];
+    if (parent && parent->nodes.empty()) {
+      branches[i].failure = "its parent \"" + *seeds[i].parent + "\" was not tracked";
+    } else {
+      BranchTracker tracker(volume, options, floor, progress);
+      branches[i] = seeds[i].kind == BranchKind::Aneurysm
+                        ? tracker.capture(seeds[i], parent)
+                        : tracker.track(seeds[i], parent, finished, Random(options.seed, i));
+    }
+    branches[i].parentBranch = p;
+    progress.advance();
+  });
+  std::erase_if(wave, [&](std::size_t i) { return seeds[i].kind != BranchKind::Vessel; });
+  trimDuplicates(branches, wave);
+}
+
+formats::Vec3f toVec3f(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// Appends one tracked branch to the case. `firstNode`: of each branch by position in the seeds.
+void appendBranch(const SeedBranch& seed, const TrackedBranch& branch,
+                  std::vector<std::int32_t>& firstNode, formats::Case& out) {
+  formats::CenterlineTree& tree = out.tree;
+  const auto first = static_cast<std::int32_t>(tree.nodeCount());
+  firstNode.push_back(first);
+  if (branch.nodes.empty()) return;
+  formats::Branch record;
+  record.label = seed.label;
+  record.kind = seed.kind;
+  record.firstNode = static_cast<std::uint32_t>(first);
+  record.nodeCount = static_cast<std::uint32_t>(branch.nodes.size());
+  record.stopReason = branch.stopReason;
+  if (branch.parentBranch >= 0)
+    record.parentNode =
+        firstNode[static_cast<std::size_t>(branch.parentBranch)] + branch.parentNode;
+  double rates = 0;
+  for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
+    const TrackedNode& node = branch.nodes[i];
+    tree.centre.push_back(toVec3f(node.centre));
+    tree.direction.push_back(toVec3f(node.direction));
+    tree.radius.push_back(static_cast<float>(node.radius));
+    tree.height.push_back(static_cast<float>(node.height));
+    tree.inlierRate.push_back(static_cast<float>(node.inlierRate));
+    tree.parent.push_back(i == 0 ? record.parentNode : first + static_cast<std::int32_t>(i) - 1);
+    tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
+    rates += node.inlierRate;
+    auto& points = *out.points;
+    points.position.insert(points.position.end(), node.points.begin(), node.points.end());
+    points.offset.push_back(static_cast<std::uint32_t>(points.position.size()));
+  }
+  record.meanInlierRate = static_cast<float>(rates / static_cast<double>(branch.nodes.size()));
+  tree.branches.push_back(std::move(record));
+}
+
+/// The blur by which walls are corrected, mm: as given, as measured, or at least that of the
+/// voxel's own box and of the smoothing, which `options` hold.
+double pointSpreadOf(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
+                     const std::vector<TrackedBranch>& branches, const TrackOptions& options) {
+  if (options.pointSpread) return *options.pointSpread;
+  std::vector<TrackedBranch> vessels;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    if (seeds[i].kind == BranchKind::Vessel) vessels.push_back(branches[i]);
+  const VolumeGeometry& geometry = volume.geometry();
+  const double edge = options.evenBlur ? geometry.spacing.maxCoeff() : geometry.voxelSize();
+  return measurePointSpread(volume, vessels, options.dark)
+      .value_or(std::sqrt(*options.smoothing * *options.smoothing + edge * edge / 12.0));
+}
+
+}  // namespace
+
+std::map<std::string, formats::ParameterValue> TrackOptions::parameters() const {
+  const auto integer = [](int value) { return static_cast<std::int64_t>(value); };
+  std::map<std::string, formats::ParameterValue> values{
+      {"inlier-rate", inlierRate},
+      {"inlier-band", inlierBand},
+      {"rays", integer(rays)},
+      {"axes", integer(axes)},
+      {"samples", integer(samples)},
+      {"min-trials", integer(minTrials)},
+      {"max-trials", integer(maxTrials)},
+      {"step", step},
+      {"noise-margin", noiseMargin},
+      {"look-ahead", integer(lookAhead)},
+      {"branch-offset", branchOffset},
+      {"aneurysm-gradient", aneurysmGradient},
+      {"max-nodes", integer(maxNodes)},
+      {"dark", dark},
+      {"even-blur", evenBlur},
+      {"random-seed", static_cast<std::int64_t>(seed)}};
+  if (smoothing) values["smoothing"] = *smoothing;
+  if (pointSpread) values["point-spread"] = *pointSpread;
+  return values;
+}
+
+TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                  const TrackOptions& options, Progress& progress) {
+  checkOptions(options);
+  require(options.smoothing.value_or(0.0) <=
+              BsplineVolume::kMostSmoothing * volume.geometry.spacing.minCoeff(),
+          "smoothing must be at most twice the smallest edge of a voxel");
+  const SmoothedVolume smoothed = smoothForNoise(volume, seeds, options);
+  const BsplineVolume& spline = *smoothed.spline;
+  const Ancestry ancestry = findAncestry(seeds);
+  std::vector<TrackedBranch> branches(seeds.size());
+  progress.begin("track", seeds.size());
+  for (int depth = 0; depth <= ancestry.deepest; ++depth)
+    trackWave(spline, seeds, ancestry, options, smoothed.noiseFloor, depth, branches, progress);
+  progress.end();
+  TrackOptions used = options;
+  used.smoothing = smoothed.smoothing;
+  used.pointSpread = pointSpreadOf(spline, seeds, branches, used);
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    correctWalls(branches[i], seeds[i].kind, *used.pointSpread);
+    if (seeds[i].kind == BranchKind::Vessel) correctBends(branches[i].nodes);
+  }
+
+  TrackResult out;
+  out.result.points.emplace();
+  out.result.points->offset.push_back(0);
+  std::vector<std::int32_t> firstNode;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    appendBranch(seeds[i], branches[i], firstNode, out.result);
+    if (branches[i].nodes.empty()) out.failures.push_back({seeds[i].label, branches[i].failure});
+    for (const std::string& missed : branches[i].missedPoints)
+      out.missedPoints.push_back({seeds[i].label, missed});
+  }
+  out.result.metadata.voxelSize = volume.geometry.voxelSize();
+  out.result.metadata.source = describeSource(volume);
+  out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});
+  return out;
+}
+
+}  // namespace lumen::convert

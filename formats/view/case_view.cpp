@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/view/case_view.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "formats/container/bytes.h"
+#include "formats/view/model_rules.h"
+
+namespace lumen::formats {
+namespace {
+
+using Problem = std::optional<Issue>;
+
+constexpr std::size_t kAlignment = 8;
+
+Problem checkMemory(std::span<const std::byte> bytes) {
+  if constexpr (std::endian::native != std::endian::little)
+    return Issue{ErrorCode::ViewMemory, std::nullopt,
+                 "this machine is big-endian, so the file's numbers cannot be used in place"};
+  if (reinterpret_cast<std::uintptr_t>(bytes.data()) % kAlignment != 0)
+    return Issue{ErrorCode::ViewMemory, std::nullopt,
+                 "the bytes do not start at a multiple of 8 in memory"};
+  return std::nullopt;
+}
+
+Issue sizeIssue(const Chunk& chunk, std::uint64_t expected) {
+  const std::string name = chunkName(chunk.type);
+  return {ErrorCode::ChunkLength,
+          chunk.entryOffset + 16,
+          "chunk " + name + " has " + std::to_string(chunk.stored.size()) + " bytes, expected " +
+              std::to_string(expected),
+          {{"chunk", name},
+           {"found", std::to_string(chunk.stored.size())},
+           {"expected", std::to_string(expected)}}};
+}
+
+Problem checkRaw(const Chunk& chunk) {
+  if (chunk.encoding == static_cast<std::uint8_t>(ChunkEncoding::Raw)) return std::nullopt;
+  const std::string name = chunkName(chunk.type);
+  return Issue{ErrorCode::ChunkEncoding,
+               chunk.entryOffset + 7,
+               "chunk " + name + " is stored in encoding " + std::to_string(chunk.encoding) +
+                   " and cannot be used in place; lumen convert writes it raw",
+               {{"chunk", name}, {"found", std::to_string(chunk.encoding)}}};
+}
+
+// Fills spans from chunks.
+class SpanReader {
+public:
+  SpanReader(const CaseChunks& chunks, std::uint64_t nodeCount, IssueList& issues)
+      : m_chunks(chunks), m_nodeCount(nodeCount), m_issues(issues) {}
+
+  /// An array of a whole number of elements; empty if the file does not have it. False with an
+  /// issue.
+  template <class T>
+  bool any(ChunkType type, std::span<const T>& to) {
+    const Chunk* chunk = m_chunks.find(type);
+    if (chunk == nullptr) return true;
+    const std::size_t count = chunk->stored.size() / sizeof(T);
+    to = {reinterpret_cast<const T*>(chunk->stored.data()), count};
+    return require(*chunk, chunk->stored.size(), count * sizeof(T));
+  }
+
+  /// An array of one element per node and `more`.
+  template <class T>
+  void each(ChunkType type, std::span<const T>& to, std::uint64_t more = 0) {
+    const Chunk* chunk = m_chunks.find(type);
+    if (chunk != nullptr && any(type, to))
+      require(*chunk, chunk->stored.size(), (m_nodeCount + more) * sizeof(T));
+  }
+
+  void kernel(ChunkType type, ModelView& model) {
+    const Chunk& record = m_chunks.at(type);
+    if (!require(record, record.stored.size(), kKernelRecordSize)) return;
+    const auto reserved = record.stored.subspan(1, 7);
+    if (std::any_of(reserved.begin(), reserved.end(),
+                    [](std::byte b) { return b != std::byte{0}; }))
+      m_issues.add({ErrorCode::ChunkField,
+                    record.offset + 1,
+                    "chunk " + chunkName(type) + " has a reserved byte that is not zero",
+                    {{"chunk", chunkName(type)}}});
+    readKernelRecord(record.stored, model);
+  }
+
+  bool require(const Chunk& chunk, std::uint64_t found, std::uint64_t expected) {
+    if (found != expected) m_issues.add(sizeIssue(chunk, expected));
+    return found == expected;
+  }
+
+private:
+  const CaseChunks& m_chunks;
+  std::uint64_t m_nodeCount;
+  IssueList& m_issues;
+};
+
+struct ModelChunks {
+  ChunkType kernel, offset, centre, width;
+};
+constexpr ModelChunks kModels{chunk::kModelKernel, chunk::kModelOffset, chunk::kModelCentre,
+                              chunk::kModelWidth};
+constexpr ModelChunks kCompact{chunk::kCompactKernel, chunk::kCompactOffset, chunk::kCompactCentre,
+                               chunk::kCompactWidth};
+
+void readModel(SpanReader& reader, const CaseChunks& chunks, const ModelChunks& types,
+               ModelView& model) {
+  reader.kernel(types.kernel, model);
+  reader.each(types.offset, model.offset, 1);
+  reader.any(types.centre, model.centre);
+  reader.any(types.width, model.width);
+  reader.require(chunks.at(types.width), model.width.size_bytes(), model.centre.size() * 4);
+}
+
+std::string_view textOf(const Chunk& chunk) {
+  return {reinterpret_cast<const char*>(chunk.stored.data()), chunk.stored.size()};
+}
+
+// The labels must follow each other from the chunk's first byte to its last.
+void checkLabels(const CaseView& view, const CaseChunks& chunks, IssueList& issues) {
+  const Chunk& labels = chunks.at(chunk::kBranchLabels);
+  std::uint64_t next = 0;
+  for (std::size_t b = 0; b < view.branchCount(); ++b) {
+    const BranchView branch = view.branch(b);
+    if (branch.labelOffset != next || branch.labelSize > view.branchLabels.size() - next)
+      return issues.add(sizeIssue(labels, next + branch.labelSize));
+    next += branch.labelSize;
+  }
+  if (next != view.branchLabels.size()) issues.add(sizeIssue(labels, next));
+}
+
+Problem firstError(const IssueList& issues) {
+  if (issues.failed()) return issues.issues().front();
+  return std::nullopt;
+}
+
+Problem checkChunks(const Container& container, Verify verify) {
+  for (const Chunk& chunk : container.chunks) {
+    if (chunkRuleIndex(chunk.type) < kChunkRules.size())
+      if (auto problem = checkRaw(chunk)) return problem;
+    if (verify == Verify::All)
+      if (auto verified = verifyChunk(chunk); !verified) return verified.error();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+BranchView CaseView::branch(std::size_t index) const {
+  ByteCursor cursor(branchRecords.subspan(index * kBranchRecordSize, kBranchRecordSize));
+  BranchView branch;
+  branch.firstNode = cursor.read<std::uint32_t>();
+  branch.nodeCount = cursor.read<std::uint32_t>();
+  branch.parentNode = cursor.read<std::int32_t>();
+  branch.labelOffset = cursor.read<std::uint32_t>();
+  branch.labelSize = cursor.read<std::uint16_t>();
+  branch.kind = cursor.read<std::uint8_t>();
+  branch.stopReason = cursor.read<std::uint8_t>();
+  branch.meanInlierRate = cursor.read<float>();
+  return branch;
+}
+
+std::string_view CaseView::label(const BranchView& branch) const {
+  if (branch.labelOffset > branchLabels.size() ||
+      branch.labelSize > branchLabels.size() - branch.labelOffset)
+    return {};
+  return branchLabels.substr(branch.labelOffset, branch.labelSize);
+}
+
+CaseView assembleView(const CaseChunks& chunks, Verify verify, IssueList& issues) {
+  CaseView view;
+  const std::size_t nodeCount = chunks.at(chunk::kNodeCentre).stored.size() / sizeof(ViewVector);
+  SpanReader reader(chunks, nodeCount, issues);
+  reader.each(chunk::kNodeCentre, view.nodeCentre);
+  reader.each(chunk::kNodeDirection, view.nodeDirection);
+  reader.each(chunk::kNodeRadius, view.nodeRadius);
+  reader.each(chunk::kNodeHeight, view.nodeHeight);
+  reader.each(chunk::kNodeParent, view.nodeParent);
+  reader.each(chunk::kNodeBranch, view.nodeBranch);
+  reader.each(chunk::kNodeInlierRate, view.nodeInlierRate);
+  reader.any(chunk::kBranchRecords, view.branchRecords);
+  const Chunk& records = chunks.at(chunk::kBranchRecords);
+  const bool wholeRecords =
+      reader.require(records, records.stored.size(),
+                     records.stored.size() / kBranchRecordSize * kBranchRecordSize);
+  view.branchLabels = textOf(chunks.at(chunk::kBranchLabels));
+  if (verify == Verify::All && wholeRecords) checkLabels(view, chunks, issues);
+  reader.any(chunk::kLinks, view.links);
+  view.hasPoints = chunks.find(chunk::kPointOffset) != nullptr;
+  reader.each(chunk::kPointOffset, view.pointOffset, 1);
+  reader.any(chunk::kPointPosition, view.pointPosition);
+  if (chunks.find(chunk::kModelKernel) != nullptr)
+    readModel(reader, chunks, kModels, view.models.emplace());
+  if (chunks.find(chunk::kCompactKernel) != nullptr)
+    readModel(reader, chunks, kCompact, view.compactModels.emplace());
+  view.metadata = textOf(chunks.at(chunk::kMetadata));
+  for (const Chunk& chunk : chunks.nodeArrays) view.nodeArrays.push_back(chunk.stored);
+  return view;
+}
+
+Expected<CaseView, ContainerError> viewCase(std::span<const std::byte> bytes, Verify verify) {
+  if (auto problem = checkMemory(bytes)) return *std::move(problem);
+  const auto container =
+      readContainer(bytes, verify == Verify::All ? Padding::Check : Padding::Skip);
+  if (!container) return container.error();
+  IssueList issues(1, IssueList::Keep::Errors);
+  const CaseChunks chunks = sortChunks(*container, issues);
+  if (auto problem = firstError(issues)) return *std::move(problem);
+  if (auto problem = checkChunks(*container, verify)) return *std::move(problem);
+
+  CaseView view = assembleView(chunks, verify, issues);
+  if (auto problem = firstError(issues)) return *std::move(problem);
+  view.version = container->version;
+  checkKernels(view, issues);
+  if (verify == Verify::All) checkModelRules(view, issues);
+  if (auto problem = firstError(issues)) {
+    problem->offset = byteOffsetOf(*problem->pointer, chunks);
+    return *std::move(problem);
+  }
+  return view;
+}
+
+}  // namespace lumen::formats

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the JSON pointer of a value to its place in a binary file.
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "formats/container/bytes.h"
+#include "formats/view/model_rules.h"
+
+namespace lumen::formats {
+namespace {
+
+struct PlacedArray {
+  std::string_view pointer;
+  ChunkType type;
+  std::uint32_t offset;  ///< of a field in a record
+};
+
+// Longer pointers before those that they start with.
+constexpr auto kPlaces = std::to_array<PlacedArray>({
+    {"/metadata", chunk::kMetadata, 0},
+    {"/tree/centre", chunk::kNodeCentre, 0},
+    {"/tree/direction", chunk::kNodeDirection, 0},
+    {"/tree/radius", chunk::kNodeRadius, 0},
+    {"/tree/height", chunk::kNodeHeight, 0},
+    {"/tree/parent", chunk::kNodeParent, 0},
+    {"/tree/branches", chunk::kBranchRecords, 0},
+    {"/tree/branch", chunk::kNodeBranch, 0},
+    {"/tree/inlierRate", chunk::kNodeInlierRate, 0},
+    {"/tree/links", chunk::kLinks, 0},
+    {"/points/offset", chunk::kPointOffset, 0},
+    {"/points/position", chunk::kPointPosition, 0},
+    {"/models/kernelParameter", chunk::kModelKernel, 8},
+    {"/models/kernel", chunk::kModelKernel, 0},
+    {"/models/isoLevel", chunk::kModelKernel, 16},
+    {"/models/offset", chunk::kModelOffset, 0},
+    {"/models/centre", chunk::kModelCentre, 0},
+    {"/models/width", chunk::kModelWidth, 0},
+    {"/compactModels/kernelParameter", chunk::kCompactKernel, 8},
+    {"/compactModels/kernel", chunk::kCompactKernel, 0},
+    {"/compactModels/isoLevel", chunk::kCompactKernel, 16},
+    {"/compactModels/offset", chunk::kCompactOffset, 0},
+    {"/compactModels/centre", chunk::kCompactCentre, 0},
+    {"/compactModels/width", chunk::kCompactWidth, 0},
+    {"/compactModels", chunk::kCompactKernel, 0},
+});
+
+struct PlacedField {
+  std::string_view name;
+  std::uint32_t offset;
+};
+constexpr auto kBranchFields = std::to_array<PlacedField>({{"firstNode", 0},
+                                                           {"nodeCount", 4},
+                                                           {"parentNode", 8},
+                                                           {"kind", 18},
+                                                           {"stopReason", 19},
+                                                           {"meanInlierRate", 20}});
+
+// The index that `rest` ("/12/1") starts with; it moves behind it. Nothing if there is none.
+std::optional<std::uint64_t> takeIndex(std::string_view& rest) {
+  if (rest.size() < 2 || rest.front() != '/') return std::nullopt;
+  std::uint64_t index = 0;
+  const auto parsed = std::from_chars(rest.data() + 1, rest.data() + rest.size(), index);
+  if (parsed.ec != std::errc{}) return std::nullopt;
+  rest.remove_prefix(static_cast<std::size_t>(parsed.ptr - rest.data()));
+  return index;
+}
+
+// A field of a branch; its label is in a chunk of its own.
+std::uint64_t branchFieldOffset(const Chunk& records, std::uint64_t recordAt, std::string_view rest,
+                                const CaseChunks& chunks) {
+  if (rest == "/label" && records.stored.size() >= recordAt + kBranchRecordSize) {
+    const Chunk* labels = chunks.find(chunk::kBranchLabels);
+    if (labels == nullptr || labels->encoding != 0) return records.offset + recordAt;
+    return labels->offset + loadLittle<std::uint32_t>(records.stored.data() + recordAt + 12);
+  }
+  for (const PlacedField& field : kBranchFields)
+    if (!rest.empty() && rest.substr(1) == field.name)
+      return records.offset + recordAt + field.offset;
+  return records.offset + recordAt;
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> byteOffsetOf(const std::string& pointer, const CaseChunks& chunks) {
+  const auto place = std::find_if(kPlaces.begin(), kPlaces.end(), [&](const PlacedArray& p) {
+    return pointer.starts_with(p.pointer);
+  });
+  if (place == kPlaces.end()) return std::nullopt;
+  const Chunk* chunk = chunks.find(place->type);
+  if (chunk == nullptr) return std::nullopt;
+  if (chunk->encoding != 0 || place->type == chunk::kMetadata) return chunk->offset;
+  std::string_view rest = std::string_view(pointer).substr(place->pointer.size());
+  const std::uint64_t stride = kChunkRules[chunkRuleIndex(place->type)].stride;
+  const auto index = takeIndex(rest);
+  if (!index) return chunk->offset + place->offset;
+  if (place->type == chunk::kBranchRecords)
+    return branchFieldOffset(*chunk, *index * stride, rest, chunks);
+  const std::uint64_t component = takeIndex(rest).value_or(0);
+  return chunk->offset + *index * stride + 4 * component;
+}
+
+}  // namespace lumen::formats

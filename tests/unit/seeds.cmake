@@ -1,0 +1,6 @@
+lumen_test(seeds_test
+  LIBS lumen_seeds
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/seeds/markups_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/seeds/seeds_test.cpp)
+target_include_directories(seeds_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume)
