@@ -113,7 +113,7 @@ class Answers:
         return dot(difference, difference)
 
     def length(self, way):
-        return sum(root(self.square(a, b)) for a, b in itertools.pairwise(way))
+        return sum(root(self.square(a, b)) for a, b in zip(way, way[1:]))
 
     def ways_from(self, start):
         """The way to every node that the breadth-first search reaches, both ends included."""
