@@ -74,10 +74,11 @@ def wall(axes, case, x, y, start=None, point=lambda x, y: [x, y, 0.0], **style):
 
 
 def cells(axes, case, x, y, colours):
-    """Tints the power cells."""
-    nodes = np.array([[node_of(case, [a, b, 0.0]) for a in x] for b in y])
+    """Tints the power cells: where the least power of all others exceeds a node's own."""
+    power = np.array([[[case.power(i, [a, b, 0.0]) for a in x] for b in y] for i in range(case.count)])
     for i in range(case.count):
-        axes.contourf(x, y, nodes == i, levels=[0.5, 1.5], colors=[colours[i % len(colours)]], alpha=0.16)
+        lead = np.delete(power, i, 0).min(0) - power[i]
+        axes.contourf(x, y, lead, levels=[0, 1e9], colors=[colours[i % len(colours)]], alpha=0.16)
 
 
 def bare(axes):
@@ -99,9 +100,9 @@ def power_cells():
     case = vessels(path)
     figure, axes = plt.subplots(figsize=(7.4, 3.1), layout="constrained")
     low, high = (-1.75, -1.4), (6.45, 1.9)
-    x, y = grid(low, high, 0.02)
+    x, y = grid(low, high, 0.05)
     cells(axes, case, x, y, COLOURS)
-    wall(axes, case, x[::2], y[::2])
+    wall(axes, case, x, y)
     for i, (centre, radius) in enumerate(path):
         axes.add_patch(plt.Circle(centre[:2], radius, fill=False, color=GREY, lw=0.9, ls=(0, (4, 2))))
         axes.plot(*centre[:2], "o", color=INK, ms=3.5)
@@ -134,10 +135,10 @@ def weights():
     path = [(c, radius) for c in ([-1.1, -bend, 0], [-0.55, -bend, 0], *arc, [bend, 0.55, 0], [bend, 1.1, 0])]
     case, shown = vessels(path), range(1, len(path) - 1)
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(7.4, 2.9), layout="constrained", width_ratios=(1.15, 1, 1))
-    x, y = grid((-0.8, -1.95), (1.95, 0.8), 0.02)
+    x, y = grid((-0.8, -1.95), (1.95, 0.8), 0.05)
     cells(left, case, x, y, COLOURS)
-    wall(left, case, x[::2], y[::2])
-    s = np.linspace(-0.7, math.pi / 2 * bend + 0.7, 297)
+    wall(left, case, x, y)
+    s = np.linspace(-0.7, math.pi / 2 * bend + 0.7, 149)
     for axes, r, name in ((middle, bend, "on the centerline"), (right, 0.37, "beside the inner wall")):
         points = beside(s, r, bend)
         share = np.array([shares(case, p) for p in points])
