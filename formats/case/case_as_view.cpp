@@ -81,7 +81,6 @@ CaseAsView::CaseAsView(const Case& value)
     m_view.pointPosition = vectors(value.points->position);
   }
   if (value.models) m_view.models = modelView(*value.models);
-  if (value.compactModels) m_view.compactModels = modelView(*value.compactModels);
 }
 
 }  // namespace lumen::formats

@@ -36,13 +36,6 @@ constexpr auto kPlaces = std::to_array<PlacedArray>({
     {"/models/offset", chunk::kModelOffset, 0},
     {"/models/centre", chunk::kModelCentre, 0},
     {"/models/width", chunk::kModelWidth, 0},
-    {"/compactModels/kernelParameter", chunk::kCompactKernel, 8},
-    {"/compactModels/kernel", chunk::kCompactKernel, 0},
-    {"/compactModels/isoLevel", chunk::kCompactKernel, 16},
-    {"/compactModels/offset", chunk::kCompactOffset, 0},
-    {"/compactModels/centre", chunk::kCompactCentre, 0},
-    {"/compactModels/width", chunk::kCompactWidth, 0},
-    {"/compactModels", chunk::kCompactKernel, 0},
 });
 
 struct PlacedField {
