@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "formats/container/bytes.h"
+#include "formats/field/kernel.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
 
@@ -127,11 +128,12 @@ void checkPositive(double value, const std::string& pointer, ErrorCode code, Iss
 }
 
 void checkKernel(const ModelView& model, const std::string& pointer, IssueList& issues) {
-  if (model.kernel >= kKernelCount)
+  if (model.kernel >= field::kKernelCount)
     return issues.add(foundIssue(ErrorCode::EnumValue, pointer + "/kernel",
-                                 std::to_string(model.kernel), "a kernel from 0 to 3"));
+                                 std::to_string(model.kernel),
+                                 "a kernel from 0 to " + std::to_string(field::kKernelCount - 1)));
   const std::string parameter = pointer + "/kernelParameter";
-  if (model.kernel < kFirstCompactKernel)
+  if (field::hasParameter(static_cast<field::Kernel>(model.kernel)))
     checkPositive(model.kernelParameter, parameter, ErrorCode::KernelParameter, issues);
   else if (!std::isfinite(model.kernelParameter))
     issues.add(notFinite(model.kernelParameter, parameter));
@@ -208,7 +210,7 @@ void checkKernels(const CaseView& view, IssueList& issues) {
   if (view.models) checkKernel(*view.models, "/models", issues);
   if (!view.compactModels) return;
   checkKernel(*view.compactModels, "/compactModels", issues);
-  if (view.compactModels->kernel < kFirstCompactKernel)
+  if (!field::isCompact(static_cast<field::Kernel>(view.compactModels->kernel)))
     issues.add(foundIssue(ErrorCode::CompactKernel, "/compactModels/kernel",
                           std::to_string(view.compactModels->kernel),
                           "2 (quartic) or 3 (soft-object)"));
