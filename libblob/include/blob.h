@@ -302,8 +302,8 @@ typedef struct blob_sample {
    * (outside a compact kernel's support) it is the distance to the node's ball, or 0.
    *
    * BLOB_DISTANCE_EXACT: the distance to the nearest point of the wall, found as by blob_nearest() with an
-   * error of 1e-5 R; continuous, with a kink where two points of the wall are equally near. A few points in
-   * 1000, mostly near an axis, end with BLOB_NOT_CONVERGED and the nearest point so far. */
+   * error of 1e-5 R; continuous, with a kink where two points of the wall are equally near. About one point
+   * in 1000, mostly near an axis, ends with BLOB_NOT_CONVERGED and the nearest point so far. */
   double distance;
   /* Outward unit normal, -grad f / |grad f|; zero where grad f is zero; away from the node's centre where f
    * vanishes. With BLOB_DISTANCE_EXACT that of the nearest point of the wall. */
