@@ -24,11 +24,12 @@ public:
     for (std::uint32_t b = 0; b < record.neighbourBlocks; ++b)
       for (int lane = 0; lane < kLanes; ++lane) {
         const NeighbourBlock& block = blocks[b];
+        if (isPadding(block, lane)) return true;  // and so is all that follows
         const field::Rival rival{{block.nx[lane], block.ny[lane], block.nz[lane]},
                                  block.c[lane],
                                  block.inverseTau[lane],
                                  block.node[lane]};
-        if (!visit(rival)) return false;  // padding never has a say
+        if (!visit(rival)) return false;
       }
     return true;
   }
