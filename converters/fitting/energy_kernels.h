@@ -41,7 +41,7 @@ struct Block {
 
 struct BlockParameters {
   formats::Kernel kernel;
-  double kernelParameter;
+  double kernelScale;  ///< of field::chainScale
   double isoLevel;
   double curvatureScale;     ///< sqrt(beta)
   double expectedCurvature;  ///< kappa_0
@@ -55,14 +55,5 @@ void evaluateBlock(const BlockParameters& parameters, const Block& block,
 void accumulateField(const BlockParameters& parameters, std::size_t count, const double* x,
                      const double* y, const double* z, std::span<const Blob> blobs,
                      double* const (&sums)[10]);
-
-/// a += J^T J (n x n row-major, upper triangle) and b += J^T r, for n columns of `rows` values; n
-/// is a multiple of 4, `rows` of kLanes.
-void multiplyTransposed(const double* jacobian, std::size_t columnStride, std::size_t n,
-                        const double* residual, std::size_t rows, double* a, double* b);
-
-/// sums[i] = sum of the `rows` values of column i < n; n is a multiple of 4, `rows` of kLanes.
-void sumColumns(const double* jacobian, std::size_t columnStride, std::size_t n, std::size_t rows,
-                double* sums);
 
 }  // namespace lumen::convert::fitting
