@@ -46,6 +46,7 @@
 #include <span>
 #include <vector>
 
+#include "converters/fitting/blob.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case.h"
 
@@ -53,16 +54,6 @@ namespace lumen::convert::fitting {
 
 /// Length of a voxel in the fit's frame: the voxel that the thesis' weights were tuned at, in mm.
 constexpr double kReferenceVoxel = 0.2;
-
-/// Added to |G|^2 in the denominator of kappa: the curvature of a field that is flat at a point
-/// counts for nothing there instead of dividing by zero. |G| is 0.02 to 0.5 at the walls of
-/// vessels.
-constexpr double kFlatField = 1e-6;
-
-/// One term width * phi(|X - centre|^2 / width^2) of the model.
-struct Blob {
-  double x = 0, y = 0, z = 0, width = 0;
-};
 
 struct EnergyParameters {
   formats::Kernel kernel = formats::Kernel::Cauchy;

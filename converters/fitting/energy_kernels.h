@@ -6,9 +6,15 @@
 #include <cstddef>
 #include <span>
 
-#include "converters/fitting/energy.h"
+#include "converters/fitting/blob.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::convert::fitting {
+
+/// Added to |G|^2 in the denominator of kappa: the curvature of a field that is flat at a point
+/// counts for nothing there instead of dividing by zero. |G| is 0.02 to 0.5 at the walls of
+/// vessels.
+constexpr double kFlatField = 1e-6;
 
 /// Partial sums run in this many independent lanes, whatever the machine's vectors are, so that
 /// every machine adds in the same order.
@@ -40,7 +46,7 @@ struct Block {
 };
 
 struct BlockParameters {
-  formats::Kernel kernel;
+  field::Kernel kernel;
   double kernelScale;  ///< of field::chainScale
   double isoLevel;
   double curvatureScale;     ///< sqrt(beta)
