@@ -12,8 +12,8 @@
 #include <tbb/parallel_for.h>
 
 #include "circle_search.h"
+#include "plot.h"
 #include "report.h"
-#include "svg_plot.h"
 
 namespace {
 
@@ -235,7 +235,7 @@ void run(const std::filesystem::path& folder, Progress& progress) {
   report.table(spreadTable("Distance from the true circle, trimmed", trimmedOutcome, 1));
   report.table(spreadTable("Share within a tenth, trimmed", trimmedOutcome, 2));
   std::filesystem::create_directories(folder);
-  writeText(folder / "circles.svg", svg(plotByAcross(outcome)));
+  writePlot(folder, "circles", plotByAcross(outcome));
   report.write(folder, "circles");
   std::fputs(report.markdown().c_str(), stdout);
 }

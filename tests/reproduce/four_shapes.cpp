@@ -15,10 +15,10 @@
 #include "convolution_shapes.h"
 #include "family_fit.h"
 #include "particles.h"
+#include "plot.h"
 #include "report.h"
 #include "seams.h"
 #include "shape_fit.h"
-#include "svg_plot.h"
 
 namespace {
 
@@ -226,8 +226,8 @@ void run(const std::filesystem::path& folder, Progress& progress) {
   report.table(noisy);
   report.picture("four_shapes_noisy.svg", noisyPlot.title);
   std::filesystem::create_directories(folder);
-  writeText(folder / "four_shapes_clean.svg", svg(cleanPlot));
-  writeText(folder / "four_shapes_noisy.svg", svg(noisyPlot));
+  writePlot(folder, "four_shapes_clean", cleanPlot);
+  writePlot(folder, "four_shapes_noisy", noisyPlot);
   report.write(folder, "four_shapes");
   std::fputs(report.markdown().c_str(), stdout);
 }
