@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen_tracking_report FOLDER [SEEDS]: the tracker on synthetic patients: success, accuracy by
 // radius, and where noise, coarse data and careless clicks make it fail. Writes tracking.md,
-// tracking.json and plots. SEEDS patients (10) as they come, the first three of them under
-// everything else.
+// tracking.json and the data of plots. SEEDS patients (10) as they come, the first three of them
+// under everything else.
 #include <algorithm>
 #include <array>
 #include <cmath>
