@@ -9,7 +9,9 @@
 #include <Eigen/Core>
 #include <tbb/parallel_for.h>
 
+#include "converters/common/statistics.h"
 #include "converters/common/tube_tree_distance.h"
+#include "converters/common/vectors.h"
 #include "formats/case/blobby.h"
 #include "formats/case/topology.h"
 
@@ -23,10 +25,6 @@ constexpr int kNewtonSteps = 30;
 constexpr int kBisections = 40;
 constexpr int kRays = 64;
 constexpr double kOnSurface = 1e-3;  // of the node's radius
-
-Vector3d vectorOf(const formats::Vec3f& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 // Unit vectors spread evenly over the sphere along a golden spiral.
 std::vector<Vector3d> rayDirections() {
@@ -45,7 +43,7 @@ public:
   NodeSurface(const formats::Case& value, std::uint32_t node)
       : m_models(*value.models),
         m_node(node),
-        m_centre(vectorOf(value.tree.centre[node])),
+        m_centre(toEigen(value.tree.centre[node])),
         m_radius(static_cast<double>(value.tree.radius[node])) {}
 
   // The point on the surface that Newton's method along the gradient reaches; false if it does not
@@ -121,14 +119,14 @@ public:
     const formats::Branch& branch = m_truth.branches[hit.branch];
     const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
     const std::uint32_t next = std::min(hit.node + 1, last);
-    const Vector3d a = vectorOf(m_truth.centre[hit.node]), b = vectorOf(m_truth.centre[next]);
+    const Vector3d a = toEigen(m_truth.centre[hit.node]), b = toEigen(m_truth.centre[next]);
     const Vector3d foot = a + hit.along * (b - a);
     const auto from = static_cast<double>(m_truth.radius[hit.node]);
     const double radius = from + hit.along * (static_cast<double>(m_truth.radius[next]) - from);
     for (const std::uint32_t end : {branch.firstNode, last})
       // an aneurysm's last node is the centre of its sac, not an open end
       if ((branch.kind == formats::BranchKind::Vessel || end != last) &&
-          (foot - vectorOf(m_truth.centre[end])).norm() <= radius)
+          (foot - toEigen(m_truth.centre[end])).norm() <= radius)
         return false;
     return std::none_of(
         m_joined[hit.branch].begin(), m_joined[hit.branch].end(),
@@ -154,7 +152,7 @@ public:
 
   [[nodiscard]] bool holds(const Vector3d& point) const {
     const double along =
-        (point - vectorOf(m_tree.centre[m_node])).dot(vectorOf(m_tree.direction[m_node]));
+        (point - toEigen(m_tree.centre[m_node])).dot(toEigen(m_tree.direction[m_node]));
     if ((m_isFirst && along < 0) || (m_isLast && along > 0)) return false;
     const double own = power(m_node, point);
     return std::none_of(m_neighbours.begin(), m_neighbours.end(),
@@ -164,7 +162,7 @@ public:
 private:
   [[nodiscard]] double power(std::uint32_t node, const Vector3d& point) const {
     const auto radius = static_cast<double>(m_tree.radius[node]);
-    return (point - vectorOf(m_tree.centre[node])).squaredNorm() - radius * radius;
+    return (point - toEigen(m_tree.centre[node])).squaredNorm() - radius * radius;
   }
 
   const CenterlineTree& m_tree;
@@ -179,7 +177,7 @@ std::vector<Vector3d> surfaceSamples(const formats::Case& found, std::uint32_t n
   std::vector<Vector3d> samples;
   if (found.points && found.points->offset[node] < found.points->offset[node + 1]) {
     for (std::uint32_t p = found.points->offset[node]; p < found.points->offset[node + 1]; ++p) {
-      Vector3d point = vectorOf(found.points->position[p]);
+      Vector3d point = toEigen(found.points->position[p]);
       if (surface.project(point)) samples.push_back(point);
     }
     return samples;
@@ -192,12 +190,7 @@ std::vector<Vector3d> surfaceSamples(const formats::Case& found, std::uint32_t n
 
 std::optional<Quantiles> quantilesOf(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) -
-                  1];
-  };
-  return Quantiles{at(0.5), at(0.9), values.back()};
+  return Quantiles{nearestRank(values, 0.5), nearestRank(values, 0.9), nearestRank(values, 1.0)};
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Line plots as SVG.
+// The data of line plots, which plots.py draws.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,11 @@ struct Plot {
   std::vector<Curve> curves;
 };
 
-std::string svg(const Plot& plot);
+/// {"title", "x", "y", "logarithmic", "curves": [{"name", "dashed", "points": [[x, y], ...]},
+/// ...]}; a coordinate that is not finite is null.
+std::string plotJson(const Plot& plot);
+
+/// Writes `name`.plot.json, of which plots.py makes `name`.svg. Throws Error(Failed).
+void writePlot(const std::filesystem::path& folder, const std::string& name, const Plot& plot);
 
 }  // namespace lumen::reproduce

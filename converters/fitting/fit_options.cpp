@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/fitting/fit_options.h"
+
 #include <cmath>
 
-#include "converters/fitting/fit.h"
-#include "formats/case/blobby.h"
+#include "converters/common/error.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::convert {
 namespace {
+
+/// Voxels: what thesis table 4.5 gives in mm for voxels of 0.2 mm.
+constexpr double kIsoLevel = 0.5, kAccuracy = 1.5, kMaxDistance = 100, kMinWidth = 0.1;
 
 void requireRange(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -33,28 +38,13 @@ void scaleWithVoxel(const char* name, std::optional<double>& value, double voxel
   requireLength(name, *value);
 }
 
-const char* kernelName(formats::Kernel kernel) {
-  switch (kernel) {
-    case formats::Kernel::Cauchy:
-      return "cauchy";
-    case formats::Kernel::Gaussian:
-      return "gaussian";
-    case formats::Kernel::Quartic:
-      return "quartic";
-    case formats::Kernel::SoftObject:
-      return "soft-object";
-  }
-  return "unknown";
-}
-
 }  // namespace
 
 FitOptions FitOptions::resolved(double voxelSize) const {
   FitOptions full = *this;
-  if (!full.kernelParameter) full.kernelParameter = formats::defaultKernelParameter(kernel);
-  const bool hasParameter =
-      kernel == formats::Kernel::Cauchy || kernel == formats::Kernel::Gaussian;
-  if (hasParameter) requireRange("kernel-parameter", *full.kernelParameter, 1e-3, 1e3);
+  if (!full.kernelParameter) full.kernelParameter = field::usualParameter(kernel);
+  if (field::hasParameter(kernel))
+    requireRange("kernel-parameter", *full.kernelParameter, 1e-3, 1e3);
   requireRange("cohesion-weight", cohesionWeight, 0, 1e6);
   requireRange("curvature-weight", curvatureWeight, 0, 1e6);
   requireRange("cohesion-scale", cohesionScale, 1e-3, 1e3);
@@ -62,16 +52,16 @@ FitOptions FitOptions::resolved(double voxelSize) const {
   requireRange("neighbourhood", neighbourhood, 0, 100);
   requireRange("seam-sweeps", seamSweeps, 0, 100);
   requireRange("seam-weight", seamWeight, 0, 1e6);
-  scaleWithVoxel("iso-level", full.isoLevel, 0.5, voxelSize);
-  scaleWithVoxel("accuracy", full.accuracy, 1.5, voxelSize);
-  scaleWithVoxel("max-distance", full.maxDistance, 100, voxelSize);
-  scaleWithVoxel("min-width", full.minWidth, 0.1, voxelSize);
+  scaleWithVoxel("iso-level", full.isoLevel, kIsoLevel, voxelSize);
+  scaleWithVoxel("accuracy", full.accuracy, kAccuracy, voxelSize);
+  scaleWithVoxel("max-distance", full.maxDistance, kMaxDistance, voxelSize);
+  scaleWithVoxel("min-width", full.minWidth, kMinWidth, voxelSize);
   return full;
 }
 
 std::map<std::string, formats::ParameterValue> FitOptions::parameters() const {
   std::map<std::string, formats::ParameterValue> values{
-      {"kernel", std::string(kernelName(kernel))},
+      {"kernel", std::string(field::kKernelNames[static_cast<std::size_t>(kernel)])},
       {"cohesion-weight", cohesionWeight},
       {"curvature-weight", curvatureWeight},
       {"cohesion-scale", cohesionScale},
