@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/loss_report.h"
 
-#include <array>
-#include <cstdint>
-
 #include "converters/common/error.h"
 
 namespace lumen::app {
@@ -11,31 +8,6 @@ namespace lumen::app {
 namespace {
 
 using formats::Case;
-
-enum Part : unsigned {
-  kTree = 1u << 0,
-  kRates = 1u << 1,
-  kLinks = 1u << 2,
-  kPoints = 1u << 3,
-  kModels = 1u << 4,
-  kCompactModels = 1u << 5,
-  kNodeArrays = 1u << 6,
-  kProvenance = 1u << 7,
-  kNote = 1u << 8,
-  kOtherChunks = 1u << 9,
-  kEverything = (1u << 10) - 1,
-};
-
-struct Capacity {
-  std::string_view format;
-  unsigned parts;
-};
-
-/// Formats that are not listed hold nothing but the surface.
-constexpr auto kCapacities = std::to_array<Capacity>({
-    {"lumen", kEverything},
-    {"lumen.json", kEverything},
-});
 
 std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
   if (count == 0) return "";
@@ -68,7 +40,7 @@ std::string provenanceText(const formats::Metadata& metadata) {
 }
 
 /// The phrase for one part; empty if the case does not have it.
-std::string partText(const Case& value, Part part) {
+std::string partText(const Case& value, CasePart part) {
   switch (part) {
     case kTree:
       return treeText(value.tree);
@@ -92,26 +64,19 @@ std::string partText(const Case& value, Part part) {
     case kOtherChunks:
       return counted(value.otherChunks.size(), "chunk of another program",
                      "chunks of other programs");
-    case kEverything:
+    case kEveryPart:
       break;
   }
   return "";
 }
 
-unsigned capacityOf(const FileFormat& format) {
-  for (const Capacity& capacity : kCapacities)
-    if (capacity.format == format.name) return capacity.parts;
-  return 0;
-}
-
 }  // namespace
 
 std::vector<std::string> lossesOf(const Case& value, const FileFormat& format) {
-  const unsigned held = capacityOf(format);
   std::vector<std::string> losses;
-  for (unsigned part = 1; part < kEverything; part <<= 1) {
-    if ((held & part) != 0) continue;
-    std::string text = partText(value, static_cast<Part>(part));
+  for (unsigned part = 1; part < kEveryPart; part <<= 1) {
+    if ((format.holds & part) != 0) continue;
+    std::string text = partText(value, static_cast<CasePart>(part));
     if (!text.empty()) losses.push_back(std::move(text));
   }
   return losses;

@@ -9,7 +9,9 @@
 #include <openssl/evp.h>
 #include <unistd.h>
 
+#include "converters/common/error.h"
 #include "converters/volume/itk_image.h"
+#include "converters/volume/nifti_file.h"
 
 namespace lumen::convert {
 namespace {
@@ -87,20 +89,14 @@ std::string sha256(const void* bytes, std::size_t size) {
   return hex;
 }
 
-}  // namespace
-
-void writeVolume(const Volume& volume, const fs::path& path) {
-  const auto io = makeImageIo(volumeFormat(path));
-  const std::string extension = path.extension().string();
-  if (!io || extension == ".nhdr" || extension == ".mhd")
-    throw unsupported(path.string() +
-                      ": cannot be written by its name; expected .nii, .nii.gz, .nrrd or .mha");
-  const TemporaryFile temporary{temporarySibling(path)};
+void writeWithItk(const Volume& volume, const fs::path& path, VolumeFormat format,
+                  bool compressed) {
+  const auto io = makeImageIo(format);
   setGeometry(*io, volume.geometry);
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetNumberOfComponents(1);
-  io->SetUseCompression(extension != ".nii");
-  io->SetFileName(temporary.path.string());
+  io->SetUseCompression(compressed);
+  io->SetFileName(path.string());
   try {
     std::visit(
         [&](const auto& voxels) {
@@ -112,6 +108,17 @@ void writeVolume(const Volume& volume, const fs::path& path) {
   } catch (const itk::ExceptionObject& exception) {
     throw failed(path.string() + ": cannot be written (" + oneLine(exception) + ")");
   }
+}
+
+}  // namespace
+
+void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format, bool compressed) {
+  if (format == VolumeFormat::Dicom) throw unsupported(path.string() + ": DICOM is not written");
+  const TemporaryFile temporary{temporarySibling(path)};
+  if (format == VolumeFormat::Nifti)
+    writeNifti(volume, temporary.path, compressed);
+  else
+    writeWithItk(volume, temporary.path, format, compressed);
   flushToDisk(temporary.path);
   std::error_code error;
   fs::rename(temporary.path, path, error);
