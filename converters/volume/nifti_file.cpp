@@ -2,6 +2,7 @@
 #include "converters/volume/nifti_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
