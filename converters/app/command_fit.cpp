@@ -39,7 +39,6 @@ public:
       throw invalidInput(m_input +
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
-    value.compactModels.reset();  // they repeat the surface of the models that are replaced
     convert::fit(value, m_fit.options(), context.progress);
     to.writeCase(value, m_output, {}, context.progress);
     if (context.common.json)

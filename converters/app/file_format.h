@@ -25,12 +25,11 @@ enum CasePart : unsigned {
   kLinks = 1u << 2,
   kPoints = 1u << 3,
   kModels = 1u << 4,
-  kCompactModels = 1u << 5,
-  kNodeArrays = 1u << 6,
-  kProvenance = 1u << 7,
-  kNote = 1u << 8,
-  kOtherChunks = 1u << 9,
-  kEveryPart = (1u << 10) - 1,
+  kNodeArrays = 1u << 5,
+  kProvenance = 1u << 6,
+  kNote = 1u << 7,
+  kOtherChunks = 1u << 8,
+  kEveryPart = (1u << 9) - 1,
 };
 
 /// How a case is written; each format takes what concerns it.

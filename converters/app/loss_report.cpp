@@ -14,9 +14,9 @@ std::string counted(std::size_t count, const std::string& noun, const std::strin
   return std::to_string(count) + " " + (count == 1 ? noun : plural);
 }
 
-std::string blobs(const std::optional<formats::BlobbyModels>& models, const std::string& what) {
+std::string modelsText(const std::optional<formats::BlobbyModels>& models) {
   if (!models) return "";
-  return "the " + what + " (" + counted(models->width.size(), "blob", "blobs") + ")";
+  return "the models (" + counted(models->width.size(), "blob", "blobs") + ")";
 }
 
 std::string treeText(const formats::CenterlineTree& tree) {
@@ -52,9 +52,7 @@ std::string partText(const Case& value, CasePart part) {
       return value.points ? counted(value.points->position.size(), "wall point", "wall points")
                           : "";
     case kModels:
-      return blobs(value.models, "models");
-    case kCompactModels:
-      return blobs(value.compactModels, "compact models");
+      return modelsText(value.models);
     case kNodeArrays:
       return counted(value.nodeArrays.size(), "node array", "node arrays");
     case kProvenance:

@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "formats/field/kernel.h"
+
 namespace lumen::formats {
 
 /// A position (mm) or a unit direction in LPS patient coordinates: +x left, +y posterior, +z
@@ -74,7 +76,7 @@ struct PointSets {
   friend bool operator==(const PointSets&, const PointSets&) = default;
 };
 
-enum class Kernel : std::uint8_t { Cauchy = 0, Gaussian = 1, Quartic = 2, SoftObject = 3 };
+using field::Kernel;
 
 /// One implicit surface f(X) = T per node, f(X) = sum_j width_j * phi(|X - centre_j|^2 /
 /// width_j^2), inside where f > T. Node i owns the blobs offset[i] .. offset[i + 1] - 1.
@@ -153,9 +155,6 @@ struct Case {
   CenterlineTree tree;
   std::optional<PointSets> points;
   std::optional<BlobbyModels> models;
-  /// The surface of `models` again, by a kernel with compact support: faster where it is queried
-  /// far from the wall. `models` decide where the two differ.
-  std::optional<BlobbyModels> compactModels;
   std::vector<NodeArray> nodeArrays;
   std::vector<OtherChunk> otherChunks;
   friend bool operator==(const Case&, const Case&) = default;
