@@ -60,7 +60,6 @@ json answer(const Case& value, const Neighbours& neighbours, const json& questio
           : nodeOfPoint(value.tree, p);
   json out = {{"node", node}, {"power", power(value.tree, node, p)}};
   if (value.models) out.update(fieldAnswer(*value.models, node, p));
-  if (value.compactModels) out["compact"] = fieldAnswer(*value.compactModels, node, p);
   return out;
 }
 

@@ -103,10 +103,12 @@ TEST(CaseView, IsRefusedIfAnArrayHasNotOneEntryPerNode) {
 
 TEST(CaseView, ChecksTheKernelEvenOfTheStructure) {
   const auto withKernel = [](std::uint8_t kernel) {
-    return tamperedFull([kernel](Bytes& f) { storeLittle(&f[dataOf(f, "CKER")], kernel); });
+    return tamperedFull([kernel](Bytes& f) { storeLittle(&f[dataOf(f, "MKER")], kernel); });
   };
+  const Bytes noParameter =
+      tamperedFull([](Bytes& f) { storeLittle(&f[dataOf(f, "MKER") + 8], 0.0); });
   EXPECT_EQ(codeOf(withKernel(9), Verify::Structure), "ENUM_VALUE");
-  EXPECT_EQ(codeOf(withKernel(0), Verify::Structure), "KERNEL_PARAMETER");
+  EXPECT_EQ(codeOf(noParameter, Verify::Structure), "KERNEL_PARAMETER");
   EXPECT_EQ(codeOf(withKernel(3), Verify::Structure), "OK");
 }
 

@@ -178,7 +178,7 @@ const Fault kFaults[] = {
     {"version_text", "\"1.0\"", "\"1\"", "VERSION", "/version"},
     {"version_zero", "\"1.0\"", "\"0.9\"", "VERSION", "/version"},
     {"version_overflow", "\"1.0\"", "\"1.256\"", "VERSION", "/version"},
-    {"reader_newer", "\"version\": \"1.0\",\n  \"minimumReader\": \"1.0\"",
+    {"reader_newer", "\"version\": \"1.1\",\n  \"minimumReader\": \"1.0\"",
      "\"version\": \"2.3\", \"minimumReader\": \"2.0\"", "VERSION", "/minimumReader"},
     {"coordinate_system", "\"LPS\"", "\"RAS\"", "COORDINATE_SYSTEM", "/metadata/coordinateSystem"},
     {"no_coordinate_system", "\"coordinateSystem\": \"LPS\",", "", "JSON_KEY_MISSING", "/metadata"},
