@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-#include "converters/app/file_digest.h"
+#include "converters/common/sha256.h"
 #include "converters/seeds/seeds.h"
 #include "formats/case/case_file.h"
 
@@ -68,15 +68,23 @@ convert::Volume readThroughAlias(const fs::path& file, const FileFormat& format,
 }
 
 /// The file's name first and once, whether or not the message begins with it.
-std::string errorText(const fs::path& file, formats::FormatError error) {
+std::string errorText(const fs::path& file, formats::Issue error) {
   const std::string prefix = file.string() + ": ";
   if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
   return prefix + error.text();
 }
 
-std::string roundedJson(formats::Case value, int pointBits) {
-  formats::quantisePoints(value, pointBits);
-  return formats::encodeJson(value);
+std::vector<std::byte> readCaseBytes(const fs::path& file) {
+  requireInput(file, "case file");
+  auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
+  return *std::move(bytes);
+}
+
+formats::Case decodeFile(const fs::path& file, std::span<const std::byte> bytes) {
+  auto value = formats::decodeCase(bytes);
+  if (!value) throw invalidInput(errorText(file, value.error()));
+  return *std::move(value);
 }
 
 bool nameMatches(const fs::path& file, const FileFormat& format) {
@@ -90,17 +98,13 @@ bool nameMatches(const fs::path& file, const FileFormat& format) {
 }  // namespace
 
 formats::Case readCase(const fs::path& file) {
-  requireInput(file, "case file");
-  auto result = formats::readCaseFile(file);
-  if (!result) throw invalidInput(errorText(file, result.error()));
-  return std::move(*result);
+  return decodeFile(file, readCaseBytes(file));
 }
 
 formats::Case readParentCase(const fs::path& file) {
-  formats::Case value = readCase(file);
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
-  value.metadata.parentSha256 = sha256(*bytes);
+  const auto bytes = readCaseBytes(file);
+  formats::Case value = decodeFile(file, bytes);
+  value.metadata.parentSha256 = sha256(bytes);
   formats::dropDependentChunks(value);
   return value;
 }
@@ -122,17 +126,9 @@ convert::Volume readVolumeAs(const fs::path& file, const FileFormat& format,
 
 void writeCase(const formats::Case& value, const fs::path& file, const FileFormat& format,
                const formats::EncodeOptions& encoding) {
-  if (const auto valid = formats::validate(value); !valid)
-    throw failed(file.string() +
-                 ": the case is not valid and is not written: " + valid.error().text());
-  formats::Result<bool> written = true;
-  if (format.name == "lumen.json") {
-    const std::string text = encoding.pointBits == 0 ? formats::encodeJson(value)
-                                                     : roundedJson(value, encoding.pointBits);
-    written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
-  } else {
-    written = formats::writeFileAtomically(formats::encodeBinary(value, encoding), file);
-  }
+  const bool json = format.name == "lumen.json";
+  const auto written = formats::writeCaseFile(
+      value, file, json ? formats::CaseEncoding::Json : formats::CaseEncoding::Binary, encoding);
   if (!written) throw failed(errorText(file, written.error()));
 }
 

@@ -5,7 +5,7 @@
 
 #include "converters/common/error.h"
 #include "converters/seeds/seeds_parse.h"
-#include "formats/case/case_file.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "formats/case/issue_text.h"
 #include "formats/view/limits.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 namespace {

@@ -169,8 +169,8 @@ TEST_P(JsonFault, IsFoundAtItsPlace) {
   const Fault& fault = GetParam();
   const auto result = decodeJson(replaced(fault.from, fault.to));
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, fault.code) << result.error().text();
-  EXPECT_EQ(result.error().place, fault.place) << result.error().text();
+  EXPECT_EQ(test::codeOf(result), fault.code) << result.error().text();
+  EXPECT_EQ(result.error().place(), fault.place) << result.error().text();
 }
 
 const Fault kFaults[] = {
@@ -269,7 +269,7 @@ TEST(JsonSyntax, RefusesANumberBeyondADouble) {
 TEST(JsonSyntax, IsPlacedByItsByte) {
   const auto result = decodeJson("{\"format\" 5}");
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().place, "byte 11");
+  EXPECT_EQ(result.error().place(), "byte 11");
 }
 
 TEST(JsonSyntax, RefusesEveryTruncation) {
