@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "formats/container/bytes.h"
+#include "formats/field/kernel.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
 
@@ -113,11 +114,12 @@ void checkBlobRules(const ModelView& model, std::size_t nodeCount, IssueList& is
 }
 
 void checkKernel(const ModelView& model, IssueList& issues) {
-  if (model.kernel >= kKernelCount)
+  if (model.kernel >= field::kKernelCount)
     return issues.add(foundIssue(ErrorCode::EnumValue, "/models/kernel",
-                                 std::to_string(model.kernel), "a kernel from 0 to 3"));
+                                 std::to_string(model.kernel),
+                                 "a kernel from 0 to " + std::to_string(field::kKernelCount - 1)));
   const std::string parameter = "/models/kernelParameter";
-  if (model.kernel < kFirstKernelWithoutParameter)
+  if (field::hasParameter(static_cast<field::Kernel>(model.kernel)))
     checkPositive(model.kernelParameter, parameter, ErrorCode::KernelParameter, issues);
   else
     checkFinite(model.kernelParameter, parameter, issues);

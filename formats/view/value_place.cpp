@@ -49,7 +49,8 @@ constexpr auto kBranchFields = std::to_array<PlacedField>({{"firstNode", 0},
                                                            {"stopReason", 19},
                                                            {"meanInlierRate", 20}});
 
-// The index that `rest` ("/12/1") starts with; it moves behind it. Nothing if there is none.
+// The index that `rest` starts with (12 of "/12/1"), which is removed from it; nothing if there is
+// none.
 std::optional<std::uint64_t> takeIndex(std::string_view& rest) {
   if (rest.size() < 2 || rest.front() != '/') return std::nullopt;
   std::uint64_t index = 0;
