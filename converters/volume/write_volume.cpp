@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <span>
 
+#include "converters/common/error.h"
 #include "converters/common/sha256.h"
 #include "converters/volume/itk_image.h"
+#include "converters/volume/nifti_file.h"
 #include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
@@ -43,21 +45,14 @@ void setGeometry(itk::ImageIOBase& io, const VolumeGeometry& geometry) {
   io.SetIORegion(region);
 }
 
-}  // namespace
-
-void writeVolume(const Volume& volume, const fs::path& path) {
-  const auto io = makeImageIo(volumeFormat(path));
-  const std::string extension = path.extension().string();
-  if (!io || extension == ".nhdr" || extension == ".mhd")
-    throw unsupported(path.string() +
-                      ": cannot be written by its name; expected .nii, .nii.gz, .nrrd or .mha");
-  auto pending = formats::PendingFile::beside(path);
-  if (!pending) throw failed(pending.error().message);
+void writeWithItk(const Volume& volume, const fs::path& path, VolumeFormat format,
+                  bool compressed) {
+  const auto io = makeImageIo(format);
   setGeometry(*io, volume.geometry);
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetNumberOfComponents(1);
-  io->SetUseCompression(extension != ".nii");
-  io->SetFileName(pending->path().string());
+  io->SetUseCompression(compressed);
+  io->SetFileName(path.string());
   try {
     std::visit(
         [&](const auto& voxels) {
@@ -69,6 +64,18 @@ void writeVolume(const Volume& volume, const fs::path& path) {
   } catch (const itk::ExceptionObject& exception) {
     throw failed(path.string() + ": cannot be written (" + oneLine(exception) + ")");
   }
+}
+
+}  // namespace
+
+void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format, bool compressed) {
+  if (format == VolumeFormat::Dicom) throw unsupported(path.string() + ": DICOM is not written");
+  auto pending = formats::PendingFile::beside(path);
+  if (!pending) throw failed(pending.error().message);
+  if (format == VolumeFormat::Nifti)
+    writeNifti(volume, pending->path(), compressed);
+  else
+    writeWithItk(volume, pending->path(), format, compressed);
   if (const auto written = pending->commit(); !written) throw failed(written.error().message);
 }
 

@@ -107,7 +107,11 @@ Expected<Case> readCaseFile(const fs::path& file) {
 
 Expected<bool> writeCaseFile(const Case& value, const fs::path& file, CaseEncoding encoding,
                              const EncodeOptions& options) {
-  if (auto valid = validate(value); !valid) return valid;
+  if (const auto valid = validate(value); !valid) {
+    Issue error = valid.error();
+    error.message = "the case is not valid and is not written: " + error.message;
+    return error;
+  }
   if (encoding == CaseEncoding::Binary)
     return writeFileAtomically(encodeBinary(value, options), file);
   std::string text;

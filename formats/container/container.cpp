@@ -40,10 +40,7 @@ std::size_t firstNonZero(Bytes bytes) {
 }
 
 std::string hex(std::uint32_t value) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string text = "0x";
-  for (int shift = 28; shift >= 0; shift -= 4) text += digits[(value >> shift) & 0xfu];
-  return text;
+  return "0x" + checksumText(value);
 }
 
 std::vector<Argument> foundExpected(std::uint64_t found, std::uint64_t expected) {

@@ -1,6 +1,6 @@
 # The executable, from outside.
 lumen_test(cli_test
-  LIBS lumen_options lumen_terminal lumen_privacy lumen_case nlohmann_json::nlohmann_json
+  LIBS lumen_options lumen_terminal lumen_app lumen_case nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/config_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.cpp
