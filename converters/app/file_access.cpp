@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -11,9 +12,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "converters/app/file_digest.h"
 #include "converters/common/error.h"
-#include "formats/case/case_file.h"
+#include "converters/common/sha256.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen::app {
 
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The file's name first and once, whether or not the message begins with it.
-std::string errorText(const fs::path& file, formats::FormatError error) {
+std::string errorText(const fs::path& file, formats::Issue error) {
   const std::string prefix = file.string() + ": ";
   if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
   return prefix + error.text();
@@ -33,10 +34,7 @@ std::pair<std::vector<std::byte>, formats::Case> readBoth(const fs::path& file) 
   requireInput(file, "case file");
   auto bytes = formats::readFileBytes(file);
   if (!bytes) throw invalidInput(errorText(file, bytes.error()));
-  const bool json = bytes->front() == std::byte{'{'};
-  auto value =
-      json ? formats::decodeJson({reinterpret_cast<const char*>(bytes->data()), bytes->size()})
-           : formats::decodeBinary(*bytes);
+  auto value = formats::decodeCase(*bytes);
   if (!value) throw invalidInput(errorText(file, value.error()));
   return {std::move(*bytes), std::move(*value)};
 }
@@ -54,13 +52,15 @@ formats::Case readParentCase(const fs::path& file) {
   return std::move(value);
 }
 
-void writeBytes(std::span<const std::byte> bytes, const fs::path& file) {
-  const auto written = formats::writeFileAtomically(bytes, file);
+void writeCase(const formats::Case& value, const fs::path& file, formats::CaseEncoding encoding,
+               const formats::EncodeOptions& options) {
+  const auto written = formats::writeCaseFile(value, file, encoding, options);
   if (!written) throw failed(errorText(file, written.error()));
 }
 
 void writeText(std::string_view text, const fs::path& file) {
-  writeBytes(std::as_bytes(std::span(text)), file);
+  const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
+  if (!written) throw failed(errorText(file, written.error()));
 }
 
 void requireInput(const fs::path& path, std::string_view what) {

@@ -2,12 +2,10 @@
 // What a command reads and writes by name, and what it refuses before any work.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <span>
 #include <string_view>
 
-#include "formats/case/case.h"
+#include "formats/case/case_file.h"
 
 namespace lumen::app {
 
@@ -19,8 +17,11 @@ formats::Case readCase(const std::filesystem::path& file);
 /// of others that a change would make wrong.
 formats::Case readParentCase(const std::filesystem::path& file);
 
+/// Validates and writes atomically; throws Error(Failed) with the file's name.
+void writeCase(const formats::Case& value, const std::filesystem::path& file,
+               formats::CaseEncoding encoding, const formats::EncodeOptions& options);
+
 /// Writes atomically; throws Error(Failed) with the file's name.
-void writeBytes(std::span<const std::byte> bytes, const std::filesystem::path& file);
 void writeText(std::string_view text, const std::filesystem::path& file);
 
 /// Throws Error(InvalidInput) if `path` is missing; `what` names its role, such as "seeds file".

@@ -2,11 +2,11 @@
 #include "converters/app/file_format.h"
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 
 #include "converters/app/file_access.h"
 #include "converters/common/error.h"
+#include "converters/common/text.h"
 #include "converters/mesh/encode_mesh.h"
 #include "converters/volume/write_volume.h"
 
@@ -28,25 +28,10 @@ void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
   convert::writeVolume(volume, file, format, compressed);
 }
 
-void requireValid(const formats::Case& value, const fs::path& file) {
-  if (const auto valid = formats::validate(value); !valid)
-    throw failed(file.string() +
-                 ": the case is not valid and is not written: " + valid.error().text());
-}
-
-void writeBinary(const formats::Case& value, const fs::path& file, const OutputOptions& options,
+template <formats::CaseEncoding encoding>
+void writeCaseAs(const formats::Case& value, const fs::path& file, const OutputOptions& options,
                  Progress&) {
-  requireValid(value, file);
-  writeBytes(formats::encodeBinary(value, options.encoding), file);
-}
-
-void writeJson(const formats::Case& value, const fs::path& file, const OutputOptions& options,
-               Progress&) {
-  requireValid(value, file);
-  if (options.encoding.pointBits == 0) return writeText(formats::encodeJson(value), file);
-  formats::Case rounded = value;
-  formats::quantisePoints(rounded, options.encoding.pointBits);
-  writeText(formats::encodeJson(rounded), file);
+  writeCase(value, file, encoding, options.encoding);
 }
 
 using Meshes = std::vector<convert::BranchMesh>;
@@ -81,9 +66,9 @@ std::vector<FileFormat> makeTable() {
   return {
       // cases
       {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"}, .holds = kEveryPart,
-       .readCase = readCase, .writeCase = writeBinary},
+       .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Binary>},
       {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"}, .holds = kEveryPart,
-       .readCase = readCase, .writeCase = writeJson},
+       .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
       // meshes
       {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = writeMeshAs<encodeGlb>},
       {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"}, .writeCase = writeMeshAs<encodeGltfText>},
@@ -108,12 +93,6 @@ std::vector<FileFormat> makeTable() {
   };
 }
 // clang-format on
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 const FileFormat* findByName(std::string_view name) {
   for (const FileFormat& format : fileFormats())

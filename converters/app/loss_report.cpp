@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/loss_report.h"
 
+#include "converters/app/report.h"
 #include "converters/common/error.h"
 
 namespace lumen::app {
@@ -9,9 +10,9 @@ namespace {
 
 using formats::Case;
 
-std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
-  if (count == 0) return "";
-  return std::to_string(count) + " " + (count == 1 ? noun : plural);
+/// Nothing for none.
+std::string some(std::size_t count, const std::string& noun, const std::string& plural) {
+  return count == 0 ? "" : counted(count, noun, plural);
 }
 
 std::string modelsText(const std::optional<formats::BlobbyModels>& models) {
@@ -35,7 +36,7 @@ std::string provenanceText(const formats::Metadata& metadata) {
   if (!metadata.source && !metadata.voxelSize && metadata.steps.empty() &&
       metadata.parentSha256.empty())
     return "";
-  const std::string steps = counted(metadata.steps.size(), "step", "steps");
+  const std::string steps = some(metadata.steps.size(), "step", "steps");
   return "the provenance" + (steps.empty() ? "" : " (" + steps + ")");
 }
 
@@ -47,21 +48,19 @@ std::string partText(const Case& value, CasePart part) {
     case kRates:
       return hasRates(value.tree) ? "inlier rates and stop reasons" : "";
     case kLinks:
-      return counted(value.tree.links.size(), "link", "links");
+      return some(value.tree.links.size(), "link", "links");
     case kPoints:
-      return value.points ? counted(value.points->position.size(), "wall point", "wall points")
-                          : "";
+      return value.points ? some(value.points->position.size(), "wall point", "wall points") : "";
     case kModels:
       return modelsText(value.models);
     case kNodeArrays:
-      return counted(value.nodeArrays.size(), "node array", "node arrays");
+      return some(value.nodeArrays.size(), "node array", "node arrays");
     case kProvenance:
       return provenanceText(value.metadata);
     case kNote:
       return value.metadata.note.empty() ? "" : "the note";
     case kOtherChunks:
-      return counted(value.otherChunks.size(), "chunk of another program",
-                     "chunks of other programs");
+      return some(value.otherChunks.size(), "chunk of another program", "chunks of other programs");
     case kEveryPart:
       break;
   }

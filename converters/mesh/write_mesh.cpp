@@ -2,7 +2,7 @@
 #include <span>
 
 #include "converters/mesh/encode_mesh.h"
-#include "formats/case/case_file.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
 namespace {

@@ -13,7 +13,7 @@
 #include "converters/seeds/seeds_json.h"
 #include "converters/seeds/seeds_markups.h"
 #include "converters/seeds/seeds_parse.h"
-#include "formats/case/case_file.h"
+#include "formats/case/atomic_file.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
 

@@ -14,6 +14,7 @@
 #include <zlib.h>
 
 #include "converters/common/error.h"
+#include "converters/common/text.h"
 #include "converters/volume/volume_checks.h"
 
 namespace lumen::convert {
@@ -22,18 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxHeader = 1 << 20;
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 struct TextHeader {
   std::map<std::string, std::string> field;  ///< keys in lower case

@@ -80,7 +80,7 @@ std::vector<Patient> syntheticPatients(Progress& progress) {
 std::vector<Patient> readPatients(const std::vector<std::string>& files) {
   std::vector<Patient> patients;
   for (const std::string& file : files) {
-    formats::Result<formats::Case> value = formats::readCaseFile(file);
+    formats::Expected<formats::Case> value = formats::readCaseFile(file);
     if (!value) throw invalidInput(value.error().text());
     if (!value->points) throw invalidInput(file + ": has no wall points");
     if (!value->metadata.voxelSize) throw invalidInput(file + ": states no voxel size");
