@@ -9,7 +9,8 @@
 #include <CLI/CLI.hpp>
 
 #include "converters/fitting/fit.h"
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/polygonise.h"
+#include "converters/mesh/write_mesh.h"
 #include "converters/phantom/phantom.h"
 #include "converters/tracking/tracker.h"
 #include "converters/volume/read_volume.h"

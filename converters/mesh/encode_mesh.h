@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/write_mesh.h"
 
 namespace lumen::convert {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <span>
 
+#include "converters/common/error.h"
 #include "converters/mesh/encode_mesh.h"
 #include "formats/case/case_file.h"
 
