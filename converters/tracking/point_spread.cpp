@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "converters/tracking/branch_tracker.h"
+
 namespace lumen::convert {
 namespace {
 

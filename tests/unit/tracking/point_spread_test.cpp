@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/tracking/tracker.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {
