@@ -62,7 +62,6 @@ CaseInfo describeCase(const formats::Case& value, Progress& progress) {
   info.nodes = value.tree.nodeCount();
   if (value.points) info.points = value.points->position.size();
   if (value.models) info.blobs = value.models->centre.size();
-  if (value.compactModels) info.compactBlobs = value.compactModels->centre.size();
   info.links = value.tree.links.size();
   for (const auto& array : value.nodeArrays) info.nodeArrays.push_back(array.name);
   info.length = totalLength(value.tree);

@@ -30,7 +30,7 @@ struct BranchInfo {
 struct CaseInfo {
   std::size_t nodes = 0;
   std::size_t points = 0;
-  std::optional<std::size_t> blobs, compactBlobs;
+  std::optional<std::size_t> blobs;
   std::size_t links = 0;
   std::vector<std::string> nodeArrays;                   ///< names
   double length = 0;                                     ///< mm
@@ -42,7 +42,7 @@ struct CaseInfo {
 
 CaseInfo describeCase(const formats::Case& value, Progress& progress);
 
-/// branches, nodes, links, points, blobs, blobs_per_node, compact_blobs, length_mm, radius_mm,
+/// branches, nodes, links, points, blobs, blobs_per_node, length_mm, radius_mm,
 /// error_of_fit_mm, provenance, note, node_arrays, branch_table. What the case does not have is
 /// null.
 Json caseInfoJson(const CaseInfo& info);

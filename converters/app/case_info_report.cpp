@@ -78,7 +78,6 @@ std::string stepText(const formats::Step& step) {
 std::string extrasText(const CaseInfo& info) {
   std::ostringstream text;
   if (info.links > 0) text << "links         " << info.links << "\n";
-  if (info.compactBlobs) text << "compact blobs " << *info.compactBlobs << "\n";
   if (const auto& rounded = info.metadata.pointQuantisation)
     text << "points        rounded to " << rounded->bits << " bits, steps of " << rounded->step
          << " mm\n";
@@ -108,7 +107,6 @@ Json caseInfoJson(const CaseInfo& info) {
   json["points"] = info.points;
   json["blobs"] = info.blobs.value_or(0);
   json["blobs_per_node"] = perNode ? jsonNumber(*perNode) : Json(nullptr);
-  json["compact_blobs"] = info.compactBlobs ? Json(*info.compactBlobs) : Json(nullptr);
   json["length_mm"] = jsonNumber(info.length);
   json["radius_mm"] = nullptr;
   if (info.radius)

@@ -25,10 +25,6 @@ std::string hex(std::uint32_t value) {
   return text.data();
 }
 
-std::string versionText(formats::FormatVersion version) {
-  return std::to_string(version.major) + "." + std::to_string(version.minor);
-}
-
 std::string remarks(const ChunkInfo& info) {
   std::string text = info.chunk.critical ? "critical" : "";
   const auto add = [&text](bool wanted, const char* word) {
@@ -64,7 +60,7 @@ FileInfo describeChunks(const std::filesystem::path& file) {
 
 Json chunkInfoJson(const FileInfo& info) {
   Json json;
-  json["version"] = versionText(info.version);
+  json["version"] = formats::versionText(info.version);
   json["length"] = info.length;
   json["chunks"] = Json::array();
   for (const ChunkInfo& entry : info.chunks)
@@ -90,7 +86,7 @@ std::string chunkInfoText(const FileInfo& info) {
                     std::to_string(entry.chunk.offset), std::to_string(entry.storedSize),
                     std::to_string(entry.chunk.rawSize), hex(entry.chunk.checksum),
                     remarks(entry)});
-  return "version       " + versionText(info.version) + "\nbytes         " +
+  return "version       " + formats::versionText(info.version) + "\nbytes         " +
          std::to_string(info.length) + "\n\n" + alignColumns(rows);
 }
 

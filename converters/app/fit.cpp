@@ -42,7 +42,6 @@ public:
       throw invalidInput(m_input +
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
-    value.compactModels.reset();  // they repeat the surface of the models that are replaced
     convert::fit(value, m_fit.options(), context.progress);
     writeCase(value, m_output, to);
     if (context.common.json)

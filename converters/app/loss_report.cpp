@@ -18,12 +18,11 @@ enum Part : unsigned {
   kLinks = 1u << 2,
   kPoints = 1u << 3,
   kModels = 1u << 4,
-  kCompactModels = 1u << 5,
-  kNodeArrays = 1u << 6,
-  kProvenance = 1u << 7,
-  kNote = 1u << 8,
-  kOtherChunks = 1u << 9,
-  kEverything = (1u << 10) - 1,
+  kNodeArrays = 1u << 5,
+  kProvenance = 1u << 6,
+  kNote = 1u << 7,
+  kOtherChunks = 1u << 8,
+  kEverything = (1u << 9) - 1,
 };
 
 struct Capacity {
@@ -42,9 +41,9 @@ std::string counted(std::size_t count, const std::string& noun, const std::strin
   return std::to_string(count) + " " + (count == 1 ? noun : plural);
 }
 
-std::string blobs(const std::optional<formats::BlobbyModels>& models, const std::string& what) {
+std::string modelsText(const std::optional<formats::BlobbyModels>& models) {
   if (!models) return "";
-  return "the " + what + " (" + counted(models->width.size(), "blob", "blobs") + ")";
+  return "the models (" + counted(models->width.size(), "blob", "blobs") + ")";
 }
 
 std::string treeText(const formats::CenterlineTree& tree) {
@@ -80,9 +79,7 @@ std::string partText(const Case& value, Part part) {
       return value.points ? counted(value.points->position.size(), "wall point", "wall points")
                           : "";
     case kModels:
-      return blobs(value.models, "models");
-    case kCompactModels:
-      return blobs(value.compactModels, "compact models");
+      return modelsText(value.models);
     case kNodeArrays:
       return counted(value.nodeArrays.size(), "node array", "node arrays");
     case kProvenance:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case against the truth.
+// A case against the truth (docs/method.md, section 6).
 //
 // Centerlines. Both trees are sampled at one even step: a quarter of the truth's voxel, at most 0.1
 // mm, but no finer than 1/6000 of the longest branch. The centerline of a found branch begins with
@@ -13,11 +13,11 @@
 //   more deeply than in any other's, as far as they answer for no other true branch; a stretch of
 //   which more than half lies along another, longer stretch is not used.
 //
-// What nobody cares about:
-// - the beginning of a true child that lies in its parent's lumen is no part of the reference;
-// - nor does the beginning of the found child count, as far as it lies in that lumen too and is no
-//   more than two parent radii longer than the true one; past that it is false;
-// - samples of a link inside any true lumen are never false.
+// What does not count:
+// - the beginning of a true child, as far as it lies in its parent's lumen;
+// - the beginning of the found child, as far as it lies in that lumen too. If it is there for more
+//   than two parent radii longer than the true child, the rest is false;
+// - samples of a link within any true lumen, which are never false.
 //
 // The overall score pools all vessels; aneurysms have a centerline by convention only, so they are
 // scored among the branches but left out of it. Its false length holds everything found that no
@@ -53,7 +53,8 @@ struct CenterlineScore {
   double averageInside = 0;
   /// Mean distance to the other centerline over the samples of both, as they are assigned.
   double assd = 0;
-  /// The same over distances below the mean true radius of the branch (thesis eq. 3.9, 3.10).
+  /// The same over distances below the mean true radius of the branch (Yureidini's thesis, eq. 3.9
+  /// and 3.10).
   double assdLimited = 0;
   /// Found minus true radius at the nearest true centerline point, mean over the matched found
   /// samples that are not on a link, and its root mean square.

@@ -38,10 +38,10 @@ struct SampleGrid {
 /// What a sample is to the surface.
 enum class SampleState : std::uint8_t { Outside, OtherInside, Inside };
 
-/// Marks samples above `level`: Inside those that hang together with the one nearest to `seed` (mm)
-/// and no farther from it than `reach`, OtherInside the rest. Samples hang together along the
-/// lattice's edges and the diagonals of its faces, as they do in the surface. Nothing is Inside if
-/// no sample is near enough.
+/// Marks samples above `level`: Inside those in the connected component of the one nearest to
+/// `seed` (mm), OtherInside the rest. Samples are adjacent along the lattice's edges and the
+/// diagonals of its faces, as the surface joins them. Nothing is Inside if no sample is within
+/// `reach` of `seed`.
 std::vector<SampleState> markLumen(const SampleGrid& grid, double level,
                                    const Eigen::Vector3d& seed, double reach);
 

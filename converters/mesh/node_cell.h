@@ -12,17 +12,19 @@
 
 namespace lumen::convert {
 
-/// The half-spaces whose intersection is the cell of `node`; nothing if the cell is empty. They are
-/// - the radical planes (equal power |X - O|^2 - r^2) to the nodes within two edges that have a
-/// model. Two and
-///   not one, because a model is fitted to the points of just these nodes: at a bifurcation the
-///   child's first model also knows the parent's wall beside the parent node, and would draw it a
-///   second time;
-/// - at a free end of a vessel (before the first node of a root branch, after the last node of any)
-/// the flat
-///   end of the node's cylinder, where its points end: beyond, models flare and taper by a quarter
-///   of the radius within a third of a height. Half a radius is always kept. An aneurysm's dome is
-///   wall that was seen and stays whole, and so does an end that another node continues.
+/// The half-spaces whose intersection is the part that `node` draws of the surface: its power cell,
+/// cut at free ends. Nothing if it is empty.
+///
+/// Its power cell is bounded by the radical planes (equal power |X - O|^2 - r^2) to the nodes
+/// within two edges that have a model. Two and not one, because a model is fitted to the points of
+/// just these nodes: at a bifurcation the child's first model also knows the parent's wall beside
+/// the parent node, and would draw it a second time.
+///
+/// A free end of a vessel (before the first node of a root branch, after the last node of any) is
+/// cut at the flat end of the node's cylinder, where its points end: beyond, models flare and taper
+/// by a quarter of the radius within a third of a height. Half a radius is always kept. An
+/// aneurysm's dome is wall that was seen and stays whole, and so does an end that another node
+/// continues.
 std::optional<std::vector<HalfSpace>> nodeCell(const formats::Case& source,
                                                const formats::Neighbours& neighbours,
                                                std::uint32_t node);

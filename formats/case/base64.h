@@ -13,7 +13,7 @@ namespace lumen::formats {
 
 std::string base64(std::span<const std::byte> bytes);
 
-/// Nothing for any other text, unused bits that are not zero included: bytes have one text.
+/// Nothing for any other text. Unused bits must be zero, so that bytes have exactly one text.
 std::optional<std::vector<std::byte>> fromBase64(std::string_view text);
 
 }  // namespace lumen::formats

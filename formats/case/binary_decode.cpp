@@ -126,7 +126,6 @@ Case caseOf(const CaseView& view, const CaseChunks& chunks, MetadataDocument&& d
   if (view.hasPoints)
     value.points = PointSets{copied(view.pointOffset), copied(view.pointPosition)};
   if (view.models) value.models = modelsOf(*view.models);
-  if (view.compactModels) value.compactModels = modelsOf(*view.compactModels);
   for (const Chunk& chunk : chunks.others) value.otherChunks.push_back(otherChunk(chunk));
   return value;
 }

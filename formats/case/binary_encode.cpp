@@ -130,19 +130,11 @@ private:
   std::vector<ChunkSource> m_chunks;
 };
 
-struct ModelChunks {
-  ChunkType kernel, offset, centre, width;
-};
-constexpr ModelChunks kModelChunks{chunk::kModelKernel, chunk::kModelOffset, chunk::kModelCentre,
-                                   chunk::kModelWidth};
-constexpr ModelChunks kCompactChunks{chunk::kCompactKernel, chunk::kCompactOffset,
-                                     chunk::kCompactCentre, chunk::kCompactWidth};
-
-void addModels(ChunkWriter& chunks, const ModelChunks& types, const BlobbyModels& models) {
-  chunks.add(types.kernel, kernelRecord(models));
-  chunks.add(types.offset, packedIntegers(models.offset));
-  chunks.add(types.centre, packed(models.centre));
-  chunks.add(types.width, packed(models.width));
+void addModels(ChunkWriter& chunks, const BlobbyModels& models) {
+  chunks.add(chunk::kModelKernel, kernelRecord(models));
+  chunks.add(chunk::kModelOffset, packedIntegers(models.offset));
+  chunks.add(chunk::kModelCentre, packed(models.centre));
+  chunks.add(chunk::kModelWidth, packed(models.width));
 }
 
 void addTree(ChunkWriter& chunks, const CenterlineTree& tree) {
@@ -174,8 +166,7 @@ std::vector<std::byte> encodeBinary(const Case& value, const EncodeOptions& opti
     chunks.add(chunk::kPointOffset, packedIntegers(value.points->offset));
     chunks.addPositions(value.points->position, quantised);
   }
-  if (value.models) addModels(chunks, kModelChunks, *value.models);
-  if (value.compactModels) addModels(chunks, kCompactChunks, *value.compactModels);
+  if (value.models) addModels(chunks, *value.models);
   for (const NodeArray& array : value.nodeArrays) chunks.add(chunk::kNodeArray, packedArray(array));
   for (const OtherChunk& other : value.otherChunks) chunks.addOther(other);
   return chunks.file();

@@ -153,9 +153,6 @@ struct Case {
   CenterlineTree tree;
   std::optional<PointSets> points;
   std::optional<BlobbyModels> models;
-  /// The surface of `models` again, by a kernel with compact support: faster where it is queried
-  /// far from the wall. `models` decide where the two differ.
-  std::optional<BlobbyModels> compactModels;
   std::vector<NodeArray> nodeArrays;
   std::vector<OtherChunk> otherChunks;
   friend bool operator==(const Case&, const Case&) = default;

@@ -16,7 +16,8 @@ std::span<const ViewVector> vectors(const std::vector<Vec3f>& values) {
   return {reinterpret_cast<const ViewVector*>(values.data()), values.size()};
 }
 
-// A rate of -1 would be taken for none, and pass; it is not legal, and neither is its neighbour.
+// A rate of exactly -1 is illegal, but in a record it means that there is none. It is moved to the
+// float below, which is illegal too, so that the check finds it.
 float storedRate(const Branch& branch) {
   const float rate = branch.meanInlierRate.value_or(kNoRate) + 0.0f;
   return branch.meanInlierRate && rate == kNoRate ? std::nextafter(rate, -2.0f) : rate;
@@ -80,7 +81,6 @@ CaseAsView::CaseAsView(const Case& value)
     m_view.pointPosition = vectors(value.points->position);
   }
   if (value.models) m_view.models = modelView(*value.models);
-  if (value.compactModels) m_view.compactModels = modelView(*value.compactModels);
 }
 
 }  // namespace lumen::formats

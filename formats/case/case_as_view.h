@@ -11,8 +11,8 @@
 
 namespace lumen::formats {
 
-/// The view and the branch records that it leads to; the case must outlive it. It is neither copied
-/// nor moved.
+/// A view of a case, with the branch records that the view points to. The case must outlive it. Not
+/// to be copied or moved.
 class CaseAsView {
 public:
   explicit CaseAsView(const Case& value);

@@ -19,15 +19,9 @@ using nlohmann::json;
 struct Parts {
   Case value;
   PointSets points;
-  BlobbyModels models, compactModels;
+  BlobbyModels models;
   ArraySlots slots;
 };
-
-void addModelSlots(const std::string& root, BlobbyModels& models, ArraySlots& slots) {
-  slots.byPointer[root + "/offset"] = {&models.offset};
-  slots.byPointer[root + "/centre"] = {&models.centre};
-  slots.byPointer[root + "/width"] = {&models.width};
-}
 
 void addSlots(Parts& parts) {
   CenterlineTree& tree = parts.value.tree;
@@ -36,9 +30,9 @@ void addSlots(Parts& parts) {
       {"/tree/radius", {&tree.radius}},           {"/tree/height", {&tree.height}},
       {"/tree/parent", {&tree.parent}},           {"/tree/branch", {&tree.branch}},
       {"/tree/inlierRate", {&tree.inlierRate}},   {"/tree/links", {&tree.links}},
-      {"/points/offset", {&parts.points.offset}}, {"/points/position", {&parts.points.position}}};
-  addModelSlots("/models", parts.models, parts.slots);
-  addModelSlots("/compactModels", parts.compactModels, parts.slots);
+      {"/points/offset", {&parts.points.offset}}, {"/points/position", {&parts.points.position}},
+      {"/models/offset", {&parts.models.offset}}, {"/models/centre", {&parts.models.centre}},
+      {"/models/width", {&parts.models.width}}};
 }
 
 void requireArrays(const ArraySlots& slots, std::initializer_list<std::string> pointers,
@@ -95,13 +89,13 @@ void readPoints(const json& value, const ArraySlots& slots, JsonReadState& state
   fields.finish();
 }
 
-void readModels(const json& value, const std::string& place, const ArraySlots& slots,
-                BlobbyModels& models, JsonReadState& state) {
-  JsonFields fields(value, place, state);
+void readModels(const json& value, const ArraySlots& slots, BlobbyModels& models,
+                JsonReadState& state) {
+  JsonFields fields(value, "/models", state);
   models.kernel = fields.enumeration<Kernel>("kernel", kKernelNames);
   models.kernelParameter = fields.real("kernelParameter");
   models.isoLevel = fields.real("isoLevel");
-  requireArrays(slots, {place + "/offset", place + "/centre", place + "/width"}, state);
+  requireArrays(slots, {"/models/offset", "/models/centre", "/models/width"}, state);
   fields.finish();
 }
 
@@ -118,20 +112,19 @@ std::optional<FormatVersion> parseVersion(std::string_view text) {
 
 // False if the rest of the text cannot be understood.
 bool readVersion(JsonFields& fields, JsonReadState& state) {
-  const std::string versionText = fields.text("version");
+  const std::string stated = fields.text("version");
   const std::string readerText = fields.text("minimumReader");
-  const auto version = parseVersion(versionText);
+  const auto version = parseVersion(stated);
   const auto reader = parseVersion(readerText);
   if (!version || !reader || *reader > *version) {
     state.fail(ErrorCode::Version, "/version",
-               "found version \"" + versionText.substr(0, 20) +
-                   "\" with minimum reader version \"" + readerText.substr(0, 20) + "\"",
-               {{"found", versionText.substr(0, 20)}});
+               "found version \"" + stated.substr(0, 20) + "\" with minimum reader version \"" +
+                   readerText.substr(0, 20) + "\"",
+               {{"found", stated.substr(0, 20)}});
     return false;
   }
   if (*reader > kFormatVersion) {
-    const std::string known =
-        std::to_string(kFormatVersion.major) + "." + std::to_string(kFormatVersion.minor);
+    const std::string known = versionText(kFormatVersion);
     state.fail(
         ErrorCode::Version, "/minimumReader",
         "the file needs a reader of version " + readerText + "; this one reads up to " + known,
@@ -240,12 +233,8 @@ void readCase(JsonFields& fields, Parts& parts, JsonReadState& state) {
     value.points = std::move(parts.points);
   }
   if (const json* found = fields.find("models")) {
-    readModels(*found, "/models", parts.slots, parts.models, state);
+    readModels(*found, parts.slots, parts.models, state);
     value.models = std::move(parts.models);
-  }
-  if (const json* found = fields.find("compactModels")) {
-    readModels(*found, "/compactModels", parts.slots, parts.compactModels, state);
-    value.compactModels = std::move(parts.compactModels);
   }
   if (const json* found = fields.find("nodeArrays"))
     if (!found->is_object()) state.wrongType("/nodeArrays", *found, "an object");

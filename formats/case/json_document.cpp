@@ -123,7 +123,8 @@ private:
     std::set<std::string> keys;  // so far, in an object
   };
 
-  // Of the value being read: it is not yet in the innermost array, but its ancestors are in theirs.
+  // The pointer to the value being read. The innermost array does not hold it yet, so its index is
+  // that array's size; every array further out already holds the one within it.
   [[nodiscard]] std::string place() const {
     std::string pointer = m_rootPlace;
     const auto add = [&pointer](const std::string& token) { (pointer += '/') += token; };

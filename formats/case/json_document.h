@@ -24,8 +24,8 @@ using NumberArray = std::variant<std::vector<Vec3f>*, std::vector<float>*, std::
                                  std::vector<std::int32_t>*, std::vector<std::uint32_t>*,
                                  std::vector<std::array<std::uint32_t, 2>>*>;
 
-/// By pointer ("/tree/centre"): the members of members of the root that are long arrays. `seen` is
-/// set for those that the text has.
+/// The long arrays two levels below the root, by JSON pointer ("/tree/centre"). `seen` is set for
+/// those that the text has.
 struct ArraySlot {
   NumberArray target;
   bool seen = false;

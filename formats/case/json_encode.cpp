@@ -230,16 +230,14 @@ std::string metadataJson(const Metadata& metadata, const std::vector<NodeArray>&
 }
 
 std::string encodeJson(const Case& value) {
-  const std::string version =
-      std::to_string(kFormatVersion.major) + "." + std::to_string(kFormatVersion.minor);
   JsonWriter json(JsonStyle::Readable);
   json.beginObject();
   json.key("format");
   json.text("lumen");
   json.key("version");
-  json.text(version);
+  json.text(versionText(kFormatVersion));
   json.key("minimumReader");
-  json.text(version);
+  json.text(versionText(kMinimumReader));
   json.key("metadata");
   writeMetadata(json, value.metadata, value.nodeArrays);
   json.key("tree");
@@ -251,10 +249,6 @@ std::string encodeJson(const Case& value) {
   if (value.models) {
     json.key("models");
     writeModels(json, *value.models);
-  }
-  if (value.compactModels) {
-    json.key("compactModels");
-    writeModels(json, *value.compactModels);
   }
   if (!value.nodeArrays.empty()) {
     json.key("nodeArrays");

@@ -11,8 +11,8 @@
 namespace lumen::formats {
 
 /// Reports what looks like a date, a path or URL, an e-mail address, an identification number, or a
-/// person's title or name in DICOM's form. It cannot know a bare name ("Smith") from an anatomical
-/// one, so no finding is no proof.
+/// person's title or name in DICOM's form. It cannot tell a bare name ("Smith") from an anatomical
+/// one, so finding nothing proves nothing.
 void scanText(std::string_view text, const std::string& pointer, IssueList& issues);
 
 /// Every text that a case has: labels, the note, steps, parameters, units, names of arrays and

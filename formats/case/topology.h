@@ -25,8 +25,8 @@ private:
   std::vector<std::uint32_t> m_offset, m_node;
 };
 
-/// Length of a branch, mm: its nodes' polyline, and the link to its parent node beyond that node's
-/// radius.
+/// Length of a branch, mm: the polyline through its nodes, and what lies outside the parent node's
+/// ball of the line from there to the first node.
 double branchLength(const CenterlineTree& tree, const Branch& branch);
 
 }  // namespace lumen::formats

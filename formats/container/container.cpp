@@ -51,10 +51,6 @@ std::vector<Argument> foundExpected(std::uint64_t found, std::uint64_t expected)
   return {{"found", std::to_string(found)}, {"expected", std::to_string(expected)}};
 }
 
-std::string versionText(FormatVersion version) {
-  return std::to_string(version.major) + "." + std::to_string(version.minor);
-}
-
 struct Header {
   FormatVersion version, minimumReader;
   std::uint16_t headerSize = 0;
@@ -284,8 +280,8 @@ void storeHeader(std::span<std::byte> file, std::size_t chunkCount) {
   to = file.data();
   storeLittle(to + 10, kFormatVersion.major);
   storeLittle(to + 11, kFormatVersion.minor);
-  storeLittle(to + 12, kFormatVersion.major);
-  storeLittle(to + 13, kFormatVersion.minor);
+  storeLittle(to + 12, kMinimumReader.major);
+  storeLittle(to + 13, kMinimumReader.minor);
   storeLittle(to + 14, static_cast<std::uint16_t>(kHeaderSize));
   storeLittle(to + 16, std::uint64_t{file.size()});
   storeLittle(to + 24, static_cast<std::uint32_t>(chunkCount));
@@ -294,6 +290,10 @@ void storeHeader(std::span<std::byte> file, std::size_t chunkCount) {
 }
 
 }  // namespace
+
+std::string versionText(FormatVersion version) {
+  return std::to_string(version.major) + "." + std::to_string(version.minor);
+}
 
 std::string chunkName(ChunkType type) {
   std::string name;

@@ -21,7 +21,13 @@ struct FormatVersion {
 };
 
 /// What this code writes, and the newest that it reads in full.
-constexpr FormatVersion kFormatVersion{1, 0};
+constexpr FormatVersion kFormatVersion{1, 1};
+
+/// The oldest reader that understands all that this code writes.
+constexpr FormatVersion kMinimumReader{1, 0};
+
+/// Such as "1.1".
+std::string versionText(FormatVersion version);
 
 /// Every chunk starts at a multiple of this, in bytes, and so may be used in place in a mapped
 /// file.

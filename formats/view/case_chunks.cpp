@@ -89,8 +89,7 @@ std::size_t chunkRuleIndex(ChunkType type) {
 CaseChunks sortChunks(const Container& container, IssueList& issues) {
   CaseChunks sorted;
   for (const Chunk& chunk : container.chunks) addChunk(chunk, sorted, issues);
-  for (const ChunkNeed group :
-       {ChunkNeed::Always, ChunkNeed::Points, ChunkNeed::Models, ChunkNeed::CompactModels})
+  for (const ChunkNeed group : {ChunkNeed::Always, ChunkNeed::Points, ChunkNeed::Models})
     checkPresence(sorted, group, issues);
   checkOrder(container, issues);
   return sorted;

@@ -31,10 +31,6 @@ inline constexpr ChunkType kModelKernel = chunkType("MKER");     ///< one kernel
 inline constexpr ChunkType kModelOffset = chunkType("MOFF");     ///< u32 per node, and one more
 inline constexpr ChunkType kModelCentre = chunkType("MCEN");     ///< f32[3] per blob
 inline constexpr ChunkType kModelWidth = chunkType("MWID");      ///< f32 per blob
-inline constexpr ChunkType kCompactKernel = chunkType("CKER");   ///< one kernel record
-inline constexpr ChunkType kCompactOffset = chunkType("COFF");   ///< u32 per node, and one more
-inline constexpr ChunkType kCompactCentre = chunkType("CCEN");   ///< f32[3] per blob
-inline constexpr ChunkType kCompactWidth = chunkType("CWID");    ///< f32 per blob
 /// The values of one node array; occurs once for each that the metadata describes, in that order.
 inline constexpr ChunkType kNodeArray = chunkType("NARR");
 }  // namespace chunk
@@ -45,7 +41,7 @@ inline constexpr std::size_t kKernelRecordSize = 24;
 /// The mean inlier rate of a branch that has none.
 inline constexpr float kNoRate = -1.0f;
 
-enum class ChunkNeed : std::uint8_t { Always, Alone, Points, Models, CompactModels, Repeated };
+enum class ChunkNeed : std::uint8_t { Always, Alone, Points, Models, Repeated };
 
 struct ChunkRule {
   ChunkType type;
@@ -54,7 +50,7 @@ struct ChunkRule {
   std::uint8_t stride;  ///< bytes of an element; 1 for text
 };
 
-inline constexpr std::array<ChunkRule, 22> kChunkRules = {{
+inline constexpr std::array<ChunkRule, 18> kChunkRules = {{
     {chunk::kMetadata, true, ChunkNeed::Always, 1},
     {chunk::kNodeCentre, true, ChunkNeed::Always, 12},
     {chunk::kNodeDirection, true, ChunkNeed::Always, 12},
@@ -72,10 +68,6 @@ inline constexpr std::array<ChunkRule, 22> kChunkRules = {{
     {chunk::kModelOffset, false, ChunkNeed::Models, 4},
     {chunk::kModelCentre, false, ChunkNeed::Models, 12},
     {chunk::kModelWidth, false, ChunkNeed::Models, 4},
-    {chunk::kCompactKernel, false, ChunkNeed::CompactModels, kKernelRecordSize},
-    {chunk::kCompactOffset, false, ChunkNeed::CompactModels, 4},
-    {chunk::kCompactCentre, false, ChunkNeed::CompactModels, 12},
-    {chunk::kCompactWidth, false, ChunkNeed::CompactModels, 4},
     {chunk::kNodeArray, false, ChunkNeed::Repeated, 4},
 }};
 

@@ -94,21 +94,13 @@ private:
   IssueList& m_issues;
 };
 
-struct ModelChunks {
-  ChunkType kernel, offset, centre, width;
-};
-constexpr ModelChunks kModels{chunk::kModelKernel, chunk::kModelOffset, chunk::kModelCentre,
-                              chunk::kModelWidth};
-constexpr ModelChunks kCompact{chunk::kCompactKernel, chunk::kCompactOffset, chunk::kCompactCentre,
-                               chunk::kCompactWidth};
-
-void readModel(SpanReader& reader, const CaseChunks& chunks, const ModelChunks& types,
-               ModelView& model) {
-  reader.kernel(types.kernel, model);
-  reader.each(types.offset, model.offset, 1);
-  reader.any(types.centre, model.centre);
-  reader.any(types.width, model.width);
-  reader.require(chunks.at(types.width), model.width.size_bytes(), model.centre.size() * 4);
+void readModels(SpanReader& reader, const CaseChunks& chunks, ModelView& models) {
+  reader.kernel(chunk::kModelKernel, models);
+  reader.each(chunk::kModelOffset, models.offset, 1);
+  reader.any(chunk::kModelCentre, models.centre);
+  reader.any(chunk::kModelWidth, models.width);
+  reader.require(chunks.at(chunk::kModelWidth), models.width.size_bytes(),
+                 models.centre.size() * sizeof(float));
 }
 
 std::string_view textOf(const Chunk& chunk) {
@@ -189,9 +181,7 @@ CaseView assembleView(const CaseChunks& chunks, Verify verify, IssueList& issues
   reader.each(chunk::kPointOffset, view.pointOffset, 1);
   reader.any(chunk::kPointPosition, view.pointPosition);
   if (chunks.find(chunk::kModelKernel) != nullptr)
-    readModel(reader, chunks, kModels, view.models.emplace());
-  if (chunks.find(chunk::kCompactKernel) != nullptr)
-    readModel(reader, chunks, kCompact, view.compactModels.emplace());
+    readModels(reader, chunks, view.models.emplace());
   view.metadata = textOf(chunks.at(chunk::kMetadata));
   for (const Chunk& chunk : chunks.nodeArrays) view.nodeArrays.push_back(chunk.stored);
   return view;

@@ -53,7 +53,7 @@ struct CaseView {
   bool hasPoints = false;
   std::span<const std::uint32_t> pointOffset;  ///< one per node, and one more
   std::span<const ViewVector> pointPosition;
-  std::optional<ModelView> models, compactModels;
+  std::optional<ModelView> models;
   std::vector<std::span<const std::byte>> nodeArrays;  ///< as the metadata describes them
 
   [[nodiscard]] std::size_t nodeCount() const { return nodeCentre.size(); }

@@ -9,7 +9,7 @@ namespace lumen::formats {
 constexpr std::size_t kMaxNodes = std::size_t{1} << 24;
 constexpr std::size_t kMaxLinks = std::size_t{1} << 20;
 constexpr std::size_t kMaxPoints = std::size_t{1} << 28;
-constexpr std::size_t kMaxBlobs = std::size_t{1} << 26;  ///< of the models; of the compact models
+constexpr std::size_t kMaxBlobs = std::size_t{1} << 26;
 constexpr std::size_t kMaxBranches = 65535;
 constexpr std::size_t kMaxNodeArrays = 256;
 constexpr std::size_t kMaxComponents = 16;  ///< of a node array

@@ -111,14 +111,13 @@ void checkPointRules(const CaseView& view, IssueList& issues) {
   checkFinite(view.pointPosition, "/points/position", issues);
 }
 
-void checkBlobRules(const ModelView& model, std::size_t nodeCount, const std::string& pointer,
-                    IssueList& issues) {
+void checkBlobRules(const ModelView& model, std::size_t nodeCount, IssueList& issues) {
   const std::size_t count = model.centre.size();
-  checkLimit(count, kMaxBlobs, pointer + "/centre", issues);
-  checkLength(model.width.size(), count, pointer + "/width", issues);
-  checkOffsets(model.offset, nodeCount, count, pointer + "/offset", issues);
-  checkFinite(model.centre, pointer + "/centre", issues);
-  checkValues(model.width, pointer + "/width", kWidthRule, issues);
+  checkLimit(count, kMaxBlobs, "/models/centre", issues);
+  checkLength(model.width.size(), count, "/models/width", issues);
+  checkOffsets(model.offset, nodeCount, count, "/models/offset", issues);
+  checkFinite(model.centre, "/models/centre", issues);
+  checkValues(model.width, "/models/width", kWidthRule, issues);
 }
 
 void checkPositive(double value, const std::string& pointer, ErrorCode code, IssueList& issues) {
@@ -126,16 +125,16 @@ void checkPositive(double value, const std::string& pointer, ErrorCode code, Iss
   if (!(value > 0)) issues.add(foundIssue(code, pointer, shortText(value), "more than 0"));
 }
 
-void checkKernel(const ModelView& model, const std::string& pointer, IssueList& issues) {
+void checkKernel(const ModelView& model, IssueList& issues) {
   if (model.kernel >= kKernelCount)
-    return issues.add(foundIssue(ErrorCode::EnumValue, pointer + "/kernel",
+    return issues.add(foundIssue(ErrorCode::EnumValue, "/models/kernel",
                                  std::to_string(model.kernel), "a kernel from 0 to 3"));
-  const std::string parameter = pointer + "/kernelParameter";
-  if (model.kernel < kFirstCompactKernel)
+  const std::string parameter = "/models/kernelParameter";
+  if (model.kernel < kFirstKernelWithoutParameter)
     checkPositive(model.kernelParameter, parameter, ErrorCode::KernelParameter, issues);
   else if (!std::isfinite(model.kernelParameter))
     issues.add(notFinite(model.kernelParameter, parameter));
-  checkPositive(model.isoLevel, pointer + "/isoLevel", ErrorCode::IsoLevel, issues);
+  checkPositive(model.isoLevel, "/models/isoLevel", ErrorCode::IsoLevel, issues);
 }
 
 }  // namespace
@@ -205,19 +204,7 @@ void readKernelRecord(std::span<const std::byte> record, ModelView& model) {
 }
 
 void checkKernels(const CaseView& view, IssueList& issues) {
-  if (view.models) checkKernel(*view.models, "/models", issues);
-  if (!view.compactModels) return;
-  checkKernel(*view.compactModels, "/compactModels", issues);
-  if (view.compactModels->kernel < kFirstCompactKernel)
-    issues.add(foundIssue(ErrorCode::CompactKernel, "/compactModels/kernel",
-                          std::to_string(view.compactModels->kernel),
-                          "2 (quartic) or 3 (soft-object)"));
-  if (!view.models)
-    issues.add({ErrorCode::CompactAlone,
-                std::nullopt,
-                "there are compact models, but no models whose surface they repeat",
-                {},
-                "/compactModels"});
+  if (view.models) checkKernel(*view.models, issues);
 }
 
 void checkTreeRules(const CaseView& view, IssueList& issues) {
@@ -234,9 +221,7 @@ void checkModelRules(const CaseView& view, IssueList& issues) {
   checkBranchRules(view, issues);
   checkLinkRules(view, issues);
   if (view.hasPoints) checkPointRules(view, issues);
-  if (view.models) checkBlobRules(*view.models, view.nodeCount(), "/models", issues);
-  if (view.compactModels)
-    checkBlobRules(*view.compactModels, view.nodeCount(), "/compactModels", issues);
+  if (view.models) checkBlobRules(*view.models, view.nodeCount(), issues);
 }
 
 }  // namespace lumen::formats

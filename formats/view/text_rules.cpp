@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t kIllFormed = 0xffffffffu;
 
-// The code point that starts at text[at], which moves behind it; kIllFormed if there is none.
+// The code point that starts at text[at], or kIllFormed; `at` moves past it.
 std::uint32_t nextCodePoint(std::string_view text, std::size_t& at) {
   const auto lead = static_cast<unsigned char>(text[at++]);
   if (lead < 0x80) return lead;

@@ -36,13 +36,6 @@ constexpr auto kPlaces = std::to_array<PlacedArray>({
     {"/models/offset", chunk::kModelOffset, 0},
     {"/models/centre", chunk::kModelCentre, 0},
     {"/models/width", chunk::kModelWidth, 0},
-    {"/compactModels/kernelParameter", chunk::kCompactKernel, 8},
-    {"/compactModels/kernel", chunk::kCompactKernel, 0},
-    {"/compactModels/isoLevel", chunk::kCompactKernel, 16},
-    {"/compactModels/offset", chunk::kCompactOffset, 0},
-    {"/compactModels/centre", chunk::kCompactCentre, 0},
-    {"/compactModels/width", chunk::kCompactWidth, 0},
-    {"/compactModels", chunk::kCompactKernel, 0},
 });
 
 struct PlacedField {
@@ -56,7 +49,8 @@ constexpr auto kBranchFields = std::to_array<PlacedField>({{"firstNode", 0},
                                                            {"stopReason", 19},
                                                            {"meanInlierRate", 20}});
 
-// The index that `rest` ("/12/1") starts with; it moves behind it. Nothing if there is none.
+// The index that `rest` starts with (12 of "/12/1"), which is removed from it; nothing if there is
+// none.
 std::optional<std::uint64_t> takeIndex(std::string_view& rest) {
   if (rest.size() < 2 || rest.front() != '/') return std::nullopt;
   std::uint64_t index = 0;

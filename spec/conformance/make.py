@@ -5,10 +5,12 @@
 make.py           writes what is missing or out of date
 make.py --check   writes nothing; exit status 1 if there is such a file
 
-Shares no code with any reader: it has its own writer, and computes the expected answers with exact fractions (exp with
-60 digits), to be rounded once, at the end."""
-import base64, decimal, hashlib, json, pathlib, struct, sys
+Shares no code with any reader: it has its own writer, and answers.py computes the expected answers with exact fractions, to
+be rounded once, at the end."""
+import base64, hashlib, json, pathlib, struct, sys
 from fractions import Fraction
+
+from answers import Answers, Undecided
 
 HERE = pathlib.Path(__file__).resolve().parent
 KINDS = ["vessel", "aneurysm"]
@@ -16,7 +18,7 @@ STOPS = ["unknown", "no-valid-cylinder", "turned-back", "left-volume", "met-bran
 KERNELS = ["cauchy", "gaussian", "quartic", "soft-object"]
 CRITICAL = ["META", "NCEN", "NDIR", "NRAD", "NHEI", "NPAR", "NBRA", "BREC", "BLAB", "LINK"]
 GROUPS = {"tree/inlierRate": ["NINL"], "nodeArrays": ["NARR"], "points": ["POFF", "PPOS"],
-          "models": ["MKER", "MOFF", "MCEN", "MWID"], "compactModels": ["CKER", "COFF", "CCEN", "CWID"]}
+          "models": ["MKER", "MOFF", "MCEN", "MWID"]}
 HEADER = {"signature": (0, "10s"), "version": (10, "BB"), "minimumReader": (12, "BB"), "headerSize": (14, "H"),
           "length": (16, "Q"), "count": (24, "I"), "tableCrc": (28, "I"), "reserved": (32, "28s"), "headerCrc": (60, "I")}
 ENTRY = {"type": (0, "4s"), "version": (4, "H"), "flags": (6, "B"), "encoding": (7, "B"), "offset": (8, "Q"),
@@ -110,10 +112,10 @@ def chunk(kind, body, **fields):
     return {"type": kind, "body": body, "version": 1, "flags": int(kind in CRITICAL), "encoding": 0, "raw": None, **fields}
 
 
-def model_chunks(prefix, m):
+def model_chunks(m):
     kernel = struct.pack("<B7xdd", KERNELS.index(m["kernel"]), float(m["kernelParameter"]), float(m["isoLevel"]))
-    return [chunk(prefix + "KER", kernel), chunk(prefix + "OFF", integers("I", m["offset"])),
-            chunk(prefix + "CEN", f32(flat(m["centre"]))), chunk(prefix + "WID", f32(m["width"]))]
+    return [chunk("MKER", kernel), chunk("MOFF", integers("I", m["offset"])),
+            chunk("MCEN", f32(flat(m["centre"]))), chunk("MWID", f32(m["width"]))]
 
 
 def chunks_of(case):
@@ -136,9 +138,8 @@ def chunks_of(case):
         out.append(chunk("LINK", integers("I", flat(t["links"]))))
     if "points" in case:
         out += [chunk("POFF", integers("I", case["points"]["offset"])), chunk("PPOS", f32(flat(case["points"]["position"])))]
-    for key, prefix in (("models", "M"), ("compactModels", "C")):
-        if key in case:
-            out += model_chunks(prefix, case[key])
+    if "models" in case:
+        out += model_chunks(case["models"])
     for a in case["metadata"].get("nodeArrays", ()):
         values = case["nodeArrays"][a["name"]]
         out.append(chunk("NARR", f32(values) if a["type"] == "f32" else integers(a["type"][0].replace("u", "I"), values)))
@@ -285,7 +286,7 @@ def made(recipe):
     chunks = chunks_of(parse(base.with_suffix(".lumen.json").read_text()))
     for change in recipe.get("chunks", ()):
         change_chunks(chunks, *change)
-    file = layout(chunks, recipe.get("versions", [1, 0, 1, 0]))
+    file = layout(chunks, recipe.get("versions", [1, 1, 1, 0]))
     for change in recipe.get("bytes", ()):
         change_bytes(file, *change)
     return bytes(file)
@@ -299,53 +300,33 @@ def report_of(recipe, data):
         out["within"] = recipe.get("within", regions_of(data, recipe["at"]))
     if "pointer" in recipe:
         out["pointer"] = recipe["pointer"]
-    return {**out, **{k: recipe[k] for k in ("basic",) if k in recipe}}
+    return {**out, **{k: recipe[k] for k in ("unread", "basic") if k in recipe}}
 
 
 # expected answers ------------------------------------------------------------------------------------------------------
 
 
-def kernel_value(kernel, a, x):
-    """phi and its derivative."""
-    if kernel == "cauchy": return (1 + a * x) ** -2, -2 * a * (1 + a * x) ** -3
-    if kernel == "gaussian":
-        with decimal.localcontext() as context:
-            context.prec = 60
-            e = Fraction((-decimal.Decimal((a * x).numerator) / decimal.Decimal((a * x).denominator)).exp())
-        return e, -a * e
-    if x >= 1: return Fraction(0), Fraction(0)
-    if kernel == "quartic": return (1 - x) ** 2, -2 * (1 - x)
-    return (1 - Fraction(4, 9) * x ** 3 + Fraction(17, 9) * x ** 2 - Fraction(22, 9) * x,
-            -Fraction(12, 9) * x ** 2 + Fraction(34, 9) * x - Fraction(22, 9))
+def vectors(rows):
+    return [[exact(x) for x in row] for row in rows]
 
 
-def field(m, node, point):
-    value, gradient, a = Fraction(0), [Fraction(0)] * 3, Fraction(float(m["kernelParameter"]))
-    for j in range(int(m["offset"][node]), int(m["offset"][node + 1])):
-        d, w = [p - exact(c) for p, c in zip(point, m["centre"][j])], exact(m["width"][j])
-        phi, slope = kernel_value(m["kernel"], a, sum(x * x for x in d) / w ** 2)
-        value += w * phi
-        gradient = [g + 2 * slope * x / w for g, x in zip(gradient, d)]
-    return {"value": float(value), "gradient": list(map(float, gradient)), "inside": value > Fraction(float(m["isoLevel"]))}
+def answers_of(case):
+    """What answers the questions of a case in its JSON encoding."""
+    t, m = case["tree"], case.get("models")
+    tree = {"centre": vectors(t["centre"]), "radius": list(map(exact, t["radius"])), "parent": list(map(int, t["parent"])),
+            "links": [(int(a), int(b)) for a, b in t.get("links", ())]}
+    return Answers(tree, m and {
+        "kernel": m["kernel"], "kernelParameter": Fraction(float(m["kernelParameter"])), "isoLevel": Fraction(float(m["isoLevel"])),
+        "offset": list(map(int, m["offset"])), "centre": vectors(m["centre"]), "width": list(map(exact, m["width"]))})
 
 
-def answer(case, question):
-    t, point = case["tree"], [Fraction(float(x)) for x in question["point"]]
-    power = [sum((p - exact(c)) ** 2 for p, c in zip(point, centre)) - exact(r) ** 2 for centre, r in zip(t["centre"], t["radius"])]
-    if "current" in question:
-        node = int(question["current"])
-        while True:
-            around = [i for i, p in enumerate(t["parent"]) if int(p) == node] + [int(t["parent"][node])] * (int(t["parent"][node]) >= 0)
-            around += [int(b if int(a) == node else a) for a, b in t.get("links", ()) if node in (int(a), int(b))]
-            best = min(around, key=lambda i: (power[i], i), default=node)
-            if power[best] >= power[node]: break
-            node = best
-    else:
-        node = min(range(len(power)), key=lambda i: (power[i], i))
-    out = {**question, "node": node, "power": float(power[node])}
-    if "models" in case: out.update(field(case["models"], node, point))
-    if "compactModels" in case: out["compact"] = field(case["compactModels"], node, point)
-    return out
+def answered(name, case, questions):
+    if not questions: return []
+    try:
+        answers = answers_of(case)
+        return [{**q, **answers.answer([Fraction(float(x)) for x in q["point"]], q.get("current"))} for q in questions]
+    except Undecided as error:
+        raise SystemExit(f"{name}: rounding would decide {error}")
 
 
 def encodings_of(file):
@@ -377,7 +358,7 @@ def outputs():
         case = parse(stem.with_suffix(".lumen.json").read_text())
         yield stem.with_suffix(".queries.json"), dumped({
             "feature": recipe["feature"], "ignored": recipe.get("ignored", []), "lacking": encodings_of(data) if data else {},
-            "queries": [answer(case, q) for q in recipe.get("questions", ())]}).encode()
+            "queries": answered(recipe["name"], case, recipe.get("questions", ()))}).encode()
     for recipe in json.loads((HERE / "hostile.json").read_text()):
         data = made(recipe)
         yield HERE / "hostile" / (recipe["name"] + (".lumen.json" if "json" in recipe else ".lumen")), data

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a reader of lumen cases over the conformance set: see README.md.
 
-run.py --reader "CMD" [--lacks zstd] [--lacks draco] [--exact] [--only TEXT]
+run.py --reader "CMD" [--lacks zstd] [--lacks draco] [--exact] [--queries-only] [--tolerance 1e-6] [--only TEXT]
 
 Exit status: 0 all as expected, 1 not."""
-import argparse, concurrent.futures, json, os, pathlib, resource, shlex, subprocess, sys
+import argparse, concurrent.futures, copy, json, os, pathlib, resource, shlex, subprocess, sys
 
 import make
 
@@ -77,20 +77,31 @@ def call(reader, file, questions):
         return f"no answer: {str(error)[:200]}"
 
 
-def wrong_answer(expected, found, keys):
-    for key in keys & set(expected):
+def wrong_answer(expected, found, keys, tolerance):
+    """What of an answer is not as expected, or None. A vector's numbers are right to a share of its largest."""
+    for key in sorted(keys & set(expected)):
         want, have = expected[key], found.get(key)
-        if key == "compact":
-            if have is None: continue  # a reader may ignore compact models
-            wrong = wrong_answer(want, have, set(want))
-            if wrong: return "compact " + wrong
+        if isinstance(want, dict):
+            wrong = wrong_answer(want, have, set(want), tolerance) if isinstance(have, dict) else f"is {have}"
+            if wrong: return f"{key}: {wrong}"
         elif isinstance(want, bool) or key == "node":
-            if (have if isinstance(have, bool) else int(have or -1)) != want: return f"{key} is {have}, expected {want}"
+            if have is None or (have if isinstance(have, bool) else int(have)) != want: return f"{key} is {have}, expected {want}"
         else:
-            pairs = zip(want, have, strict=True) if isinstance(want, list) else [(want, have)]
-            if have is None or any(abs(w - float(h)) > 1e-6 * max(1, abs(w)) for w, h in pairs):
+            wants, haves = (want, have) if isinstance(want, list) else ([want], [have])
+            allowed = tolerance * max(1, *map(abs, wants))
+            if not isinstance(haves, list) or len(haves) != len(wants) or None in haves or any(
+                    not abs(w - float(h)) <= allowed for w, h in zip(wants, haves)):
                 return f"{key} is {have}, expected {want}"
     return None
+
+
+def other_case(expected, found, left_out):
+    """Where the case that a reader found differs from the expected one, or None."""
+    expected = copy.deepcopy(expected)
+    for pointer in left_out: remove(expected, pointer)
+    for key in NOT_COMPARED: found.pop(key, None)
+    integer_arrays = {a["name"] for a in expected["metadata"].get("nodeArrays", ()) if a["type"] != "f32"}
+    return difference(normal(expected), normal(found), integer_arrays)
 
 
 def check_valid(options, file):
@@ -99,23 +110,21 @@ def check_valid(options, file):
     questions = [{key: q[key] for key in ("point", "current") if key in q} for q in about["queries"]]
     out = call(options.reader, file, questions)
     if isinstance(out, str): return out
+    expected = make.parse((file.parent / f"{stem}.lumen.json").read_text())
     gone = [k for e in options.lacks for k in about["lacking"].get(e, ())] if file.suffix == ".lumen" else []
     if gone and not out.get("accepted"):
         return None if out.get("code") == "CHUNK_ENCODING" else f"refused as {out.get('code')}, expected CHUNK_ENCODING"
+    if options.queries_only and out.get("code") == "NO_MODELS" and "models" not in expected: return None
     if not out.get("accepted"): return f"refused as {out.get('code')} at {out.get('place')}: {out.get('message', '')}"
-    if "refuse" in gone: return "accepted without a critical chunk"
-    expected, found = make.parse((file.parent / f"{stem}.lumen.json").read_text()), out["case"]
-    if "models" in gone and "compactModels" not in found: gone.append("compactModels")
-    for pointer in [*about["ignored"], *NOT_COMPARED, *gone]: remove(expected, pointer)
-    for key in NOT_COMPARED: found.pop(key, None)
-    integer_arrays = {a["name"] for a in expected["metadata"].get("nodeArrays", ()) if a["type"] != "f32"}
-    wrong = difference(normal(expected), normal(found), integer_arrays)
-    if wrong: return f"another case, at {wrong}"
-    keys = {"node", "power"} | ({"value", "gradient", "inside"} if "models" in expected else set())
-    keys |= {"compact"} if "compactModels" in expected and "models" in expected else set()
+    if not options.queries_only:
+        if "refuse" in gone: return "accepted without a critical chunk"
+        wrong = other_case(expected, out.get("case", {}), [*about["ignored"], *NOT_COMPARED, *gone])
+        if wrong: return f"another case, at {wrong}"
+    keys = {"node"} if options.queries_only else {"node", "power"}
+    if "models" in expected and "models" not in gone: keys |= {"value", "gradient", "inside", "blended"}
     if len(out["answers"]) != len(questions): return f"{len(out['answers'])} answers to {len(questions)} questions"
     for query, have in zip(about["queries"], out["answers"]):
-        wrong = wrong_answer(query, have, keys)
+        wrong = wrong_answer(query, have, keys, options.tolerance)
         if wrong: return f"at {query['point']}: {wrong}"
     return None
 
@@ -138,6 +147,9 @@ def check_hostile(options, file):
     report = json.loads((file.parent / (file.name.split(".")[0] + ".report.json")).read_text())
     out = call(options.reader, file, [])
     if isinstance(out, str): return out
+    if options.queries_only:
+        accepted = out.get("accepted") or out.get("code") == "NO_MODELS"
+        return f"accepted: {report['fault']}" if accepted and not report.get("unread") else None
     for encoding in options.lacks:
         allowed = report.get("basic", {}).get(encoding, ())
         if (out["accepted"] and "accepted" in allowed) or out.get("code") in allowed: return None
@@ -153,12 +165,15 @@ def main():
     parser.add_argument("--reader", required=True, type=shlex.split, help="command, to which the name of a file is added; {python} is the Python that runs this")
     parser.add_argument("--lacks", action="append", default=[], choices=["zstd", "draco"], help="encodings that the reader does not have")
     parser.add_argument("--exact", action="store_true", help="places must be those of the reports")
+    parser.add_argument("--queries-only", action="store_true", help="the reader answers queries and gives no case; binary files only")
+    parser.add_argument("--tolerance", type=float, default=1e-6, help="of the numbers in answers; 1e-5 for a reader that computes with f32")
     parser.add_argument("--only", default="", help="files whose name contains this")
     options = parser.parse_args()
     options.reader = [sys.executable if word == "{python}" else word for word in options.reader]
+    endings = (".lumen",) if options.queries_only else (".lumen", ".lumen.json")
     jobs = [(check, file) for check, folder in ((check_valid, "valid"), (check_hostile, "hostile"))
             for file in sorted((HERE / folder).iterdir())
-            if file.name.endswith((".lumen", ".lumen.json")) and options.only in file.name]
+            if file.name.endswith(endings) and options.only in file.name]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lambda job: job[0](options, job[1]), jobs))
     for (_, file), wrong in zip(jobs, results):

@@ -4,15 +4,14 @@ chunks in them and ignores groups of others. Called as spec/conformance/README.m
 import base64, functools, json, math, pathlib, re, struct, sys
 from fractions import Fraction
 
-INF, CRITICAL = math.inf, "META NCEN NDIR NRAD NHEI NPAR NBRA BREC BLAB LINK".split()
-GROUPS = ("NINL",), ("NARR",), ("POFF", "PPOS"), ("MKER", "MOFF", "MCEN", "MWID"), ("CKER", "COFF", "CCEN", "CWID")
+INF, VERSION, CRITICAL = math.inf, [1, 1], "META NCEN NDIR NRAD NHEI NPAR NBRA BREC BLAB LINK".split()
+GROUPS = ("NINL",), ("NARR",), ("POFF", "PPOS"), ("MKER", "MOFF", "MCEN", "MWID")
 KNOWN, KERNELS, KINDS = CRITICAL + list(sum(GROUPS, ())), ["cauchy", "gaussian", "quartic", "soft-object"], ["vessel", "aneurysm"]
 STOPS = "unknown no-valid-cylinder turned-back left-volume met-branch end-of-seeds step-limit".split()
 ARRAYS = [word.split(":") for word in (  # part of the case, key, chunk, components, type
     "tree:centre:NCEN:3:f tree:direction:NDIR:3:f tree:radius:NRAD:1:f tree:height:NHEI:1:f tree:parent:NPAR:1:i tree:branch:NBRA:1:I "
     "tree:inlierRate:NINL:1:f tree:links:LINK:2:I points:offset:POFF:1:I points:position:PPOS:3:f models:offset:MOFF:1:I "
-    "models:centre:MCEN:3:f models:width:MWID:1:f compactModels:offset:COFF:1:I compactModels:centre:CCEN:3:f "
-    "compactModels:width:CWID:1:f").split()]
+    "models:centre:MCEN:3:f models:width:MWID:1:f").split()]
 CODES = {key: word.split(":")[0] for word in (  # of a value that is not among the legal ones of its key
     "NOT_LUMEN:format VERSION:version,minimumReader COORDINATE_SYSTEM:coordinateSystem UNITS:units "
     "RADIUS_RANGE:radius HEIGHT_RANGE:height INLIER_RATE_RANGE:inlierRate,meanInlierRate ENUM_VALUE:kind,stopReason,kernel,type "
@@ -70,7 +69,7 @@ def conform(v, s, at, newer, key=""):  # v, of which the schema s must be true, 
         return [conform(x, s["items"], f"{at}/{i}", newer, key) for i, x in enumerate(v)]
     if kind == "string":
         text(v, s, at)
-        need(at, **{"COMPACT_KERNEL" if v in KERNELS else "CHUNK_TYPE" if "{4}$" in s.get("pattern", "") else code:
+        need(at, **{"CHUNK_TYPE" if "{4}$" in s.get("pattern", "") else code:
                     v in s.get("enum", [s.get("const", v)]) and re.search(s.get("pattern", ""), v)})
     elif kind != "boolean" and not at.startswith("/nodeArrays"):  # of those, the type is known later
         whole, low, high = type(v) is int and s.get("type") != "number", s.get("minimum", -INF), s.get("maximum", INF)
@@ -81,8 +80,8 @@ def conform(v, s, at, newer, key=""):  # v, of which the schema s must be true, 
 def check_case(m, lacking=()):
     need("", JSON_TYPE=type(m) is dict)
     version, reader = ([int(x) for x in re.findall("[0-9]{1,3}", str(m.get(k, "1.0")))] for k in ("version", "minimumReader"))
-    need("", VERSION=reader <= min(version, [1, 0]))
-    m = conform(m, {"$ref": "case.schema.json"}, "", version > [1, 0])
+    need("", VERSION=reader <= min(version, VERSION))
+    m = conform(m, {"$ref": "case.schema.json"}, "", version > VERSION)
     t, values, end = m["tree"], m.get("nodeArrays", {}), 0
     n, labels = len(t["centre"]), [b["label"] for b in t["branches"]]
     need("/tree", TREE_EMPTY=n, ARRAY_LENGTH=all(key in ("branches", "links") or len(t[key]) == n for key in t))
@@ -111,20 +110,20 @@ def check_case(m, lacking=()):
         need(f"/nodeArrays/{name}", ARRAY_LENGTH=len(array) == n * a["components"],
              NUMBER_RANGE=all(a["type"] == "f32" or type(x) is int and low <= x <= high for x in array))
         if a["type"] == "f32": array[:] = [real(x, True, f"/nodeArrays/{name}/{i}") for i, x in enumerate(array)]
-    for part, items in (("points", "position"), ("models", "centre"), ("compactModels", "centre")):
+    for part, items in (("points", "position"), ("models", "centre")):
         offset, count = (g := m.get(part, {"offset": [0] * (n + 1), items: ()}))["offset"], len(g[items])
         need(f"/{part}", KERNEL_PARAMETER=g.get("kernel") not in KERNELS[:2] or g["kernelParameter"] > 0,
              ARRAY_LENGTH=len(g.get("width", g[items])) == count and len(offset) == n + 1)
         for i in range(n): need(f"/{part}/offset/{i + 1}", OFFSET_START=offset[0] == 0, OFFSET_ORDER=offset[i] <= offset[i + 1])
-        need(f"/{part}/offset", OFFSET_END=offset[n] == count, COMPACT_ALONE="models" in m or "compactModels" not in m)
+        need(f"/{part}/offset", OFFSET_END=offset[n] == count)
     return need("/otherChunks", JSON_CHUNK_DATA=all(
         o["type"] not in KNOWN and ("rawSize" in o) == (o["encoding"] > 0) for o in m.get("otherChunks", ()))) or m
 
 def read_binary(data):
     need(0, MAGIC=data[:10] == b"\x8cLUMEN\r\n\x1a\n"[:len(data)], TRUNCATED=len(data) >= 64)
     *v, size, length, count, table_crc, reserved, crc = struct.unpack("<4BHQII28sI", data[10:64])
-    newer, end, chunks, others, lacking = v[:2] > [1, 0], 64 + 64 * count, {}, [], set()
-    need(0, HEADER_CHECKSUM=crc32c(data[:60]) == crc, VERSION=[1, 0] <= v[2:] <= min(v[:2], [1, 0]),
+    newer, end, chunks, others, lacking = v[:2] > VERSION, 64 + 64 * count, {}, [], set()
+    need(0, HEADER_CHECKSUM=crc32c(data[:60]) == crc, VERSION=[1, 0] <= v[2:] <= min(v[:2], VERSION),
          HEADER_FIELD=size == 64 and (newer or not any(reserved)), TRUNCATED=length <= len(data), TRAILING_BYTES=length >= len(data),
          CHUNK_COUNT=count <= 4096 and end <= length, TABLE_CHECKSUM=crc32c(data[64:end]) == table_crc)
     for at in range(64, end, 64):
@@ -140,21 +139,20 @@ def read_binary(data):
         if known: chunks.setdefault(name, []).append((offset, body))
         else: others.append({"type": name, "version": version, "independent": flags & 2 > 0, "encoding": encoding,
                              "data": base64.b64encode(body).decode(), **({"rawSize": raw} if encoding else {})})
-        if known and encoding: lacking.update(*(g for g in GROUPS if name in g), GROUPS[4] if name in GROUPS[3] else ())
+        if known and encoding: lacking.update(*(g for g in GROUPS if name in g))
     need(end - 1, TRAILING_BYTES=-(-end // 64) * 64 >= length, TRUNCATED=-(-end // 64) * 64 <= length, CHUNK_PADDING=not any(data[end:]))
     need("file", CHUNK_MISSING=set(CRITICAL[:9]) <= set(chunks) and all(len(chunks.keys() & g) in (0, len(g)) for g in GROUPS[2:]))
     chunks = {name: found for name, found in chunks.items() if name not in lacking}
-    m = dict(format="lumen", version="%d.%d" % (*v[:2],), minimumReader="1.0", otherChunks=others, tree={"branches": []}, nodeArrays={})
+    m = dict(format="lumen", version="%d.%d" % (*v[:2],), minimumReader="%d.%d" % (*v[2:],), otherChunks=others, tree={"branches": []}, nodeArrays={})
     ((meta_at, meta), (labels_at, labels), (records_at, records)), end = (chunks[k][0] for k in ("META", "BLAB", "BREC")), 0
     m["metadata"] = conform(parse_json(meta, meta_at), load("metadata.schema.json"), "/metadata", newer)
     for part, key, name, width, kind in ARRAYS:
         for at, body in chunks.get(name, ()):
             need(at, CHUNK_LENGTH=len(body) % (4 * int(width)) == 0)
             m.setdefault(part, {})[key] = [row[0] if width == "1" else list(row) for row in struct.iter_unpack(f"<{width}{kind}", body)]
-    for part, name in (("models", "MKER"), ("compactModels", "CKER")):
-        for at, body in chunks.get(name, ()):
-            need(at, CHUNK_LENGTH=len(body) == 24, ENUM_VALUE=body[:1] < b"\4", CHUNK_FIELD=not any(body[1:8]))
-            m[part] |= zip(("kernel", "kernelParameter", "isoLevel"), (KERNELS[body[0]], *struct.unpack("<dd", body[8:])))
+    for at, body in chunks.get("MKER", ()):
+        need(at, CHUNK_LENGTH=len(body) == 24, ENUM_VALUE=body[:1] < b"\4", CHUNK_FIELD=not any(body[1:8]))
+        m["models"] |= zip(("kernel", "kernelParameter", "isoLevel"), (KERNELS[body[0]], *struct.unpack("<dd", body[8:])))
     need(records_at, CHUNK_LENGTH=len(records) % 24 == 0)
     for first, count, parent, start, size, kind, stop, rate in struct.iter_unpack("<IIiIHBBf", records):
         need(records_at, CHUNK_LENGTH=start == end and end + size <= len(labels), ENUM_VALUE=kind < 2 and stop < 7)
@@ -169,31 +167,157 @@ def read_binary(data):
         m["nodeArrays"][a["name"]] = [x for x, in struct.iter_unpack({"f32": "<f", "i32": "<i", "u32": "<I"}[a["type"]], body)]
     return check_case(m, lacking)
 
-def field(g, node, p):  # value and gradient of a node's model
-    value, gradient, a = 0.0, [0.0, 0.0, 0.0], g["kernelParameter"]
-    for c, w in list(zip(g["centre"], g["width"]))[g["offset"][node]:g["offset"][node + 1]]:
-        x = math.dist(p, c) ** 2 / w ** 2
-        if g["kernel"] == "cauchy": phi, slope = (1 + a * x) ** -2, -2 * a * (1 + a * x) ** -3
-        elif g["kernel"] == "gaussian": phi, slope = math.exp(-a * x), -a * math.exp(-a * x)
-        elif x >= 1: phi = slope = 0
-        elif g["kernel"] == "quartic": phi, slope = (1 - x) ** 2, -2 * (1 - x)
-        else: phi, slope = 1 - (4 * x ** 3 - 17 * x ** 2 + 22 * x) / 9, (-12 * x ** 2 + 34 * x - 22) / 9
-        value, gradient = value + w * phi, [d + 2 * slope * (u - v) / w for d, u, v in zip(gradient, p, c)]
-    return {"value": value, "gradient": gradient, "inside": value > g["isoLevel"]}
-def answer(m, question):
-    t, p = m["tree"], question["point"]
-    def power(i): return sum((u - v) ** 2 for u, v in zip(p, t["centre"][i])) - t["radius"][i] ** 2, i
-    def near(i): return [j for j, q in enumerate(t["parent"]) if q == i or t["parent"][i] == j or sorted((i, j)) in t.get("links", ())]
-    node = question["current"] if "current" in question else min(map(power, range(len(t["radius"]))))[1]
-    while "current" in question and (best := min(map(power, near(node)), default=(INF, 0)))[0] < power(node)[0]: node = best[1]
-    return {"node": node, "power": power(node)[0], **(field(m["models"], node, p) if "models" in m else {}),
-            **({"compact": field(m["compactModels"], node, p)} if "compactModels" in m else {})}
+# the fields, from "Semantics" and "The blended field" ----------------------------------------------------------------------
+
+def sub(a, b): return [x - y for x, y in zip(a, b)]
+def dot(a, b): return sum(x * y for x, y in zip(a, b))
+def add_scaled(a, s, b): return [x + s * y for x, y in zip(a, b)]
+def cross(a, b): return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+def kernel(name, a, x):
+    """phi and its derivative."""
+    if name == "cauchy": return (1 + a * x) ** -2, -2 * a * (1 + a * x) ** -3
+    if name == "gaussian": return math.exp(-a * x), -a * math.exp(-a * x)
+    if x >= 1: return 0.0, 0.0
+    if name == "quartic": return (1 - x) ** 2, -2 * (1 - x)
+    return 1 - (4 * x ** 3 - 17 * x ** 2 + 22 * x) / 9, (-12 * x ** 2 + 34 * x - 22) / 9
+
+def psi(t):
+    """psi and its derivative, for t > -1."""
+    s = min((1 + t) / 2, 1)
+    return s ** 3 * (6 * s * s - 15 * s + 10), 15 * s * s * (1 - s) ** 2
+
+class Case:
+    """The tree, with the neighbours of every node, and the models if there are any."""
+
+    def __init__(self, m):
+        self.centre, self.radius, self.models = m["tree"]["centre"], m["tree"]["radius"], m.get("models")
+        self.count = len(self.radius)
+        self.edges = [set() for _ in range(self.count)]
+        for i, k in [*enumerate(m["tree"]["parent"]), *m["tree"].get("links", ())]:
+            if k >= 0:
+                self.edges[i].add(k)
+                self.edges[k].add(i)
+        self.longest = [max((self.distance(i, k) ** 2 for k in self.edges[i]), default=0) for i in range(self.count)]
+        self.near = [set() for _ in range(self.count)]
+        for i in range(self.count):
+            for way, length in self.ways(i):
+                if len(way) <= 3 or self.are_close(way[0], way[-1], length) and self.cells_meet(way):
+                    self.near[way[0]].add(way[-1])
+                    self.near[way[-1]].add(way[0])
+
+    def distance(self, i, k): return math.dist(self.centre[i], self.centre[k])
+    def power(self, i, p): return math.dist(p, self.centre[i]) ** 2 - self.radius[i] ** 2
+
+    def ways(self, start):
+        """The way from a node to each other that a breadth-first search finds, with its length."""
+        queue, seen = [([start], 0.0)], {start}
+        for way, length in queue:
+            if len(way) > 2 and length > 8 * self.radius[start]: continue
+            for other in sorted(self.edges[way[-1]] - seen):
+                seen.add(other)
+                queue.append((way + [other], length + self.distance(way[-1], other)))
+        return queue[1:]
+
+    def are_close(self, i, k, length):
+        both, distance = self.radius[i] + self.radius[k], self.distance(i, k)
+        return length <= 4 * both and (distance < both or length < 2 * distance)
+
+    def cells_meet(self, way):
+        """Whether the nodes between leave a part of the square on the radical plane of both ends."""
+        i, k, ri, rk, a = way[0], way[-1], self.radius[way[0]], self.radius[way[-1]], sub(self.centre[way[-1]], self.centre[way[0]])
+        d = math.hypot(*a)
+        if d == 0: return ri == rk
+        s = (1 + (ri * ri - rk * rk) / d ** 2) / 2
+        q = max((1.5 * ri) ** 2 - (s * d) ** 2, (1.5 * rk) ** 2 - ((1 - s) * d) ** 2)
+        if q <= 0: return False
+        shortest = min(range(3), key=lambda axis: abs(a[axis]))
+        u = cross(a, [float(axis == shortest) for axis in range(3)])
+        u = [math.sqrt(q) / math.hypot(*u) * x for x in u]
+        v = [x / d for x in cross(a, u)]
+        middle = add_scaled(self.centre[i], s, a)
+        square = [add_scaled(add_scaled(middle, x, u), y, v) for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+        for m in way[1:-1]: square = self.cut(square, i, m, max(self.tau(i, m), self.tau(k, m)))
+        return bool(square)
+
+    def cut(self, polygon, i, m, slack):
+        """The part of a polygon where p_m - p_i + slack >= 0."""
+        left, kept = [self.power(m, x) - self.power(i, x) + slack for x in polygon], []
+        for (x, f), (y, g) in zip(zip(polygon, left), zip(polygon[1:] + polygon[:1], left[1:] + left[:1])):
+            if f >= 0: kept.append(x)
+            if (f >= 0) != (g >= 0): kept.append(add_scaled(x, f / (f - g), sub(y, x)))
+        return kept
+
+    def tau(self, i, k):
+        square, least = self.distance(i, k) ** 2, 0.001 * min(self.radius[i], self.radius[k]) ** 2
+        return max(least, 0.6 * square if k in self.edges[i] else min(0.5 * square, 0.3 * (self.longest[i] + self.longest[k])))
+
+    def follow(self, node, p):
+        while (best := min(self.near[node], key=lambda k: (self.power(k, p), k), default=node)) != node:
+            if self.power(best, p) >= self.power(node, p): break
+            node = best
+        return node
+
+    def lender(self, node):
+        """The nearest node along the tree that has blobs, or None."""
+        offset, ring, seen = self.models["offset"], {node}, {node}
+        while ring:
+            for i in sorted(ring):
+                if offset[i] < offset[i + 1]: return i
+            ring = {k for i in ring for k in self.edges[i]} - seen
+            seen |= ring
+
+    def local(self, node, p):
+        """Value and gradient of the local field."""
+        g, node, value, gradient = self.models, self.lender(node), 0.0, [0.0] * 3
+        for j in range(g["offset"][node], g["offset"][node + 1]) if node is not None else ():
+            d, w = sub(p, g["centre"][j]), g["width"][j]
+            phi, slope = kernel(g["kernel"], g["kernelParameter"], dot(d, d) / w ** 2)
+            value, gradient = value + w * phi, add_scaled(gradient, 2 * slope / w, d)
+        return value, gradient
+
+    def weight(self, k, p):
+        """The weight of a node, its gradient, and the neighbours that it does not beat by tau."""
+        u, logarithmic, rivals = 1.0, [0.0] * 3, []
+        for j in sorted(self.near[k]):
+            tau = self.tau(k, j)
+            t = (self.power(j, p) - self.power(k, p)) / tau
+            if t >= 1: continue
+            if t <= -1: return 0.0, [0.0] * 3, []
+            value, slope = psi(t)
+            u, logarithmic = u * value, add_scaled(logarithmic, 2 * slope / value / tau, sub(self.centre[k], self.centre[j]))
+            rivals.append(j)
+        return u, [u * x for x in logarithmic], rivals
+
+    def blended(self, node, p):
+        """Value and gradient of the blended field."""
+        active, total, total_slope, value, slope = [node], 0.0, [0.0] * 3, 0.0, [0.0] * 3
+        for k in active:
+            u, du, rivals = self.weight(k, p)
+            if u == 0: continue
+            f, df = self.local(k, p)
+            total, total_slope = total + u, add_scaled(total_slope, 1, du)
+            value, slope = value + u * f, add_scaled(add_scaled(slope, u, df), f, du)
+            active += [j for j in rivals if j not in active]
+        if total == 0: return self.local(node, p)
+        return value / total, [x / total for x in add_scaled(slope, -value / total, total_slope)]
+
+    def shown(self, field): return {"value": field[0], "gradient": field[1], "inside": field[0] > self.models["isoLevel"]}
+
+    def answer(self, question):
+        p = question["point"]
+        if "current" in question: node = self.follow(question["current"], p)
+        else: node = min(range(self.count), key=lambda i: (self.power(i, p), i))
+        out = {"node": node, "power": self.power(node, p)}
+        return {**out, **self.shown(self.local(node, p)), "blended": self.shown(self.blended(node, p))} if self.models else out
 
 if __name__ == "__main__":
     data, binary = pathlib.Path(sys.argv[1]).read_bytes(), not sys.argv[1].endswith(".json")
     try:
         case = read_binary(data) if binary else check_case(parse_json(data))
-        print(json.dumps({"accepted": True, "case": case, "answers": [answer(case, q) for q in json.load(sys.stdin)]}))
+        questions = json.load(sys.stdin)
+        answers = list(map(Case(case).answer, questions)) if questions else []
+        print(json.dumps({"accepted": True, "case": case, "answers": answers}))
     except Refused as e:
         code, at = ("CHUNK_LENGTH" if binary and e.args[0] == "ARRAY_LENGTH" else e.args[0]), e.args[1]
         print(json.dumps({"accepted": False, "code": code, "place": f"byte {at}" if type(at) is int else at}))

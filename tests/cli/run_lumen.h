@@ -23,9 +23,8 @@ protected:
   ~CliTest() override;
 
   Outcome lumen(const std::vector<std::string>& arguments) const;
-  /// Sends `signalNumber` `times` times as soon as the program has printed to standard error; needs
-  /// a
-  /// --verbose run. After 60 s the program is killed.
+  /// Sends `signalNumber` `times` times as soon as the program has printed to standard error, for
+  /// which the run must be --verbose. After 60 s the program is killed.
   Outcome lumenWithSignal(const std::vector<std::string>& arguments, int signalNumber,
                           int times = 1) const;
 

@@ -112,7 +112,7 @@ TEST_F(ValidateTest, PrivacyLooksAtTextsOnlyWhenAskedTo) {
 
 TEST_F(ValidateTest, ChunksAreListedWithTheirPlacesAndSizes) {
   const Json info = Json::parse(lumen({"info", "good.lumen", "--chunks", "--json"}).out);
-  EXPECT_EQ(info["version"], "1.0");
+  EXPECT_EQ(info["version"], "1.1");
   EXPECT_EQ(info["length"], std::filesystem::file_size(path("good.lumen")));
   ASSERT_EQ(info["chunks"].size(), 15U);
   EXPECT_EQ(info["chunks"][0]["type"], "META");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Circles from the wall points that rays find in a pixelated disc (thesis 3.8.2).
+// Circles from the wall points that rays find in a pixelated disc (Yureidini's thesis, 3.8.2).
 #pragma once
 
 #include <array>

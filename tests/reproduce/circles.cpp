@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen_circles FOLDER: circles from pixelated discs by nine combinations of interpolation and
-// gradient (thesis 3.8.2, table 3.2). Writes circles.md, circles.json and a plot.
+// gradient (Yureidini's thesis, 3.8.2, table 3.2). Writes circles.md, circles.json and a plot.
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -17,8 +17,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kRadius = 1;  // mm
-/// Points on the whole surface: of the open capsule about 300 then lie within its box. The thesis
-/// says 500 for it, of which 300 were left.
+/// Points on the whole surface: of the open capsule about 300 then lie within its box. Yureidini's
+/// thesis says 500 for it, of which 300 were left.
 constexpr std::size_t kPoints = 300, kOpenPoints = 373;
 
 std::vector<Vector3d> arc(const Vector3d& centre, double from, double turn, int steps) {

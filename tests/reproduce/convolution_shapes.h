@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The four shapes of thesis 4.8.2: convolution surfaces of point skeletons, all of radius 1 mm.
+// The four shapes of Yureidini's thesis, 4.8.2: convolution surfaces of point skeletons, all of
+// radius 1 mm.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixelated discs and the three interpolations of thesis 3.8.2, in two dimensions.
+// Pixelated discs and the three interpolations of Yureidini's thesis, 3.8.2, in two dimensions.
 #pragma once
 
 #include <array>

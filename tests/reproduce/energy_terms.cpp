@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen_energy_terms FOLDER: what the cohesion and the curvature are good for (thesis 4.3.4, tables
-// 4.2 and 4.3, in three dimensions): fits of an aneurysm without and with noise, and of a noisy
-// open vessel with six outliers outside or inside, with and without each term. Writes
-// energy_terms.md and energy_terms.json.
+// lumen_energy_terms FOLDER: what the cohesion and the curvature are good for (Yureidini's
+// thesis, 4.3.4, tables 4.2 and 4.3, in three dimensions): fits of an aneurysm without and with
+// noise, and of a noisy open vessel with six outliers outside or inside, with and without each
+// term. Writes energy_terms.md and energy_terms.json.
 #include <algorithm>
 #include <array>
 #include <cmath>

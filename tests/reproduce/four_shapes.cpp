@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen_four_shapes FOLDER: the fit of four shapes without and with noise (thesis 4.8.2 and 4.9.1,
-// tables 4.6 and 4.7, figure 4.22). Writes four_shapes.md, four_shapes.json and plots.
+// lumen_four_shapes FOLDER: the fit of four shapes without and with noise (Yureidini's
+// thesis, 4.8.2 and 4.9.1, tables 4.6 and 4.7, figure 4.22). Writes four_shapes.md,
+// four_shapes.json and plots.
 #include <algorithm>
 #include <array>
 #include <cmath>

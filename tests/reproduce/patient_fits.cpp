@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen_patient_fits FOLDER [CASE ...]: the fit of whole vessel trees at three accuracies and three
-// greatest numbers of subdivisions (thesis 4.9.2, tables 4.8 to 4.11). The cases must have their
-// wall points; without any, three synthetic patients are made and tracked. Writes patient_fits.md
-// and patient_fits.json.
+// greatest numbers of subdivisions (Yureidini's thesis, 4.9.2, tables 4.8 to 4.11). The cases must
+// have their wall points; without any, three synthetic patients are made and tracked. Writes
+// patient_fits.md and patient_fits.json.
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -53,8 +53,9 @@ void addCgal(Methods& methods);
 void addFcl(Methods& methods);
 void addOpenVdb(Methods& methods);
 
-/// "capsule" and "spiral" are made here, after thesis 5.5.2; anything else is the path of a case.
-/// The tool lies between axis and wall, or all of it near the wall. Throws std::runtime_error.
+/// "capsule" and "spiral" are made here, after Yureidini's thesis, 5.5.2; anything else is the path
+/// of a case. The tool lies between axis and wall, or all of it near the wall. Throws
+/// std::runtime_error.
 struct OwnedSurface {
   Surface surface;
   std::shared_ptr<blob_model> model;

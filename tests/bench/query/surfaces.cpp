@@ -65,7 +65,7 @@ Case tubeAlong(const std::vector<Vec3f>& line, double spacing, double radius) {
   return result;
 }
 
-// A line of 10 mm; the thesis' capsule measures 11.9 x 2.5 x 2.5 mm.
+// A line of 10 mm; the capsule of Yureidini's thesis measures 11.9 x 2.5 x 2.5 mm.
 Case capsule() {
   std::vector<Vec3f> line;
   for (int i = 0; i <= 20; ++i) line.push_back({0.5f * static_cast<float>(i), 0, 0});

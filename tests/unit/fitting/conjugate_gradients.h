@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thesis' minimiser, as a reference: Polak-Ribiere conjugate gradients over all centres, then
-// over all widths, in turn.
+// The minimiser of Yureidini's thesis, as a reference: Polak-Ribiere conjugate gradients over all
+// centres, then over all widths, in turn.
 #pragma once
 
 #include <vector>

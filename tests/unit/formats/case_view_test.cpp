@@ -46,8 +46,8 @@ TEST(CaseView, HasWhatTheCaseHas) {
   EXPECT_TRUE(std::ranges::equal(view->pointOffset, value.points->offset));
   EXPECT_EQ(view->models->kernel, 0);
   EXPECT_EQ(view->models->kernelParameter, 0.2);
-  EXPECT_EQ(view->compactModels->isoLevel, 0.05);
-  EXPECT_TRUE(std::ranges::equal(view->compactModels->width, value.compactModels->width));
+  EXPECT_EQ(view->models->isoLevel, 0.1);
+  EXPECT_TRUE(std::ranges::equal(view->models->width, value.models->width));
   EXPECT_EQ(view->nodeArrays.size(), 2u);
   EXPECT_TRUE(view->metadata.starts_with("{\"coordinateSystem\""));
 }
@@ -72,7 +72,6 @@ TEST(CaseView, OfATreeAloneHasNoPointsAndModels) {
   EXPECT_FALSE(view->hasPoints);
   EXPECT_TRUE(view->pointOffset.empty());
   EXPECT_FALSE(view->models.has_value());
-  EXPECT_FALSE(view->compactModels.has_value());
 }
 
 TEST(CaseView, OfTheStructureDoesNotLookAtValues) {

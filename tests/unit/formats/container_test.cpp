@@ -59,7 +59,7 @@ TEST(LittleEndian, IsLowByteFirst) {
 TEST(Container, StartsWithTheSignatureAndTheVersion) {
   const Bytes file = twoChunks();
   EXPECT_EQ(Bytes(file.begin(), file.begin() + 16),
-            bytesOf({0x8c, 'L', 'U', 'M', 'E', 'N', 13, 10, 26, 10, 1, 0, 1, 0, 64, 0}));
+            bytesOf({0x8c, 'L', 'U', 'M', 'E', 'N', 13, 10, 26, 10, 1, 1, 1, 0, 64, 0}));
 }
 
 TEST(Container, AlignsEveryChunkAndFillsUpWithZeros) {
@@ -213,7 +213,7 @@ TEST(Container, FindsWrongHeaderAndTableChecksums) {
 // spec: M44
 TEST(Container, IgnoresReservedBytesOfANewerMinorVersion) {
   Bytes file = twoChunks();
-  file[11] = std::byte{1};   // version 1.1, readable from 1.0 on
+  file[11] = std::byte{2};   // version 1.2, readable from 1.0 on
   file[40] = std::byte{5};   // reserved in the header
   file[100] = std::byte{5};  // reserved in an entry
   test::resign(file);

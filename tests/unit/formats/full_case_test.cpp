@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Links, compact models, extensions, provenance and chunks of others, in both encodings.
+// Links, extensions, provenance and chunks of others, in both encodings.
 #include <gtest/gtest.h>
 
 #include "formats/container/bytes.h"
@@ -128,8 +128,6 @@ INSTANTIATE_TEST_SUITE_P(
                    "/otherChunks/1/data"},
         JsonChange{"chunk_flag", "\"independent\": true", "\"independent\": 1", "JSON_TYPE",
                    "/otherChunks/0/independent"},
-        JsonChange{"compact_kernel", "\"quartic\"", "\"cauchy\"", "KERNEL_PARAMETER",
-                   "/compactModels/kernelParameter"},
         JsonChange{"rates_empty", "[0, 0.25, 0.7, 1, 0.5, 0.125]", "[]", "ARRAY_LENGTH",
                    "/tree/inlierRate"}),
     [](const auto& instance) { return std::string(instance.param.name); });
@@ -154,8 +152,6 @@ void rename(Bytes& file, const std::string& from, const char (&to)[5]) {
 INSTANTIATE_TEST_SUITE_P(
     All, FullBinary,
     testing::Values(
-        BinaryChange{"compact_without_width", [](Bytes& f) { rename(f, "CWID", "qWID"); },
-                     "CHUNK_MISSING"},
         BinaryChange{"array_missing", [](Bytes& f) { rename(f, "NARR", "qARR"); }, "CHUNK_MISSING"},
         BinaryChange{"links_twice",
                      [](Bytes& f) {

@@ -43,7 +43,7 @@ TEST(Json, GivesTheSameBinaryBytesAfterBinaryToJsonToBinary) {
 TEST(Json, WritesTheSmallestCaseLikeThis) {
   EXPECT_EQ(encodeJson(test::smallestCase()), R"({
   "format": "lumen",
-  "version": "1.0",
+  "version": "1.1",
   "minimumReader": "1.0",
   "metadata": {
     "coordinateSystem": "LPS",
@@ -152,7 +152,7 @@ TEST(Json, IgnoresKeysThatStartWithX) {
 TEST(Json, IgnoresUnknownKeysOfANewerMinorVersionOnly) {
   std::string text = replaced("\"tree\": {", "\"links\": [], \"tree\": {");
   EXPECT_EQ(codeOf(decodeJson(text)), "JSON_KEY_UNKNOWN");
-  text.replace(text.find("\"1.0\""), 5, "\"1.1\"");
+  text.replace(text.find("\"1.1\""), 5, "\"1.2\"");
   EXPECT_EQ(codeOf(decodeJson(text)), "OK");
 }
 

@@ -144,7 +144,6 @@ TEST(Report, PlacesValuesOfEveryArrayInTheirChunk) {
         Place{"NRAD", 8, "/tree/radius/2"}, Place{"NHEI", 4, "/tree/height/1"},
         Place{"NINL", 20, "/tree/inlierRate/5"}, Place{"PPOS", 12 + 8, "/points/position/1/2"},
         Place{"MCEN", 12, "/models/centre/1/0"}, Place{"MWID", 8, "/models/width/2"},
-        Place{"CCEN", 4, "/compactModels/centre/0/1"}, Place{"CWID", 4, "/compactModels/width/1"},
         Place{"BREC", 24 + 20, "/tree/branches/1/meanInlierRate"},
         Place{"NARR", 16, "/nodeArrays/ACME_flow.velocity/4"}}) {
     std::size_t at = 0;

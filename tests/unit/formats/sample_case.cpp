@@ -83,9 +83,6 @@ Case fullCase() {
   value.metadata.parentSha256 = std::string(64, 'b');
   value.metadata.pointQuantisation = PointQuantisation{14, 0.001};
   value.metadata.extensionsUsed = {"ACME_flow", "LAB2_tags"};
-  value.compactModels = BlobbyModels{Kernel::Quartic, 0, 0.05, {0, 0, 1, 1, 1, 2, 2}, {}, {}};
-  value.compactModels->centre = {{1, 2, 3}, {4, 5, 6}};
-  value.compactModels->width = {2.5f, 3.5f};
   value.nodeArrays = {{"ACME_flow.velocity", 3, "mm/s", std::vector<float>(18, 0.1f)},
                       {"LAB2_tags.kind", 1, "", std::vector<std::int32_t>{-1, 2, 3, 4, 5, 6}}};
   value.otherChunks = {{"aaaa", 7, true, 0, 3, {std::byte{1}, std::byte{2}, std::byte{3}}},

@@ -21,7 +21,7 @@ Case smallestCase();
 /// Two vessels and an aneurysm, six nodes, points, Cauchy models and every kind of metadata.
 Case richCase();
 
-/// The rich case with everything else that a file can hold: links, compact models, a note, the
+/// The rich case with everything else that a file can hold: links, a note, the
 /// parent's digest, quantised points, two node arrays of an extension, and two chunks of others.
 Case fullCase();
 

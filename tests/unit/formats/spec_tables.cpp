@@ -18,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, 14> kSchemas = {
-    "case", "metadata", "source", "point-quantisation", "node-array",  "step",  "tree", "branch",
-    "link", "points",   "models", "compact-models",     "other-chunk", "vector"};
+constexpr std::array<const char*, 13> kSchemas = {
+    "case", "metadata", "source", "point-quantisation", "node-array", "step", "tree", "branch",
+    "link", "points",   "models", "other-chunk",        "vector"};
 
 constexpr const char* kBegin = "<!-- properties: begin -->\n";
 constexpr const char* kEnd = "<!-- properties: end -->";

@@ -72,11 +72,10 @@ TEST(Specification, HasTheTableFromRequirementsToTests) {
 TEST(Specification, ListsEveryChunkAndWhetherItIsCritical) {
   const std::string text = specification();
   for (const ChunkRule& rule : kChunkRules) {
-    const std::string needed = rule.need == ChunkNeed::Always          ? "always"
-                               : rule.need == ChunkNeed::Points        ? "points"
-                               : rule.need == ChunkNeed::Models        ? "models"
-                               : rule.need == ChunkNeed::CompactModels ? "compact models"
-                                                                       : "";
+    const std::string needed = rule.need == ChunkNeed::Always   ? "always"
+                               : rule.need == ChunkNeed::Points ? "points"
+                               : rule.need == ChunkNeed::Models ? "models"
+                                                                : "";
     const std::string row = "| `" + chunkName(rule.type) +
                             (rule.critical ? "` | yes |" : "` | no |") +
                             (needed.empty() ? "" : " " + needed) + " | ";
@@ -98,7 +97,7 @@ TEST(Specification, StatesTheLimitsOfTheCode) {
   const std::pair<const char*, std::size_t> limits[] = {
       {"| nodes | ", kMaxNodes},
       {"| points | ", kMaxPoints},
-      {"| blobs of the models; of the compact models | ", kMaxBlobs},
+      {"| blobs | ", kMaxBlobs},
       {"| branches | ", kMaxBranches},
       {"| steps | ", kMaxSteps},
       {"| chunks in a file | ", kMaxChunks},

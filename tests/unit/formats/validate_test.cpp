@@ -223,19 +223,6 @@ const Breach kFullBreaches[] = {
      "LINK_PARENT", "/tree/links/1"},
     {"too_many_links", [](Case& c) { c.tree.links.resize((std::size_t{1} << 20) + 1); }, "LIMIT",
      "/tree/links"},
-    {"compact_cauchy", [](Case& c) { c.compactModels->kernel = Kernel::Cauchy; },
-     "KERNEL_PARAMETER", "/compactModels/kernelParameter"},
-    {"compact_gaussian",
-     [](Case& c) {
-       c.compactModels->kernel = Kernel::Gaussian;
-       c.compactModels->kernelParameter = 1;
-     },
-     "COMPACT_KERNEL", "/compactModels/kernel"},
-    {"compact_alone", [](Case& c) { c.models.reset(); }, "COMPACT_ALONE", "/compactModels"},
-    {"compact_width", [](Case& c) { c.compactModels->width[1] = -1; }, "WIDTH_RANGE",
-     "/compactModels/width/1"},
-    {"compact_offset", [](Case& c) { c.compactModels->offset[6] = 1; }, "OFFSET_ORDER",
-     "/compactModels/offset/6"},
     {"parent_digest", [](Case& c) { c.metadata.parentSha256 = "abc"; }, "PARENT_SHA256",
      "/metadata/parentSha256"},
     {"quantisation_bits", [](Case& c) { c.metadata.pointQuantisation->bits = 31; },

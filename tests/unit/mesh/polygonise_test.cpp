@@ -65,8 +65,7 @@ TEST(Polygonise, NormalsPointOutwardWithUnitLength) {
 }
 
 TEST(Polygonise, PatchesOfATubeMeetOnTheRadicalPlanesAndItsEndsAreFlat) {
-  // Nodes at x = 0.03 + i: planes halfway; ends half a height (1) beyond the
-  // last nodes.
+  // Nodes at x = 0.03 + i: planes halfway; ends half a height (1) beyond the last nodes.
   const Patch patch = onlyPatch(test::tubeCase(4));
   const test::MeshFacts facts = factsOf(patch);
   EXPECT_EQ(facts.badEdges, 0U);
