@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/app/file_access.h"
 #include "converters/common/error.h"
 
 namespace lumen::app {
@@ -88,6 +89,14 @@ TEST(FileFormats, AVolumeIsWrittenIntoOneFile) {
 
 TEST(FileFormats, TitlesAreListedOnce) {
   EXPECT_EQ(formatTitles(canReadVolume), "NRRD, NIfTI, MetaImage or a folder of DICOM");
+}
+
+TEST(WriteText, NamesTheFileThatItCannotWrite) {
+  const std::string refused = refusal([] {
+    writeText("x", "no/such/folder/x.stl");
+    return 0;
+  });
+  EXPECT_TRUE(refused.starts_with("1: no/such/folder/x.stl: ")) << refused;
 }
 
 }  // namespace
