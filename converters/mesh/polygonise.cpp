@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/mesh/polygonise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/mesh/marching_cubes.h"
-#include "converters/mesh/mesh.h"
 #include "converters/mesh/node_cell.h"
 #include "converters/mesh/node_field.h"
 #include "formats/case/topology.h"
@@ -33,7 +34,7 @@ constexpr double kSnap = 1e-4;
 
 struct NodePatch {
   Patch patch;
-  std::vector<OpenMesh::Vec3f> normal;
+  std::vector<Float3> normal;
 };
 
 Eigen::Vector3d toEigen(const formats::Vec3f& v) {
@@ -115,9 +116,9 @@ void sampleField(const NodeField& field, SampleGrid& grid) {
   }
 }
 
-std::vector<OpenMesh::Vec3f> outwardNormals(const NodeField& field, const Eigen::Vector3d& centre,
-                                            const std::vector<Eigen::Vector3d>& position) {
-  std::vector<OpenMesh::Vec3f> normals;
+std::vector<Float3> outwardNormals(const NodeField& field, const Eigen::Vector3d& centre,
+                                   const std::vector<Eigen::Vector3d>& position) {
+  std::vector<Float3> normals;
   normals.reserve(position.size());
   for (const Eigen::Vector3d& p : position) {
     Eigen::Vector3d outward = -field.sample(p).gradient;
@@ -125,7 +126,7 @@ std::vector<OpenMesh::Vec3f> outwardNormals(const NodeField& field, const Eigen:
       outward = p - centre;  // a flat spot has no normal of its own
     if (outward.squaredNorm() < 1e-200) outward = Eigen::Vector3d::UnitZ();
     const Eigen::Vector3f n = outward.normalized().cast<float>();
-    normals.emplace_back(n.x(), n.y(), n.z());
+    normals.push_back({n.x(), n.y(), n.z()});
   }
   return normals;
 }
@@ -159,17 +160,15 @@ NodePatch polygoniseNode(const formats::Case& source, const formats::Neighbours&
   return result;
 }
 
-void append(const NodePatch& part, TriMesh& mesh) {
-  std::vector<TriMesh::VertexHandle> handle;
-  handle.reserve(part.patch.position.size());
-  for (std::size_t v = 0; v < part.patch.position.size(); ++v) {
-    const Eigen::Vector3f p = part.patch.position[v].cast<float>();
-    handle.push_back(mesh.add_vertex(TriMesh::Point(p.x(), p.y(), p.z())));
-    mesh.set_normal(handle.back(), part.normal[v]);
+void append(const NodePatch& part, BranchMesh& mesh) {
+  const auto base = static_cast<std::uint32_t>(mesh.position.size());
+  for (const Eigen::Vector3d& p : part.patch.position) {
+    const Eigen::Vector3f q = p.cast<float>();
+    mesh.position.push_back({q.x(), q.y(), q.z()});
   }
+  mesh.normal.insert(mesh.normal.end(), part.normal.begin(), part.normal.end());
   for (const Triangle& t : part.patch.triangle)
-    if (!mesh.add_face(handle[t[0]], handle[t[1]], handle[t[2]]).is_valid())
-      throw failed("a patch of the surface is not a manifold");
+    mesh.triangle.push_back({base + t[0], base + t[1], base + t[2]});
 }
 
 double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
@@ -203,7 +202,7 @@ std::vector<BranchMesh> polygonise(const formats::Case& source, const Polygonise
     for (std::size_t i = branch.firstNode; i < branch.firstNode + std::size_t{branch.nodeCount};
          ++i) {
       progress.check();
-      append(parts[i], result[b].mesh);
+      append(parts[i], result[b]);
       parts[i] = {};
     }
   });

@@ -5,9 +5,10 @@
 #include <cstdio>
 #include <iostream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "formats/case/blobby.h"
 #include "formats/case/case_file.h"
@@ -60,15 +61,15 @@ json answer(const Case& value, const Neighbours& neighbours, const json& questio
           : nodeOfPoint(value.tree, p);
   json out = {{"node", node}, {"power", power(value.tree, node, p)}};
   if (value.models) out.update(fieldAnswer(*value.models, node, p));
-  if (value.compactModels) out["compact"] = fieldAnswer(*value.compactModels, node, p);
   return out;
 }
 
-json refusal(const FormatError& error) {
-  json out = {{"accepted", false}, {"code", error.code}, {"place", error.place}};
+json refusal(const Issue& error) {
+  json out = {{"accepted", false}, {"code", errorName(error.code)}, {"place", error.place()}};
   if (error.pointer) out["pointer"] = *error.pointer;
   // a message may quote bytes of the file that are not UTF-8
-  out["message"] = json::parse(json(error.message).dump(-1, ' ', true, json::error_handler_t::replace));
+  out["message"] =
+      json::parse(json(error.message).dump(-1, ' ', true, json::error_handler_t::replace));
   return out;
 }
 
@@ -84,8 +85,9 @@ int main(int argc, char** argv) {
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
   const Neighbours neighbours(value->tree);
   json answers = json::array();
-  for (const json& question : json::parse(text)) answers.push_back(answer(*value, neighbours, question));
+  for (const json& question : json::parse(text))
+    answers.push_back(answer(*value, neighbours, question));
   // the case is written by the library's own encoder, so that it is tested too
-  std::cout << R"({"accepted": true, "answers": )" << answers.dump() << ", \"case\": " << encodeJson(*value)
-            << "}\n";
+  std::cout << R"({"accepted": true, "answers": )" << answers.dump()
+            << ", \"case\": " << encodeJson(*value) << "}\n";
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/mesh/polygonise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/mesh/encode_mesh.h"
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/write_gltf.h"
 #include "formats/case/blobby.h"
 #include "mesh_facts.h"
 #include "synthetic.h"
@@ -27,7 +28,7 @@ std::vector<BranchMesh> meshesOf(const formats::Case& source, double cell = 0) {
 Patch onlyPatch(const formats::Case& source) {
   const auto meshes = meshesOf(source);
   EXPECT_EQ(meshes.size(), 1U);
-  return toPatch(meshes[0].mesh);
+  return toPatch(meshes[0]);
 }
 
 double offAxis(const Eigen::Vector3d& p) {
@@ -54,11 +55,12 @@ TEST(Polygonise, ABlobIsASphere) {
 
 TEST(Polygonise, NormalsPointOutwardWithUnitLength) {
   const auto meshes = meshesOf(test::sphereCase(1.0, 0.43));
-  const TriMesh& mesh = meshes[0].mesh;
-  const OpenMesh::Vec3f centre(0.03F, 0.05F, 0.07F);
-  for (const auto v : mesh.vertices()) {
-    EXPECT_NEAR(OpenMesh::norm(mesh.normal(v)), 1, 1e-6);
-    EXPECT_GT(OpenMesh::dot(mesh.normal(v), (mesh.point(v) - centre).normalized()), 0.99999);
+  const Eigen::Vector3f centre(0.03F, 0.05F, 0.07F);
+  for (std::size_t v = 0; v < meshes[0].position.size(); ++v) {
+    const Eigen::Vector3f normal(meshes[0].normal[v].data());
+    const Eigen::Vector3f position(meshes[0].position[v].data());
+    EXPECT_NEAR(normal.norm(), 1, 1e-6);
+    EXPECT_GT(normal.dot((position - centre).normalized()), 0.99999);
   }
 }
 
@@ -116,10 +118,9 @@ TEST(Polygonise, KissingVesselsStayTwoMeshes) {
   ASSERT_EQ(meshes.size(), 2U);
   std::array<std::set<std::array<float, 3>>, 2> points;
   for (std::size_t b = 0; b < 2; ++b)
-    for (const auto v : meshes[b].mesh.vertices()) {
-      const auto p = meshes[b].mesh.point(v);
+    for (const Float3& p : meshes[b].position) {
       EXPECT_LT(std::abs(p[1] - 2.0F * static_cast<float>(b)), 1.05F);
-      points[b].insert({p[0], p[1], p[2]});
+      points[b].insert(p);
     }
   for (const auto& p : points[0]) EXPECT_FALSE(points[1].contains(p));
   EXPECT_EQ(meshes[0].label, "left");

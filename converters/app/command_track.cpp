@@ -3,6 +3,7 @@
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
+#include "converters/app/stages.h"
 
 namespace lumen::app {
 
@@ -19,10 +20,8 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("VOLUME", m_input, "NRRD, NIfTI, MetaImage, or a folder of DICOM")
-        ->required()
-        ->configurable(false);
-    app.add_option("OUT", m_output, "Case to write, .lumen or .lumen.json")
+    app.add_option("VOLUME", m_input, formatTitles(canReadVolume))->required()->configurable(false);
+    app.add_option("OUT", m_output, "Case to write, " + formatEndings(canWriteCase))
         ->required()
         ->configurable(false);
     addVolumeOptions(app, m_volume);
@@ -32,22 +31,19 @@ public:
   }
 
   int run(Context& context) override {
-    const FileFormat& to = outputFormat(m_output, m_to);
-    if (to.kind != FormatKind::Case)
-      throw unsupported(m_output +
-                        ": lumen track writes a case, .lumen or .lumen.json; lumen "
-                        "convert writes meshes");
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen track makes");
     requireInput(m_input, "volume");
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind != FormatKind::Volume)
       throw unsupported(m_input + ": this is a case; lumen track reads a volume");
-    requireSeeds(m_track);
+    const auto seeds = loadSeeds(m_track);
     requireWritable(m_output);
     context.interrupts.watchOutput(m_output);
 
-    const convert::Volume volume = readVolumeAs(m_input, from, m_volume, context.progress);
-    const convert::TrackResult tracked = trackSeeds(volume, m_track, context.progress);
-    writeCase(tracked.result, m_output, to);
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
+    const convert::TrackResult tracked =
+        trackSeeds(volume, seeds, m_track.seeds, m_track.options, context.progress);
+    to.writeCase(tracked.result, m_output, {}, context.progress);
     report(tracked, context);
     return m_track.strict && !tracked.failures.empty() ? 1 : 0;
   }

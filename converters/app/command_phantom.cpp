@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen phantom: a synthetic angiogram with its truth and its seeds.
-#include "converters/phantom/phantom.h"
-
 #include <algorithm>
 
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/options.h"
 #include "converters/app/report.h"
+#include "converters/phantom/phantom.h"
 #include "converters/seeds/seeds.h"
-#include "converters/volume/write_volume.h"
 
 namespace lumen::app {
 
@@ -28,7 +27,7 @@ public:
     std::string names;
     for (const auto& known : convert::phantomNames()) names += (names.empty() ? "" : ", ") + known;
     app.add_option("NAME", m_options.name, names)->required()->configurable(false);
-    app.add_option("OUT", m_output, "Volume to write: .nrrd, .nii, .nii.gz or .mha")
+    app.add_option("OUT", m_output, "Volume to write: " + formatEndings(canWriteVolume))
         ->required()
         ->configurable(false);
     app.add_option("--truth", m_truth, "Also write the true tree, as a case")->type_name("FILE");
@@ -38,11 +37,12 @@ public:
   }
 
   int run(Context& context) override {
-    const FileFormat* truthFormat = checkOutputs(context);
+    const Outputs outputs = checkOutputs(context);
     const convert::Phantom phantom = convert::makePhantom(m_options, context.progress);
     context.progress.begin("writing", 0);
-    convert::writeVolume(phantom.volume, m_output);
-    if (truthFormat != nullptr) writeCase(phantom.truth, m_truth, *truthFormat);
+    outputs.volume.writeVolume(phantom.volume, m_output);
+    if (outputs.truth != nullptr)
+      outputs.truth->writeCase(phantom.truth, m_truth, {}, context.progress);
     if (!m_seeds.empty()) convert::writeSeeds(phantom.seeds, m_seeds);
     context.progress.end();
     report(phantom, context);
@@ -50,28 +50,26 @@ public:
   }
 
 private:
-  /// Refuses what could not be written in the end; gives the format of --truth, or null without
-  /// one.
-  const FileFormat* checkOutputs(Context& context) const {
+  struct Outputs {
+    const FileFormat& volume;
+    const FileFormat* truth;  ///< null without --truth
+  };
+
+  /// Refuses what could not be written in the end.
+  Outputs checkOutputs(Context& context) const {
     const auto& known = convert::phantomNames();
     if (std::find(known.begin(), known.end(), m_options.name) == known.end())
       throw Error(ErrorKind::Usage, m_options.name +
                                         ": there is no such phantom; lumen phantom "
                                         "--help lists them");
-    if (!convert::isVolumePath(m_output))
-      throw unsupported(m_output + ": a phantom is written as .nrrd, .nii, .nii.gz or .mha");
-    const FileFormat* truthFormat = nullptr;
-    if (!m_truth.empty()) {
-      truthFormat = &outputFormat(m_truth, "");
-      if (truthFormat->kind != FormatKind::Case)
-        throw unsupported(m_truth + ": the truth is written as a case, .lumen or .lumen.json");
-    }
+    const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
+                          m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};
     for (const std::string& output : {m_output, m_truth, m_seeds}) {
       if (output.empty()) continue;
       requireWritable(output);
       context.interrupts.watchOutput(output);
     }
-    return truthFormat;
+    return outputs;
   }
 
   void report(const convert::Phantom& phantom, const Context& context) const {

@@ -2,6 +2,7 @@
 // lumen fit: blobby models for a tracked case.
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/options.h"
 #include "converters/app/report.h"
 
 namespace lumen::app {
@@ -20,7 +21,7 @@ public:
 
   void bind(CLI::App& app) override {
     app.add_option("IN", m_input, "Case with wall points")->required()->configurable(false);
-    app.add_option("OUT", m_output, "Case to write, .lumen or .lumen.json; may be IN")
+    app.add_option("OUT", m_output, "Case to write, " + formatEndings(canWriteCase) + "; may be IN")
         ->required()
         ->configurable(false);
     addFitOptions(app, m_fit);
@@ -28,11 +29,7 @@ public:
   }
 
   int run(Context& context) override {
-    const FileFormat& to = outputFormat(m_output, m_to);
-    if (to.kind != FormatKind::Case)
-      throw unsupported(m_output +
-                        ": lumen fit writes a case, .lumen or .lumen.json; lumen "
-                        "convert writes meshes");
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen fit makes");
     requireInput(m_input, "case file");
     requireWritable(m_output);
     context.interrupts.watchOutput(m_output);
@@ -43,7 +40,7 @@ public:
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
     convert::fit(value, m_fit.options(), context.progress);
-    writeCase(value, m_output, to);
+    to.writeCase(value, m_output, {}, context.progress);
     if (context.common.json)
       answerJson(caseSummary(value));
     else if (!context.common.quiet)

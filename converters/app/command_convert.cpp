@@ -4,6 +4,8 @@
 #include "converters/app/file_access.h"
 #include "converters/app/loss_report.h"
 #include "converters/app/report.h"
+#include "converters/app/stages.h"
+#include "converters/fitting/fit.h"
 
 namespace lumen::app {
 
@@ -21,19 +23,17 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("INPUT", m_input, "Volume (NRRD, NIfTI, MetaImage, folder of DICOM) or case")
+    app.add_option("INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + ") or case")
         ->required()
         ->configurable(false);
-    app.add_option("OUTPUT", m_output, ".lumen, .lumen.json, .glb, .gltf, .obj, .stl or .ply")
-        ->required()
-        ->configurable(false);
+    app.add_option("OUTPUT", m_output, formatEndings(canWrite))->required()->configurable(false);
     app.add_option("--from", m_from, "Format of INPUT, whatever its name")->type_name("F");
     app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
     addVolumeOptions(app, m_volume);
     addTrackOptions(app, m_track);
     addFitOptions(app, m_fit);
-    addMeshOptions(app, m_mesh);
-    addEncodingOptions(app, m_encoding);
+    addMeshOptions(app, m_outputOptions);
+    addEncodingOptions(app, m_outputOptions.encoding);
     app.get_option("--strict")
         ->description(
             "Exit with 1 if any seed started no track; with 4, writing nothing, if "
@@ -44,7 +44,7 @@ public:
     const FileFormat& to = outputFormat(m_output, m_to);
     requireInput(m_input, "input");
     const FileFormat& from = inputFormat(m_input, m_from);
-    if (from.kind == FormatKind::Volume) requireSeeds(m_track);
+    if (from.kind == FormatKind::Volume) m_seeds = loadSeeds(m_track);
     requireWritable(m_output);
     context.interrupts.watchOutput(m_output);
 
@@ -53,10 +53,7 @@ public:
     context.progress.check();
     if (from.kind == FormatKind::Case)
       reportLosses(value, to, m_output, m_track.strict, context.progress);
-    if (to.kind == FormatKind::Mesh)
-      writeCaseMesh(value, m_output, to, m_mesh, context.progress);
-    else
-      writeCase(value, m_output, to, m_encoding);
+    to.writeCase(value, m_output, m_outputOptions, context.progress);
     report(value, context);
     return m_track.strict && !m_failures.empty() ? 1 : 0;
   }
@@ -67,10 +64,12 @@ private:
       if (!m_track.seeds.empty())
         progress.warn("--seeds is ignored: " + m_input + " is a case, already tracked");
       // rounding makes another case; another encoding does not
-      return m_encoding.pointBits != 0 ? readParentCase(m_input) : readCase(m_input);
+      return m_outputOptions.encoding.pointBits != 0 ? readParentCase(m_input)
+                                                     : from.readCase(m_input);
     }
-    const convert::Volume volume = readVolumeAs(m_input, from, m_volume, progress);
-    convert::TrackResult tracked = trackSeeds(volume, m_track, progress);
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
+    convert::TrackResult tracked =
+        trackSeeds(volume, m_seeds, m_track.seeds, m_track.options, progress);
     m_failures = std::move(tracked.failures);
     m_missedPoints = std::move(tracked.missedPoints);
     return std::move(tracked.result);
@@ -104,8 +103,8 @@ private:
   VolumeArguments m_volume;
   TrackArguments m_track;
   FitArguments m_fit;
-  MeshArguments m_mesh;
-  formats::EncodeOptions m_encoding;
+  OutputOptions m_outputOptions;
+  std::vector<convert::SeedBranch> m_seeds;
   std::vector<convert::SeedFailure> m_failures, m_missedPoints;
 };
 

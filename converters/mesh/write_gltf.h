@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes as the bytes of a file. Equal meshes give equal bytes.
+// Meshes as the bytes of a glTF file. Equal meshes give equal bytes.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/branch_mesh.h"
+#include "converters/mesh/write_options.h"
 
 namespace lumen::convert {
 
@@ -23,16 +24,5 @@ constexpr std::array<double, 16> kGltfFromLps = {0.001, 0,     0,      0,  //
 /// Error(Failed) if Draco refuses a mesh.
 std::string encodeGltf(const std::vector<BranchMesh>& meshes, bool binary,
                        const WriteMeshOptions& options);
-
-/// Wavefront OBJ: one object per branch that has triangles; white space and control characters in
-/// its label become "_", and a label that is then taken gets a number.
-std::string encodeObj(const std::vector<BranchMesh>& meshes);
-
-/// Binary STL: every branch in one solid.
-std::string encodeStl(const std::vector<BranchMesh>& meshes);
-
-/// Binary little-endian PLY: every branch in one mesh, with normals, and each face's branch by its
-/// number.
-std::string encodePly(const std::vector<BranchMesh>& meshes);
 
 }  // namespace lumen::convert

@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangle meshes of a case's wall.
+// The wall of a case as triangles.
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-
 #include "converters/common/progress.h"
+#include "converters/mesh/branch_mesh.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
-
-/// Vertices in mm, LPS; triangles counter-clockwise seen from outside the lumen; vertex normals
-/// outward.
-struct MeshTraits : OpenMesh::DefaultTraits {
-  VertexAttributes(OpenMesh::Attributes::Normal | OpenMesh::Attributes::Status);
-  FaceAttributes(OpenMesh::Attributes::Status);
-  EdgeAttributes(OpenMesh::Attributes::Status);
-  HalfedgeAttributes(OpenMesh::Attributes::None);
-};
-using TriMesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
-
-struct BranchMesh {
-  std::string label;
-  TriMesh mesh;
-};
 
 struct PolygoniseOptions {
   /// Edge of a marching-cubes cell, mm; 0: the case's voxel size. Nodes narrower than two cells get
@@ -48,17 +30,5 @@ struct PolygoniseOptions {
 /// that is too small for it, and Error(Cancelled).
 std::vector<BranchMesh> polygonise(const formats::Case& source, const PolygoniseOptions& options,
                                    Progress& progress);
-
-struct WriteMeshOptions {
-  bool draco = false;          ///< glTF only: KHR_draco_mesh_compression
-  int dracoPositionBits = 14;  ///< quantisation of a branch's bounding box, 1 .. 30
-  int dracoNormalBits = 10;    ///< quantisation of a normal, 2 .. 30
-};
-
-/// Writes by `format`: "glb", "gltf" (with embedded buffers), "obj", "stl" (binary), "ply"
-/// (binary), atomically. glTF is metres, +Y up, through the root node's matrix; the others stay in
-/// mm, LPS.
-void writeMesh(const std::vector<BranchMesh>& meshes, const std::filesystem::path& file,
-               const std::string& format, const WriteMeshOptions& options);
 
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/app/file_digest.h"
+#include "converters/common/sha256.h"
 
 #include <array>
 
@@ -7,14 +7,14 @@
 
 #include "converters/common/error.h"
 
-namespace lumen::app {
+namespace lumen {
 
 std::string sha256(std::span<const std::byte> bytes) {
   std::array<unsigned char, 32> digest{};
   unsigned size = 0;
   if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1 ||
       size != digest.size())
-    throw failed("the SHA-256 digest of a file cannot be computed");
+    throw failed("the cryptography library offers no SHA-256");
   constexpr const char* digits = "0123456789abcdef";
   std::string text;
   for (const unsigned char byte : digest) {
@@ -24,4 +24,4 @@ std::string sha256(std::span<const std::byte> bytes) {
   return text;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/volume/volume_header.h"
+#include "converters/volume/itk_guards.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,34 +14,15 @@
 #include <zlib.h>
 
 #include "converters/common/error.h"
+#include "converters/common/text.h"
+#include "converters/volume/volume_checks.h"
 
 namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Deflate expands at most 1032 times (zlib's technical notes).
-constexpr double kMaxExpansion = 1032;
 constexpr std::size_t kMaxHeader = 1 << 20;
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text.precision(12);
-  text << value;
-  return text.str();
-}
 
 struct TextHeader {
   std::map<std::string, std::string> field;  ///< keys in lower case
@@ -109,7 +90,7 @@ void checkDeflated(const fs::path& path, std::size_t offset, double needed,
   }
   if (state == Z_STREAM_END && got >= needed) return;
   throw invalidInput(path.string() + ": its compressed voxels are truncated or damaged: " +
-                     shown(got) + " of " + shown(needed) + " bytes come out");
+                     numberText(got) + " of " + numberText(needed) + " bytes come out");
 }
 
 /// Unchecked: deflated, from a place that is not known here.
@@ -157,21 +138,6 @@ double metaBytes(const std::string& type) {
       {"MET_FLOAT", 4}, {"MET_DOUBLE", 8}, {"MET_LONG_LONG", 8}, {"MET_ULONG_LONG", 8}};
   const auto found = size.find(type);
   return found == size.end() ? 0 : found->second;
-}
-
-void checkMeta(const fs::path& path, const Progress& progress) {
-  const TextHeader header = readMetaHeader(path);
-  for (const char* key : {"ElementSpacing", "ElementSize"}) {
-    int axis = 0;
-    for (const double value : numbers(header.get(lowerCase(key))))
-      checkStatedSpacing(path, key, ++axis, value);
-  }
-  const std::string file = header.get("elementdatafile");
-  const double needed = voxelCount(path, "sizes (DimSize)", header.get("dimsize")) *
-                        metaBytes(header.get("elementtype"));
-  checkData(path, lowerCase(file) == "local" ? "" : file, header.size, needed,
-            lowerCase(header.get("compresseddata")) == "true" ? Packing::Deflate : Packing::None,
-            progress);
 }
 
 /// "field: value" lines up to an empty one (Teem, definition of the NRRD file format).
@@ -227,7 +193,9 @@ std::vector<double> vectorLengths(std::string text) {
   return lengths;
 }
 
-void checkNrrd(const fs::path& path, const Progress& progress) {
+}  // namespace
+
+void checkNrrdHeader(const fs::path& path, const Progress& progress) {
   const TextHeader header = readNrrdHeader(path);
   int axis = 0;
   for (const double value : numbers(header.get("spacings"))) {
@@ -256,32 +224,19 @@ void checkNrrd(const fs::path& path, const Progress& progress) {
                       "\"; expected raw, gzip, hex or text");
 }
 
-}  // namespace
-
-VolumeFormat volumeFormat(const fs::path& path) {
-  const std::string name = lowerCase(path.filename().string());
-  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) return VolumeFormat::Nifti;
-  if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) return VolumeFormat::Nrrd;
-  if (name.ends_with(".mha") || name.ends_with(".mhd")) return VolumeFormat::Meta;
-  return VolumeFormat::Unknown;
-}
-
-void checkTextHeader(const fs::path& path, VolumeFormat format, const Progress& progress) {
-  if (format == VolumeFormat::Nrrd) checkNrrd(path, progress);
-  if (format == VolumeFormat::Meta) checkMeta(path, progress);
-}
-
-void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value) {
-  if (std::isfinite(value) && value > 0) return;
-  throw invalidInput(path.string() + ": " + field + " states a spacing of " + shown(value) +
-                     " along axis " + std::to_string(axis) + "; expected a positive number of mm");
-}
-
-void checkRoom(const fs::path& path, double needed, double available, bool compressed) {
-  if (needed <= available * (compressed ? kMaxExpansion : 1)) return;
-  throw invalidInput(path.string() + ": truncated: its header announces " + shown(needed) +
-                     " bytes of voxels, but " + shown(std::max(available, 0.0)) +
-                     " bytes of data are there");
+void checkMetaHeader(const fs::path& path, const Progress& progress) {
+  const TextHeader header = readMetaHeader(path);
+  for (const char* key : {"ElementSpacing", "ElementSize"}) {
+    int axis = 0;
+    for (const double value : numbers(header.get(lowerCase(key))))
+      checkStatedSpacing(path, key, ++axis, value);
+  }
+  const std::string file = header.get("elementdatafile");
+  const double needed = voxelCount(path, "sizes (DimSize)", header.get("dimsize")) *
+                        metaBytes(header.get("elementtype"));
+  checkData(path, lowerCase(file) == "local" ? "" : file, header.size, needed,
+            lowerCase(header.get("compresseddata")) == "true" ? Packing::Deflate : Packing::None,
+            progress);
 }
 
 }  // namespace lumen::convert

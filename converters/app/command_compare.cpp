@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen compare: a case against the truth.
-#include "converters/compare/compare.h"
-
 #include <cmath>
 
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
+#include "converters/compare/compare.h"
 
 namespace lumen::app {
 

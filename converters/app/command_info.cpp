@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen info: what is in a case or a volume.
-#include "converters/app/case_info.h"
+#include "converters/app/case_info_report.h"
 #include "converters/app/chunk_info.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
+#include "converters/app/stages.h"
 #include "converters/app/volume_info.h"
 
 namespace lumen::app {
@@ -37,11 +38,11 @@ public:
     }
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind == FormatKind::Volume) {
-      const convert::Volume volume = readVolumeAs(m_input, from, m_volume, context.progress);
+      const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
       const VolumeInfo info = describeVolume(volume, context.progress);
       context.common.json ? answerJson(volumeInfoJson(info)) : answer(volumeInfoText(info));
     } else {
-      const formats::Case value = readCase(m_input);
+      const formats::Case value = from.readCase(m_input);
       const CaseInfo info = describeCase(value, context.progress);
       context.common.json ? answerJson(caseInfoJson(info)) : answer(caseInfoText(info));
     }
