@@ -10,6 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Of the radius: the most that a centre moves. Vessels whose bends ask for more are bent too
+/// sharply for a circle to tell by how much.
+constexpr double kMostShift = 0.1;
+
 /// Towards the middle of the bend at node `n`, 1/mm; zero where the chain is too short to tell.
 Vector3d curvatureAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
   const Vector3d& centre = nodes[n].centre;
@@ -30,7 +34,7 @@ void correctBends(std::vector<TrackedNode>& nodes) {
   std::vector<Vector3d> shifts;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     Vector3d shift = -0.5 * nodes[n].meanSquareAlong * curvatureAt(nodes, n);
-    const double most = 0.1 * nodes[n].radius;
+    const double most = kMostShift * nodes[n].radius;
     if (shift.norm() > most) shift *= most / shift.norm();
     shifts.push_back(shift);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fitting a straight cylinder to a bent vessel does to its centerline.
+// What fitting a straight cylinder to a bent vessel does to its centerline (docs/method.md, section
+// 1.10).
 #pragma once
 
 #include <vector>

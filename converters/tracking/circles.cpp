@@ -6,6 +6,13 @@
 #include "converters/common/simd.h"
 
 namespace lumen::convert {
+namespace {
+
+/// mm^2, twice the parallelogram of the three points: below it they lie on a line, as near as
+/// single precision tells.
+constexpr float kOnALine = 1e-12F;
+
+}  // namespace
 
 void drawTriples(const std::vector<float>& u, const std::vector<float>& v, Random& random,
                  CircleBlock& block) {
@@ -34,8 +41,8 @@ LUMEN_SIMD_CLONES void circlesThrough(CircleBlock& block, float low, float high)
     const float r2 = cu * cu + cv * cv;
     const float u = block.u[t] + cu, v = block.v[t] + cv;
     // the rays start in the lumen, so a circle that does not hold their origin is another vessel's
-    const bool valid =
-        (std::abs(det) >= 1e-12F) & (r2 >= low * low) & (r2 <= high * high) & (u * u + v * v <= r2);
+    const bool valid = (std::abs(det) >= kOnALine) & (r2 >= low * low) & (r2 <= high * high) &
+                       (u * u + v * v <= r2);
     block.u[t] = u;
     block.v[t] = v;
     block.radius[t] = valid ? std::sqrt(r2) : 0.0F;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cylinder through wall candidates: RANSAC with a pruned direction search (thesis section 3.4).
+// A cylinder through wall candidates: RANSAC with a pruned direction search (thesis section 3.4;
+// docs/method.md, sections 1.3 and 1.4).
 #pragma once
 
-#include <optional>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,6 +14,9 @@
 
 namespace lumen::convert {
 
+/// Fewer candidates or inliers than this decide about no cylinder: it has five unknowns.
+constexpr std::size_t kFewestCandidates = 8;
+
 /// An infinite circular cylinder and the share of the candidates that lie in its band.
 struct Cylinder {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< a point on the axis, mm, LPS
@@ -22,44 +25,47 @@ struct Cylinder {
   double inlierRate = 0;                             ///< in [0, 1]
 };
 
-/// Estimates cylinders; keeps its buffers between calls. Not thread-safe: one per thread.
-class CylinderEstimator {
-public:
-  explicit CylinderEstimator(const TrackOptions& options);
+/// How cylinders are searched for. Only read: any number of threads may share one.
+struct CylinderSearch {
+  explicit CylinderSearch(const TrackOptions& options);
 
-  /// The best cylinder through `points` that holds their origin, with an axis within 90 degrees of
-  /// `direction` and a radius in [rho/2, 3 rho/2]: the first axis, by increasing angle, whose rate
-  /// reaches the accepting one; else the best of all, where `smooth` says that a rate at an angle a
-  /// from `direction` counts (1 + cos a)/2 of itself (its rate may be anything; 0 and no radius if
-  /// none is valid). Refined to least squares on its inliers.
-  Cylinder estimate(const Candidates& points, const Eigen::Vector3d& direction, double rho,
-                    bool smooth, Random& random);
-
-  /// Least squares of (distance to the axis - radius) over the inliers, over the axis' position,
-  /// direction and radius, inliers chosen anew between rounds; then the centre moves along the axis
-  /// to the median of the inliers. Returns the start if that has no more inliers.
-  Cylinder refine(const Candidates& points, const Cylinder& start);
-
-  /// Indices of the candidates whose distance to the axis is within the band around the radius.
-  void inliers(const Candidates& points, const Cylinder& cylinder,
-               std::vector<std::size_t>& out) const;
-
-private:
-  struct Circle {
-    float u = 0, v = 0, radius = 0;
-    int inliers = 0;
-  };
-  Circle bestCircle(double rho, double needed, Random& random);
-  void project(const Candidates& points, const Eigen::Vector3d& e1, const Eigen::Vector3d& e2);
-
-  TrackOptions m_options;
-  std::vector<Eigen::Vector3d> m_sphere;
-  std::vector<float> m_u, m_v;
-  std::vector<std::size_t> m_inliers;
-  std::vector<double> m_along;
+  double acceptedRate;  ///< p_inl
+  double band;          ///< r_t, relative to the radius
+  int minTrials, maxTrials;
+  std::vector<Eigen::Vector3d> sphere;  ///< an icosphere; half of it are the axes
 };
 
-/// Two unit vectors that span the plane normal to the unit vector `axis`.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> planeBasis(const Eigen::Vector3d& axis);
+/// What a cylinder is expected to be like.
+struct ExpectedCylinder {
+  Eigen::Vector3d direction;  ///< unit
+  double radius = 0;          ///< rho, mm
+  bool smooth = false;        ///< `direction` is that of a path: sharp turns are unlikely
+};
+
+/// Buffers of the search, of no meaning between calls. One per thread.
+struct CylinderWorkspace {
+  std::vector<float> u, v;  ///< candidates in the plane normal to an axis
+  std::vector<std::size_t> inliers;
+  std::vector<double> along;
+};
+
+/// The best cylinder through `points` that holds their origin, with an axis within 90 degrees of
+/// the expected direction and a radius in [rho/2, 3 rho/2]: the first axis, by increasing angle,
+/// whose rate reaches the accepted one; else the best of all, where `smooth` says that a rate at an
+/// angle a from the direction counts (1 + cos a)/2 of itself (its rate may be anything; 0 and no
+/// radius if none is valid). Refined to least squares on its inliers.
+Cylinder estimateCylinder(const CylinderSearch& search, const Candidates& points,
+                          const ExpectedCylinder& expected, Random& random,
+                          CylinderWorkspace& workspace);
+
+/// Least squares of (distance to the axis - radius) over the inliers, over the axis' position,
+/// direction and radius, inliers chosen anew between rounds; then the centre moves along the axis
+/// to the median of the inliers. Returns the start if that has no more inliers.
+Cylinder refineCylinder(const Candidates& points, const Cylinder& start, double band,
+                        CylinderWorkspace& workspace);
+
+/// Indices of the candidates whose distance to the axis is within `band` radii of the radius.
+void findInliers(const Candidates& points, const Cylinder& cylinder, double band,
+                 std::vector<std::size_t>& out);
 
 }  // namespace lumen::convert

@@ -8,24 +8,44 @@
 #include <utility>
 #include <vector>
 
-#include "converters/tracking/branch_tracker.h"
+#include "converters/common/statistics.h"
+#include "converters/common/vectors.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
 
+/// Nodes that are measured: the most, for the time it takes, and the least that a median is worth
+/// something of.
 constexpr std::size_t kMostNodes = 256, kLeastNodes = 8;
-constexpr double kWide = 3.0, kWideEnough = 1.0;  // voxels: radii whose walls are measured
-constexpr double kReach = 4.0, kSpacing = 0.1;  // voxels: of a profile, to either side of the wall
+/// Voxels: radii whose walls are measured, the second if the first are too few. Wider walls are
+/// flatter, and less of the far wall shows in their profiles.
+constexpr double kWide = 3.0, kWideEnough = 1.0;
+/// Wall points of a node that is measured: with fewer, noise makes up its profile.
+constexpr std::size_t kFewestPoints = 32;
+/// Voxels: a profile's reach to either side of the wall, and the spacing of its samples.
+constexpr double kReach = 4.0, kSpacing = 0.1;
 constexpr int kSamples = 2 * static_cast<int>(kReach / kSpacing) + 1;
+/// Of a profile's samples: the steepest fall is looked for up to so far from the wall.
+constexpr std::size_t kPartNearWall = 8;                   // one in so many
 constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // of the Gaussian exp(-x^2/2)
+
+/// The last partial denominator of the continued fraction: it has converged to all digits for the
+/// arguments that occur, w < (q + 1)^2 with q <= kNearlyFlat.
+constexpr int kLastDenominator = 120;
+/// (seen/sigma)^2 beyond which two terms of the expansion for flat walls are exact to 1e-5.
+constexpr double kNearlyFlat = 50;
+/// Halvings of the interval that holds the radius: to the last bit.
+constexpr int kBisections = 50;
+/// Of the radius that was seen: the least that a ball is corrected to, as for the cylinder.
+constexpr double kLeastShare = 0.5;
 
 /// z I0(z)/I1(z) - 2 as a function of w = z^2, by the continued fraction of Bessel functions'
 /// ratios (Abramowitz and Stegun, 9.1.73, for imaginary arguments).
 double besselTerm(double w) {
   double tail = 0;
-  for (int k = 2 * 60; k >= 4; k -= 2) tail = w / (k + tail);
+  for (int k = kLastDenominator; k >= 4; k -= 2) tail = w / (k + tail);
   return tail;
 }
 
@@ -38,7 +58,7 @@ std::vector<double> meanProfile(const BsplineVolume& volume, const TrackedNode& 
   std::vector<double> sum(kSamples, 0.0);
   std::vector<float> values(kSamples);
   for (const formats::Vec3f& p : node.points) {
-    const Vector3d offset = Vector3d(p.x, p.y, p.z) - node.centre;
+    const Vector3d offset = toEigen(p) - node.centre;
     const double along = offset.dot(node.direction);
     const Vector3d outward = (offset - along * node.direction).normalized();
     const Vector3d start =
@@ -59,9 +79,9 @@ double widthOfFall(const std::vector<double>& profile, double sign) {
   std::vector<double> fall(n, 0.0);
   for (std::size_t i = 1; i + 1 < n; ++i) fall[i] = sign * (profile[i - 1] - profile[i + 1]);
   const auto middle = fall.begin() + static_cast<std::ptrdiff_t>(n / 2);
-  const auto quarter = static_cast<std::ptrdiff_t>(n / 8);
-  const auto peak = static_cast<std::size_t>(
-      std::max_element(middle - quarter, middle + quarter + 1) - fall.begin());
+  const auto near = static_cast<std::ptrdiff_t>(n / kPartNearWall);
+  const auto peak =
+      static_cast<std::size_t>(std::max_element(middle - near, middle + near + 1) - fall.begin());
   const double half = 0.5 * fall[peak];
   if (!(half > 0)) return 0;
   std::size_t right = peak, left = peak;
@@ -98,13 +118,15 @@ double spreadOf(double seen, double width) {
 }
 
 /// Nodes whose walls are measured: the wide ones, or the widest ones that there are, spread evenly.
-std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch> vessels, double voxel) {
+std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch* const> vessels,
+                                            double voxel) {
   std::vector<const TrackedNode*> wide;
   for (const double voxels : {kWide, kWideEnough}) {
     wide.clear();
-    for (const TrackedBranch& branch : vessels)
-      for (const TrackedNode& node : branch.nodes)
-        if (node.radius >= voxels * voxel && node.points.size() >= 32) wide.push_back(&node);
+    for (const TrackedBranch* branch : vessels)
+      for (const TrackedNode& node : branch->nodes)
+        if (node.radius >= voxels * voxel && node.points.size() >= kFewestPoints)
+          wide.push_back(&node);
     if (wide.size() >= kLeastNodes) break;
   }
   if (wide.size() <= kMostNodes) return wide;
@@ -118,9 +140,9 @@ std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch> vesse
 double cylinderRadius(double seen, double sigma) {
   if (!(sigma > 0)) return seen;
   const double q = seen * seen / (sigma * sigma);
-  if (q > 50) return seen * (1.0 + (0.5 - 0.375 / q) / q);
+  if (q > kNearlyFlat) return seen * (1.0 + (0.5 - 0.375 / q) / q);
   double low = 0.25 * q * q, high = (q + 1) * (q + 1);
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (low + high);
     (besselTerm(middle) < q - 1 ? low : high) = middle;
   }
@@ -129,11 +151,11 @@ double cylinderRadius(double seen, double sigma) {
 
 double ballRadius(double seen, double sigma) {
   // both principal curvatures displace the wall by s^2/(2R)
-  return std::max(2.0 * cylinderRadius(seen, sigma) - seen, 0.5 * seen);
+  return std::max(2.0 * cylinderRadius(seen, sigma) - seen, kLeastShare * seen);
 }
 
 std::optional<double> measurePointSpread(const BsplineVolume& volume,
-                                         std::span<const TrackedBranch> vessels, bool dark) {
+                                         std::span<const TrackedBranch* const> vessels, bool dark) {
   const double voxel = volume.geometry().voxelSize();
   std::vector<double> spreads;
   for (const TrackedNode* node : widestNodes(vessels, voxel)) {
@@ -152,7 +174,7 @@ void correctWalls(TrackedBranch& branch, formats::BranchKind kind, double sigma)
     const double radius =
         vessel ? cylinderRadius(node.radius, sigma) : ballRadius(node.radius, sigma);
     for (formats::Vec3f& p : node.points) {
-      Vector3d outward = Vector3d(p.x, p.y, p.z) - node.centre;
+      Vector3d outward = toEigen(p) - node.centre;
       if (vessel) outward -= outward.dot(node.direction) * node.direction;
       const Eigen::Vector3f shift = ((radius - node.radius) * outward.normalized()).cast<float>();
       p.x += shift.x();

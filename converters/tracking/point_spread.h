@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a volume's blur displaces the walls that its gradient shows, and how wide that blur is.
+// How a volume's blur displaces the walls that its gradient shows, and how wide that blur is
+// (docs/method.md, section 1.9).
 #pragma once
 
 #include <optional>
@@ -25,7 +26,7 @@ double ballRadius(double seen, double sigma);
 /// each of the widest nodes, the median over them. It holds the voxel's own box and the spline as
 /// well as the scanner. Empty where fewer than eight nodes are wide enough to show it.
 std::optional<double> measurePointSpread(const BsplineVolume& volume,
-                                         std::span<const TrackedBranch> vessels, bool dark);
+                                         std::span<const TrackedBranch* const> vessels, bool dark);
 
 /// Moves radii and wall points outward by what a blur of `sigma` mm has displaced them: away from
 /// the node's axis in a vessel, from its centre in an aneurysm.

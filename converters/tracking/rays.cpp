@@ -9,6 +9,10 @@
 namespace lumen::convert {
 namespace {
 
+/// Walls count beyond a twelfth of a ray, as nearer ones are variations within the lumen, and up to
+/// 0.8 of it, as farther ones are most likely another vessel's.
+constexpr double kLengthOverNearest = 12.0, kFarthestShare = 0.8;
+
 struct Wall {
   double sample = 0;    // position along the ray, in samples
   float strength = -1;  // difference of the two samples around, positive where intensity falls
@@ -35,7 +39,8 @@ Wall steepestFall(std::span<const float> values, float sign) {
   const double after = sign * (values[best] - values[best + 2]);
   const double bend = before - 2.0 * strongest + after;
   const double shift = bend < 0 ? 0.5 * (before - after) / bend : 0.0;
-  return {static_cast<double>(best) + std::clamp(shift, -1.0, 1.0), strongest};
+  constexpr double kMostShift = 1.0;  // samples: the maximum is between the best one's neighbours
+  return {static_cast<double>(best) + std::clamp(shift, -kMostShift, kMostShift), strongest};
 }
 
 }  // namespace
@@ -68,7 +73,8 @@ void RayCaster::cast(const Eigen::Vector3d& centre, double length, Candidates& o
     m_volume.sampleLine(start, m_indexDirections[i] * step, m_values);
     const Wall wall = steepestFall(m_values, m_sign);
     const double t = wall.sample * step;
-    if (wall.strength <= 0 || t < length / 12.0 || t > 0.8 * length) continue;
+    if (wall.strength <= 0 || t < length / kLengthOverNearest || t > kFarthestShare * length)
+      continue;
     const Eigen::Vector3f offset = (t * m_directions[i]).cast<float>();
     out.x.push_back(offset.x());
     out.y.push_back(offset.y());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidate wall points around a centre (thesis section 3.3).
+// Candidate wall points around a centre (thesis section 3.3; docs/method.md, section 1.2).
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,10 @@
 #include "converters/volume/bspline.h"
 
 namespace lumen::convert {
+
+/// Length of the rays that look for the wall of a vessel, in radii expected of it (thesis section
+/// 3.3): those that reach a wall twice as far as expected still see it whole.
+constexpr double kRayRadii = 3.0;
 
 /// Wall candidates as a structure of arrays, in mm relative to `origin` (LPS mm).
 struct Candidates {

@@ -9,34 +9,48 @@
 #include <vector>
 
 #include "converters/common/random.h"
+#include "converters/common/statistics.h"
 #include "converters/tracking/icosphere.h"
 
 namespace lumen::convert {
 namespace {
 
+/// Rays from each place or click: enough for a median, and far fewer than tracking casts.
+constexpr int kRays = 42;
+
+/// Places that the noise floor is taken from.
 constexpr int kPlaces = 64;
-constexpr double kRadiusVoxels = 2.0;  // thin vessels are those that noise is mistaken for
+/// Voxels: the radius that noise is measured at. Thin vessels are those that it is mistaken for.
+constexpr double kRadiusVoxels = 2.0;
+/// Of the places: vessels and organs lie in the upper three quarters.
+constexpr double kEmptyShare = 0.25;
+/// Stream of the random numbers; those of the branches count up from 0.
 constexpr std::uint64_t kStream = ~std::uint64_t{0};
 
-constexpr int kReach = 16;                                           // voxels
-constexpr std::array kSmoothing = {0.5, 0.6, 0.7, 0.85, 1.0, 1.25};  // voxels
-constexpr double kStrongEnough = 6.0;
-constexpr double kUsualSpread = 2.0 / 3.0;  // voxels: a scanner's blur and the voxel's own box
+/// Voxels: the rays that see what is around a click.
+constexpr int kReach = 16;
+/// Of a ray's samples: what is around a vessel, even if the ray runs along it for a while.
+constexpr double kAroundShare = 0.25;
 
-/// The element that the share `rank` of all is below; of a non-empty list, which it reorders.
-template <typename T>
-double quantile(std::vector<T>& values, double rank) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(rank * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return static_cast<double>(*at);
-}
+/// Voxels: the smoothing that is tried, least first.
+constexpr std::array kSmoothing = {0.5, 0.6, 0.7, 0.85, 1.0, 1.25};
+/// The ratio of a wall's strength to that of noise at which nothing more is smoothed. Tracks leave
+/// their vessels below it.
+constexpr double kStrongEnough = 6.0;
+/// Voxels: standard deviation of a scanner's blur and the voxel's own box.
+constexpr double kUsualSpread = 2.0 / 3.0;
+
+/// Voxel edges: the blur that sampling leaves (D. Lowe, "Distinctive image features from
+/// scale-invariant keypoints", 2004, section 3.3).
+constexpr double kSampling = 0.5;
+/// Ratio of edges up to which a difference in blur costs less than more blur does.
+constexpr double kBearable = 1.5;
 
 }  // namespace
 
 double noiseFloor(const BsplineVolume& volume, const TrackOptions& options) {
   const VolumeGeometry& geometry = volume.geometry();
-  RayCaster rays(volume, icosphere(icosphereOrder(42)), options.samples, options.dark);
+  RayCaster rays(volume, icosphere(icosphereOrder(kRays)), options.samples, options.dark);
   Random random(options.seed, kStream);
   Candidates points;
   std::vector<double> strengths;
@@ -45,10 +59,11 @@ double noiseFloor(const BsplineVolume& volume, const TrackOptions& options) {
     for (int a = 0; a < 3; ++a)
       index[a] =
           random.uniform() * static_cast<double>(geometry.size[static_cast<std::size_t>(a)] - 1);
-    rays.cast(geometry.worldFromIndex(index), 3.0 * kRadiusVoxels * geometry.voxelSize(), points);
-    strengths.push_back(points.count() == 0 ? 0.0 : quantile(points.strength, 0.5));
+    rays.cast(geometry.worldFromIndex(index), kRayRadii * kRadiusVoxels * geometry.voxelSize(),
+              points);
+    strengths.push_back(points.count() == 0 ? 0.0 : double{lowerQuantile(points.strength, 0.5)});
   }
-  return quantile(strengths, 0.25);
+  return lowerQuantile(strengths, kEmptyShare);
 }
 
 double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
@@ -60,26 +75,22 @@ double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranc
     const Eigen::Vector3d click = geometry.indexFromWorld(seed.points[0].position);
     if (!geometry.containsIndex(click)) continue;
     around.clear();
-    for (const Eigen::Vector3d& ray : icosphere(icosphereOrder(42))) {
+    for (const Eigen::Vector3d& ray : icosphere(icosphereOrder(kRays))) {
       const Eigen::Vector3d step = (geometry.direction.transpose() * ray * geometry.voxelSize())
                                        .cwiseQuotient(geometry.spacing);
       volume.sampleLine(click, step, values);
       inside.clear();
       for (const float value : values)
         if (!std::isnan(value)) inside.push_back(sign * value);
-      around.push_back(static_cast<float>(quantile(inside, 0.25)));
+      around.push_back(lowerQuantile(inside, kAroundShare));
     }
-    contrasts.push_back(sign * volume.sample(click) - static_cast<float>(quantile(around, 0.5)));
+    contrasts.push_back(sign * volume.sample(click) - lowerQuantile(around, 0.5));
   }
-  return contrasts.empty() ? 0.0 : std::max(0.0, quantile(contrasts, 0.5));
+  return contrasts.empty() ? 0.0 : std::max(0.0, double{lowerQuantile(contrasts, 0.5)});
 }
 
 Eigen::Vector3d smoothingAlongAxes(const VolumeGeometry& geometry, double smoothing,
                                    bool evenBlur) {
-  // the blur that sampling leaves, in edges (D. Lowe, "Distinctive image features from
-  // scale-invariant keypoints", 2004, section 3.3)
-  constexpr double kSampling = 0.5;
-  constexpr double kBearable = 1.5;  // edges: less of a difference costs less than more blur does
   const double coarsest = geometry.spacing.maxCoeff();
   Eigen::Vector3d out;
   for (Eigen::Index a = 0; a < 3; ++a) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What noise alone looks like to the tracker, and how much smoothing a volume needs because of it.
+// How strong noise alone looks to the tracker; how much smoothing a volume needs because of it, and
+// because of thick slices; and the spline of the volume smoothed so (docs/method.md, section 1.8).
 #pragma once
 
 #include <memory>
@@ -35,9 +36,10 @@ struct SmoothedVolume {
   double noiseFloor = 0;  ///< of `spline`
 };
 
-/// The volume smoothed as `options` say, or else as little as it takes, of steps up to 1.25 voxels,
-/// for the wall of a vessel of the clicks' contrast to be six times as strong as noise; not at all
-/// if that takes more, since the clicks are then on nothing that can be told from noise.
+/// The spline that a volume is tracked in, and its noise floor: smoothed as `options` say, or else
+/// as little as it takes, of steps up to 1.25 voxels, for the wall of a vessel of the clicks'
+/// contrast to be six times as strong as noise; not at all if that takes more, since the clicks are
+/// then on nothing that can be told from noise. The seeds are needed for their contrast only.
 SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch>& seeds,
                               const TrackOptions& options);
 

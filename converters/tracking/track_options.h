@@ -23,10 +23,9 @@ struct TrackOptions {
   double step = 0.5;         ///< s: prediction step, in cylinder heights
   double noiseMargin = 1.8;  ///< a node below p_inl needs a wall this many times as strong as noise
   int lookAhead = 4;         ///< steps to look beyond a place where nothing fits; 0: stop there
-  double branchOffset =
-      1.25;  ///< a child starts this many parent radii from its parent's centerline
-  double aneurysmGradient =
-      0.3;  ///< aneurysm points need this share of the strongest gradient seen from their centre
+  double branchOffset = 1.25;  ///< a child starts so many parent radii from its parent's axis
+  /// aneurysm points need this share of the strongest gradient seen from their centre
+  double aneurysmGradient = 0.3;
   /// standard deviation of the blur, mm, by which walls are corrected; 0: not at all; empty:
   /// measured
   std::optional<double> pointSpread;
@@ -40,6 +39,9 @@ struct TrackOptions {
   bool dark = false;       ///< vessels are darker than their background
   std::uint64_t seed = 1;  ///< of the random numbers
 
+  /// Throws Error(InvalidInput) if a value is out of range for a volume whose voxels' smallest edge
+  /// is so long (mm).
+  void check(double smallestEdge) const;
   /// Every value above that is set, by its option's name, as a case stores it.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
 };

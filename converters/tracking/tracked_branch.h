@@ -26,15 +26,17 @@ struct TrackedBranch {
   std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
   std::size_t clickNode = 0;       ///< the one that was fitted at the seed's first point
   formats::StopReason stopReason = formats::StopReason::Unknown;
-  std::string failure;  ///< why nothing was tracked
-  std::vector<std::string>
-      missedPoints;  ///< one sentence for each further click that was not reached
-  int parentBranch = -1,
-      parentNode = -1;  ///< position in the seeds' order, node within that branch
+  std::string failure;                    ///< why nothing was tracked
+  std::vector<std::string> missedPoints;  ///< a sentence for each further click not reached
+  int parentBranch = -1;                  ///< position in the seeds' order
+  int parentNode = -1;                    ///< within that branch
 };
 
 /// The same, looking the other way.
 TrackedNode reversed(TrackedNode node);
+
+/// The same nodes from the last to the first, each looking the other way.
+void reverseTrack(std::vector<TrackedNode>& nodes);
 
 /// The closest place on a chain of nodes.
 struct ChainPoint {
@@ -43,7 +45,7 @@ struct ChainPoint {
   double distance = 0;   ///< mm
   std::size_t node = 0;  ///< the nearer end of the closest segment
 };
-ChainPoint closestOnChain(const std::vector<TrackedNode>& chain, const Eigen::Vector3d& point);
+ChainPoint closestOnChain(std::span<const TrackedNode> chain, const Eigen::Vector3d& point);
 
 /// True if `point` lies within half a radius of the axis of one of `branches`: in that lumen's
 /// core.

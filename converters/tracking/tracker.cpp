@@ -8,9 +8,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include "converters/common/vectors.h"
+#include "converters/tracking/aneurysm.h"
 #include "converters/tracking/bends.h"
 #include "converters/tracking/branch_tracker.h"
-#include "converters/tracking/icosphere.h"
 #include "converters/tracking/point_spread.h"
 #include "converters/tracking/smoothing.h"
 #include "converters/volume/write_volume.h"
@@ -21,29 +22,8 @@ namespace {
 using formats::BranchKind;
 using formats::StopReason;
 
-void require(bool holds, const char* rule) {
-  if (!holds) throw invalidInput(std::string("tracking options: ") + rule);
-}
-
-void checkOptions(const TrackOptions& o) {
-  require(o.inlierRate > 0 && o.inlierRate <= 1, "inlier-rate must be in (0, 1]");
-  require(o.inlierBand > 0 && o.inlierBand < 1, "inlier-band must be in (0, 1)");
-  require(icosphereOrder(o.rays) > 0, "rays must be 12, 42, 162 or 642");
-  require(icosphereOrder(2 * o.axes) > 0, "axes must be 6, 21, 81 or 321");
-  require(o.samples >= 8 && o.samples <= 4096, "samples must be in 8 .. 4096");
-  require(o.minTrials >= 1 && o.maxTrials >= o.minTrials,
-          "min-trials must be at least 1 and max-trials at least min-trials");
-  require(o.step > 0 && o.step <= 2, "step must be in (0, 2]");
-  require(o.lookAhead >= 0 && o.lookAhead <= 100, "look-ahead must be in 0 .. 100");
-  require(o.noiseMargin >= 0 && o.noiseMargin <= 100, "noise-margin must be in 0 .. 100");
-  require(o.branchOffset > 0 && o.branchOffset <= 10, "branch-offset must be in (0, 10]");
-  require(o.aneurysmGradient >= 0 && o.aneurysmGradient <= 1,
-          "aneurysm-gradient must be in [0, 1]");
-  require(!o.pointSpread || (*o.pointSpread >= 0 && *o.pointSpread <= 1000),
-          "point-spread must be in 0 .. 1000");
-  require(!o.smoothing || *o.smoothing >= 0, "smoothing must not be negative");
-  require(o.maxNodes >= 2, "max-nodes must be at least 2");
-}
+/// The variance of a box is the square of its edge over this.
+constexpr double kEdgesToVariance = 12.0;
 
 /// For every seed, its parent's position in the list (-1: none) and its depth below a root.
 struct Ancestry {
@@ -85,9 +65,9 @@ void trimDuplicates(std::vector<TrackedBranch>& branches, const std::vector<std:
 
 /// One wave: all branches whose parents are done. Branches of a wave do not see one another while
 /// they are tracked, so the outcome does not depend on the order in which threads take them.
-void trackWave(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
-               const Ancestry& ancestry, const TrackOptions& options, double floor, int depth,
-               std::vector<TrackedBranch>& branches, Progress& progress) {
+void trackWave(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+               const Ancestry& ancestry, int depth, std::vector<TrackedBranch>& branches,
+               Progress& progress) {
   std::vector<std::size_t> wave;
   std::vector<const TrackedBranch*> finished;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
@@ -101,21 +81,17 @@ void trackWave(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds
     const TrackedBranch* parent = p < 0 ? nullptr : &branches[static_cast<std::size_t>(p)];
     if (parent && parent->nodes.empty()) {
       branches[i].failure = "its parent \"" + *seeds[i].parent + "\" was not tracked";
+    } else if (seeds[i].kind == BranchKind::Aneurysm) {
+      branches[i] = captureAneurysm(context, seeds[i], parent);
     } else {
-      BranchTracker tracker(volume, options, floor, progress);
-      branches[i] = seeds[i].kind == BranchKind::Aneurysm
-                        ? tracker.capture(seeds[i], parent)
-                        : tracker.track(seeds[i], parent, finished, Random(options.seed, i));
+      branches[i] =
+          trackBranch(context, seeds[i], parent, finished, Random(context.options.seed, i));
     }
     branches[i].parentBranch = p;
     progress.advance();
   });
   std::erase_if(wave, [&](std::size_t i) { return seeds[i].kind != BranchKind::Vessel; });
   trimDuplicates(branches, wave);
-}
-
-formats::Vec3f toVec3f(const Eigen::Vector3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 /// Appends one tracked branch to the case. `firstNode`: of each branch by position in the seeds.
@@ -154,62 +130,35 @@ void appendBranch(const SeedBranch& seed, const TrackedBranch& branch,
 }
 
 /// The blur by which walls are corrected, mm: as given, as measured, or at least that of the
-/// voxel's own box and of the smoothing, which `options` hold.
-double pointSpreadOf(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
+/// voxel's own box and of the smoothing.
+double pointSpreadOf(const SmoothedVolume& volume, const std::vector<SeedBranch>& seeds,
                      const std::vector<TrackedBranch>& branches, const TrackOptions& options) {
   if (options.pointSpread) return *options.pointSpread;
-  std::vector<TrackedBranch> vessels;
+  std::vector<const TrackedBranch*> vessels;
   for (std::size_t i = 0; i < seeds.size(); ++i)
-    if (seeds[i].kind == BranchKind::Vessel) vessels.push_back(branches[i]);
-  const VolumeGeometry& geometry = volume.geometry();
+    if (seeds[i].kind == BranchKind::Vessel) vessels.push_back(&branches[i]);
+  const VolumeGeometry& geometry = volume.spline->geometry();
   const double edge = options.evenBlur ? geometry.spacing.maxCoeff() : geometry.voxelSize();
-  return measurePointSpread(volume, vessels, options.dark)
-      .value_or(std::sqrt(*options.smoothing * *options.smoothing + edge * edge / 12.0));
+  return measurePointSpread(*volume.spline, vessels, options.dark)
+      .value_or(std::sqrt(volume.smoothing * volume.smoothing + edge * edge / kEdgesToVariance));
 }
 
 }  // namespace
 
-std::map<std::string, formats::ParameterValue> TrackOptions::parameters() const {
-  const auto integer = [](int value) { return static_cast<std::int64_t>(value); };
-  std::map<std::string, formats::ParameterValue> values{
-      {"inlier-rate", inlierRate},
-      {"inlier-band", inlierBand},
-      {"rays", integer(rays)},
-      {"axes", integer(axes)},
-      {"samples", integer(samples)},
-      {"min-trials", integer(minTrials)},
-      {"max-trials", integer(maxTrials)},
-      {"step", step},
-      {"noise-margin", noiseMargin},
-      {"look-ahead", integer(lookAhead)},
-      {"branch-offset", branchOffset},
-      {"aneurysm-gradient", aneurysmGradient},
-      {"max-nodes", integer(maxNodes)},
-      {"dark", dark},
-      {"even-blur", evenBlur},
-      {"random-seed", static_cast<std::int64_t>(seed)}};
-  if (smoothing) values["smoothing"] = *smoothing;
-  if (pointSpread) values["point-spread"] = *pointSpread;
-  return values;
-}
-
 TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
                   const TrackOptions& options, Progress& progress) {
-  checkOptions(options);
-  require(options.smoothing.value_or(0.0) <=
-              BsplineVolume::kMostSmoothing * volume.geometry.spacing.minCoeff(),
-          "smoothing must be at most twice the smallest edge of a voxel");
+  options.check(volume.geometry.spacing.minCoeff());
   const SmoothedVolume smoothed = smoothForNoise(volume, seeds, options);
-  const BsplineVolume& spline = *smoothed.spline;
+  const TrackContext context(*smoothed.spline, options, smoothed.noiseFloor, progress);
   const Ancestry ancestry = findAncestry(seeds);
   std::vector<TrackedBranch> branches(seeds.size());
   progress.begin("track", seeds.size());
   for (int depth = 0; depth <= ancestry.deepest; ++depth)
-    trackWave(spline, seeds, ancestry, options, smoothed.noiseFloor, depth, branches, progress);
+    trackWave(context, seeds, ancestry, depth, branches, progress);
   progress.end();
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;
-  used.pointSpread = pointSpreadOf(spline, seeds, branches, used);
+  used.pointSpread = pointSpreadOf(smoothed, seeds, branches, options);
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     correctWalls(branches[i], seeds[i].kind, *used.pointSpread);
     if (seeds[i].kind == BranchKind::Vessel) correctBends(branches[i].nodes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RANSAC-based tracking of vessels (thesis chapter 3; design notes section 1).
+// RANSAC-based tracking of vessels (thesis chapter 3; docs/method.md, section 1).
 #pragma once
 
 #include <string>

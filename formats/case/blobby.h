@@ -2,26 +2,28 @@
 // Kernels and the implicit function that they sum to: the scalar double-precision reference.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "formats/case/case.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::formats {
 
-/// phi and its first three derivatives with respect to x = r^2 (r in units of the width), x >= 0.
-/// All functions of this header give the same bits on every machine with IEEE 754 doubles.
-struct KernelValue {
-  double phi, d1, d2, d3;
-};
+// All functions of this header give the same bits on every machine with IEEE 754 doubles.
 
-/// Kernels of thesis table 4.1. At the edge of a compact kernel (x = 1) the outer value, zero, is
-/// given.
+using field::repeatableExp;
+using field::repeatableLog;
+
+/// phi and its first three derivatives with respect to x = r^2 (r in units of the width), x >= 0.
+using KernelValue = field::KernelChain<double>;
+
+/// At the edge of a compact kernel (x = 1) the outer value, zero, is given.
 KernelValue evaluateKernel(Kernel kernel, double parameter, double x);
 
-/// The kernel's default parameter: Cauchy s^2 = 1/5, Gaussian a^2 = 1/2 (inflection at r = 1 in
-/// both); 0 for the kernels without one.
-double defaultKernelParameter(Kernel kernel);
+/// The kernel's usual parameter; 0 for the kernels without one.
+inline double defaultKernelParameter(Kernel kernel) {
+  return field::usualParameter(kernel);
+}
 
 /// The r >= 0, mm, at which width * phi(r^2 / width^2) = level; 0 if the blob never exceeds the
 /// level. level > 0. The level at the result is right to a relative 1e-11.
@@ -31,11 +33,6 @@ double isoRadius(Kernel kernel, double parameter, double width, double level);
 /// has radius r. For radius >= 0, level > 0 and count > 0 there is exactly one, because the left
 /// side grows with w from zero without bound; it is found to a relative 1e-12. Otherwise NaN.
 double widthForRadius(Kernel kernel, double parameter, double radius, double level, int count = 1);
-
-/// exp and log with the same bits on every machine, which the C library does not promise; their
-/// error is about one unit in the last place. repeatableLog() needs x > 0.
-double repeatableExp(double x);
-double repeatableLog(double x);
 
 struct Vec3d {
   double x = 0, y = 0, z = 0;

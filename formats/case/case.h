@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "formats/field/kernel.h"
+
 namespace lumen::formats {
 
 /// A position (mm) or a unit direction in LPS patient coordinates: +x left, +y posterior, +z
@@ -74,7 +76,7 @@ struct PointSets {
   friend bool operator==(const PointSets&, const PointSets&) = default;
 };
 
-enum class Kernel : std::uint8_t { Cauchy = 0, Gaussian = 1, Quartic = 2, SoftObject = 3 };
+using field::Kernel;
 
 /// One implicit surface f(X) = T per node, f(X) = sum_j width_j * phi(|X - centre_j|^2 /
 /// width_j^2), inside where f > T. Node i owns the blobs offset[i] .. offset[i + 1] - 1.

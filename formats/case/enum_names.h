@@ -16,8 +16,7 @@ inline constexpr std::array<std::string_view, 2> kBranchKindNames = {"vessel", "
 inline constexpr std::array<std::string_view, 7> kStopReasonNames = {
     "unknown",    "no-valid-cylinder", "turned-back", "left-volume",
     "met-branch", "end-of-seeds",      "step-limit"};
-inline constexpr std::array<std::string_view, 4> kKernelNames = {"cauchy", "gaussian", "quartic",
-                                                                 "soft-object"};
+using field::kKernelNames;
 /// In the order of the variant in NodeArray.
 inline constexpr std::array<std::string_view, 3> kArrayTypeNames = {"f32", "i32", "u32"};
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "formats/container/bytes.h"
+#include "formats/field/kernel.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
 
@@ -126,11 +127,12 @@ void checkPositive(double value, const std::string& pointer, ErrorCode code, Iss
 }
 
 void checkKernel(const ModelView& model, IssueList& issues) {
-  if (model.kernel >= kKernelCount)
+  if (model.kernel >= field::kKernelCount)
     return issues.add(foundIssue(ErrorCode::EnumValue, "/models/kernel",
-                                 std::to_string(model.kernel), "a kernel from 0 to 3"));
+                                 std::to_string(model.kernel),
+                                 "a kernel from 0 to " + std::to_string(field::kKernelCount - 1)));
   const std::string parameter = "/models/kernelParameter";
-  if (model.kernel < kFirstKernelWithoutParameter)
+  if (field::hasParameter(static_cast<field::Kernel>(model.kernel)))
     checkPositive(model.kernelParameter, parameter, ErrorCode::KernelParameter, issues);
   else if (!std::isfinite(model.kernelParameter))
     issues.add(notFinite(model.kernelParameter, parameter));

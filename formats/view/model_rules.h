@@ -15,8 +15,6 @@ namespace lumen::formats {
 
 inline constexpr std::uint8_t kBranchKindCount = 2;
 inline constexpr std::uint8_t kStopReasonCount = 7;
-inline constexpr std::uint8_t kKernelCount = 4;
-inline constexpr std::uint8_t kFirstKernelWithoutParameter = 2;  ///< this and the ones after it
 
 /// Sizes, ranges, references, finiteness and labels: everything but the metadata, the node arrays
 /// and the kernel records. A check that needs the result of a failed one is left out.

@@ -42,14 +42,19 @@ double distanceToAxis(const Truth& truth, const Eigen::Vector3d& point) {
   return (point - truth.centre).cross(truth.axis).norm();
 }
 
+/// What the search finds with default options.
+Cylinder search(const Candidates& points, const ExpectedCylinder& expected, Random& random) {
+  CylinderWorkspace workspace;
+  return estimateCylinder(CylinderSearch(TrackOptions{}), points, expected, random, workspace);
+}
+
 const Truth kTruth{{10, 20, 30}, Eigen::Vector3d(1, 2, 3).normalized(), 2.0};
 
 TEST(Cylinder, IsFoundExactlyFromCleanPoints) {
   const Candidates points = pointsOn(kTruth, {10.3, 20.2, 30}, 120, 0);
-  CylinderEstimator estimator{TrackOptions{}};
   Random random(1);
   const Cylinder found =
-      estimator.estimate(points, Eigen::Vector3d(1, 2, 2.5).normalized(), 2.4, false, random);
+      search(points, {Eigen::Vector3d(1, 2, 2.5).normalized(), 2.4, false}, random);
   EXPECT_NEAR(found.radius, 2.0, 1e-4);
   EXPECT_NEAR(std::abs(found.axis.dot(kTruth.axis)), 1.0, 1e-7);
   EXPECT_NEAR(distanceToAxis(kTruth, found.centre), 0.0, 1e-4);
@@ -65,8 +70,7 @@ TEST(Cylinder, IsFoundAmongFortyPercentOutliers) {
     points.z.push_back(static_cast<float>(random.uniform(-5, 5)));
     points.strength.push_back(1);
   }
-  CylinderEstimator estimator{TrackOptions{}};
-  const Cylinder found = estimator.estimate(points, kTruth.axis, 2.0, false, random);
+  const Cylinder found = search(points, {kTruth.axis, 2.0, false}, random);
   EXPECT_NEAR(found.radius, 2.0, 0.05);
   EXPECT_LT(distanceToAxis(kTruth, found.centre), 0.1);
   EXPECT_GT(found.inlierRate, 0.55);
@@ -74,9 +78,8 @@ TEST(Cylinder, IsFoundAmongFortyPercentOutliers) {
 
 TEST(Cylinder, OutsideOfHalfToThreeHalvesOfTheGuessIsNotValid) {
   const Candidates points = pointsOn(kTruth, kTruth.centre, 120, 0);
-  CylinderEstimator estimator{TrackOptions{}};
   Random random(3);
-  const Cylinder found = estimator.estimate(points, kTruth.axis, 0.9, false, random);
+  const Cylinder found = search(points, {kTruth.axis, 0.9, false}, random);
   EXPECT_LT(found.inlierRate, 0.35);
 }
 
@@ -90,18 +93,16 @@ TEST(Cylinder, OfASmoothCourseIsPreferredToASharpTurnThatFitsAsWell) {
   points.y.insert(points.y.end(), others.y.begin(), others.y.end());
   points.z.insert(points.z.end(), others.z.begin(), others.z.end());
   points.strength.resize(204, 1);
-  CylinderEstimator estimator{TrackOptions{}};
   Random random(5);
   const Eigen::Vector3d direction = Eigen::Vector3d(0.2, 0, 1).normalized();
-  EXPECT_GT(estimator.estimate(points, direction, 1.0, true, random).axis.z(), 0.95);
+  EXPECT_GT(search(points, {direction, 1.0, true}, random).axis.z(), 0.95);
 }
 
 TEST(Cylinder, ThatDoesNotHoldTheOriginOfTheRaysIsNotValid) {
   const Eigen::Vector3d outside = kTruth.centre + 2.5 * kTruth.axis.unitOrthogonal();
   const Candidates points = pointsOn(kTruth, outside, 120, 0);
-  CylinderEstimator estimator{TrackOptions{}};
   Random random(4);
-  EXPECT_LT(estimator.estimate(points, kTruth.axis, 2.0, false, random).inlierRate, 0.7);
+  EXPECT_LT(search(points, {kTruth.axis, 2.0, false}, random).inlierRate, 0.7);
 }
 
 TEST(Cylinder, RefinementMovesTheCentreToTheMedianOfTheInliersAlongTheAxis) {
@@ -113,9 +114,9 @@ TEST(Cylinder, RefinementMovesTheCentreToTheMedianOfTheInliersAlongTheAxis) {
       points.z.push_back(z);
       points.strength.push_back(1);
     }
-  CylinderEstimator estimator{TrackOptions{}};
-  const Cylinder found =
-      estimator.refine(points, {Eigen::Vector3d(0, 0, 9), Eigen::Vector3d::UnitZ(), 1.05, 0});
+  CylinderWorkspace workspace;
+  const Cylinder found = refineCylinder(
+      points, {Eigen::Vector3d(0, 0, 9), Eigen::Vector3d::UnitZ(), 1.05, 0}, 0.1, workspace);
   EXPECT_NEAR(found.centre.z(), 2.0, 1e-6);
   EXPECT_NEAR(found.radius, 1.0, 1e-6);
 }

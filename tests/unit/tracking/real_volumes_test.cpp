@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/tracking/branch_tracker.h"
+#include "converters/tracking/tracked_branch.h"
 #include "converters/tracking/tracker.h"
 #include "converters/volume/read_volume.h"
 

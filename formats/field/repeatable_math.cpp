@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include "formats/field/repeatable_math.h"
+
 #include <cmath>
 #include <limits>
 
-#include "formats/case/blobby.h"
-
-namespace lumen::formats {
-namespace {
-
-// ln 2 in two parts; the high one has 33 bits, so that its product with an exponent is exact (Cody
-// and Waite, "Software manual for the elementary functions", 1980).
-constexpr double kLn2High = 0x1.62e42feep-1;
-constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
-constexpr double kInverseLn2 = 0x1.71547652b82fep+0;
-
-}  // namespace
-
+namespace lumen::field {
 double repeatableExp(double x) {
   if (std::isnan(x)) return x;
   if (x > 709.79) return std::numeric_limits<double>::infinity();
@@ -49,4 +38,4 @@ double repeatableLog(double x) {
   return k * kLn2High + (2.0 * s + (2.0 * s * series + k * kLn2Low));
 }
 
-}  // namespace lumen::formats
+}  // namespace lumen::field

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the vectors of a case to those of Eigen, and back; directions across an axis.
+#pragma once
+
+#include <utility>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "formats/case/blobby.h"
+#include "formats/case/case.h"
+
+namespace lumen {
+
+inline Eigen::Vector3d toEigen(const formats::Vec3f& v) {
+  return {v.x, v.y, v.z};
+}
+
+inline Eigen::Vector3d toEigen(const formats::Vec3d& v) {
+  return {v.x, v.y, v.z};
+}
+
+inline formats::Vec3f toVec3f(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+inline formats::Vec3d toVec3d(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// Two unit vectors that span the plane normal to the unit vector `axis`; (u, v, axis) is
+/// right-handed.
+inline std::pair<Eigen::Vector3d, Eigen::Vector3d> planeBasis(const Eigen::Vector3d& axis) {
+  const Eigen::Vector3d u = axis.unitOrthogonal();
+  return {u, axis.cross(u)};
+}
+
+}  // namespace lumen

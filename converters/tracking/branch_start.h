@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where tracks begin: at a click, or beside a parent (docs/method.md, section 1.7).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/seeds/seeds.h"
+#include "converters/tracking/node_fit.h"
+
+namespace lumen::convert {
+
+/// The first nodes of a branch, away from its parent, and why there are none.
+struct BranchStart {
+  std::vector<TrackedNode> nodes;
+  int parentNode = -1;    ///< that the first of them hangs on
+  double bestRate = 0;    ///< the greatest inlier rate of what was tried
+  bool inParent = false;  ///< something fitted, but in the parent's lumen
+};
+
+/// Where a vessel goes from its first point (unit, LPS), as far as the user said.
+std::optional<Eigen::Vector3d> directionOf(const SeedBranch& seed);
+
+/// One node at a click. Without a radius, trial radii from about one voxel up; the first that is
+/// accepted, else the best. `smooth`: `direction` is known, not a guess.
+BranchStart startAtClick(const TrackContext& context, const SeedPoint& click,
+                         const Eigen::Vector3d& direction, bool smooth, Random& random,
+                         TrackWorkspace& workspace);
+
+/// The first nodes of a child, and where they hang on its parent. A click near the parent: beyond
+/// the parent's wall on the way to the click (thesis section 3.6), else at the click itself. A
+/// click farther away: there, and from there back to the parent.
+BranchStart startChild(const TrackContext& context, const SeedBranch& seed,
+                       const TrackedBranch& parent, Random& random, TrackWorkspace& workspace);
+
+}  // namespace lumen::convert

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels, each defined here and nowhere else. This is text to be included inside a namespace,
+// because libblob compiles it once for each set of SIMD instructions; all others include kernel.h.
+//
+// A kernel phi(u) falls from 1 at u = 0. A blob of centre C and width w adds w phi(u) to f, where
+// u = a |X - C|^2 and a = p / w^2; p is the kernel's parameter, or 1 for a kernel without one.
+// A. Yureidini, "Robust blood vessel surface reconstruction for interactive simulations from
+// patient data", 2014, table 4.1.
+//
+// The number type T is double or a vector of floats. It has + - * / and, found with it,
+// constant(T, double), positivePart(T), sqrt(T), expOfMinus(T), naturalLog(T) and, for derivatives
+// of the second order and above, ifPositive(T, T).
+//
+// To add a kernel: a value of Kernel in kernel.h, a structure here with all that the others have,
+// its line in withKernel(), and a row in the table of the specification.
+
+#define LUMEN_FORMULA [[gnu::always_inline]] static inline
+
+/// phi(s x) and its first three derivatives by x; s is 1 for a kernel without a parameter.
+template <class T>
+struct KernelChain {
+  T phi, d1, d2, d3;
+};
+
+/// What one blob adds to f, and what times (X - C) it adds to grad f.
+template <class T>
+struct BlobTerm {
+  T value, slope;
+};
+
+// Of each kernel: phi(u), phi'(u), phi''(u); chain(s x, s); term(a |X - C|^2, a, w); inverse(phi,
+// s), the x >= 0 at which phi(s x) has a value between 0 and 1; and the level transform, a falling
+// function h of f that grows nearly with the square of the distance from the axis of a tube:
+// level(f, 1 / f, shift) where f is given times exp(shift), and levelSlope(h, |grad f| / f), which
+// is |grad h|.
+
+/// How a kernel ends far out: like a power of the distance, faster than any, or at u = 1.
+enum class KernelTail { Power, Exponential, Compact };
+
+// clang-format off
+
+/// phi = 1 / (1 + u)^2
+struct Cauchy {
+  static constexpr ::lumen::field::Kernel kKernel = ::lumen::field::Kernel::Cauchy;
+  static constexpr const char* kName = "cauchy";
+  static constexpr KernelTail kTail = KernelTail::Power;
+  static constexpr double kUsualParameter = 0.2;  // s^2: the inflection is at |X - C| = w
+
+  template <class T> LUMEN_FORMULA T root(T u) { return constant(u, 1.0) / (constant(u, 1.0) + u); }
+  template <class T> LUMEN_FORMULA T phi(T u) { const T q = root(u); return q * q; }
+  template <class T> LUMEN_FORMULA T first(T u) { return constant(u, -2.0) * phi(u) * root(u); }
+  template <class T> LUMEN_FORMULA T second(T u) { return constant(u, 6.0) * phi(u) * phi(u); }
+
+  /// Each derivative from the one before: other roundings than above, and what fits rest on.
+  template <class T> LUMEN_FORMULA KernelChain<T> chain(T u, T s) {
+    const T q = root(u), phi = q * q;
+    const T d1 = constant(u, -2.0) * s * phi * q, d2 = constant(u, -3.0) * s * d1 * q;
+    return {phi, d1, d2, constant(u, -4.0) * s * d2 * q};
+  }
+  template <class T> LUMEN_FORMULA BlobTerm<T> term(T u, T a, T w) {
+    const T q = root(u), value = w * (q * q);
+    return {value, (constant(u, -4.0) * a) * (value * q)};
+  }
+
+  LUMEN_FORMULA double inverse(double value, double s) {  // 1 / sqrt(phi) - 1, no cancellation
+    const double edge = std::sqrt(value);
+    return (1.0 - value) / (edge * (1.0 + edge) * s);
+  }
+
+  template <class T> LUMEN_FORMULA T level(T, T inverseF, T) { using std::sqrt; return sqrt(inverseF); }
+  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) { return constant(h, 0.5) * h * relative; }
+};
+
+/// phi = exp(-u)
+struct Gaussian {
+  static constexpr ::lumen::field::Kernel kKernel = ::lumen::field::Kernel::Gaussian;
+  static constexpr const char* kName = "gaussian";
+  static constexpr KernelTail kTail = KernelTail::Exponential;
+  static constexpr double kUsualParameter = 0.5;  // a^2: the inflection is at |X - C| = w
+
+  template <class T> LUMEN_FORMULA T phi(T u) { return expOfMinus(u); }
+  template <class T> LUMEN_FORMULA T first(T u) { return constant(u, -1.0) * expOfMinus(u); }
+  template <class T> LUMEN_FORMULA T second(T u) { return expOfMinus(u); }
+
+  template <class T> LUMEN_FORMULA KernelChain<T> chain(T u, T s) {
+    const T back = constant(u, -1.0) * s, phi = expOfMinus(u), d1 = back * phi, d2 = back * d1;
+    return {phi, d1, d2, back * d2};
+  }
+  template <class T> LUMEN_FORMULA BlobTerm<T> term(T u, T a, T w) {
+    const T value = w * expOfMinus(u);
+    return {value, (constant(u, -2.0) * a) * value};
+  }
+
+  LUMEN_FORMULA double inverse(double value, double s) { return -naturalLog(value) / s; }
+
+  template <class T> LUMEN_FORMULA T level(T f, T, T shift) { return shift - naturalLog(f); }
+  template <class T> LUMEN_FORMULA T levelSlope(T, T relative) { return relative; }
+};
+
+/// phi = (1 - u)^2 for u < 1, else 0
+struct Quartic {
+  static constexpr ::lumen::field::Kernel kKernel = ::lumen::field::Kernel::Quartic;
+  static constexpr const char* kName = "quartic";
+  static constexpr KernelTail kTail = KernelTail::Compact;
+  static constexpr double kUsualParameter = 0;
+
+  template <class T> LUMEN_FORMULA T rest(T u) { return positivePart(constant(u, 1.0) - u); }
+  template <class T> LUMEN_FORMULA T phi(T u) { const T v = rest(u); return v * v; }
+  template <class T> LUMEN_FORMULA T first(T u) { return constant(u, -2.0) * rest(u); }
+  template <class T> LUMEN_FORMULA T second(T u) { return ifPositive(rest(u), constant(u, 2.0)); }
+
+  template <class T> LUMEN_FORMULA KernelChain<T> chain(T u, T) {
+    return {phi(u), first(u), second(u), constant(u, 0.0)};
+  }
+  template <class T> LUMEN_FORMULA BlobTerm<T> term(T u, T a, T w) {
+    const T v = rest(u);
+    return {w * (v * v), (constant(u, -4.0) * a) * (w * v)};
+  }
+
+  LUMEN_FORMULA double inverse(double value, double) { return (1.0 - value) / (1.0 + std::sqrt(value)); }
+
+  template <class T> LUMEN_FORMULA T level(T f, T, T) { using std::sqrt; return constant(f, 0.0) - sqrt(f); }
+  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) { return constant(h, -0.5) * h * relative; }
+};
+
+/// phi = 1 - (4/9) u^3 + (17/9) u^2 - (22/9) u for u < 1, else 0. Written in v = 1 - u it loses no
+/// digits at the edge: v^2 (5 + 4 v) / 9.
+struct SoftObject {
+  static constexpr ::lumen::field::Kernel kKernel = ::lumen::field::Kernel::SoftObject;
+  static constexpr const char* kName = "soft-object";
+  static constexpr KernelTail kTail = KernelTail::Compact;
+  static constexpr double kUsualParameter = 0;
+
+  template <class T> LUMEN_FORMULA T rest(T u) { return positivePart(constant(u, 1.0) - u); }
+  template <class T> LUMEN_FORMULA T phi(T u) {
+    const T v = rest(u);
+    return v * v * (constant(u, 5.0) + constant(u, 4.0) * v) / constant(u, 9.0);
+  }
+  template <class T> LUMEN_FORMULA T first(T u) {
+    const T v = rest(u);
+    return constant(u, -1.0) * v * (constant(u, 10.0) + constant(u, 12.0) * v) / constant(u, 9.0);
+  }
+  template <class T> LUMEN_FORMULA T second(T u) {
+    const T v = rest(u);
+    return ifPositive(v, (constant(u, 10.0) + constant(u, 24.0) * v) / constant(u, 9.0));
+  }
+
+  template <class T> LUMEN_FORMULA KernelChain<T> chain(T u, T) {
+    return {phi(u), first(u), second(u), ifPositive(rest(u), constant(u, -24.0 / 9.0))};
+  }
+  template <class T> LUMEN_FORMULA BlobTerm<T> term(T u, T a, T w) {
+    const T v = rest(u);
+    return {w * (v * v) * (constant(u, 5.0) + constant(u, 4.0) * v) * constant(u, 1.0 / 9.0),
+            (constant(u, -2.0 / 9.0) * a) * (w * v) * (constant(u, 10.0) + constant(u, 12.0) * v)};
+  }
+
+  // Newton's method from above, where v^2 (5 + 4 v) / 9 is convex
+  LUMEN_FORMULA double inverse(double value, double) {
+    const double bound = std::sqrt(1.8 * value);
+    double v = bound < 1.0 ? bound : 1.0;
+    for (;;) {
+      const double next = v - (v * v * (5.0 + 4.0 * v) / 9.0 - value) / (v * (10.0 + 12.0 * v) / 9.0);
+      if (!(next < v)) return 1.0 - v;
+      v = next;
+    }
+  }
+
+  template <class T> LUMEN_FORMULA T level(T f, T, T) { return Quartic::level(f, f, f); }
+  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) { return Quartic::levelSlope(h, relative); }
+};
+
+// clang-format on
+
+/// use(K{}) for the structure K of a kernel. A value that is no kernel counts as the last.
+template <class Use>
+[[gnu::always_inline]] inline decltype(auto) withKernel(::lumen::field::Kernel kernel, Use&& use) {
+  switch (kernel) {
+    case ::lumen::field::Kernel::Cauchy:
+      return use(Cauchy{});
+    case ::lumen::field::Kernel::Gaussian:
+      return use(Gaussian{});
+    case ::lumen::field::Kernel::Quartic:
+      return use(Quartic{});
+    case ::lumen::field::Kernel::SoftObject:
+      break;
+  }
+  return use(SoftObject{});
+}
+
+#undef LUMEN_FORMULA
