@@ -4,32 +4,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/field/neighbourhood.h"
 #include "locate.h"
-#include "neighbourhood.h"
 #include "path.h"
 
 namespace lumen::blob {
 namespace {
 
-double straightLevel(blob_kernel kernel, double level) {
-  if (kernel == BLOB_CAUCHY) return 1.0 / std::sqrt(level);
-  return kernel == BLOB_GAUSSIAN ? -std::log(level) : -std::sqrt(level);
-}
+using field::Neighbourhood;
+using field::TreeView;
 
-// What |X - C|^2 is multiplied by.
-double scaleOf(const blob_blobs& blobs, double width) {
-  const bool hasParameter = blobs.kernel == BLOB_CAUCHY || blobs.kernel == BLOB_GAUSSIAN;
-  return (hasParameter ? blobs.kernel_parameter : 1.0) / (width * width);
+TreeView treeOf(const blob_model_def& def) {
+  return {def.node_count, def.centre, def.radius, def.parent, def.link_count, def.link};
 }
 
 // Where f > T, some blob of the model's `count` is nearer than this, as one of them exceeds T /
 // count.
 double reachOf(const blob_blobs& blobs, double width, double count) {
+  const field::Kernel kernel = kernelOf(blobs.kernel);
   const double ratio = width * count / blobs.iso_level;
-  double u = 1;
-  if (blobs.kernel == BLOB_CAUCHY) u = std::sqrt(ratio) - 1.0;
-  if (blobs.kernel == BLOB_GAUSSIAN) u = std::log(ratio);
-  return u > 0 ? std::sqrt(u / scaleOf(blobs, width)) : 0.0;
+  const double u = field::withKernel(kernel, [ratio](auto k) { return k.reach(ratio); });
+  return u > 0 ? std::sqrt(u / field::blobScale(kernel, blobs.kernel_parameter, width)) : 0.0;
 }
 
 void extendReach(const blob_model_def& def, const blob_blobs& blobs, blob_model& model) {
@@ -58,7 +53,8 @@ FieldNode layOut(const blob_model_def& def, const blob_blobs& blobs, std::size_t
     block.x[lane] = static_cast<float>(double{blobs.centre[j][0]} - double{def.centre[node][0]});
     block.y[lane] = static_cast<float>(double{blobs.centre[j][1]} - double{def.centre[node][1]});
     block.z[lane] = static_cast<float>(double{blobs.centre[j][2]} - double{def.centre[node][2]});
-    block.a[lane] = static_cast<float>(scaleOf(blobs, blobs.width[j]));
+    block.a[lane] = static_cast<float>(
+        field::blobScale(kernelOf(blobs.kernel), blobs.kernel_parameter, blobs.width[j]));
     block.w[lane] = blobs.width[j];
   }
   FieldNode result{};
@@ -69,29 +65,17 @@ FieldNode layOut(const blob_model_def& def, const blob_blobs& blobs, std::size_t
   return result;
 }
 
-// A node without blobs answers with those of the nearest node along the tree that has some.
-void lendBlobs(const blob_model_def& def, const Neighbourhood& edges,
+// A node without blobs answers with those of its lender, which stay where they are.
+void lendBlobs(const blob_model_def& def, const std::vector<std::uint32_t>& lender,
                std::vector<FieldNode>& nodes) {
-  std::vector<std::uint32_t> queue, lender(nodes.size(), BLOB_NOWHERE);
-  for (std::uint32_t i = 0; i < nodes.size(); ++i)
-    if (nodes[i].blockCount > 0) {
-      queue.push_back(i);
-      lender[i] = i;
-    }
-  for (std::size_t head = 0; head < queue.size(); ++head) {
-    const std::uint32_t from = queue[head];
-    for (std::uint32_t e = edges.offset[from]; e < edges.offset[from + 1]; ++e) {
-      const std::uint32_t node = edges.node[e];
-      if (lender[node] != BLOB_NOWHERE) continue;
-      lender[node] = lender[from];
-      nodes[node] = nodes[lender[from]];
-      nodes[node].place[3] = def.radius[node];
-      nodes[node].isSimple = 0;
-      for (int axis = 0; axis < 3; ++axis)
-        nodes[node].place[axis] = static_cast<float>(double{def.centre[node][axis]} -
-                                                     double{def.centre[lender[node]][axis]});
-      queue.push_back(node);
-    }
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    if (lender[i] == i || lender[i] == BLOB_NOWHERE) continue;
+    nodes[i] = nodes[lender[i]];
+    nodes[i].place[3] = def.radius[i];
+    nodes[i].isSimple = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      nodes[i].place[axis] =
+          static_cast<float>(double{def.centre[i][axis]} - double{def.centre[lender[i]][axis]});
   }
 }
 
@@ -100,12 +84,12 @@ std::vector<FieldNode> buildField(const blob_model_def& def, const blob_blobs& b
   field.kernel = blobs.kernel;
   field.kernelParameter = blobs.kernel_parameter;
   field.isoLevel = blobs.iso_level;
-  field.straightLevel = straightLevel(blobs.kernel, blobs.iso_level);
+  field.straightLevel = field::levelTransform(kernelOf(blobs.kernel), blobs.iso_level).h;
   std::vector<FieldNode> nodes;
   nodes.reserve(def.node_count);
   for (std::size_t i = 0; i < def.node_count; ++i)
     nodes.push_back(layOut(def, blobs, i, field.blocks));
-  lendBlobs(def, edges, nodes);
+  lendBlobs(def, field::lendersOf(edges, blobs.offset), nodes);
   return nodes;
 }
 
@@ -121,7 +105,8 @@ void addRival(const blob_model_def& def, std::uint32_t i, std::uint32_t k, bool 
   fan.ny[lane] = static_cast<float>(-2.0 * offset[1]);
   fan.nz[lane] = static_cast<float>(-2.0 * offset[2]);
   fan.c[lane] = static_cast<float>(square - rk * rk + ri * ri);
-  fan.inverseTau[lane] = static_cast<float>(1.0 / blendingWidth(def, i, k, isEdge, spacing));
+  fan.inverseTau[lane] =
+      static_cast<float>(1.0 / field::blendingWidth(treeOf(def), i, k, isEdge, spacing));
   fan.node[lane] = k;
 }
 
@@ -162,10 +147,11 @@ void buildNodes(const blob_model_def& def, blob_model& model) {
 
 std::unique_ptr<blob_model> buildModel(const blob_model_def& def) {
   auto model = std::make_unique<blob_model>();
-  const Neighbourhood edges = edgesOf(def);
-  const Neighbourhood around = neighbourhoodOf(def, edges);
+  const TreeView tree = treeOf(def);
+  const Neighbourhood edges = field::edgesOf(tree);
+  const Neighbourhood around = field::neighbourhoodOf(tree, edges);
   buildNodes(def, *model);
-  const std::vector<double> spacing = spacingsOf(def, edges);
+  const std::vector<double> spacing = field::spacingsOf(tree, edges);
   for (std::uint32_t i = 0; i < def.node_count; ++i) addFan(def, around, spacing, i, *model);
   const std::vector<FieldNode> fields = buildField(def, def.blobs, edges, model->main);
   for (std::size_t i = 0; i < def.node_count; ++i) model->nodes[i].field = fields[i];

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "blob.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::blob {
 
@@ -23,6 +24,11 @@ int codeOf(const Enumeration& stored) noexcept {
   int code;
   std::memcpy(&code, &stored, sizeof code);
   return code;
+}
+
+/// A checked kernel.
+inline field::Kernel kernelOf(blob_kernel kernel) noexcept {
+  return static_cast<field::Kernel>(kernel);
 }
 
 /// Eight blobs relative to their node's centre. Padding has a = w = 0 and adds exactly nothing.

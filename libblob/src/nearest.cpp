@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/field/vector.h"
 #include "path.h"
 #include "support.h"
-#include "vector.h"
 
 namespace lumen::blob {
 namespace {
+
+using field::Vec;
 
 // A unit vector across the vessel at a node, for points where grad f is zero.
 Vec acrossVessel(const blob_model& model, std::uint32_t node) {

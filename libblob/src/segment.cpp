@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/field/vector.h"
 #include "nearest.h"
 #include "path.h"
 #include "support.h"
-#include "vector.h"
 
 namespace lumen::blob {
 namespace {
+
+using field::Vec;
 
 Vec vec(const double* p) {
   return {p[0], p[1], p[2]};

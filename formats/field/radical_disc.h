@@ -6,20 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "blob.h"
-#include "vector.h"
+#include "formats/field/tree_view.h"
+#include "formats/field/vector.h"
 
-namespace lumen::blob {
+namespace lumen::field {
 
 /// A convex polygon on the plane where two nodes have the same power, around their balls' common
 /// disc, from which half-planes are cut.
 class RadicalDisc {
 public:
   /// A square that holds all points of the plane within kReach radii of both centres.
-  RadicalDisc(const blob_model_def& def, std::uint32_t a, std::uint32_t b);
+  RadicalDisc(const TreeView& tree, std::uint32_t a, std::uint32_t b);
 
   /// Keeps the points where `node` has no less power than the two less `slack`, mm^2.
-  void cut(const blob_model_def& def, std::uint32_t node, double slack);
+  void cut(const TreeView& tree, std::uint32_t node, double slack);
 
   [[nodiscard]] bool isEmpty() const { return m_count == 0; }
 
@@ -34,4 +34,4 @@ private:
   std::size_t m_count = 0;
 };
 
-}  // namespace lumen::blob
+}  // namespace lumen::field

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lumen::blob {
+namespace lumen::field {
 
 struct Vec {
   double x, y, z;
@@ -43,4 +43,4 @@ inline Vec multiply(const double* h, const Vec& a) {
           h[4] * a.x + h[5] * a.y + h[2] * a.z};
 }
 
-}  // namespace lumen::blob
+}  // namespace lumen::field

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "radical_disc.h"
+#include "formats/field/radical_disc.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lumen::blob {
+namespace lumen::field {
 namespace {
 
-Vec centreOf(const blob_model_def& def, std::uint32_t node) {
-  return {def.centre[node][0], def.centre[node][1], def.centre[node][2]};
+Vec centreOf(const TreeView& tree, std::uint32_t node) {
+  return {tree.centre[node][0], tree.centre[node][1], tree.centre[node][2]};
 }
 
 }  // namespace
 
-RadicalDisc::RadicalDisc(const blob_model_def& def, std::uint32_t a, std::uint32_t b)
-    : m_origin(centreOf(def, a)), m_radius(def.radius[a]) {
-  const Vec axis = centreOf(def, b) - m_origin;
-  const double square = dot(axis, axis), ra = def.radius[a], rb = def.radius[b];
+RadicalDisc::RadicalDisc(const TreeView& tree, std::uint32_t a, std::uint32_t b)
+    : m_origin(centreOf(tree, a)), m_radius(tree.radius[a]) {
+  const Vec axis = centreOf(tree, b) - m_origin;
+  const double square = dot(axis, axis), ra = tree.radius[a], rb = tree.radius[b];
   if (!(square > 0)) {
     // one place: with one radius they tie everywhere, with two nowhere
     if (ra == rb) m_count = kEverywhere;
@@ -37,11 +37,11 @@ RadicalDisc::RadicalDisc(const blob_model_def& def, std::uint32_t a, std::uint32
   m_count = 4;
 }
 
-void RadicalDisc::cut(const blob_model_def& def, std::uint32_t node, double slack) {
+void RadicalDisc::cut(const TreeView& tree, std::uint32_t node, double slack) {
   if (m_count == 0 || m_count == kEverywhere) return;
   // p_node - p_a, which is linear in the point
-  const Vec c = centreOf(def, node) - m_origin;
-  const double radius = def.radius[node];
+  const Vec c = centreOf(tree, node) - m_origin;
+  const double radius = tree.radius[node];
   const double constant = dot(c, c) - radius * radius + m_radius * m_radius + slack;
   const auto excess = [&](const Vec& x) { return constant - 2.0 * dot(c, x); };
   std::array<Vec, kMost> kept;
@@ -57,4 +57,4 @@ void RadicalDisc::cut(const blob_model_def& def, std::uint32_t node, double slac
   m_count = count;
 }
 
-}  // namespace lumen::blob
+}  // namespace lumen::field
