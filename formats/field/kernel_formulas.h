@@ -103,9 +103,9 @@ struct Gaussian {
     return {value, (constant(u, -2.0) * a) * value};
   }
 
-  LUMEN_FORMULA double inverse(double value, double s) { return -naturalLog(value) / s; }
+  LUMEN_FORMULA double inverse(double value, double s) { return -::lumen::field::repeatableLog(value) / s; }
 
-  LUMEN_FORMULA double reach(double ratio) { return naturalLog(ratio); }
+  LUMEN_FORMULA double reach(double ratio) { return ::lumen::field::repeatableLog(ratio); }
 
   template <class T> LUMEN_FORMULA T level(T f, T, T shift) { return shift - naturalLog(f); }
   template <class T> LUMEN_FORMULA T levelSlope(T, T relative) { return relative; }

@@ -64,7 +64,7 @@ extern "C" {
 #endif
 
 #define BLOB_VERSION_MAJOR 0
-#define BLOB_VERSION_MINOR 1
+#define BLOB_VERSION_MINOR 2
 #define BLOB_VERSION_PATCH 0
 
 /* ---------------------------------------------------------------- status */
@@ -159,7 +159,6 @@ typedef struct blob_model_def {
   size_t link_count;        /* pairs of nodes that are neighbours besides parents and children */
   const uint32_t (*link)[2];
   blob_blobs blobs;
-  const blob_blobs* twin; /* null, or a compact twin for BLOB_TWIN; a kernel of any kind */
   blob_simd simd;
   uint32_t cookie; /* set by blob_model_def_default() */
 } blob_model_def;
@@ -175,7 +174,6 @@ typedef struct blob_model_info {
   size_t node_count, blob_count;
   blob_kernel kernel;
   double kernel_parameter, iso_level;
-  int has_twin;
   blob_simd simd;      /* the path in use */
   double low[3], high[3]; /* box of the nodes' balls, mm */
   size_t bytes;        /* memory of the model; about 0.5 kB for each node of 8 blobs or fewer */
@@ -249,10 +247,6 @@ BLOB_API uint32_t blob_cursor_follow(const blob_model* model, const double point
  * meant for the node of least power: hold a cursor only while the point stays in its cell. */
 #define BLOB_HOLD 4u
 
-/* Answer from the compact twin where the model has one, else from the model. The twin's surface is another
- * fit of the same vessel: near the wall the two may differ by their errors of fit. */
-#define BLOB_TWIN 8u
-
 /* What is known at a point. */
 typedef struct blob_sample {
   double value;       /* f, mm */
@@ -322,7 +316,7 @@ BLOB_API blob_columns blob_columns_default(void) BLOB_NOEXCEPT;
 BLOB_API void blob_query_columns(const blob_model* model, uint32_t flags,
                                  const blob_columns* columns) BLOB_NOEXCEPT;
 
-/* 1 if f > T, else 0: value only, no gradient. With BLOB_TWIN and a compact twin the cheapest query. */
+/* 1 if f > T, else 0: value only, no gradient. */
 BLOB_API int blob_inside(const blob_model* model, uint32_t flags, const double point[3],
                          uint32_t* cursor) BLOB_NOEXCEPT;
 
@@ -345,7 +339,7 @@ BLOB_API void blob_nearest(const blob_model* model, uint32_t flags, const double
                            blob_nearest_point* nearest) BLOB_NOEXCEPT;
 
 /* Second derivatives, in doubles throughout. */
-typedef struct blob_second {
+typedef struct blob_hessian {
   double value;       /* f, mm */
   double gradient[3]; /* grad f */
   double hessian[6];  /* xx, yy, zz, xy, xz, yz of f, 1/mm */
@@ -353,10 +347,10 @@ typedef struct blob_second {
    * positive where the surface bends away from its outward normal (a lumen of radius r: 1/r along the
    * ring). NaN where grad f is zero. */
   double mean_curvature, gaussian_curvature;
-} blob_second;
+} blob_hessian;
 
-BLOB_API void blob_query_second(const blob_model* model, uint32_t flags, const double point[3],
-                                uint32_t* cursor, blob_second* second) BLOB_NOEXCEPT;
+BLOB_API void blob_query_hessian(const blob_model* model, uint32_t flags, const double point[3],
+                                uint32_t* cursor, blob_hessian* answer) BLOB_NOEXCEPT;
 
 /* ---------------------------------------------------------------- segments, for tools */
 

@@ -4,7 +4,7 @@
 // Units: mm, in the case's frame (LPS). Distances are negative in the lumen. See blob.h.
 
 /** Flags of queries, to be added up; 0 is the default. */
-export const Flags = Object.freeze({ LOCAL: 1, DISTANCE_EXACT: 2, HOLD: 4, TWIN: 8 });
+export const Flags = Object.freeze({ LOCAL: 1, DISTANCE_EXACT: 2, HOLD: 4 });
 /** Bits of a state. */
 export const State = Object.freeze({ INSIDE: 1, NOT_CONVERGED: 2 });
 /** Some of the values of blob_status: why a model was not opened. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "path.h"
+#include "simd/backend.h"
 
 namespace lumen::blob {
 namespace {
@@ -15,32 +15,32 @@ bool processorHas(blob_simd simd) noexcept {
   return simd == BLOB_SIMD_SCALAR || simd == BLOB_SIMD_PORTABLE;
 }
 
-const PathTable* pathOf(blob_simd simd, blob_kernel kernel) noexcept {
+const Backend* backendOf(blob_simd simd, blob_kernel kernel) noexcept {
   if (!processorHas(simd)) return nullptr;
   switch (simd) {
     case BLOB_SIMD_AVX512:
-      return avx512Path(kernel);
+      return avx512Backend(kernel);
     case BLOB_SIMD_AVX2:
-      return avx2Path(kernel);
+      return avx2Backend(kernel);
     case BLOB_SIMD_PORTABLE:
-      return portablePath(kernel);
+      return portableBackend(kernel);
     default:
-      return scalarPath(kernel);
+      return scalarBackend(kernel);
   }
 }
 
 }  // namespace
 
-const PathTable* choosePath(blob_kernel kernel, blob_simd& wanted) noexcept {
+const Backend* chooseBackend(blob_kernel kernel, blob_simd& wanted) noexcept {
   int simd = codeOf(wanted);
   if (simd <= BLOB_SIMD_BEST || simd > BLOB_SIMD_AVX512) simd = BLOB_SIMD_AVX512;
   for (; simd > BLOB_SIMD_SCALAR; --simd)
-    if (const PathTable* path = pathOf(static_cast<blob_simd>(simd), kernel)) {
+    if (const Backend* backend = backendOf(static_cast<blob_simd>(simd), kernel)) {
       wanted = static_cast<blob_simd>(simd);
-      return path;
+      return backend;
     }
   wanted = BLOB_SIMD_SCALAR;
-  return scalarPath(kernel);
+  return scalarBackend(kernel);
 }
 
 }  // namespace lumen::blob

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 
-#include "path.h"
-#include "support.h"
+#include "answer.h"
+#include "columns.h"
+#include "simd/backend.h"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -19,20 +21,16 @@ namespace lumen::blob {
 #if defined(__GNUC__)
 namespace {
 namespace portable {
-#include "lanes_pair.h"
-#include "path_body.h"
-#include "path_locate.h"
-#include "path_distance.h"
-#include "path_query.h"
-#include "path_table.h"
+#include "simd/f8_pair.h"
+#include "simd/body.h"
 }  // namespace portable
 }  // namespace
 
-const PathTable* portablePath(blob_kernel kernel) noexcept {
-  return portable::tableOf(kernel);
+const Backend* portableBackend(blob_kernel kernel) noexcept {
+  return portable::backendOf(kernel);
 }
 #else
-const PathTable* portablePath(blob_kernel) noexcept {
+const Backend* portableBackend(blob_kernel) noexcept {
   return nullptr;
 }
 #endif

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "build.h"
+#include "build_model.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "formats/field/neighbourhood.h"
 #include "locate.h"
-#include "path.h"
+#include "simd/backend.h"
 
 namespace lumen::blob {
 namespace {
@@ -27,7 +27,8 @@ double reachOf(const blob_blobs& blobs, double width, double count) {
   return u > 0 ? std::sqrt(u / field::blobScale(kernel, blobs.kernel_parameter, width)) : 0.0;
 }
 
-void extendReach(const blob_model_def& def, const blob_blobs& blobs, blob_model& model) {
+void extendReach(const blob_model_def& def, blob_model& model) {
+  const blob_blobs& blobs = def.blobs;
   for (std::size_t i = 0; i < def.node_count; ++i) {
     const std::uint32_t begin = blobs.offset[i], end = blobs.offset[i + 1];
     for (std::uint32_t j = begin; j < end; ++j) {
@@ -42,8 +43,8 @@ void extendReach(const blob_model_def& def, const blob_blobs& blobs, blob_model&
 }
 
 // Appends the blobs of a node, relative to its centre.
-FieldNode layOut(const blob_model_def& def, const blob_blobs& blobs, std::size_t node,
-                 std::vector<BlobBlock>& blocks) {
+FieldNode layOut(const blob_model_def& def, std::size_t node, std::vector<BlobBlock>& blocks) {
+  const blob_blobs& blobs = def.blobs;
   const std::uint32_t begin = blobs.offset[node], end = blobs.offset[node + 1];
   const std::size_t first = blocks.size(), count = (end - begin + kLanes - 1) / kLanes;
   blocks.resize(first + count, BlobBlock{});
@@ -79,50 +80,51 @@ void lendBlobs(const blob_model_def& def, const std::vector<std::uint32_t>& lend
   }
 }
 
-std::vector<FieldNode> buildField(const blob_model_def& def, const blob_blobs& blobs,
-                                  const Neighbourhood& edges, Field& field) {
+std::vector<FieldNode> buildField(const blob_model_def& def, const Neighbourhood& edges,
+                                  Field& field) {
+  const blob_blobs& blobs = def.blobs;
   field.kernel = blobs.kernel;
   field.kernelParameter = blobs.kernel_parameter;
   field.isoLevel = blobs.iso_level;
-  field.straightLevel = field::levelTransform(kernelOf(blobs.kernel), blobs.iso_level).h;
+  field.transformedLevel = field::levelTransform(kernelOf(blobs.kernel), blobs.iso_level).h;
   std::vector<FieldNode> nodes;
   nodes.reserve(def.node_count);
-  for (std::size_t i = 0; i < def.node_count; ++i)
-    nodes.push_back(layOut(def, blobs, i, field.blocks));
+  for (std::size_t i = 0; i < def.node_count; ++i) nodes.push_back(layOut(def, i, field.blocks));
   lendBlobs(def, field::lendersOf(edges, blobs.offset), nodes);
   return nodes;
 }
 
-void addRival(const blob_model_def& def, std::uint32_t i, std::uint32_t k, bool isEdge,
-              double spacing, std::size_t lane, FanBlock& fan) {
+void setNeighbour(const blob_model_def& def, std::uint32_t i, std::uint32_t k, bool isEdge,
+                  double spacing, std::size_t lane, NeighbourBlock& block) {
   double offset[3], square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     offset[axis] = double{def.centre[k][axis]} - double{def.centre[i][axis]};
     square += offset[axis] * offset[axis];
   }
   const double ri = def.radius[i], rk = def.radius[k];
-  fan.nx[lane] = static_cast<float>(-2.0 * offset[0]);
-  fan.ny[lane] = static_cast<float>(-2.0 * offset[1]);
-  fan.nz[lane] = static_cast<float>(-2.0 * offset[2]);
-  fan.c[lane] = static_cast<float>(square - rk * rk + ri * ri);
-  fan.inverseTau[lane] =
+  block.nx[lane] = static_cast<float>(-2.0 * offset[0]);
+  block.ny[lane] = static_cast<float>(-2.0 * offset[1]);
+  block.nz[lane] = static_cast<float>(-2.0 * offset[2]);
+  block.c[lane] = static_cast<float>(square - rk * rk + ri * ri);
+  block.inverseTau[lane] =
       static_cast<float>(1.0 / field::blendingWidth(treeOf(def), i, k, isEdge, spacing));
-  fan.node[lane] = k;
+  block.node[lane] = k;
 }
 
-void addFan(const blob_model_def& def, const Neighbourhood& around,
-            const std::vector<double>& spacing, std::uint32_t i, blob_model& model) {
+void addNeighbours(const blob_model_def& def, const Neighbourhood& around,
+                   const std::vector<double>& spacing, std::uint32_t i, blob_model& model) {
   const std::uint32_t begin = around.offset[i], end = around.offset[i + 1];
-  const std::size_t first = model.fans.size(), count = (end - begin + kLanes - 1) / kLanes;
-  FanBlock empty{};
+  const std::size_t first = model.neighbours.size(), count = (end - begin + kLanes - 1) / kLanes;
+  NeighbourBlock empty{};
   std::fill_n(empty.c, kLanes, kNeverLess);
   std::fill_n(empty.inverseTau, kLanes, 1.0f);
-  model.fans.resize(first + count, empty);
+  model.neighbours.resize(first + count, empty);
   for (std::uint32_t e = begin; e < end; ++e)
-    addRival(def, i, around.node[e], around.isEdge[e], 0.5 * (spacing[i] + spacing[around.node[e]]),
-             (e - begin) % kLanes, model.fans[first + (e - begin) / kLanes]);
-  model.nodes[i].fan = static_cast<std::uint32_t>(first);
-  model.nodes[i].fanCount = static_cast<std::uint32_t>(count);
+    setNeighbour(def, i, around.node[e], around.isEdge[e],
+                 0.5 * (spacing[i] + spacing[around.node[e]]), (e - begin) % kLanes,
+                 model.neighbours[first + (e - begin) / kLanes]);
+  model.nodes[i].firstNeighbours = static_cast<std::uint32_t>(first);
+  model.nodes[i].neighbourBlocks = static_cast<std::uint32_t>(count);
 }
 
 void buildNodes(const blob_model_def& def, blob_model& model) {
@@ -152,27 +154,23 @@ std::unique_ptr<blob_model> buildModel(const blob_model_def& def) {
   const Neighbourhood around = field::neighbourhoodOf(tree, edges);
   buildNodes(def, *model);
   const std::vector<double> spacing = field::spacingsOf(tree, edges);
-  for (std::uint32_t i = 0; i < def.node_count; ++i) addFan(def, around, spacing, i, *model);
-  const std::vector<FieldNode> fields = buildField(def, def.blobs, edges, model->main);
+  for (std::uint32_t i = 0; i < def.node_count; ++i) addNeighbours(def, around, spacing, i, *model);
+  const std::vector<FieldNode> fields = buildField(def, edges, model->field);
   for (std::size_t i = 0; i < def.node_count; ++i) model->nodes[i].field = fields[i];
-  if (def.twin != nullptr) model->twinNodes = buildField(def, *def.twin, edges, model->twin);
   model->blobCount = def.blobs.offset[def.node_count];
   std::copy_n(model->low, 3, model->reachLow);
   std::copy_n(model->high, 3, model->reachHigh);
-  extendReach(def, def.blobs, *model);
-  if (def.twin != nullptr) extendReach(def, *def.twin, *model);
+  extendReach(def, *model);
   model->locate = buildLocateTree(model->nodes);
   model->simd = def.simd;
-  model->mainPath = choosePath(def.blobs.kernel, model->simd);
-  if (def.twin != nullptr) model->twinPath = choosePath(def.twin->kernel, model->simd);
+  model->backend = chooseBackend(def.blobs.kernel, model->simd);
   return model;
 }
 
 std::size_t memoryOf(const blob_model& model) noexcept {
   const auto bytes = [](const auto& values) { return values.size() * sizeof(values[0]); };
-  std::size_t sum = sizeof model + bytes(model.nodes) + bytes(model.fans) +
-                    bytes(model.main.blocks) + bytes(model.twin.blocks) + bytes(model.twinNodes) +
-                    bytes(model.parent) + bytes(model.locate.leaves);
+  std::size_t sum = sizeof model + bytes(model.nodes) + bytes(model.neighbours) +
+                    bytes(model.field.blocks) + bytes(model.parent) + bytes(model.locate.leaves);
   for (const auto& level : model.locate.levels) sum += bytes(level);
   return sum;
 }

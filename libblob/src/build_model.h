@@ -8,9 +8,6 @@
 
 namespace lumen::blob {
 
-/// Everything that queries rely on: counts, ranges, indices, finite numbers.
-blob_status checkDefinition(const blob_model_def& def) noexcept;
-
 /// Throws std::bad_alloc and nothing else. The definition has been checked.
 std::unique_ptr<blob_model> buildModel(const blob_model_def& def);
 

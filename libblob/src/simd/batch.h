@@ -1,17 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading points, finding their nodes, writing answers. Include after path_distance.h.
-
-template <class T>
-inline T* column(T* first, std::size_t index, std::ptrdiff_t stride) {
-  using Byte = std::conditional_t<std::is_const_v<T>, const char, char>;
-  return reinterpret_cast<T*>(reinterpret_cast<Byte*>(first) +
-                              static_cast<std::ptrdiff_t>(index) * stride);
-}
-template <class T, class V>
-inline void put(T* first, std::size_t index, std::ptrdiff_t stride, V value) {
-  const T converted = static_cast<T>(value);
-  std::memcpy(column(first, index, stride), &converted, sizeof converted);
-}
+// Reading points, finding their nodes, writing answers. Include after wall_distance.h.
 
 // The point relative to its node, which is located first if unknown; false for a point that is not
 // finite or too far away.
@@ -19,8 +7,11 @@ inline bool enterNode(const View& view, const D4& point, std::uint32_t& node, F4
   if (node >= view.nodeCount) {
     double p[4];
     std::memcpy(p, &point, sizeof p);
-    node = locateAny(view.model, p);
-    if (node >= view.nodeCount) return false;
+    if (!isFinitePoint(p)) {
+      node = BLOB_NOWHERE;
+      return false;
+    }
+    node = locateLeast(view.model, p);
   }
   x = relative(view.nodes[node], point);
   return isWithin(x, static_cast<float>(kFar));
@@ -33,7 +24,7 @@ inline void leaveEmpty(Group& g, std::size_t i) {
   g.shift[i] = 0;
 }
 
-// Finds the node of a point; false for a point that needs answerRemote().
+// Finds the node of a point; false for a point out of range.
 inline bool placeLane(const View& view, bool hold, const D4& point, std::uint32_t& node, Group& g,
                       std::size_t i) {
   F4 x;
@@ -59,27 +50,10 @@ inline void fillSample(const Group& g, std::size_t i, std::uint32_t node, blob_s
   sample.state = g.insideBits >> i & 1U;
 }
 
-inline void putSample(const blob_columns& c, std::size_t i, const blob_sample& sample) {
-  if (c.value != nullptr) put(c.value, i, c.answer_stride, sample.value);
-  if (c.distance != nullptr) put(c.distance, i, c.answer_stride, sample.distance);
-  if (c.normal[0] != nullptr)
-    for (int k = 0; k < 3; ++k) put(c.normal[k], i, c.answer_stride, sample.normal[k]);
-  if (c.gradient[0] != nullptr)
-    for (int k = 0; k < 3; ++k) put(c.gradient[k], i, c.answer_stride, sample.gradient[k]);
-  if (c.state != nullptr) put(c.state, i, c.state_stride, sample.state);
-}
-
 struct alignas(32) Inputs {
   double point[kLanes][4];  ///< the fourth is not used
   std::uint32_t node[kLanes];
 };
-
-// Points side by side can be copied four doubles at a time, but for the last, after which there may
-// be nothing.
-inline bool arePacked(const blob_columns& c) {
-  return c.point_stride == 3 * sizeof(double) && c.point[1] == c.point[0] + 1 &&
-         c.point[2] == c.point[0] + 2;
-}
 
 LUMEN_NOINLINE void readInputs(const blob_columns& c, std::size_t first, std::size_t count,
                                Inputs& in) {
@@ -104,14 +78,12 @@ LUMEN_NOINLINE void readInputs(const blob_columns& c, std::size_t first, std::si
   }
 }
 
-inline void writeAnswer(const View& view, std::uint32_t flags, const Inputs& in, const Group& g,
-                        std::size_t i, bool remote, blob_sample& sample) {
-  if (remote) {
-    answerRemote(view.model, in.point[i], in.node[i], sample);
-    return;
-  }
-  fillSample(g, i, in.node[i], sample);
-  if ((flags & BLOB_DISTANCE_EXACT) != 0) refineSample(view.model, flags, in.point[i], sample);
+inline void fillAnswer(const View& view, const Inputs& in, const Group& g, std::size_t i,
+                       bool outOfRange, blob_sample& sample) {
+  if (outOfRange)
+    answerOutOfRange(view.model, in.point[i], in.node[i], sample);
+  else
+    fillSample(g, i, in.node[i], sample);
 }
 
 // Groups are worked on together, so that the long chains of one hide in those of the others.
@@ -120,16 +92,16 @@ constexpr std::size_t kGroups = 4;
 struct Batch {
   Inputs in[kGroups];
   Group group[kGroups];
-  unsigned remote[kGroups];
+  unsigned outOfRange[kGroups];
 };
 
 // In two loops, as short ones overlap better in the processor.
 LUMEN_NOINLINE unsigned placeGroup(const View& view, bool hold, std::size_t count, Inputs& in,
                                    Group& g) {
-  unsigned remote = 0;
+  unsigned outOfRange = 0;
   for (std::size_t i = 0; i < count; ++i)
-    if (!placeLane(view, hold, load4(in.point[i]), in.node[i], g, i)) remote |= 1U << i;
-  return remote;
+    if (!placeLane(view, hold, load4(in.point[i]), in.node[i], g, i)) outOfRange |= 1U << i;
+  return outOfRange;
 }
 
 // A few points side by side, so that one's chain of operations fills the pauses of another's: the
@@ -147,7 +119,7 @@ inline unsigned stayTogether(const View& view, bool hold, const Inputs& in, Grou
     const std::uint32_t index = in.node[first + k];
     if (index >= view.nodeCount) return kAll;
     node[k] = view.nodes + index;
-    others |= node[k]->fanCount ^ 1U;
+    others |= node[k]->neighbourBlocks ^ 1U;
   }
   if (others != 0) return kAll;
   F4 squares = set4(0.0f);
@@ -160,21 +132,22 @@ inline unsigned stayTogether(const View& view, bool hold, const Inputs& in, Grou
   if (hold) return 0;
   unsigned moving = 0;
   for (std::size_t k = 0; k < kTogether; ++k) {
-    const F8 difference = powerDifference(view.fans[node[k]->fan], Splats(g.at[first + k]));
+    const F8 difference =
+        powerDifference(view.neighbours[node[k]->firstNeighbours], Splats(g.at[first + k]));
     moving |= (maskBits(less(difference, set1(0.0f))) != 0 ? 1U : 0U) << k;
   }
   return moving;
 }
 
-template <int kernel>
+template <class K>
 inline void evaluateTogether(const View& view, const Inputs& in, Group& g, std::size_t first) {
   Terms terms[kTogether];
   for (std::size_t k = 0; k < kTogether; ++k) {
-    const FieldNode& node = view.node(in.node[first + k]);
+    const FieldNode& node = view.fieldNode(in.node[first + k]);
     const Splats at(g.at[first + k]);
     const BlobBlock& block = view.blocks[node.block];
-    const float shift = kernel == BLOB_GAUSSIAN ? leastExponent(&block, 1, at) : 0.0f;
-    terms[k] = termsOf<kernel>(block, at, shift);
+    const float shift = kIsShifted<K> ? leastExponent(&block, 1, at) : 0.0f;
+    terms[k] = termsOf<K>(block, at, shift);
     g.shift[first + k] = shift;
     g.at[first + k][3] = node.place[3];
   }
@@ -182,56 +155,56 @@ inline void evaluateTogether(const View& view, const Inputs& in, Group& g, std::
     store4(g.field[first + k], sums(terms[k].f, terms[k].x, terms[k].y, terms[k].z));
 }
 
-// Bits of the points that need answerRemote().
+// Bits of the points that are out of range.
 LUMEN_NOINLINE unsigned placeTogether(const View& view, bool hold, std::size_t count, Inputs& in,
                                       Group& g) {
   if (count != kLanes) return placeGroup(view, hold, count, in, g);
-  unsigned remote = 0;
+  unsigned outOfRange = 0;
   for (std::size_t first = 0; first < kLanes; first += kTogether) {
     unsigned left = stayTogether(view, hold, in, g, first);
     for (; left != 0; left &= left - 1) {
       const std::size_t i = first + static_cast<std::size_t>(__builtin_ctz(left));
-      if (!placeLane(view, hold, load4(in.point[i]), in.node[i], g, i)) remote |= 1U << i;
+      if (!placeLane(view, hold, load4(in.point[i]), in.node[i], g, i)) outOfRange |= 1U << i;
     }
   }
-  return remote;
+  return outOfRange;
 }
 
 // What each point's node says by itself.
-template <int kernel>
-LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned remote,
+template <class K>
+LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned outOfRange,
                                   const Inputs& in, Group& g) {
-  unsigned simple = count == kLanes && remote == 0 ? 1U : 0U;
+  unsigned simple = count == kLanes && outOfRange == 0 ? 1U : 0U;
   if (simple != 0)
-    for (const std::uint32_t node : in.node) simple &= view.node(node).isSimple;
+    for (const std::uint32_t node : in.node) simple &= view.fieldNode(node).isSimple;
   if (simple != 0) {
     for (std::size_t first = 0; first < kLanes; first += kTogether)
-      evaluateTogether<kernel>(view, in, g, first);
+      evaluateTogether<K>(view, in, g, first);
     return;
   }
   for (std::size_t i = 0; i < kLanes; ++i)
-    if (i >= count || (remote >> i & 1U) != 0)
+    if (i >= count || (outOfRange >> i & 1U) != 0)
       leaveEmpty(g, i);
     else
-      keep(evaluateLocal<kernel>(view, in.node[i], load4(g.at[i])), g, i);
+      keep(evaluateLocal<K>(view, in.node[i], load4(g.at[i])), g, i);
 }
 
 // First, which points need it: the work for one is long, and a processor guesses badly who is next.
-template <int kernel>
-LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned remote,
+template <class K>
+LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned outOfRange,
                                const Inputs& in, Group& g) {
   float difference[kLanes][kLanes];
   unsigned rivals[kLanes], left = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if ((remote >> i & 1U) != 0) continue;
+    if ((outOfRange >> i & 1U) != 0) continue;
     rivals[i] = rivalsOf(view, in.node[i], Splats(g.at[i]), difference[i]);
     left |= (rivals[i] != 0 ? 1U : 0U) << i;
   }
   for (; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(__builtin_ctz(left));
     Lane lane{load4(g.field[i]), g.shift[i], g.at[i][3]};
-    blendLane<kernel>(view, load4(in.point[i]), in.node[i], load4(g.at[i]), difference[i],
-                      rivals[i], lane);
+    blendLane<K>(view, load4(in.point[i]), in.node[i], load4(g.at[i]), difference[i], rivals[i],
+                 lane);
     keep(lane, g, i);
   }
 }
@@ -245,28 +218,26 @@ inline void writeCursors(const blob_columns& c, std::size_t first, std::size_t c
     for (std::size_t i = 0; i < count; ++i) put(c.cursor, first + i, c.cursor_stride, in.node[i]);
 }
 
-LUMEN_NOINLINE void writeGroup(const View& view, std::uint32_t flags, const Job& job,
-                               std::size_t first, std::size_t count, const Inputs& in,
-                               const Group& g, unsigned remote) {
+LUMEN_NOINLINE void writeGroup(const View& view, const Job& job, std::size_t first,
+                               std::size_t count, const Inputs& in, const Group& g,
+                               unsigned outOfRange) {
   const blob_columns& c = job.columns;
   writeCursors(c, first, count, in);
-  if (job.samples != nullptr && remote == 0 && (flags & BLOB_DISTANCE_EXACT) == 0) {
+  if (job.samples != nullptr && outOfRange == 0) {
     for (std::size_t i = 0; i < count; ++i) fillSample(g, i, in.node[i], job.samples[first + i]);
-    return;
-  }
-  if (job.samples != nullptr) {
-    for (std::size_t i = 0; i < count; ++i)
-      writeAnswer(view, flags, in, g, i, (remote >> i & 1U) != 0, job.samples[first + i]);
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
     blob_sample sample;
-    writeAnswer(view, flags, in, g, i, (remote >> i & 1U) != 0, sample);
-    putSample(c, first + i, sample);
+    fillAnswer(view, in, g, i, (outOfRange >> i & 1U) != 0, sample);
+    if (job.samples != nullptr)
+      job.samples[first + i] = sample;
+    else
+      putSample(c, first + i, sample);
   }
 }
 
-template <int kernel>
+template <class K>
 inline void queryBatch(const View& view, std::uint32_t flags, const Job& job, std::size_t first,
                        std::size_t count, Batch& batch) {
   const std::size_t groups = (count + kLanes - 1) / kLanes;
@@ -278,13 +249,13 @@ inline void queryBatch(const View& view, std::uint32_t flags, const Job& job, st
     readInputs(job.columns, first + g * kLanes, sizeOf(g), batch.in[g]);
     Inputs& in = batch.in[g];
     const bool hold = (flags & BLOB_HOLD) != 0;
-    batch.remote[g] = placeTogether(view, hold, sizeOf(g), in, batch.group[g]);
-    evaluateGroup<kernel>(view, sizeOf(g), batch.remote[g], in, batch.group[g]);
+    batch.outOfRange[g] = placeTogether(view, hold, sizeOf(g), in, batch.group[g]);
+    evaluateGroup<K>(view, sizeOf(g), batch.outOfRange[g], in, batch.group[g]);
     if ((flags & BLOB_LOCAL) == 0)
-      blendGroup<kernel>(view, sizeOf(g), batch.remote[g], in, batch.group[g]);
+      blendGroup<K>(view, sizeOf(g), batch.outOfRange[g], in, batch.group[g]);
   }
-  for (std::size_t g = 0; g < groups; ++g) finishGroup<kernel>(view, batch.group[g]);
+  for (std::size_t g = 0; g < groups; ++g) finishGroup<K>(view, batch.group[g]);
   for (std::size_t g = 0; g < groups; ++g)
-    writeGroup(view, flags, job, first + g * kLanes, sizeOf(g), batch.in[g], batch.group[g],
-               batch.remote[g]);
+    writeGroup(view, job, first + g * kLanes, sizeOf(g), batch.in[g], batch.group[g],
+               batch.outOfRange[g]);
 }

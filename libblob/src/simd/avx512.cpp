@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 
-#include "path.h"
-#include "support.h"
+#include "answer.h"
+#include "columns.h"
+#include "simd/backend.h"
 
 #if defined(__GNUC__) && defined(__x86_64__)
 #include <immintrin.h>
@@ -20,12 +22,8 @@ namespace {
 #pragma GCC target("avx512f,avx512vl,avx512bw,avx512dq")
 #endif
 namespace avx512 {
-#include "lanes_avx.h"
-#include "path_body.h"
-#include "path_locate.h"
-#include "path_distance.h"
-#include "path_query.h"
-#include "path_table.h"
+#include "simd/f8_avx.h"
+#include "simd/body.h"
 }  // namespace avx512
 #if defined(__clang__)
 #pragma clang attribute pop
@@ -34,14 +32,14 @@ namespace avx512 {
 #endif
 }  // namespace
 
-const PathTable* avx512Path(blob_kernel kernel) noexcept {
-  return avx512::tableOf(kernel);
+const Backend* avx512Backend(blob_kernel kernel) noexcept {
+  return avx512::backendOf(kernel);
 }
 
 }  // namespace lumen::blob
 #else
 namespace lumen::blob {
-const PathTable* avx512Path(blob_kernel) noexcept {
+const Backend* avx512Backend(blob_kernel) noexcept {
   return nullptr;
 }
 }  // namespace lumen::blob

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "open.h"
+#include "open_case.h"
 
 #include <algorithm>
 #include <cstring>
@@ -7,7 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "build.h"
+#include "build_model.h"
+#include "check_definition.h"
 #include "formats/view/case_view.h"
 #include "mapped_file.h"
 
@@ -65,13 +66,8 @@ blob_status build(const formats::CaseView& view, const blob_open_def& def, blob_
   tree.simd = def.simd;
   if (!view.models)
     return fail(def, BLOB_ERROR_NO_MODELS, "the case has no models; lumen fit makes them");
-  blob_blobs twin = tree.blobs;
-  bool legal = blobsOf(*view.models, tree.blobs);
-  if (view.compactModels) {
-    legal = legal && blobsOf(*view.compactModels, twin);
-    tree.twin = &twin;
-  }
-  if (!legal) return fail(def, BLOB_ERROR_TOPOLOGY, "offsets do not match the number of blobs");
+  if (!blobsOf(*view.models, tree.blobs))
+    return fail(def, BLOB_ERROR_TOPOLOGY, "offsets do not match the number of blobs");
   const blob_status status = checkDefinition(tree);
   if (status != BLOB_OK) return fail(def, status, blob_status_text(status));
   *model = buildModel(tree).release();

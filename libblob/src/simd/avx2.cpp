@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 
-#include "path.h"
-#include "support.h"
+#include "answer.h"
+#include "columns.h"
+#include "simd/backend.h"
 
 #if defined(__GNUC__) && defined(__x86_64__)
 #include <immintrin.h>
@@ -19,12 +21,8 @@ namespace {
 #pragma GCC target("avx2")
 #endif
 namespace avx2 {
-#include "lanes_avx.h"
-#include "path_body.h"
-#include "path_locate.h"
-#include "path_distance.h"
-#include "path_query.h"
-#include "path_table.h"
+#include "simd/f8_avx.h"
+#include "simd/body.h"
 }  // namespace avx2
 #if defined(__clang__)
 #pragma clang attribute pop
@@ -33,14 +31,14 @@ namespace avx2 {
 #endif
 }  // namespace
 
-const PathTable* avx2Path(blob_kernel kernel) noexcept {
-  return avx2::tableOf(kernel);
+const Backend* avx2Backend(blob_kernel kernel) noexcept {
+  return avx2::backendOf(kernel);
 }
 
 }  // namespace lumen::blob
 #else
 namespace lumen::blob {
-const PathTable* avx2Path(blob_kernel) noexcept {
+const Backend* avx2Backend(blob_kernel) noexcept {
   return nullptr;
 }
 }  // namespace lumen::blob

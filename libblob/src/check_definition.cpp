@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
+#include "check_definition.h"
 
-#include "build.h"
+#include "model.h"
 
 namespace lumen::blob {
 namespace {
@@ -38,9 +38,9 @@ blob_status checkOffsets(const std::uint32_t* offset, std::size_t nodeCount) noe
 blob_status checkBlobs(const blob_blobs& blobs, std::size_t nodeCount) noexcept {
   if (blobs.offset == nullptr) return BLOB_ERROR_ARGUMENT;
   const int kernel = codeOf(blobs.kernel);
-  if (kernel < BLOB_CAUCHY || kernel > BLOB_SOFT_OBJECT) return BLOB_ERROR_KERNEL;
-  const bool hasParameter = kernel == BLOB_CAUCHY || kernel == BLOB_GAUSSIAN;
-  if (hasParameter && !within(blobs.kernel_parameter, kMinParameter, kMaxParameter))
+  if (kernel < 0 || kernel >= static_cast<int>(field::kKernelCount)) return BLOB_ERROR_KERNEL;
+  if (field::hasParameter(kernelOf(blobs.kernel)) &&
+      !within(blobs.kernel_parameter, kMinParameter, kMaxParameter))
     return BLOB_ERROR_RANGE;
   if (!within(blobs.iso_level, kMinLevel, kMaxLevel)) return BLOB_ERROR_RANGE;
   if (const blob_status status = checkOffsets(blobs.offset, nodeCount); status != BLOB_OK)
@@ -73,9 +73,7 @@ blob_status checkDefinition(const blob_model_def& def) noexcept {
   if (!arePositions(def.centre, def.node_count) || !areLengths(def.radius, def.node_count))
     return BLOB_ERROR_RANGE;
   if (const blob_status status = checkTree(def); status != BLOB_OK) return status;
-  if (const blob_status status = checkBlobs(def.blobs, def.node_count); status != BLOB_OK)
-    return status;
-  return def.twin == nullptr ? BLOB_OK : checkBlobs(*def.twin, def.node_count);
+  return checkBlobs(def.blobs, def.node_count);
 }
 
 }  // namespace lumen::blob
