@@ -76,15 +76,15 @@ Jet<order> weightOf(const Nodes& nodes, std::uint32_t node, const double* point,
   for (int i = 0; i < 3; ++i) x[i] = point[i] - nodes.centre(node)[i];
   Jet<order> logarithm, weight;
   double u = 1;
-  const std::size_t count = nodes.rivalCount(node);
-  for (std::size_t j = 0; j < count; ++j) {
-    const Rival rival = nodes.rival(node, j);
+  const bool isBeaten = !nodes.eachRival(node, [&](const Rival& rival) {
     const double s = 0.5 + 0.5 * rival.inverseTau * powerDifference(rival, x);
-    if (s >= 1.0) continue;
+    if (s >= 1.0) return true;
     active.add(rival.node);
-    if (s <= kLeast) return {};
+    if (s <= kLeast) return false;
     multiplyByStep<order>(rival, s, u, logarithm);
-  }
+    return true;
+  });
+  if (isBeaten) return weight;
   weight.value = u;
   for (int i = 0; i < 3; ++i) weight.gradient[i] = u * logarithm.gradient[i];
   if constexpr (order > 1)
@@ -140,8 +140,9 @@ struct Mixture {
 };
 
 /// The blended field at a point, for the cursor at `node`; the node's own model where no weight is
-/// left. `Nodes` has centre(k), which points to three numbers, rivalCount(k), rival(k, j), and
-/// model<order>(k, point), the jet of f_k.
+/// left. `Nodes` has centre(k), which points to three numbers; eachRival(k, visit), which visits
+/// the neighbours until visit(rival) is false and returns whether it never was; and model<order>(k,
+/// point), the jet of f_k.
 template <int order, class Nodes>
 Jet<order> blend(const Nodes& nodes, std::uint32_t node, const double* point) {
   Mixture<order> sum;

@@ -76,12 +76,14 @@ std::uint32_t BlendedField::follow(const Vec& point, std::uint32_t node) const {
     const double x[3] = {point.x - c[0], point.y - c[1], point.z - c[2]};
     std::uint32_t next = node;
     double least = 0;
-    for (std::size_t j = 0; j < rivalCount(node); ++j) {
-      const double difference = powerDifference(rival(node, j), x);
-      if (!(difference < least)) continue;
-      least = difference;
-      next = rival(node, j).node;
-    }
+    eachRival(node, [&](const Rival& rival) {
+      const double difference = powerDifference(rival, x);
+      if (difference < least) {
+        least = difference;
+        next = rival.node;
+      }
+      return true;
+    });
     if (next == node || next == before) break;
     before = node;
     node = next;

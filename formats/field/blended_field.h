@@ -57,9 +57,11 @@ public:
 
   // What blend() asks for.
   [[nodiscard]] const double* centre(std::uint32_t node) const { return m_nodes[node].centre; }
-  [[nodiscard]] std::size_t rivalCount(std::uint32_t node) const { return neighbours(node).size(); }
-  [[nodiscard]] const Rival& rival(std::uint32_t node, std::size_t j) const {
-    return m_rivals[m_around.offset[node] + j];
+  template <class Visit>
+  bool eachRival(std::uint32_t node, Visit&& visit) const {
+    for (std::uint32_t e = m_around.offset[node]; e < m_around.offset[node + 1]; ++e)
+      if (!visit(m_rivals[e])) return false;
+    return true;
   }
   template <int order>
   [[nodiscard]] Jet<order> model(std::uint32_t node, const double* point) const;

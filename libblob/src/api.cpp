@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C boundary.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -63,22 +64,60 @@ bool enter(const blob_model& model, std::uint32_t flags, const double* point, st
   return isInRange(model.nodes[node], point);
 }
 
-// Points whose distances are refined go one at a time, which costs little beside the refinement.
+blob_columns packedColumns(std::size_t count, const double (*points)[3],
+                           std::uint32_t* cursors) noexcept {
+  blob_columns columns = blob_columns_default();
+  columns.count = count;
+  for (int i = 0; i < 3; ++i) columns.point[i] = &points[0][i];
+  columns.point_stride = 3 * sizeof(double);
+  columns.cursor = cursors;
+  return columns;
+}
+
+// A batch whose points and cursors have been copied: answers may be written over points.
+struct ExactBatch {
+  static constexpr std::size_t kMost = 64;
+  double point[kMost][3];
+  std::uint32_t cursor[kMost];
+  blob_sample sample[kMost];
+  bool inRange[kMost];
+
+  void read(const blob_columns& c, std::size_t first, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (int k = 0; k < 3; ++k)
+        std::memcpy(&point[i][k], column(c.point[k], first + i, c.point_stride), sizeof(double));
+      cursor[i] = BLOB_NOWHERE;
+      if (c.cursor != nullptr)
+        std::memcpy(&cursor[i], column(c.cursor, first + i, c.cursor_stride), sizeof cursor[i]);
+    }
+  }
+
+  void answer(const blob_model& model, std::uint32_t flags, std::size_t count) noexcept {
+    Job job{packedColumns(count, point, cursor), sample, inRange};
+    model.backend->query(model, flags, job);
+    for (std::size_t i = 0; i < count; ++i)
+      if (inRange[i]) refineSample(model, flags, point[i], sample[i]);
+  }
+
+  void write(const Job& job, std::size_t first, std::size_t count) const noexcept {
+    const blob_columns& c = job.columns;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (c.cursor != nullptr) put(c.cursor, first + i, c.cursor_stride, cursor[i]);
+      if (job.samples != nullptr)
+        job.samples[first + i] = sample[i];
+      else
+        putSample(c, first + i, sample[i]);
+    }
+  }
+};
+
 void queryExact(const blob_model& model, std::uint32_t flags, const Job& job) noexcept {
-  const blob_columns& c = job.columns;
-  for (std::size_t i = 0; i < c.count; ++i) {
-    double point[3];
-    for (int k = 0; k < 3; ++k)
-      std::memcpy(&point[k], column(c.point[k], i, c.point_stride), sizeof(double));
-    std::uint32_t node = BLOB_NOWHERE;
-    if (c.cursor != nullptr) std::memcpy(&node, column(c.cursor, i, c.cursor_stride), sizeof node);
-    blob_sample sample;
-    sampleAt(model, flags, point, node, sample);
-    if (c.cursor != nullptr) put(c.cursor, i, c.cursor_stride, node);
-    if (job.samples != nullptr)
-      job.samples[i] = sample;
-    else
-      putSample(c, i, sample);
+  ExactBatch batch;
+  for (std::size_t first = 0; first < job.columns.count; first += ExactBatch::kMost) {
+    const std::size_t count = std::min(job.columns.count - first, ExactBatch::kMost);
+    batch.read(job.columns, first, count);
+    batch.answer(model, flags, count);
+    batch.write(job, first, count);
   }
 }
 
@@ -252,18 +291,13 @@ void blob_query_many(const blob_model* model, uint32_t flags, size_t count,
                      const double (*points)[3], uint32_t* cursors, blob_sample* samples) noexcept {
   BLOB_REQUIRE(model != nullptr && ((points != nullptr && samples != nullptr) || count == 0));
   if (count == 0) return;
-  Job job{blob_columns_default(), samples};
-  job.columns.count = count;
-  for (int i = 0; i < 3; ++i) job.columns.point[i] = &points[0][i];
-  job.columns.point_stride = 3 * sizeof(double);
-  job.columns.cursor = cursors;
-  queryJob(*model, flags, job);
+  queryJob(*model, flags, Job{packedColumns(count, points, cursors), samples, nullptr});
 }
 
 void blob_query_columns(const blob_model* model, uint32_t flags,
                         const blob_columns* columns) noexcept {
   BLOB_REQUIRE(model != nullptr && columns != nullptr);
-  queryJob(*model, flags, Job{*columns, nullptr});
+  queryJob(*model, flags, Job{*columns, nullptr, nullptr});
 }
 
 int blob_inside(const blob_model* model, uint32_t flags, const double point[3],

@@ -17,17 +17,20 @@ public:
   [[nodiscard]] const double* centre(std::uint32_t node) const {
     return m_model.nodes[node].centre;
   }
-  // Padding counts: it never has a say.
-  [[nodiscard]] std::size_t rivalCount(std::uint32_t node) const {
-    return std::size_t{m_model.nodes[node].neighbourBlocks} * kLanes;
-  }
-  [[nodiscard]] field::Rival rival(std::uint32_t node, std::size_t j) const {
-    const std::size_t first = m_model.nodes[node].firstNeighbours, lane = j % kLanes;
-    const NeighbourBlock& block = m_model.neighbours[first + j / kLanes];
-    return {{block.nx[lane], block.ny[lane], block.nz[lane]},
-            block.c[lane],
-            block.inverseTau[lane],
-            block.node[lane]};
+  template <class Visit>
+  bool eachRival(std::uint32_t node, Visit&& visit) const {
+    const NodeRecord& record = m_model.nodes[node];
+    const NeighbourBlock* blocks = m_model.neighbours.data() + record.firstNeighbours;
+    for (std::uint32_t b = 0; b < record.neighbourBlocks; ++b)
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const NeighbourBlock& block = blocks[b];
+        const field::Rival rival{{block.nx[lane], block.ny[lane], block.nz[lane]},
+                                 block.c[lane],
+                                 block.inverseTau[lane],
+                                 block.node[lane]};
+        if (!visit(rival)) return false;  // padding never has a say
+      }
+    return true;
   }
   template <int order>
   [[nodiscard]] field::Jet<order> model(std::uint32_t node, const double* point) const {
@@ -35,23 +38,26 @@ public:
     double at[3];
     for (int i = 0; i < 3; ++i)
       at[i] = (point[i] - m_model.nodes[node].centre[i]) + double{where.place[i]};
-    field::Jet<order> f;
-    field::withKernel(kernelOf(m_model.field.kernel), [&](auto kernel) {
-      for (std::uint32_t b = where.block; b < where.block + where.blockCount; ++b)
-        addBlobs<decltype(kernel)>(m_model.field.blocks[b], at, f);
+    return field::withKernel(kernelOf(m_model.field.kernel), [&](auto kernel) {
+      return sumBlobs<decltype(kernel), order>(where, at);
     });
-    return f;
   }
 
 private:
+  // Kept out of line: each loop gets all registers.
   template <class K, int order>
-  static void addBlobs(const BlobBlock& block, const double* at, field::Jet<order>& f) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      if (!(block.w[lane] > 0)) continue;
-      const double d[3] = {at[0] - double{block.x[lane]}, at[1] - double{block.y[lane]},
-                           at[2] - double{block.z[lane]}};
-      field::addBlob<K>(d, block.a[lane], block.w[lane], f);
-    }
+  [[nodiscard, gnu::noinline]] field::Jet<order> sumBlobs(const FieldNode& where, const double* at) const {
+    field::Jet<order> f;
+    const BlobBlock* blocks = m_model.field.blocks.data() + where.block;
+    for (std::uint32_t b = 0; b < where.blockCount; ++b)
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const BlobBlock& block = blocks[b];
+        if (!(block.w[lane] > 0)) continue;
+        const double d[3] = {at[0] - double{block.x[lane]}, at[1] - double{block.y[lane]},
+                             at[2] - double{block.z[lane]}};
+        field::addBlob<K>(d, block.a[lane], block.w[lane], f);
+      }
+    return f;
   }
 
   const blob_model& m_model;

@@ -182,7 +182,11 @@ void findNearest(const blob_model& model, std::uint32_t flags, const double* poi
 void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
               std::uint32_t& node, blob_sample& sample) noexcept {
   const bool inRange = model.backend->queryOne(model, flags, point, node, sample);
-  if ((flags & BLOB_DISTANCE_EXACT) == 0 || !inRange) return;
+  if ((flags & BLOB_DISTANCE_EXACT) != 0 && inRange) refineSample(model, flags, point, sample);
+}
+
+void refineSample(const blob_model& model, std::uint32_t flags, const double* point,
+                  blob_sample& sample) noexcept {
   blob_nearest_point nearest;
   findNearest(model, flags, point, sample.node, 0, 0, nearest);
   sample.distance = nearest.distance;

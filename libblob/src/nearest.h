@@ -13,6 +13,11 @@ namespace lumen::blob {
 void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
               std::uint32_t& node, blob_sample& sample) noexcept;
 
+/// Replaces distance and normal by those of the nearest point of the wall. The sample is an answer
+/// of f at the point.
+void refineSample(const blob_model& model, std::uint32_t flags, const double* point,
+                  blob_sample& sample) noexcept;
+
 /// As blob_nearest(), for a finite point in range of its node, which is not moved.
 void findNearest(const blob_model& model, std::uint32_t flags, const double* point,
                  std::uint32_t node, double tolerance, std::uint32_t maxSteps,

@@ -13,6 +13,7 @@ namespace lumen::blob {
 struct Job {
   blob_columns columns;
   blob_sample* samples;
+  bool* inRange;  ///< null, or which of the samples are answers of f; with samples only
 };
 
 /// None of these looks at BLOB_DISTANCE_EXACT: sampleAt() in nearest.h does.

@@ -223,6 +223,8 @@ LUMEN_NOINLINE void writeGroup(const View& view, const Job& job, std::size_t fir
                                unsigned outOfRange) {
   const blob_columns& c = job.columns;
   writeCursors(c, first, count, in);
+  if (job.inRange != nullptr)
+    for (std::size_t i = 0; i < count; ++i) job.inRange[first + i] = (outOfRange >> i & 1U) == 0;
   if (job.samples != nullptr && outOfRange == 0) {
     for (std::size_t i = 0; i < count; ++i) fillSample(g, i, in.node[i], job.samples[first + i]);
     return;
