@@ -23,7 +23,7 @@ if(Python3_FOUND)
   set(queries_only ${conformance}/run.py --queries-only --tolerance 1e-5 --lacks zstd --lacks draco)
   add_test(NAME Conformance.OfLibblobHolds
     COMMAND Python3::Interpreter ${queries_only} --reader $<TARGET_FILE:blob_reader>)
-  add_test(NAME Conformance.OfLibblobsSecondDerivativesHolds
+  add_test(NAME Conformance.OfLibblobInDoublesHolds
     COMMAND Python3::Interpreter ${queries_only} --reader "$<TARGET_FILE:blob_reader> --doubles")
   find_program(NODE node)
   if(TARGET blob_wasm AND NODE)

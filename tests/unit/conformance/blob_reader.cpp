@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // libblob behind the protocol of spec/conformance/README.md, through its public functions alone:
 // blob_reader [--doubles] FILE < questions.json. With --doubles, value and gradient are those of
-// blob_query_second().
+// blob_query_hessian().
 #include <cstdint>
 #include <iostream>
 #include <iterator>
@@ -40,8 +40,8 @@ json sampled(const blob_model* model, std::uint32_t flags, const double* point,
 
 json differentiated(const blob_model* model, std::uint32_t flags, const double* point,
                     std::uint32_t& cursor) {
-  blob_second s;
-  blob_query_second(model, flags, point, &cursor, &s);
+  blob_hessian s;
+  blob_query_hessian(model, flags, point, &cursor, &s);
   return {{"node", cursor},
           {"value", s.value},
           {"gradient", s.gradient},
