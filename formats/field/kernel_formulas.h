@@ -11,8 +11,8 @@
 // constant(T, double), positivePart(T), sqrt(T), expOfMinus(T), naturalLog(T) and, for derivatives
 // of the second order and above, ifPositive(T, T).
 //
-// To add a kernel: a value of Kernel in kernel.h, a structure here with all that the others have,
-// its line in withKernel(), and a row in the table of the specification.
+// To add a kernel: its value and the count in kernel.h, a structure here with all that the others
+// have, its line in withKernel(), its value in blob.h, and a row in the table of the specification.
 
 // clang-format off
 
@@ -201,7 +201,8 @@ struct SoftObject {
 
 /// use(K{}) for the structure K of a kernel. A value that is no kernel counts as the last.
 template <class Use>
-[[gnu::always_inline]] inline decltype(auto) withKernel(::lumen::field::Kernel kernel, Use&& use) {
+[[gnu::always_inline]] constexpr decltype(auto) withKernel(::lumen::field::Kernel kernel,
+                                                           Use&& use) {
   switch (kernel) {
     case ::lumen::field::Kernel::Cauchy:
       return use(Cauchy{});

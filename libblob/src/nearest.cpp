@@ -97,12 +97,12 @@ private:
   bool improve() {
     ++m_steps;
     const double p[3] = {m_best.at.x, m_best.at.y, m_best.at.z};
-    blob_hessian second;
-    evaluateHessian(m_model, m_flags, p, m_best.node, second);
-    const Vec gradient{second.gradient[0], second.gradient[1], second.gradient[2]};
+    blob_hessian local;
+    evaluateHessian(m_model, m_flags, p, m_best.node, local);
+    const Vec gradient{local.gradient[0], local.gradient[1], local.gradient[2]};
     const double slope = norm(gradient);
     if (!(slope > 0)) return false;
-    Vec step = stepAlong(gradient, slope, second.hessian);
+    Vec step = stepAlong(gradient, slope, local.hessian);
     // what the step could still shorten the way by
     const Vec way = m_query - m_best.at;
     const double gain = 0.5 * dot(way, step);

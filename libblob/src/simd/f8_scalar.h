@@ -74,7 +74,7 @@ inline F8 powerOf2(F8 shifted) {
   }
   return shifted;
 }
-// The order in which every path adds or multiplies its lanes.
+// The order in which every back end adds or multiplies its lanes.
 inline float sumOf(F8 a) {
   return ((a.v[0] + a.v[2]) + (a.v[1] + a.v[3])) + ((a.v[4] + a.v[6]) + (a.v[5] + a.v[7]));
 }

@@ -45,3 +45,6 @@ endif()
 
 add_executable(seam_sweep ${folder}/seam_sweep.cpp)
 target_link_libraries(seam_sweep PRIVATE lumen::blob_static lumen_options)
+
+add_executable(distance_error ${folder}/distance_error.cpp)
+target_link_libraries(distance_error PRIVATE lumen::blob_static lumen_options)

@@ -2,6 +2,9 @@
 // The field of a case, from its data model and from its bytes.
 #include "formats/case/case_field.h"
 
+#include <cstdint>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "formats/case/blobby.h"
