@@ -11,6 +11,7 @@
 
 #include "converters/mesh/write_gltf.h"
 #include "formats/case/blobby.h"
+#include "formats/case/case_field.h"
 #include "mesh_facts.h"
 #include "synthetic.h"
 
@@ -91,6 +92,54 @@ TEST(Polygonise, ATubeHasItsRadius) {
   for (const Eigen::Vector3d& p : patch.position)
     if (p.x() > 2 && p.x() < 5.5) {
       EXPECT_NEAR(offAxis(p), 1.0, 0.03);
+    }
+}
+
+// A bent parent and a child that leaves it at a right angle, with models that disagree at seams by
+// up to 3 % of the radius.
+formats::Case disagreeingFork() {
+  formats::Case source;
+  source.metadata.voxelSize = 0.2;
+  std::vector<Eigen::Vector3d> arc;
+  for (int i = 0; i < 9; ++i)
+    arc.emplace_back(5 * std::sin(0.15 * i), 5 - 5 * std::cos(0.15 * i), 0.07);
+  test::addVessel(source, "parent", arc, 1.0, 1.5);
+  test::addVessel(source, "child", test::straightPath(arc[4], {0.02, 0.1, 0.7}, 8), 0.6, 1.0, 4);
+  test::addModels(source);
+  formats::BlobbyModels& models = *source.models;
+  for (std::size_t node = 0; node + 1 < models.offset.size(); ++node)
+    for (std::uint32_t j = models.offset[node]; j < models.offset[node + 1]; ++j)
+      models.width[j] *= 1.0F + 0.03F * static_cast<float>(node % 3);
+  return source;
+}
+
+std::uint32_t leastPowerIn(const formats::Case& source, const formats::Branch& branch,
+                           const field::Vec& p) {
+  const auto power = [&](std::uint32_t node) {
+    const formats::Vec3f& c = source.tree.centre[node];
+    const double r = source.tree.radius[node];
+    const field::Vec d = p - field::Vec{c.x, c.y, c.z};
+    return dot(d, d) - r * r;
+  };
+  std::uint32_t best = branch.firstNode;
+  for (std::uint32_t i = 1; i < branch.nodeCount; ++i)
+    if (power(branch.firstNode + i) < power(best)) best = branch.firstNode + i;
+  return best;
+}
+
+TEST(Polygonise, VerticesLieOnTheBlendedSurface) {
+  const formats::Case source = disagreeingFork();
+  const field::BlendedField surface = formats::blendedFieldOf(source);
+  const auto meshes = meshesOf(source);
+  for (std::size_t b = 0; b < meshes.size(); ++b)
+    for (const Float3& vertex : meshes[b].position) {
+      const field::Vec p{vertex[0], vertex[1], vertex[2]};
+      const std::uint32_t node =
+          surface.follow(p, leastPowerIn(source, source.tree.branches[b], p));
+      const field::Jet<1> f = surface.blended(p, node);
+      const double slope = Eigen::Vector3d(f.gradient).norm();
+      EXPECT_LT(std::abs(f.value - surface.level()) / slope, 1e-3 * source.tree.radius[node])
+          << "at " << p.x << ", " << p.y << ", " << p.z << " near node " << node;
     }
 }
 
