@@ -36,19 +36,19 @@ constexpr auto kCapacities = std::to_array<Capacity>({
     {"lumen.json", kEverything},
 });
 
-std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
+std::string countedIfAny(std::size_t count, const std::string& noun, const std::string& plural) {
   if (count == 0) return "";
   return std::to_string(count) + " " + (count == 1 ? noun : plural);
 }
 
 std::string modelsText(const std::optional<formats::BlobbyModels>& models) {
   if (!models) return "";
-  return "the models (" + counted(models->width.size(), "blob", "blobs") + ")";
+  return "the models (" + countedIfAny(models->width.size(), "blob", "blobs") + ")";
 }
 
 std::string treeText(const formats::CenterlineTree& tree) {
-  return "the tree (" + counted(tree.branches.size(), "branch", "branches") + ", " +
-         counted(tree.nodeCount(), "node", "nodes") + ")";
+  return "the tree (" + countedIfAny(tree.branches.size(), "branch", "branches") + ", " +
+         countedIfAny(tree.nodeCount(), "node", "nodes") + ")";
 }
 
 bool hasRates(const formats::CenterlineTree& tree) {
@@ -62,7 +62,7 @@ std::string provenanceText(const formats::Metadata& metadata) {
   if (!metadata.source && !metadata.voxelSize && metadata.steps.empty() &&
       metadata.parentSha256.empty())
     return "";
-  const std::string steps = counted(metadata.steps.size(), "step", "steps");
+  const std::string steps = countedIfAny(metadata.steps.size(), "step", "steps");
   return "the provenance" + (steps.empty() ? "" : " (" + steps + ")");
 }
 
@@ -74,20 +74,20 @@ std::string partText(const Case& value, Part part) {
     case kRates:
       return hasRates(value.tree) ? "inlier rates and stop reasons" : "";
     case kLinks:
-      return counted(value.tree.links.size(), "link", "links");
+      return countedIfAny(value.tree.links.size(), "link", "links");
     case kPoints:
-      return value.points ? counted(value.points->position.size(), "wall point", "wall points")
+      return value.points ? countedIfAny(value.points->position.size(), "wall point", "wall points")
                           : "";
     case kModels:
       return modelsText(value.models);
     case kNodeArrays:
-      return counted(value.nodeArrays.size(), "node array", "node arrays");
+      return countedIfAny(value.nodeArrays.size(), "node array", "node arrays");
     case kProvenance:
       return provenanceText(value.metadata);
     case kNote:
       return value.metadata.note.empty() ? "" : "the note";
     case kOtherChunks:
-      return counted(value.otherChunks.size(), "chunk of another program",
+      return countedIfAny(value.otherChunks.size(), "chunk of another program",
                      "chunks of other programs");
     case kEverything:
       break;
