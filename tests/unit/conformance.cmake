@@ -9,13 +9,11 @@ target_compile_definitions(conformance_test PRIVATE LUMEN_CONFORMANCE="${conform
 
 add_executable(case_reader ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/case_reader.cpp)
 target_link_libraries(case_reader PRIVATE lumen_case nlohmann_json::nlohmann_json)
-add_dependencies(memory_tests case_reader)
 
 find_package(Python3 3.9 COMPONENTS Interpreter)
 if(Python3_FOUND)
   add_test(NAME Conformance.OfOurReaderHoldsToTheByte
     COMMAND Python3::Interpreter ${conformance}/run.py --exact --reader $<TARGET_FILE:case_reader>)
-  set_tests_properties(Conformance.OfOurReaderHoldsToTheByte PROPERTIES LABELS memory)
   add_test(NAME Conformance.OfTheReferenceReaderHolds
     COMMAND Python3::Interpreter ${conformance}/run.py --lacks zstd --lacks draco
       --reader "{python} -S -E ${PROJECT_SOURCE_DIR}/spec/reference/lumen_reader.py")
