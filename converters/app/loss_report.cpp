@@ -88,7 +88,7 @@ std::string partText(const Case& value, Part part) {
       return value.metadata.note.empty() ? "" : "the note";
     case kOtherChunks:
       return countedIfAny(value.otherChunks.size(), "chunk of another program",
-                     "chunks of other programs");
+                          "chunks of other programs");
     case kEverything:
       break;
   }

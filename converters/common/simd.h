@@ -9,5 +9,6 @@
 #if defined(LUMEN_NO_CLONES) || !defined(__x86_64__) || !defined(__gnu_linux__)
 #define LUMEN_SIMD_CLONES
 #else
-#define LUMEN_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define LUMEN_SIMD_CLONES \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #endif
