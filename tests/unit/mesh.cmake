@@ -2,6 +2,7 @@ find_package(OpenMesh REQUIRED)
 find_package(draco REQUIRED)
 find_package(TinyGLTF REQUIRED)
 lumen_test(mesh_test
+  LABELS threads
   LIBS lumen_mesh OpenMeshCore draco::draco TinyGLTF::TinyGLTF
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/marching_cubes_table_test.cpp

@@ -1,4 +1,5 @@
 lumen_test(tracking_test
+  LABELS threads
   LIBS lumen_tracking
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/statistics_test.cpp
