@@ -2,10 +2,10 @@
 #include "converters/app/chunk_info.h"
 
 #include <array>
-#include <cstdio>
 
 #include "converters/common/error.h"
 #include "formats/case/case_file.h"
+#include "formats/container/crc32c.h"
 #include "formats/view/case_chunks.h"
 
 namespace lumen::app {
@@ -17,12 +17,6 @@ constexpr std::array<std::string_view, 3> kEncodings = {"raw", "zstd", "draco"};
 std::string encodingName(std::uint8_t encoding) {
   return encoding < kEncodings.size() ? std::string(kEncodings[encoding])
                                       : std::to_string(encoding);
-}
-
-std::string hex(std::uint32_t value) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%08x", value);
-  return text.data();
 }
 
 std::string remarks(const ChunkInfo& info) {
@@ -73,7 +67,7 @@ Json chunkInfoJson(const FileInfo& info) {
                               {"offset", entry.chunk.offset},
                               {"stored", entry.storedSize},
                               {"raw", entry.chunk.rawSize},
-                              {"crc32c", hex(entry.chunk.checksum)},
+                              {"crc32c", formats::checksumText(entry.chunk.checksum)},
                               {"intact", entry.intact}});
   return json;
 }
@@ -84,8 +78,8 @@ std::string chunkInfoText(const FileInfo& info) {
   for (const ChunkInfo& entry : info.chunks)
     rows.push_back({formats::chunkName(entry.chunk.type), encodingName(entry.chunk.encoding),
                     std::to_string(entry.chunk.offset), std::to_string(entry.storedSize),
-                    std::to_string(entry.chunk.rawSize), hex(entry.chunk.checksum),
-                    remarks(entry)});
+                    std::to_string(entry.chunk.rawSize),
+                    formats::checksumText(entry.chunk.checksum), remarks(entry)});
   return "version       " + formats::versionText(info.version) + "\nbytes         " +
          std::to_string(info.length) + "\n\n" + alignColumns(rows);
 }

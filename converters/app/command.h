@@ -44,12 +44,7 @@ public:
   virtual int run(Context& context) = 0;
 };
 
-std::unique_ptr<Command> makeConvertCommand();
-std::unique_ptr<Command> makeTrackCommand();
-std::unique_ptr<Command> makeFitCommand();
-std::unique_ptr<Command> makeInfoCommand();
-std::unique_ptr<Command> makeCompareCommand();
-std::unique_ptr<Command> makePhantomCommand();
-std::unique_ptr<Command> makeValidateCommand();
+/// Every command of lumen, in the order of the help: the list in commands.cpp.
+std::vector<std::unique_ptr<Command>> allCommands();
 
 }  // namespace lumen::app

@@ -22,18 +22,6 @@ namespace {
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 failed, 2 usage, 3 invalid input, 4 unsupported, 130 interrupted.";
 
-std::vector<std::unique_ptr<Command>> allCommands() {
-  std::vector<std::unique_ptr<Command>> commands;
-  commands.push_back(makeConvertCommand());
-  commands.push_back(makeTrackCommand());
-  commands.push_back(makeFitCommand());
-  commands.push_back(makeInfoCommand());
-  commands.push_back(makeValidateCommand());
-  commands.push_back(makeCompareCommand());
-  commands.push_back(makePhantomCommand());
-  return commands;
-}
-
 std::vector<std::string> commandNames() {
   std::vector<std::string> names;
   for (const auto& command : allCommands()) names.push_back(command->name());
@@ -65,22 +53,6 @@ int answerParseError(const CLI::App& app, const CLI::ParseError& error,
   return exitCode(missingConfig ? ErrorKind::InvalidInput : ErrorKind::Usage);
 }
 
-void bindCommon(CLI::App& app, CommonOptions& common, const std::string& command) {
-  app.add_option("--threads", common.threads, "Threads to run on; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024).description(""))
-      ->capture_default_str();
-  auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors and the asked-for answer only");
-  app.add_flag("--verbose", common.verbose, "Also print details")->excludes(quiet);
-  app.add_flag("--json", common.json, "Answer with one JSON object on standard output");
-  app.set_config(
-         "--config", "",
-         "Options from a file of lines such as \"inlier-rate = 0.6\"; the command line wins")
-      ->type_name("FILE");
-  app.config_formatter(std::make_shared<CommandConfig>(command, commandNames()));
-  app.allow_config_extras(CLI::config_extras_mode::error);
-}
-
 void limitThreads(int threads, std::optional<tbb::global_control>& control) {
   if (threads <= 0) return;
   control.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -107,8 +79,7 @@ int runCommand(Command& command, int argc, const char* const* argv) {
   const std::string title = "lumen " + command.name();
   CommonOptions common;
   CLI::App app(command.summary(), title);
-  command.bind(app);
-  bindCommon(app, common, command.name());
+  bindOptions(app, command, common);
   app.get_formatter()->column_width(36);
   for (CLI::Option* option : app.get_options())
     if (option->get_positional()) option->option_text(" ");
@@ -149,6 +120,23 @@ int dispatch(int argc, const char* const* argv) {
 }
 
 }  // namespace
+
+void bindOptions(CLI::App& app, Command& command, CommonOptions& common) {
+  command.bind(app);
+  app.add_option("--threads", common.threads, "Threads to run on; 0: all cores")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->capture_default_str();
+  auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors and the asked-for answer only");
+  app.add_flag("--verbose", common.verbose, "Also print details")->excludes(quiet);
+  app.add_flag("--json", common.json, "Answer with one JSON object on standard output");
+  app.set_config(
+         "--config", "",
+         "Options from a file of lines such as \"inlier-rate = 0.6\"; the command line wins")
+      ->type_name("FILE");
+  app.config_formatter(std::make_shared<CommandConfig>(command.name(), commandNames()));
+  app.allow_config_extras(CLI::config_extras_mode::error);
+}
 
 int runCommandLine(int argc, const char* const* argv) {
   try {

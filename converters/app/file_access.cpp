@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/file_access.h"
 
-#include <array>
-#include <fstream>
+#include <cerrno>
+#include <cstring>
 #include <span>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <stdlib.h>
+#include <unistd.h>
 
-#include "converters/app/file_digest.h"
-#include "converters/seeds/seeds.h"
-#include "formats/case/case_file.h"
+#include "converters/common/error.h"
+#include "converters/common/sha256.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen::app {
 
@@ -18,152 +22,75 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool startsGzip(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::array<char, 2> magic{};
-  stream.read(magic.data(), magic.size());
-  return stream && magic[0] == '\x1f' && magic[1] == '\x8b';
-}
-
-/// A second name for a file, with the ending that the readers of its format go by.
-class Alias {
-public:
-  Alias(const fs::path& file, const std::string& extension) {
-    std::string pattern = (fs::temp_directory_path() / "lumen-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr)
-      throw failed(fs::temp_directory_path().string() + ": no temporary folder can be made in it");
-    m_folder = pattern;
-    m_path = m_folder / ("volume" + extension);
-    std::error_code error;
-    fs::create_symlink(fs::absolute(file), m_path, error);
-    if (error) throw failed(m_path.string() + ": " + error.message());
-  }
-  ~Alias() {
-    std::error_code ignored;
-    fs::remove_all(m_folder, ignored);
-  }
-  Alias(const Alias&) = delete;
-  Alias& operator=(const Alias&) = delete;
-  [[nodiscard]] const fs::path& path() const { return m_path; }
-
-private:
-  fs::path m_folder, m_path;
-};
-
-convert::Volume readThroughAlias(const fs::path& file, const FileFormat& format,
-                                 const convert::ReadVolumeOptions& options,
-                                 const Progress& progress) {
-  const bool zipped = format.name == "nii" && startsGzip(file);
-  const Alias alias(file, "." + std::string(format.name) + (zipped ? ".gz" : ""));
-  try {
-    return convert::readVolume(alias.path(), options, progress);
-  } catch (const Error& error) {
-    // the user knows the file, not its alias
-    std::string text = error.what();
-    const std::string inside = alias.path().string();
-    if (const auto at = text.find(inside); at != std::string::npos)
-      text.replace(at, inside.size(), file.string());
-    throw Error(error.kind(), text);
-  }
-}
-
 /// The file's name first and once, whether or not the message begins with it.
-std::string errorText(const fs::path& file, formats::FormatError error) {
+std::string errorText(const fs::path& file, formats::Issue error) {
   const std::string prefix = file.string() + ": ";
   if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
   return prefix + error.text();
 }
 
-std::string roundedJson(formats::Case value, int pointBits) {
-  formats::quantisePoints(value, pointBits);
-  return formats::encodeJson(value);
-}
-
-bool nameMatches(const fs::path& file, const FileFormat& format) {
-  try {
-    return &inputFormat(file, "") == &format;
-  } catch (const Error&) {
-    return false;
-  }
+/// The whole of a case file, and the case in it.
+std::pair<std::vector<std::byte>, formats::Case> readBoth(const fs::path& file) {
+  requireInput(file, "case file");
+  auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
+  auto value = formats::decodeCase(*bytes);
+  if (!value) throw invalidInput(errorText(file, value.error()));
+  return {std::move(*bytes), std::move(*value)};
 }
 
 }  // namespace
 
 formats::Case readCase(const fs::path& file) {
-  requireInput(file, "case file");
-  auto result = formats::readCaseFile(file);
-  if (!result) throw invalidInput(errorText(file, result.error()));
-  return std::move(*result);
+  return readBoth(file).second;
 }
 
 formats::Case readParentCase(const fs::path& file) {
-  formats::Case value = readCase(file);
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
-  value.metadata.parentSha256 = sha256(*bytes);
+  auto [bytes, value] = readBoth(file);
+  value.metadata.parentSha256 = sha256(bytes);
   formats::dropDependentChunks(value);
-  return value;
+  return std::move(value);
 }
 
-convert::Volume readVolumeAs(const fs::path& file, const FileFormat& format,
-                             const VolumeArguments& volume, Progress& progress) {
-  requireInput(file, "volume");
-  std::error_code ignored;
-  if (format.name == "dicom" && !fs::is_directory(file, ignored))
-    throw invalidInput(file.string() +
-                       ": this is a file; a DICOM series is read from the folder that holds it");
-  progress.begin("reading", 0);
-  convert::Volume result = nameMatches(file, format)
-                               ? convert::readVolume(file, volume.options(), progress)
-                               : readThroughAlias(file, format, volume.options(), progress);
-  progress.end();
-  return result;
-}
-
-void writeCase(const formats::Case& value, const fs::path& file, const FileFormat& format,
-               const formats::EncodeOptions& encoding) {
-  if (const auto valid = formats::validate(value); !valid)
-    throw failed(file.string() +
-                 ": the case is not valid and is not written: " + valid.error().text());
-  formats::Result<bool> written = true;
-  if (format.name == "lumen.json") {
-    const std::string text = encoding.pointBits == 0 ? formats::encodeJson(value)
-                                                     : roundedJson(value, encoding.pointBits);
-    written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
-  } else {
-    written = formats::writeFileAtomically(formats::encodeBinary(value, encoding), file);
-  }
+void writeCase(const formats::Case& value, const fs::path& file, formats::CaseEncoding encoding,
+               const formats::EncodeOptions& options) {
+  const auto written = formats::writeCaseFile(value, file, encoding, options);
   if (!written) throw failed(errorText(file, written.error()));
 }
 
-void writeCaseMesh(const formats::Case& value, const fs::path& file, const FileFormat& format,
-                   const MeshArguments& mesh, Progress& progress) {
-  const auto meshes = convert::polygonise(value, mesh.polygonise, progress);
-  progress.check();
-  convert::writeMesh(meshes, file, std::string(format.name), mesh.write);
+void writeText(std::string_view text, const fs::path& file) {
+  const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
+  if (!written) throw failed(errorText(file, written.error()));
 }
 
-convert::TrackResult trackSeeds(const convert::Volume& volume, const TrackArguments& track,
-                                Progress& progress) {
-  const auto seeds = convert::readSeeds(track.seeds);
-  convert::checkSeedsInside(seeds, volume.geometry, track.seeds);
-  convert::TrackResult result = convert::track(volume, seeds, track.options, progress);
-  for (const auto& failure : result.failures)
-    progress.warn("seed " + failure.label + " started no track: " + failure.reason);
-  for (const auto& missed : result.missedPoints)
-    progress.warn("seed " + missed.label + " does not pass through its " + missed.reason);
-  if (result.result.tree.nodeCount() == 0)
-    throw failed(track.seeds + ": none of its " + std::to_string(seeds.size()) +
-                 " seeds started a track; nothing is written");
-  return result;
+void requireInput(const fs::path& path, std::string_view what) {
+  std::error_code error;
+  if (fs::exists(path, error)) return;
+  throw invalidInput(path.string() + ": there is no such " + std::string(what));
 }
 
-void requireSeeds(const TrackArguments& track) {
-  if (track.seeds.empty())
-    throw Error(ErrorKind::Usage,
-                "a volume needs --seeds FILE, which says where its vessels begin");
-  requireInput(track.seeds, "seeds file");
-  (void)convert::readSeeds(track.seeds);
+void requireWritable(const fs::path& path) {
+  std::error_code ignored;
+  if (path.filename().empty() || fs::is_directory(path, ignored))
+    throw failed(path.string() + ": this is a folder, but the output must be a file");
+  if (fs::exists(path, ignored)) {
+    if (!fs::is_regular_file(path, ignored))
+      throw failed(path.string() + ": this is not a regular file, but the output must be one");
+    if (access(path.c_str(), W_OK) != 0)
+      throw failed(path.string() + ": this file may not be overwritten: " + std::strerror(errno));
+  }
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, ignored))
+    throw failed(path.string() + ": the output's folder " + folder.string() + " does not exist");
+  // permission bits do not tell (read-only mounts, privileged users), so one file is made and
+  // dropped
+  std::string probe = (folder / ".lumen-probe-XXXXXX").string();
+  const int file = mkstemp(probe.data());
+  if (file < 0)
+    throw failed(path.string() + ": no file can be made in the folder " + folder.string() + ": " +
+                 std::strerror(errno));
+  close(file);
+  unlink(probe.c_str());
 }
 
 }  // namespace lumen::app

@@ -1,44 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases, volumes and meshes between files and the stages, in the format that was asked for.
+// What a command reads and writes by name, and what it refuses before any work.
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <string_view>
 
-#include "converters/app/command.h"
-#include "converters/app/file_format.h"
-#include "converters/app/options.h"
-#include "formats/case/case.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::app {
 
-/// Throws Error(InvalidInput) with the file's name and what is wrong in it.
+/// A case in either encoding, by its content. Throws Error(InvalidInput) with the file's name and
+/// what is wrong in it.
 formats::Case readCase(const std::filesystem::path& file);
 
 /// The case, to be changed and written as another: it states the digest of `file`, and has no chunk
 /// of others that a change would make wrong.
 formats::Case readParentCase(const std::filesystem::path& file);
 
-/// Reads `file` as `format` (a volume format) whatever its name ends in.
-convert::Volume readVolumeAs(const std::filesystem::path& file, const FileFormat& format,
-                             const VolumeArguments& volume, Progress& progress);
-
-/// Writes atomically as `format` (a case format). Throws Error(Failed).
+/// Validates and writes atomically; throws Error(Failed) with the file's name.
 void writeCase(const formats::Case& value, const std::filesystem::path& file,
-               const FileFormat& format, const formats::EncodeOptions& encoding = {});
+               formats::CaseEncoding encoding, const formats::EncodeOptions& options);
 
-/// Polygonises the case's models and writes them atomically as `format` (a mesh format).
-void writeCaseMesh(const formats::Case& value, const std::filesystem::path& file,
-                   const FileFormat& format, const MeshArguments& mesh, Progress& progress);
+/// Writes atomically; throws Error(Failed) with the file's name.
+void writeText(std::string_view text, const std::filesystem::path& file);
 
-/// Tracks `seedsFile` through the volume; failed seeds become warnings. Throws Error(Failed) if
-/// nothing was tracked.
-convert::TrackResult trackSeeds(const convert::Volume& volume, const TrackArguments& track,
-                                Progress& progress);
+/// Throws Error(InvalidInput) if `path` is missing; `what` names its role, such as "seeds file".
+void requireInput(const std::filesystem::path& path, std::string_view what);
 
-/// Refuses, before any work, a volume without seeds (Usage) and a seeds file that is missing or
-/// invalid.
-void requireSeeds(const TrackArguments& track);
+/// Throws Error(Failed) unless `path` can be created: its folder must exist and take new files, and
+/// it must not itself be a folder. Leaves nothing behind.
+void requireWritable(const std::filesystem::path& path);
 
 }  // namespace lumen::app

@@ -2,31 +2,109 @@
 #include "converters/app/file_format.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 
-#include <stdlib.h>
-#include <unistd.h>
-
+#include "converters/app/file_access.h"
 #include "converters/common/error.h"
+#include "converters/common/text.h"
+#include "converters/mesh/write_gltf.h"
+#include "converters/mesh/write_plain.h"
+#include "converters/volume/write_volume.h"
 
 namespace lumen::app {
 
 namespace fs = std::filesystem;
+using convert::VolumeFormat;
 
 namespace {
 
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+template <VolumeFormat format>
+convert::Volume readVolumeAs(const fs::path& file, const convert::ReadVolumeOptions& options,
+                             const Progress& progress) {
+  return convert::readVolume(file, format, options, progress);
 }
+
+template <VolumeFormat format, bool compressed>
+void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
+  convert::writeVolume(volume, file, format, compressed);
+}
+
+template <formats::CaseEncoding encoding>
+void writeCaseAs(const formats::Case& value, const fs::path& file, const OutputOptions& options,
+                 Progress&) {
+  writeCase(value, file, encoding, options.encoding);
+}
+
+using Meshes = std::vector<convert::BranchMesh>;
+
+std::string encodeGlb(const Meshes& meshes, const convert::WriteMeshOptions& options) {
+  return convert::encodeGltf(meshes, true, options);
+}
+std::string encodeGltfText(const Meshes& meshes, const convert::WriteMeshOptions& options) {
+  return convert::encodeGltf(meshes, false, options);
+}
+template <std::string (*encode)(const Meshes&)>
+std::string encodePlain(const Meshes& meshes, const convert::WriteMeshOptions&) {
+  return encode(meshes);
+}
+
+/// The writer of a mesh format: the case's surface as triangles, encoded.
+template <std::string (*encode)(const Meshes&, const convert::WriteMeshOptions&)>
+void writeMeshAs(const formats::Case& value, const fs::path& file, const OutputOptions& options,
+                 Progress& progress) {
+  const Meshes meshes = convert::polygonise(value, options.polygonise, progress);
+  progress.check();
+  writeText(encode(meshes, options.mesh), file);
+}
+
+constexpr auto kObj = writeMeshAs<encodePlain<convert::encodeObj>>;
+constexpr auto kStl = writeMeshAs<encodePlain<convert::encodeStl>>;
+constexpr auto kPly = writeMeshAs<encodePlain<convert::encodePly>>;
+
+// clang-format off
+std::vector<FileFormat> makeTable() {
+  using enum FormatKind;
+  return {
+      // cases
+      {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"}, .holds = kEveryPart,
+       .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Binary>},
+      {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"}, .holds = kEveryPart,
+       .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
+      // meshes
+      {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = writeMeshAs<encodeGlb>},
+      {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"}, .writeCase = writeMeshAs<encodeGltfText>},
+      {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"}, .writeCase = kObj},
+      {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .writeCase = kStl},
+      {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},
+      // volumes
+      {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
+      {.name = "nhdr", .title = "NRRD", .kind = Volume, .endings = {".nhdr"},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>},
+      {.name = "nii", .title = "NIfTI", .kind = Volume, .endings = {".nii"},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
+      {.name = "nii.gz", .title = "NIfTI", .kind = Volume, .endings = {".nii.gz"},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
+      {.name = "mha", .title = "MetaImage", .kind = Volume, .endings = {".mha"},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
+      {.name = "mhd", .title = "MetaImage", .kind = Volume, .endings = {".mhd"},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>},
+      {.name = "dicom", .title = "a folder of DICOM", .kind = Volume,
+       .readVolume = readVolumeAs<VolumeFormat::Dicom>},
+  };
+}
+// clang-format on
 
 const FileFormat* findByName(std::string_view name) {
   for (const FileFormat& format : fileFormats())
     if (format.name == name) return &format;
+  return nullptr;
+}
+
+/// The format that a folder is read as.
+const FileFormat* findFolder() {
+  for (const FileFormat& format : fileFormats())
+    if (format.endings.empty()) return &format;
   return nullptr;
 }
 
@@ -35,28 +113,19 @@ const FileFormat* findByEnding(const fs::path& path) {
   const FileFormat* best = nullptr;
   std::size_t longest = 0;
   for (const FileFormat& format : fileFormats())
-    for (const std::string_view extension : format.extensions)
-      if (extension.size() > longest && file.size() > extension.size() &&
-          file.ends_with(extension)) {
+    for (const std::string_view ending : format.endings)
+      if (ending.size() > longest && file.size() > ending.size() && file.ends_with(ending)) {
         best = &format;
-        longest = extension.size();
+        longest = ending.size();
       }
   return best;
 }
 
-std::string listNames(bool FileFormat::*wanted) {
-  std::string names;
-  for (const FileFormat& format : fileFormats())
-    if (format.*wanted) names += (names.empty() ? "" : ", ") + std::string(format.name);
-  return names;
-}
-
-/// `format` if it is not null and can do what is wanted.
+/// `format` if it is not null and passes `test`.
 const FileFormat& require(const FileFormat* format, const fs::path& path, std::string_view override,
-                          bool FileFormat::*wanted, const std::string& verb,
-                          const std::string& option) {
-  if (format != nullptr && format->*wanted) return *format;
-  const std::string known = "; lumen " + verb + "s " + listNames(wanted);
+                          FormatTest test, const std::string& verb, const std::string& option) {
+  if (format != nullptr && test(*format)) return *format;
+  const std::string known = "; lumen " + verb + "s " + formatNames(test);
   if (!override.empty())
     throw unsupported(option + " " + std::string(override) + ": lumen cannot " + verb +
                       " this format" + known);
@@ -67,66 +136,96 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
                     verb + "s" + known + " (" + option + " chooses one whatever the name)");
 }
 
+/// `text(format)` of each format that passes `test`, each text once.
+template <class Text>
+std::vector<std::string> listed(FormatTest test, Text text) {
+  std::vector<std::string> words;
+  for (const FileFormat& format : fileFormats()) {
+    if (!test(format)) continue;
+    const std::string word(text(format));
+    if (!word.empty() && std::find(words.begin(), words.end(), word) == words.end())
+      words.push_back(word);
+  }
+  return words;
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? last : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
 }  // namespace
 
 const std::vector<FileFormat>& fileFormats() {
-  static const std::vector<FileFormat> formats = {
-      {"lumen", FormatKind::Case, {".lumen"}, true, true},
-      {"lumen.json", FormatKind::Case, {".lumen.json", ".json"}, true, true},
-      {"glb", FormatKind::Mesh, {".glb"}, false, true},
-      {"gltf", FormatKind::Mesh, {".gltf"}, false, true},
-      {"obj", FormatKind::Mesh, {".obj"}, false, true},
-      {"stl", FormatKind::Mesh, {".stl"}, false, true},
-      {"ply", FormatKind::Mesh, {".ply"}, false, true},
-      {"nrrd", FormatKind::Volume, {".nrrd", ".nhdr"}, true, false},
-      {"nii", FormatKind::Volume, {".nii.gz", ".nii"}, true, false},
-      {"mha", FormatKind::Volume, {".mha", ".mhd"}, true, false},
-      {"dicom", FormatKind::Volume, {}, true, false},
+  static const std::vector<FileFormat> table = makeTable();
+  return table;
+}
+
+bool canRead(const FileFormat& format) {
+  return format.readCase != nullptr || format.readVolume != nullptr;
+}
+
+bool canReadVolume(const FileFormat& format) {
+  return format.readVolume != nullptr;
+}
+
+bool canWrite(const FileFormat& format) {
+  return format.writeCase != nullptr;
+}
+
+bool canWriteCase(const FileFormat& format) {
+  return format.kind == FormatKind::Case && canWrite(format);
+}
+
+bool canWriteVolume(const FileFormat& format) {
+  return format.writeVolume != nullptr;
+}
+
+std::string formatNames(FormatTest test) {
+  return joined(listed(test, [](const FileFormat& format) { return format.name; }), ", ");
+}
+
+std::string formatEndings(FormatTest test) {
+  const auto ending = [](const FileFormat& format) {
+    return format.endings.empty() ? std::string_view() : format.endings.front();
   };
-  return formats;
+  return joined(listed(test, ending), " or ");
+}
+
+std::string formatTitles(FormatTest test) {
+  return joined(listed(test, [](const FileFormat& format) { return format.title; }), " or ");
 }
 
 const FileFormat& inputFormat(const fs::path& path, std::string_view override) {
   std::error_code ignored;
   const FileFormat* format = !override.empty()                 ? findByName(override)
-                             : fs::is_directory(path, ignored) ? findByName("dicom")
+                             : fs::is_directory(path, ignored) ? findFolder()
                                                                : findByEnding(path);
-  return require(format, path, override, &FileFormat::readable, "read", "--from");
+  return require(format, path, override, canRead, "read", "--from");
 }
 
 const FileFormat& outputFormat(const fs::path& path, std::string_view override) {
   const FileFormat* format = override.empty() ? findByEnding(path) : findByName(override);
-  return require(format, path, override, &FileFormat::writable, "write", "--to");
+  return require(format, path, override, canWrite, "write", "--to");
 }
 
-void requireInput(const fs::path& path, std::string_view what) {
-  std::error_code error;
-  if (fs::exists(path, error)) return;
-  throw invalidInput(path.string() + ": there is no such " + std::string(what));
+const FileFormat& caseOutputFormat(const fs::path& path, std::string_view override,
+                                   const std::string& what) {
+  const FileFormat& format = outputFormat(path, override);
+  if (canWriteCase(format)) return format;
+  throw unsupported(path.string() + ": " + what + " is written as a case, " +
+                    formatEndings(canWriteCase));
 }
 
-void requireWritable(const fs::path& path) {
-  std::error_code ignored;
-  if (path.filename().empty() || fs::is_directory(path, ignored))
-    throw failed(path.string() + ": this is a folder, but the output must be a file");
-  if (fs::exists(path, ignored)) {
-    if (!fs::is_regular_file(path, ignored))
-      throw failed(path.string() + ": this is not a regular file, but the output must be one");
-    if (access(path.c_str(), W_OK) != 0)
-      throw failed(path.string() + ": this file may not be overwritten: " + std::strerror(errno));
-  }
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, ignored))
-    throw failed(path.string() + ": the output's folder " + folder.string() + " does not exist");
-  // permission bits do not tell (read-only mounts, privileged users), so one file is made and
-  // dropped
-  std::string probe = (folder / ".lumen-probe-XXXXXX").string();
-  const int file = mkstemp(probe.data());
-  if (file < 0)
-    throw failed(path.string() + ": no file can be made in the folder " + folder.string() + ": " +
-                 std::strerror(errno));
-  close(file);
-  unlink(probe.c_str());
+const FileFormat& volumeOutputFormat(const fs::path& path, const std::string& what) {
+  const FileFormat* format = findByEnding(path);
+  if (format != nullptr && canWriteVolume(*format)) return *format;
+  throw unsupported(path.string() + ": " + what + " is written as " +
+                    formatEndings(canWriteVolume));
 }
 
 }  // namespace lumen::app

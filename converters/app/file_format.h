@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which formats the command line knows, and what a path or --from/--to names.
+// The table of formats: all that the command line knows of one is its row. Help, errors, the loss
+// report and shell completion are made from the table.
 #pragma once
 
 #include <filesystem>
@@ -7,31 +8,82 @@
 #include <string_view>
 #include <vector>
 
+#include "converters/common/progress.h"
+#include "converters/mesh/polygonise.h"
+#include "converters/mesh/write_options.h"
+#include "converters/volume/read_volume.h"
+#include "formats/case/case.h"
+#include "formats/case/case_file.h"
+
 namespace lumen::app {
 
 enum class FormatKind { Volume, Case, Mesh };
 
+/// What a case may have besides its surface; the bits of FileFormat::holds.
+enum CasePart : unsigned {
+  kTree = 1u << 0,
+  kRates = 1u << 1,
+  kLinks = 1u << 2,
+  kPoints = 1u << 3,
+  kModels = 1u << 4,
+  kNodeArrays = 1u << 5,
+  kProvenance = 1u << 6,
+  kNote = 1u << 7,
+  kOtherChunks = 1u << 8,
+  kEveryPart = (1u << 9) - 1,
+};
+
+/// How a case is written; each format takes what concerns it.
+struct OutputOptions {
+  formats::EncodeOptions encoding;
+  convert::PolygoniseOptions polygonise;
+  convert::WriteMeshOptions mesh;
+};
+
+/// One row. A function that is null says what the format cannot do; each throws lumen::Error with
+/// the file's name.
 struct FileFormat {
-  std::string_view name;  ///< as --from and --to take it
+  using CaseReader = formats::Case (*)(const std::filesystem::path&);
+  using VolumeReader = convert::Volume (*)(const std::filesystem::path&,
+                                           const convert::ReadVolumeOptions&, const Progress&);
+  using CaseWriter = void (*)(const formats::Case&, const std::filesystem::path&,
+                              const OutputOptions&, Progress&);
+  using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
+
+  std::string_view name;   ///< as --from and --to take it
+  std::string_view title;  ///< as a help text calls it; rows of one title are listed once
   FormatKind kind;
-  std::vector<std::string_view> extensions;  ///< lower case, longest first; empty: a directory
-  bool readable;
-  bool writable;  ///< by `convert`, `track` or `fit`
+  std::vector<std::string_view> endings{};  ///< of a name, lower case; empty: a folder
+  unsigned holds = 0;                       ///< CasePart bits
+  CaseReader readCase = nullptr;
+  VolumeReader readVolume = nullptr;
+  CaseWriter writeCase = nullptr;      ///< atomically
+  VolumeWriter writeVolume = nullptr;  ///< atomically
 };
 
 const std::vector<FileFormat>& fileFormats();
 
+/// What a list of formats is about.
+using FormatTest = bool (*)(const FileFormat&);
+bool canRead(const FileFormat& format);
+bool canReadVolume(const FileFormat& format);
+bool canWrite(const FileFormat& format);  ///< a case, in whatever form
+bool canWriteCase(const FileFormat& format);
+bool canWriteVolume(const FileFormat& format);
+
+/// The formats that pass `test`, for a sentence: names "lumen, lumen.json, obj", endings ".lumen,
+/// .lumen.json or .obj", titles "NRRD, NIfTI or a folder of DICOM".
+std::string formatNames(FormatTest test);
+std::string formatEndings(FormatTest test);
+std::string formatTitles(FormatTest test);
+
 /// The format that `override` names if it is not empty, otherwise that of the path's name. Throws
-/// Error(Unsupported) if there is none that can be read (or written); the message lists those that
-/// can.
+/// Error(Unsupported) if there is none that can be read (or written as a case, or as a volume); the
+/// message lists those that can. `what` is the subject of a sentence, such as "the truth".
 const FileFormat& inputFormat(const std::filesystem::path& path, std::string_view override);
 const FileFormat& outputFormat(const std::filesystem::path& path, std::string_view override);
-
-/// Throws Error(InvalidInput) if `path` is missing; `what` names its role, such as "seeds file".
-void requireInput(const std::filesystem::path& path, std::string_view what);
-
-/// Throws Error(Failed) unless `path` can be created: its folder must exist and take new files, and
-/// it must not itself be a folder. Leaves nothing behind.
-void requireWritable(const std::filesystem::path& path);
+const FileFormat& caseOutputFormat(const std::filesystem::path& path, std::string_view override,
+                                   const std::string& what);
+const FileFormat& volumeOutputFormat(const std::filesystem::path& path, const std::string& what);
 
 }  // namespace lumen::app

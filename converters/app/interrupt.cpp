@@ -3,11 +3,12 @@
 
 #include <cstdio>
 #include <ctime>
-#include <string>
 #include <system_error>
 
 #include <signal.h>
 #include <unistd.h>
+
+#include "formats/case/atomic_file.h"
 
 namespace lumen {
 
@@ -28,20 +29,6 @@ sigset_t awaitedSignals() {
   sigset_t set = interruptSignals();
   sigaddset(&set, SIGUSR1);
   return set;
-}
-
-/// Removes what the writers of this process (formats/case/atomic_file.cpp,
-/// converters/volume/write_volume.cpp) have begun in `folder`; they put the process id into the
-/// names.
-void removeTemporaries(const std::filesystem::path& folder) {
-  const std::string id = std::to_string(getpid());
-  const std::string cases = ".lumen-" + id + "-", volumes = ".tmp-" + id + "-";
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(cases) || name.starts_with(volumes))
-      std::filesystem::remove(entry.path(), ignored);
-  }
 }
 
 }  // namespace
@@ -82,7 +69,8 @@ void InterruptGuard::wait() {
 void InterruptGuard::exitNow() {
   {
     const std::lock_guard lock(m_mutex);
-    for (const auto& folder : m_folders) removeTemporaries(folder);
+    for (const auto& folder : m_folders)
+      formats::removeTemporaries(folder, formats::Temporaries::AbandonedAndOwn);
   }
   std::fputs("\nlumen: interrupted\n", stderr);
   _exit(static_cast<int>(ErrorKind::Cancelled));

@@ -190,17 +190,18 @@ void addFitOptions(CLI::App& app, FitArguments& fit) {
   group.addScaled("--min-width", o.minWidth, "Drop blobs narrower than this", "0.1 voxel");
 }
 
-void addMeshOptions(CLI::App& app, MeshArguments& mesh) {
+void addMeshOptions(CLI::App& app, OutputOptions& output) {
   Group group(app, "Mesh");
   group
-      .add("--cell", mesh.polygonise.cell, "MM", "Edge of a marching-cubes cell; 0: the voxel size")
+      .add("--cell", output.polygonise.cell, "MM",
+           "Edge of a marching-cubes cell; 0: the voxel size")
       ->check(kNotNegative);
-  group.addFlag("--draco", mesh.write.draco, "Compress glTF with KHR_draco_mesh_compression");
+  group.addFlag("--draco", output.mesh.draco, "Compress glTF with KHR_draco_mesh_compression");
   group
-      .add("--draco-position-bits", mesh.write.dracoPositionBits, "N",
+      .add("--draco-position-bits", output.mesh.dracoPositionBits, "N",
            "Bits of a position in a branch's bounding box")
       ->check(within(1, 30));
-  group.add("--draco-normal-bits", mesh.write.dracoNormalBits, "N", "Bits of a normal")
+  group.add("--draco-normal-bits", output.mesh.dracoNormalBits, "N", "Bits of a normal")
       ->check(within(2, 30));
 }
 

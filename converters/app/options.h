@@ -8,12 +8,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "converters/app/file_format.h"
 #include "converters/fitting/fit.h"
-#include "converters/mesh/mesh.h"
 #include "converters/phantom/phantom.h"
 #include "converters/tracking/tracker.h"
 #include "converters/volume/read_volume.h"
-#include "formats/case/case_file.h"
 
 namespace lumen::app {
 
@@ -36,17 +35,12 @@ struct FitArguments {
   [[nodiscard]] convert::FitOptions options() const;
 };
 
-struct MeshArguments {
-  convert::PolygoniseOptions polygonise;
-  convert::WriteMeshOptions write;
-};
-
 /// How a .lumen file is written.
 void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding);
 void addVolumeOptions(CLI::App& app, VolumeArguments& volume);
 void addTrackOptions(CLI::App& app, TrackArguments& track);
 void addFitOptions(CLI::App& app, FitArguments& fit);
-void addMeshOptions(CLI::App& app, MeshArguments& mesh);
+void addMeshOptions(CLI::App& app, OutputOptions& output);
 void addPhantomOptions(CLI::App& app, convert::PhantomOptions& phantom);
 
 }  // namespace lumen::app

@@ -22,10 +22,6 @@ std::size_t pointCount(const formats::Case& value) {
   return value.points ? value.points->position.size() : 0;
 }
 
-std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
-  return std::to_string(count) + " " + (count == 1 ? noun : plural);
-}
-
 /// Characters of UTF-8 text, near enough to its columns on a terminal.
 std::size_t textWidth(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
@@ -34,6 +30,10 @@ std::size_t textWidth(const std::string& text) {
 }
 
 }  // namespace
+
+std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
+  return std::to_string(count) + " " + (count == 1 ? noun : plural);
+}
 
 Json jsonNumber(float value) {
   if (!std::isfinite(value)) return nullptr;

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // 3D Slicer Markups as seeds (Slicer's markups-schema-v1.0.3.json).
+#include "converters/seeds/seeds_markups.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
 
 #include "converters/common/error.h"
-#include "converters/seeds/seeds_parse.h"
+#include "converters/common/text.h"
 
 namespace lumen::convert {
 namespace {
 
 using nlohmann::json;
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
 
 /// "LPS" (the default), "RAS", or as older versions wrote them: 1 and 0.
 bool isRas(const JsonPlace& markup) {

@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "converters/common/error.h"
+#include "formats/case/json_document.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
 
 using nlohmann::json;
-
-constexpr int kMaxDepth = 64;
 
 /// A value as a message shows it.
 std::string shown(const json& value) {
@@ -24,37 +23,16 @@ std::string shown(const json& value) {
   return text;
 }
 
-/// A key as a JSON pointer spells it.
-std::string escaped(const std::string& key) {
-  std::string out;
-  for (const char c : key) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return out;
-}
-
 }  // namespace
 
 json parseJson(const std::string& text, const std::filesystem::path& file) {
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
-    using Event = json::parse_event_t;
-    if (depth > kMaxDepth)
-      throw invalidInput(file.string() + ": its JSON is nested deeper than " +
-                         std::to_string(kMaxDepth) + " levels");
-    if (event == Event::object_start) keys.emplace_back();
-    if (event == Event::object_end) keys.pop_back();
-    if (event == Event::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw invalidInput(file.string() + ": the key " + shown(parsed) +
-                         " occurs twice in one object; expected each key once");
-    return true;
-  };
-  try {
-    return json::parse(text, watch);
-  } catch (const json::exception& exception) {
-    std::string what = exception.what();  // "[json.exception.parse_error.101] parse error at ..."
-    if (const auto close = what.find("] "); close != std::string::npos)
-      what = what.substr(close + 2);
-    throw invalidInput(file.string() + ": is not JSON: " + what);
-  }
+  formats::IssueList issues(1);
+  formats::ArraySlots none;
+  auto parsed = formats::parseJson(text, 0, "", none, issues);
+  if (parsed) return *std::move(parsed);
+  const formats::Issue& issue = issues.issues().front();
+  const std::string where = issue.pointer ? ": at \"" + *issue.pointer + "\": " : ": is not JSON: ";
+  throw invalidInput(file.string() + where + issue.message);
 }
 
 void JsonPlace::refuse(const std::string& expected) const {
@@ -68,7 +46,7 @@ void JsonPlace::onlyKeys(std::initializer_list<const char*> keys) const {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     std::string known;
     for (const char* k : keys) known += (known.empty() ? "" : ", ") + std::string(k);
-    throw invalidInput(m_file + ": at \"" + m_pointer + "/" + escaped(key) +
+    throw invalidInput(m_file + ": at \"" + m_pointer + "/" + formats::jsonPointerToken(key) +
                        "\": unknown key; expected one of " + known);
   }
 }
@@ -81,7 +59,7 @@ bool JsonPlace::has(const std::string& key) const {
 JsonPlace JsonPlace::at(const std::string& key) const {
   if (!has(key))
     throw invalidInput(m_file + ": at \"" + m_pointer + "\": the key \"" + key + "\" is missing");
-  return {m_value->at(key), m_file, m_pointer + "/" + escaped(key)};
+  return {m_value->at(key), m_file, m_pointer + "/" + formats::jsonPointerToken(key)};
 }
 
 std::vector<JsonPlace> JsonPlace::elements() const {

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <set>
-#include <string>
 
 #include <gdcmReader.h>
 #include <gdcmTag.h>
@@ -13,16 +11,6 @@
 #include <itkObject.h>
 
 namespace lumen::convert {
-namespace {
-
-std::size_t littleEndian32(const std::string& bytes, std::size_t at) {
-  std::size_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    value |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
-  return value;
-}
-
-}  // namespace
 
 QuietDicom::QuietDicom()
     : m_itk(itk::Object::GetGlobalWarningDisplay()),
@@ -43,19 +31,19 @@ QuietDicom::~QuietDicom() {
 }
 
 bool hasWholePixelData(const std::filesystem::path& file, std::size_t bytes) {
+  const gdcm::Tag tag(0x7fe0, 0x0010);
   std::ifstream stream(file, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
-  const std::string tag("\xe0\x7f\x10\x00", 4);
-  // the length follows the tag (implicit types), or a type of two letters and two zero bytes
-  for (auto at = content.rfind(tag); at != std::string::npos && at > 0;
-       at = content.rfind(tag, at - 1))
-    for (const std::size_t skip : {4U, 8U}) {
-      if (at + skip + 4 > content.size()) continue;
-      const std::size_t length = littleEndian32(content, at + skip);
-      if (length == bytes || length == bytes + bytes % 2)
-        return at + skip + 4 + bytes <= content.size();
-    }
-  return true;
+  gdcm::Reader reader;
+  reader.SetStream(stream);
+  constexpr bool kReadValues = false;  // they are skipped, beyond the file's end if need be
+  if (!reader.ReadSelectedTags({tag}, kReadValues)) return true;
+  const auto syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+  const gdcm::DataElement& pixels = reader.GetFile().GetDataSet().GetDataElement(tag);
+  const bool packed =
+      syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
+  if (packed || pixels.IsEmpty() || pixels.GetVL().IsUndefined()) return true;
+  const std::size_t length = pixels.GetVL(), end = reader.GetStreamCurrentPosition();
+  return length >= bytes && end - length + bytes <= std::filesystem::file_size(file);
 }
 
 bool hasFrameSpacing(const std::filesystem::path& file) {

@@ -2,8 +2,6 @@
 #include "converters/volume/itk_image.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <new>
@@ -11,20 +9,16 @@
 #include <type_traits>
 #include <vector>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <itkMetaImageIO.h>
-#include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
+
+#include "converters/common/error.h"
+#include "converters/volume/volume_checks.h"
 
 namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Headers store directions with 6 to 17 digits; beyond this they describe a sheared grid.
-constexpr double kDirectionTolerance = 1e-3;
-constexpr double kMaxVoxels = 1e11;
 
 std::string sizesText(const itk::ImageIOBase& io) {
   std::ostringstream text;
@@ -43,13 +37,9 @@ void checkScalar(const itk::ImageIOBase& io, const fs::path& path) {
 
 void checkDimensions(const itk::ImageIOBase& io, const fs::path& path) {
   const unsigned dimensions = io.GetNumberOfDimensions();
-  if (dimensions < 3)
-    throw invalidInput(path.string() + ": is " + std::to_string(dimensions) + "-D (" +
-                       sizesText(io) + "); expected a 3-D volume");
+  if (dimensions < 3) refuseDimensions(path, dimensions, sizesText(io));
   for (unsigned a = 3; a < dimensions; ++a)
-    if (io.GetDimensions(a) != 1)
-      throw invalidInput(path.string() + ": is " + std::to_string(dimensions) + "-D (" +
-                         sizesText(io) + "); expected a 3-D volume");
+    if (io.GetDimensions(a) != 1) refuseDimensions(path, dimensions, sizesText(io));
 }
 
 /// Reads pixels of type From into a vector of To.
@@ -108,54 +98,8 @@ Voxels readComponents(itk::ImageIOBase& io, const fs::path& path) {
 }  // namespace
 
 itk::ImageIOBase::Pointer makeImageIo(VolumeFormat format) {
-  switch (format) {
-    case VolumeFormat::Nifti:
-      return itk::NiftiImageIO::New().GetPointer();
-    case VolumeFormat::Nrrd:
-      return itk::NrrdImageIO::New().GetPointer();
-    case VolumeFormat::Meta:
-      return itk::MetaImageIO::New().GetPointer();
-    case VolumeFormat::Unknown:
-      break;
-  }
-  return nullptr;
-}
-
-void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
-  double voxels = 1;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (geometry.size[a] < 2)
-      throw invalidInput(path.string() + ": has " + std::to_string(geometry.size[a]) +
-                         " voxel along axis " + std::to_string(a + 1) +
-                         ", so it is not 3-D; expected at least 2 along each of three axes");
-    voxels *= geometry.size[a];
-    const double spacing = geometry.spacing[static_cast<Eigen::Index>(a)];
-    if (!(std::isfinite(spacing) && spacing > 0)) {
-      std::ostringstream text;
-      text << path.string() << ": the spacing along axis " << a + 1 << " is " << spacing
-           << "; expected a positive number of mm";
-      throw invalidInput(text.str());
-    }
-  }
-  if (voxels > kMaxVoxels)
-    throw invalidInput(path.string() + ": its header announces more than 1e11 voxels");
-  if (!geometry.origin.allFinite())
-    throw invalidInput(path.string() + ": its origin is not finite; expected three numbers of mm");
-  auto& direction = geometry.direction;
-  const double fault =
-      (direction.transpose() * direction - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(fault <= kDirectionTolerance)) {
-    std::ostringstream text;
-    text << path.string() << ": its axes' directions are not orthogonal unit vectors (off by "
-         << fault << "; expected at most " << kDirectionTolerance
-         << "); resample the volume to an orthogonal grid first";
-    throw invalidInput(text.str());
-  }
-  if (fault > 1e-14) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(direction,
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    direction = svd.matrixU() * svd.matrixV().transpose();
-  }
+  if (format == VolumeFormat::Nrrd) return itk::NrrdImageIO::New().GetPointer();
+  return itk::MetaImageIO::New().GetPointer();
 }
 
 VolumeGeometry checkedGeometry(const itk::ImageIOBase& io, const fs::path& path) {

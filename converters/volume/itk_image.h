@@ -8,30 +8,21 @@
 #include <itkImageIOBase.h>
 
 #include "converters/volume/read_volume.h"
-#include "converters/volume/volume_header.h"
 
 namespace lumen::convert {
 
-/// The reader and writer of a format; null for Unknown. Readers are named here rather than found
-/// through ITK's factories, which every program would have to register first.
+/// The reader and writer of NRRD or MetaImage. Readers are named here rather than found through
+/// ITK's factories, which every program would have to register first.
 itk::ImageIOBase::Pointer makeImageIo(VolumeFormat format);
 
 /// The geometry that `io` has read from a header. Throws Error(InvalidInput), naming `path`, unless
 /// it is 3-D (a further axis of one entry is dropped) and scalar with a sound geometry.
 VolumeGeometry checkedGeometry(const itk::ImageIOBase& io, const std::filesystem::path& path);
 
-/// Throws Error(InvalidInput), naming `path`, unless sizes are at least 2, spacings and origin are
-/// sound and the direction is orthonormal within 1e-3; makes it orthonormal to rounding.
-void checkGeometry(VolumeGeometry& geometry, const std::filesystem::path& path);
-
 /// The voxels of `io`, whose header has been read, in the in-memory type that holds them.
 Voxels readVoxels(itk::ImageIOBase& io, const std::filesystem::path& path);
 
 /// What an ITK exception says, on one line, without places in ITK's sources.
 std::string oneLine(const itk::ExceptionObject& exception);
-
-/// A series of DICOM files in directory `path`.
-Volume readDicom(const std::filesystem::path& path, const std::string& series,
-                 const Progress& progress);
 
 }  // namespace lumen::convert

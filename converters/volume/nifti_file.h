@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Header checks and voxels of NIfTI-1 files. ITK reads the geometry, but not these: it takes a
-// pixdim of 0 as 1 and drops a negative one's sign, it fills a truncated .nii.gz with zeros, and it
-// reads the voxels of v.nii.gz from v.nii where both exist.
+// NIfTI-1 files: one reader for header, geometry and voxels, and a writer. niftilib's niftiio knows
+// the header: its layout, byte order and transforms. It does not touch the file: its own readers
+// choose a file by its name's ending and take the voxels of v.nii.gz from v.nii where both exist,
+// allocate what a header announces before they look at the file, give zeros for NaN and infinities,
+// do not compare a gzip stream's checksum, and cannot be stopped. The bytes come through zlib.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 
 #include "converters/common/progress.h"
@@ -12,15 +13,16 @@
 
 namespace lumen::convert {
 
-/// Throws Error(InvalidInput) for a header that is not NIfTI-1's, that states a spacing which is
-/// not positive and finite, or more voxel bytes than the file can hold; Error(Unsupported) for
-/// NIfTI-2.
-void checkNiftiHeader(const std::filesystem::path& path);
+/// A scalar volume, plain or compressed whatever its name. Voxels are scaled by the header's slope
+/// and intercept if it has any other than 1 and 0 (then they are floats). The sform gives the place
+/// in space where it is of orthogonal axes and either the qform is absent, or it is the scanner's,
+/// or both agree; the qform otherwise. Throws Error(InvalidInput) for what is truncated or damaged,
+/// states more voxels than the file can hold, or has no sound geometry; Error(Unsupported) for
+/// NIfTI-2 and other pixel types.
+Volume readNifti(const std::filesystem::path& path, const Progress& progress);
 
-/// `count` scalar voxels, scaled by the header's slope and intercept if it has any other than 1 and
-/// 0 (then they are floats). Throws Error(InvalidInput) for a truncated or damaged file,
-/// Error(Unsupported) for another pixel type.
-Voxels readNiftiVoxels(const std::filesystem::path& path, std::size_t count,
-                       const Progress& progress);
+/// Writes to `path` itself, not atomically: qform and sform, both of the scanner, in mm. Throws
+/// Error(Failed), or Error(Unsupported) for more than 32767 voxels along an axis.
+void writeNifti(const Volume& volume, const std::filesystem::path& path, bool compressed);
 
 }  // namespace lumen::convert

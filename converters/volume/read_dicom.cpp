@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/volume/read_dicom.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +13,7 @@
 
 #include "converters/volume/dicom_file.h"
 #include "converters/volume/itk_image.h"
+#include "converters/volume/volume_checks.h"
 
 namespace lumen::convert {
 namespace {

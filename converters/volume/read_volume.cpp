@@ -7,26 +7,22 @@
 #include <system_error>
 #include <utility>
 
+#include "converters/volume/itk_guards.h"
 #include "converters/volume/itk_image.h"
 #include "converters/volume/nifti_file.h"
-#include "converters/volume/volume_header.h"
+#include "converters/volume/read_dicom.h"
 
 namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
 
-Volume readFile(const fs::path& path, const Progress& progress) {
-  const VolumeFormat format = volumeFormat(path);
-  const auto io = makeImageIo(format);
-  if (!io)
-    throw unsupported(path.string() +
-                      ": is not a volume file by its name; expected .nii, .nii.gz, .nrrd, .nhdr, "
-                      ".mha, .mhd or a directory of DICOM files");
-  if (format == VolumeFormat::Nifti)
-    checkNiftiHeader(path);
+Volume readWithItk(const fs::path& path, VolumeFormat format, const Progress& progress) {
+  if (format == VolumeFormat::Nrrd)
+    checkNrrdHeader(path, progress);
   else
-    checkTextHeader(path, format, progress);
+    checkMetaHeader(path, progress);
+  const auto io = makeImageIo(format);
   io->SetFileName(path.string());
   Volume volume;
   try {
@@ -36,10 +32,37 @@ Volume readFile(const fs::path& path, const Progress& progress) {
   }
   volume.geometry = checkedGeometry(*io, path);
   progress.check();
-  volume.voxels = format == VolumeFormat::Nifti
-                      ? readNiftiVoxels(path, volume.geometry.voxelCount(), progress)
-                      : readVoxels(*io, path);
+  volume.voxels = readVoxels(*io, path);
   return volume;
+}
+
+Volume read(const fs::path& path, VolumeFormat format, const std::string& series,
+            const Progress& progress) {
+  switch (format) {
+    case VolumeFormat::Dicom:
+      return readDicom(path, series, progress);
+    case VolumeFormat::Nifti:
+      return readNifti(path, progress);
+    case VolumeFormat::Nrrd:
+    case VolumeFormat::MetaImage:
+      break;
+  }
+  return readWithItk(path, format, progress);
+}
+
+/// Throws unless there is a folder for DICOM, and a file for another format.
+void checkPlace(const fs::path& path, VolumeFormat format, const std::string& series) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) throw invalidInput(path.string() + ": no such file or directory");
+  const bool folder = fs::is_directory(path, ignored);
+  if (format == VolumeFormat::Dicom && !folder)
+    throw invalidInput(path.string() +
+                       ": this is a file; a DICOM series is read from the folder that holds it");
+  if (format != VolumeFormat::Dicom && folder)
+    throw invalidInput(path.string() + ": this is a folder; expected a file");
+  if (!folder && !series.empty())
+    throw invalidInput(path.string() +
+                       ": is a file; a series can be chosen in a DICOM directory only");
 }
 
 /// Refuses values that are not finite, and a volume in which nothing can be found.
@@ -93,26 +116,16 @@ void crop(Volume& volume, const IndexBox& box, const fs::path& path) {
 
 }  // namespace
 
-Volume readVolume(const fs::path& path, const ReadVolumeOptions& options,
+Volume readVolume(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
                   const Progress& progress) {
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) throw invalidInput(path.string() + ": no such file or directory");
-  const bool directory = fs::is_directory(path, ignored);
-  if (!directory && !options.series.empty())
-    throw invalidInput(path.string() +
-                       ": is a file; a series can be chosen in a DICOM directory only");
+  checkPlace(path, format, options.series);
   progress.check();
-  Volume volume = directory ? readDicom(path, options.series, progress) : readFile(path, progress);
+  Volume volume = read(path, format, options.series, progress);
   progress.check();
   if (options.crop) crop(volume, *options.crop, path);
   std::visit([&](const auto& voxels) { checkValues(voxels, path); }, volume.voxels);
   progress.check();
   return volume;
-}
-
-bool isVolumePath(const fs::path& path) {
-  std::error_code ignored;
-  return volumeFormat(path) != VolumeFormat::Unknown || fs::is_directory(path, ignored);
 }
 
 }  // namespace lumen::convert

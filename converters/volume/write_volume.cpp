@@ -2,14 +2,13 @@
 #include "converters/volume/write_volume.h"
 
 #include <cstdint>
-#include <memory>
-#include <system_error>
+#include <span>
 
-#include <fcntl.h>
-#include <openssl/evp.h>
-#include <unistd.h>
-
+#include "converters/common/error.h"
+#include "converters/common/sha256.h"
 #include "converters/volume/itk_image.h"
+#include "converters/volume/nifti_file.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
 namespace {
@@ -30,20 +29,6 @@ Component componentOf(const std::vector<float>&) {
   return Component::FLOAT;
 }
 
-/// Removes a file that was not renamed.
-struct TemporaryFile {
-  fs::path path;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    fs::remove(path, ignored);
-  }
-};
-
-/// A hidden sibling of `path` with the whole of its name, so that the format is the same.
-fs::path temporarySibling(const fs::path& path) {
-  return path.parent_path() / (".tmp-" + std::to_string(getpid()) + "-" + path.filename().string());
-}
-
 void setGeometry(itk::ImageIOBase& io, const VolumeGeometry& geometry) {
   io.SetNumberOfDimensions(3);
   itk::ImageIORegion region(3);
@@ -60,47 +45,14 @@ void setGeometry(itk::ImageIOBase& io, const VolumeGeometry& geometry) {
   io.SetIORegion(region);
 }
 
-void flushToDisk(const fs::path& file) {
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool flushed = descriptor >= 0 && fsync(descriptor) == 0;
-  if (descriptor >= 0) close(descriptor);
-  if (!flushed) throw failed(file.string() + ": cannot be flushed to disk");
-}
-
-struct Digest {
-  void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-};
-
-std::string sha256(const void* bytes, std::size_t size) {
-  const std::unique_ptr<EVP_MD_CTX, Digest> context(EVP_MD_CTX_new());
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned length = 0;
-  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1 ||
-      EVP_DigestUpdate(context.get(), bytes, size) != 1 ||
-      EVP_DigestFinal_ex(context.get(), digest.data(), &length) != 1)
-    throw failed("the cryptography library offers no SHA-256");
-  std::string hex;
-  for (unsigned i = 0; i < length; ++i) {
-    hex += "0123456789abcdef"[digest[i] >> 4];
-    hex += "0123456789abcdef"[digest[i] & 15];
-  }
-  return hex;
-}
-
-}  // namespace
-
-void writeVolume(const Volume& volume, const fs::path& path) {
-  const auto io = makeImageIo(volumeFormat(path));
-  const std::string extension = path.extension().string();
-  if (!io || extension == ".nhdr" || extension == ".mhd")
-    throw unsupported(path.string() +
-                      ": cannot be written by its name; expected .nii, .nii.gz, .nrrd or .mha");
-  const TemporaryFile temporary{temporarySibling(path)};
+void writeWithItk(const Volume& volume, const fs::path& path, VolumeFormat format,
+                  bool compressed) {
+  const auto io = makeImageIo(format);
   setGeometry(*io, volume.geometry);
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetNumberOfComponents(1);
-  io->SetUseCompression(extension != ".nii");
-  io->SetFileName(temporary.path.string());
+  io->SetUseCompression(compressed);
+  io->SetFileName(path.string());
   try {
     std::visit(
         [&](const auto& voxels) {
@@ -112,10 +64,19 @@ void writeVolume(const Volume& volume, const fs::path& path) {
   } catch (const itk::ExceptionObject& exception) {
     throw failed(path.string() + ": cannot be written (" + oneLine(exception) + ")");
   }
-  flushToDisk(temporary.path);
-  std::error_code error;
-  fs::rename(temporary.path, path, error);
-  if (error) throw failed(path.string() + ": cannot be written (" + error.message() + ")");
+}
+
+}  // namespace
+
+void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format, bool compressed) {
+  if (format == VolumeFormat::Dicom) throw unsupported(path.string() + ": DICOM is not written");
+  auto pending = formats::PendingFile::beside(path);
+  if (!pending) throw failed(pending.error().message);
+  if (format == VolumeFormat::Nifti)
+    writeNifti(volume, pending->path(), compressed);
+  else
+    writeWithItk(volume, pending->path(), format, compressed);
+  if (const auto written = pending->commit(); !written) throw failed(written.error().message);
 }
 
 formats::SourceVolume describeSource(const Volume& volume) {
@@ -129,8 +90,8 @@ formats::SourceVolume describeSource(const Volume& volume) {
     for (std::size_t c = 0; c < 3; ++c)
       source.direction[3 * a + c] = g.direction(e, static_cast<Eigen::Index>(c));
   }
-  source.sha256 = std::visit(
-      [](const auto& v) { return sha256(v.data(), v.size() * sizeof(v[0])); }, volume.voxels);
+  source.sha256 =
+      std::visit([](const auto& v) { return sha256(std::as_bytes(std::span(v))); }, volume.voxels);
   return source;
 }
 

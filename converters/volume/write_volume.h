@@ -4,13 +4,16 @@
 
 #include <filesystem>
 
+#include "converters/volume/read_volume.h"
 #include "converters/volume/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
 
-/// Writes .nii, .nii.gz, .nrrd or .mha, atomically; compressed where the format allows it.
-void writeVolume(const Volume& volume, const std::filesystem::path& path);
+/// Writes header and voxels into one file, atomically. For ITK's sake the name must end in .nrrd
+/// for NRRD, and in .mha for MetaImage. Throws Error(Unsupported) for DICOM.
+void writeVolume(const Volume& volume, const std::filesystem::path& path, VolumeFormat format,
+                 bool compressed);
 
 /// The record of `volume` that a case keeps. The digest is SHA-256 over the voxels, x fastest, in
 /// the in-memory pixel type, little-endian.

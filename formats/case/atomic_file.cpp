@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "formats/case/atomic_file.h"
+
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <optional>
+#include <cstdio>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "formats/case/case_file.h"
-#include "formats/case/issue_text.h"
-
 namespace lumen::formats {
 namespace {
 
 namespace fs = std::filesystem;
-using Problem = std::optional<FormatError>;
 
 constexpr int kMaxLinks = 40;
 constexpr int kMaxNameTrials = 100;
+constexpr std::size_t kMaxEnding = 16;
 constexpr mode_t kPermissionBits = 07777;
 constexpr mode_t kNewFileMode = 0666;  // the process' umask takes its share
+constexpr mode_t kNewFolderMode = 0777;
 
-FormatError writeError(const fs::path& file, const std::string& what, int code) {
-  return fileError(ErrorCode::IoWrite,
-                   file.string() + ": " + what + ": " + std::generic_category().message(code));
+Issue writeError(const fs::path& file, const std::string& what, int code) {
+  return {ErrorCode::IoWrite, std::nullopt,
+          file.string() + ": " + what + ": " + std::generic_category().message(code)};
 }
 
 // Retries a system call that a signal interrupted.
@@ -38,7 +40,7 @@ auto uninterrupted(Call call) {
 }
 
 // The file that `file` leads to through symbolic links, whether it exists or not.
-Result<fs::path> followLinks(fs::path file) {
+Expected<fs::path> followLinks(fs::path file) {
   std::error_code error;
   for (int i = 0; i < kMaxLinks; ++i) {
     if (!fs::is_symlink(fs::symlink_status(file, error))) return file;
@@ -50,172 +52,247 @@ Result<fs::path> followLinks(fs::path file) {
 }
 
 // The mode that the new file needs, if one of that name exists; refuses what is no writable file.
-Result<std::optional<mode_t>> existingMode(const fs::path& target) {
+Expected<std::optional<mode_t>> existingMode(const fs::path& target) {
   struct stat info {};
   if (::stat(target.c_str(), &info) != 0) {
     if (errno == ENOENT) return std::optional<mode_t>{};
     return writeError(target, "cannot write", errno);
   }
   if (!S_ISREG(info.st_mode))
-    return fileError(
-        ErrorCode::IoNotAFile,
-        target.string() + (S_ISDIR(info.st_mode) ? ": is a directory" : ": is not a regular file"));
+    return Issue{
+        ErrorCode::IoNotAFile, std::nullopt,
+        target.string() + (S_ISDIR(info.st_mode) ? ": is a directory" : ": is not a regular file")};
   if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
     return writeError(target, "cannot write", errno);
   return std::optional<mode_t>{info.st_mode & kPermissionBits};
 }
 
-constexpr const char* kTemporaryStart = ".lumen-";
-constexpr const char* kTemporaryEnd = ".tmp";
-
-fs::path directoryOf(const fs::path& file) {
+fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// Only the writer of a temporary file holds the lock on it, until it has its final name or the
-// writer is gone.
+// ".nii.gz" of "head.nii.gz": writers choose their format by it.
+std::string endingOf(const fs::path& file) {
+  const std::string last = file.extension().string();
+  const std::string both = file.stem().extension().string() + last;
+  return both.size() <= kMaxEnding ? both : last.size() <= kMaxEnding ? last : "";
+}
+
+std::string ownPrefix() {
+  return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-";
+}
+
+// The prefix, digits, a hyphen: what a user keeps under a similar name is not ours.
+bool isTemporaryName(std::string_view name) {
+  if (!name.starts_with(kTemporaryPrefix)) return false;
+  name.remove_prefix(kTemporaryPrefix.size());
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  return digits > 0 && digits < name.size() && name[digits] == '-';
+}
+
 bool tryLock(int descriptor) {
   return uninterrupted([&] { return ::flock(descriptor, LOCK_EX | LOCK_NB); }) == 0;
 }
 
-// Removes what a writer left that was killed between naming its file and renaming it.
-void removeLeftovers(const fs::path& directory) {
-  std::error_code error;
-  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (!name.starts_with(kTemporaryStart) || !name.ends_with(kTemporaryEnd)) continue;
-    const int descriptor = uninterrupted(
-        [&] { return ::open(it->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK); });
-    if (descriptor < 0) continue;
-    if (tryLock(descriptor)) ::unlink(it->path().c_str());
-    ::close(descriptor);
-  }
+// Nobody has a lock on it, which its writer would.
+bool isAbandoned(const fs::path& path) {
+  const int descriptor = uninterrupted(
+      [&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK); });
+  if (descriptor < 0) return false;
+  const bool free = tryLock(descriptor);
+  ::close(descriptor);
+  return free;
 }
 
-// A new file beside the target, removed again unless it was renamed over it. It has no name until
-// it is complete, if the file system can do that.
-class TemporaryFile {
-public:
-  explicit TemporaryFile(const fs::path& target) : m_target(target) {}
-  ~TemporaryFile() {
-    if (m_descriptor >= 0) ::close(m_descriptor);
-    if (!m_path.empty()) ::unlink(m_path.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+// A lock taken an instant after the name appeared may have come too late.
+bool stillExists(int descriptor) {
+  struct stat info {};
+  return ::fstat(descriptor, &info) == 0 && info.st_nlink > 0;
+}
 
-  Problem create() {
-    if (createWithoutName()) return std::nullopt;
-    const bool named = tryNames([this](const fs::path& path) {
-      m_descriptor = uninterrupted([&] {
-        return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
-      });
-      if (m_descriptor < 0) return false;
-      tryLock(m_descriptor);
-      return true;
-    });
-    if (named) return std::nullopt;
-    return writeError(m_target, "cannot create a file beside it", errno);
-  }
-
-  Problem fill(std::span<const std::byte> bytes, std::optional<mode_t> mode) {
-    if (mode && ::fchmod(m_descriptor, *mode) != 0)
-      return writeError(m_target, "cannot keep its permissions", errno);
-    while (!bytes.empty()) {
-      const ssize_t count =
-          uninterrupted([&] { return ::write(m_descriptor, bytes.data(), bytes.size()); });
-      if (count < 0) return writeError(m_target, "cannot write", errno);
-      bytes = bytes.subspan(static_cast<std::size_t>(count));
+// `make` opens a path that nobody has, or gives -1 and errno.
+template <class Make>
+Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string& ending,
+                                      Make make) {
+  static std::atomic<unsigned> counter{0};
+  int error = EEXIST;
+  for (int trial = 0; trial < kMaxNameTrials; ++trial) {
+    const fs::path path =
+        target.parent_path() / (ownPrefix() + std::to_string(counter.fetch_add(1)) + ending);
+    const int descriptor = uninterrupted([&] { return make(path); });
+    if (descriptor < 0) {
+      error = errno;
+      if (error == EEXIST) continue;
+      break;
     }
-    if (uninterrupted([&] { return ::fsync(m_descriptor); }) != 0)
-      return writeError(m_target, "cannot write", errno);
-    return std::nullopt;
+    tryLock(descriptor);  // a file system without locks has no abandoned files either
+    HiddenSibling sibling(path, descriptor);
+    if (stillExists(descriptor)) return sibling;
   }
+  return writeError(target, "nothing can be created beside it", error);
+}
 
-  // The file is complete: it takes the target's place.
-  Problem publish() {
-    if (m_path.empty()) {
-      if (linkAs(m_target)) return std::nullopt;  // there was no file of that name
-      if (!tryNames([this](const fs::path& path) { return linkAs(path); }))
-        return writeError(m_target, "cannot create a file beside it", errno);
-    }
-    if (::rename(m_path.c_str(), m_target.c_str()) != 0)
-      return writeError(m_target, "cannot replace the file", errno);
-    m_path.clear();
-    return std::nullopt;
-  }
-
-private:
-  bool createWithoutName() {
-#ifdef O_TMPFILE
-    m_descriptor = uninterrupted([&] {
-      return ::open(directoryOf(m_target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, kNewFileMode);
-    });
-    if (m_descriptor < 0) return false;
-    if (tryLock(m_descriptor) && ::access(descriptorPath().c_str(), F_OK) == 0) return true;
-    ::close(m_descriptor);
-    m_descriptor = -1;
-#endif
-    return false;
-  }
-
-  [[nodiscard]] std::string descriptorPath() const {
-    return "/proc/self/fd/" + std::to_string(m_descriptor);
-  }
-
-  bool linkAs(const fs::path& path) const {
-    return uninterrupted([&] {
-             return ::linkat(AT_FDCWD, descriptorPath().c_str(), AT_FDCWD, path.c_str(),
-                             AT_SYMLINK_FOLLOW);
-           }) == 0;
-  }
-
-  // Calls `make` with names that nobody has, until it succeeds.
-  template <class Make>
-  bool tryNames(Make make) {
-    static std::atomic<unsigned> counter{0};
-    for (int trial = 0; trial < kMaxNameTrials; ++trial) {
-      const fs::path path =
-          m_target.parent_path() / (kTemporaryStart + std::to_string(::getpid()) + "-" +
-                                    std::to_string(counter.fetch_add(1)) + kTemporaryEnd);
-      if (make(path)) {
-        m_path = path;
-        return true;
-      }
-      if (errno != EEXIST) return false;
-    }
-    return false;
-  }
-
-  fs::path m_target, m_path;
-  int m_descriptor = -1;
-};
-
-// Makes the rename survive a power cut. A directory that cannot be opened or flushed (some network
-// file systems) leaves that to the system: the new file is already in place.
-void flushDirectory(const fs::path& file) {
-  const fs::path directory = directoryOf(file);
+// The file or folder at `path` is on the disk then, with the permissions `mode` if that is given.
+bool flushPath(const fs::path& path, int flags, const FileCalls& calls,
+               std::optional<mode_t> mode = {}) {
   const int descriptor =
-      uninterrupted([&] { return ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
-  if (descriptor < 0) return;
-  uninterrupted([&] { return ::fsync(descriptor); });
+      uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags); });
+  if (descriptor < 0) return false;
+  const bool flushed = (!mode || ::fchmod(descriptor, *mode) == 0) &&
+                       uninterrupted([&] { return calls.flush(descriptor); }) == 0;
+  const int error = errno;
   ::close(descriptor);
+  errno = error;
+  return flushed;
+}
+
+// Makes a rename survive a power cut. A folder that cannot be opened or flushed (some network file
+// systems) leaves that to the system: what was written is already in place.
+void finish(const fs::path& target, const FileCalls& calls) {
+  const fs::path folder = folderOf(target);
+  flushPath(folder, O_DIRECTORY, calls);
+  removeTemporaries(folder, Temporaries::Abandoned);
+}
+
+// Everything in `folder`, then the folder.
+bool flushFolder(const fs::path& folder, const FileCalls& calls) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const fs::file_status status = entry.symlink_status(error);
+    if (fs::is_directory(status) && !flushFolder(entry.path(), calls)) return false;
+    if (fs::is_regular_file(status) && !flushPath(entry.path(), 0, calls)) return false;
+  }
+  if (error) errno = error.value();
+  return !error && flushPath(folder, O_DIRECTORY, calls);
+}
+
+int exchangeNames(const char* a, const char* b) {
+#ifdef RENAME_EXCHANGE
+  return ::renameat2(AT_FDCWD, a, AT_FDCWD, b, RENAME_EXCHANGE);
+#else
+  (void)a, (void)b;
+  errno = ENOSYS;
+  return -1;
+#endif
+}
+
+bool cannotExchange(int code) {
+  return code == EINVAL || code == ENOSYS || code == ENOTSUP || code == EOPNOTSUPP;
 }
 
 }  // namespace
 
-Result<bool> writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file) {
+const FileCalls& systemCalls() {
+  static const FileCalls calls{[](int descriptor) { return ::fsync(descriptor); },
+                               [](const char* from, const char* to) { return ::rename(from, to); },
+                               exchangeNames};
+  return calls;
+}
+
+HiddenSibling::HiddenSibling(HiddenSibling&& other) noexcept
+    : m_path(std::exchange(other.m_path, {})),
+      m_descriptor(std::exchange(other.m_descriptor, -1)) {}
+
+HiddenSibling::~HiddenSibling() {
+  std::error_code ignored;
+  if (!m_path.empty()) fs::remove_all(m_path, ignored);
+  if (m_descriptor >= 0) ::close(m_descriptor);
+}
+
+Expected<bool> writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file,
+                                   const FileCalls& calls) {
+  auto pending = PendingFile::beside(file, calls);
+  if (!pending) return pending.error();
+  while (!bytes.empty()) {
+    const ssize_t count =
+        uninterrupted([&] { return ::write(pending->descriptor(), bytes.data(), bytes.size()); });
+    if (count < 0) return writeError(file, "cannot write", errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+  return pending->commit();
+}
+
+Expected<PendingFile> PendingFile::beside(const fs::path& file, const FileCalls& calls) {
   const auto target = followLinks(file);
   if (!target) return target.error();
   const auto mode = existingMode(*target);
   if (!mode) return mode.error();
-  TemporaryFile temporary(*target);
-  if (auto problem = temporary.create()) return *std::move(problem);
-  if (auto problem = temporary.fill(bytes, *mode)) return *std::move(problem);
-  if (auto problem = temporary.publish()) return *std::move(problem);
-  flushDirectory(*target);
-  removeLeftovers(directoryOf(*target));
+  auto sibling = hiddenSibling(*target, endingOf(*target), [](const fs::path& path) {
+    return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+  });
+  if (!sibling) return sibling.error();
+  return PendingFile(*std::move(sibling), *target, *mode, calls);
+}
+
+Expected<bool> PendingFile::commit() {
+  if (!flushPath(path(), 0, m_calls, m_mode)) return writeError(m_target, "cannot write", errno);
+  if (m_calls.get().rename(path().c_str(), m_target.c_str()) != 0)
+    return writeError(m_target, "cannot replace the file", errno);
+  m_sibling.release();
+  finish(m_target, m_calls);
   return true;
+}
+
+Expected<PendingFolder> PendingFolder::beside(const fs::path& folder, Existing existing,
+                                              const FileCalls& calls) {
+  const auto target = followLinks(folder.has_filename() ? folder : folder.parent_path());
+  if (!target) return target.error();
+  std::error_code error;
+  const fs::file_status status = fs::status(*target, error);
+  if (fs::exists(status) && !fs::is_directory(status))
+    return writeError(*target, "cannot become a folder", ENOTDIR);
+  if (fs::exists(status) && existing == Existing::Refuse && !fs::is_empty(*target, error))
+    return writeError(*target, "cannot be replaced", ENOTEMPTY);
+  auto sibling = hiddenSibling(*target, "", [](const fs::path& path) {
+    if (::mkdir(path.c_str(), kNewFolderMode) != 0) return -1;
+    return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  });
+  if (!sibling) return sibling.error();
+  return PendingFolder(*std::move(sibling), *target, existing, calls);
+}
+
+Expected<bool> PendingFolder::commit() {
+  if (!flushFolder(path(), m_calls)) return writeError(m_target, "cannot write", errno);
+  if (m_calls.get().rename(path().c_str(), m_target.c_str()) == 0) {
+    m_sibling.release();
+  } else {
+    const bool isFull = errno == ENOTEMPTY || errno == EEXIST;
+    if (!isFull || m_existing == Existing::Refuse)
+      return writeError(m_target, "cannot be put in place", errno);
+    if (auto replaced = replace(); !replaced) return replaced;
+  }
+  finish(m_target, m_calls);
+  return true;
+}
+
+Expected<bool> PendingFolder::replace() {
+  const FileCalls& calls = m_calls;
+  // the sibling is the old folder from here on, and goes with this object
+  if (calls.exchange(path().c_str(), m_target.c_str()) == 0) return true;
+  if (!cannotExchange(errno)) return writeError(m_target, "cannot replace the folder", errno);
+  const fs::path old = m_target.string() + ".lumen-old";
+  if (calls.rename(m_target.c_str(), old.c_str()) != 0)
+    return writeError(m_target, "cannot be moved away", errno);
+  if (calls.rename(path().c_str(), m_target.c_str()) != 0) {
+    const int error = errno;
+    calls.rename(old.c_str(), m_target.c_str());
+    return writeError(m_target, "cannot replace the folder", error);
+  }
+  m_sibling.release();
+  std::error_code ignored;
+  fs::remove_all(old, ignored);
+  return true;
+}
+
+void removeTemporaries(const fs::path& folder, Temporaries which) {
+  const std::string own = ownPrefix();
+  std::error_code error, ignored;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (!isTemporaryName(name)) continue;
+    const bool isOwn = which == Temporaries::AbandonedAndOwn && name.starts_with(own);
+    if (isOwn || isAbandoned(it->path())) fs::remove_all(it->path(), ignored);
+  }
 }
 
 }  // namespace lumen::formats

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "formats/case/binary_decode.h"
+
 #include <algorithm>
 #include <deque>
 #include <optional>
 
-#include "formats/case/case_decode.h"
 #include "formats/case/chunk_codec.h"
-#include "formats/case/issue_text.h"
 #include "formats/case/metadata_json.h"
+#include "formats/case/validate.h"
 #include "formats/container/bytes.h"
 #include "formats/view/limits.h"
 #include "formats/view/model_rules.h"
@@ -194,6 +195,13 @@ std::optional<Case> decodeBinary(std::span<const std::byte> bytes, IssueList& is
   CaseChunks chunks = sortChunks(*container, issues);
   if (issues.failed()) return std::nullopt;
   return decodeChunks(*container, chunks, issues);
+}
+
+Expected<Case> decodeBinary(std::span<const std::byte> bytes) {
+  IssueList issues(1, IssueList::Keep::Errors);
+  auto value = decodeBinary(bytes, issues);
+  if (auto error = issues.firstError()) return *std::move(error);
+  return *std::move(value);
 }
 
 }  // namespace lumen::formats

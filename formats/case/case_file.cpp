@@ -9,11 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "formats/case/case_decode.h"
-#include "formats/case/chunk_codec.h"
-#include "formats/case/issue_text.h"
-#include "formats/case/privacy.h"
-#include "formats/view/case_chunks.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen::formats {
 namespace {
@@ -36,8 +32,8 @@ private:
   int m_descriptor;
 };
 
-FormatError ioError(ErrorCode code, const fs::path& file, const std::string& what) {
-  return fileError(code, file.string() + ": " + what);
+Issue ioError(ErrorCode code, const fs::path& file, const std::string& what) {
+  return {code, std::nullopt, file.string() + ": " + what};
 }
 
 std::string_view asText(std::span<const std::byte> bytes) {
@@ -64,29 +60,9 @@ std::optional<Case> decode(std::span<const std::byte> bytes, IssueList& issues) 
   return std::nullopt;
 }
 
-// In a binary file only the metadata are JSON.
-void scanFileComments(std::span<const std::byte> bytes, IssueList& issues) {
-  const auto container = readContainer(bytes);
-  if (!container) return scanComments(asText(bytes), "", issues);
-  for (const Chunk& chunk : container->chunks) {
-    if (chunk.type != chunk::kMetadata) continue;
-    if (chunk.encoding == 0) return scanComments(asText(chunk.stored), "/metadata", issues);
-    if (const auto raw = decodeChunk(chunk, issues))
-      scanComments(asText(*raw), "/metadata", issues);
-  }
-}
-
-template <class Input>
-Result<Case> firstErrorOr(std::optional<Case> (*read)(Input, IssueList&), Input input) {
-  IssueList issues(1, IssueList::Keep::Errors);
-  auto value = read(input, issues);
-  if (issues.failed()) return formatError(issues.issues().front());
-  return *std::move(value);
-}
-
 }  // namespace
 
-Result<std::vector<std::byte>> readFileBytes(const fs::path& file) {
+Expected<std::vector<std::byte>> readFileBytes(const fs::path& file) {
   const OpenFile open(file);
   const auto reason = [] { return std::generic_category().message(errno); };
   if (open.descriptor() < 0)
@@ -112,51 +88,52 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file) {
   return bytes;
 }
 
-Result<Case> decodeBinary(std::span<const std::byte> bytes) {
-  return firstErrorOr<std::span<const std::byte>>(decodeBinary, bytes);
+Expected<Case> decodeCase(std::span<const std::byte> bytes) {
+  IssueList issues(1, IssueList::Keep::Errors);
+  auto value = decode(bytes, issues);
+  if (auto error = issues.firstError()) return *std::move(error);
+  return *std::move(value);
 }
 
-Result<Case> decodeJson(std::string_view text) {
-  return firstErrorOr<std::string_view>(decodeJson, text);
-}
-
-Result<Case> readCaseFile(const fs::path& file) {
+Expected<Case> readCaseFile(const fs::path& file) {
   const auto bytes = readFileBytes(file);
   if (!bytes) return bytes.error();
-  auto value = firstErrorOr<std::span<const std::byte>>(decode, *bytes);
+  auto value = decodeCase(*bytes);
   if (value) return value;
-  FormatError error = value.error();
+  Issue error = value.error();
   error.message = file.string() + ": " + error.message;
   return error;
 }
 
-ValidationReport validateBytes(std::span<const std::byte> bytes, const ValidateOptions& options) {
-  IssueList issues(options.maxIssues);
-  const auto value = decode(bytes, issues);
-  if (value && options.privacy) {
-    scanPrivacy(*value, issues);
-    scanFileComments(bytes, issues);
+Expected<bool> writeCaseFile(const Case& value, const fs::path& file, CaseEncoding encoding,
+                             const EncodeOptions& options) {
+  if (const auto valid = validate(value); !valid) {
+    Issue error = valid.error();
+    error.message = "the case is not valid and is not written: " + error.message;
+    return error;
   }
-  ValidationReport report;
-  for (const Issue& issue : issues.issues()) report.issues.push_back(formatError(issue));
-  report.errorCount = issues.errorCount();
-  report.complete = !issues.full();
-  return report;
+  if (encoding == CaseEncoding::Binary)
+    return writeFileAtomically(encodeBinary(value, options), file);
+  std::string text;
+  if (options.pointBits == 0) {
+    text = encodeJson(value);
+  } else {
+    Case rounded = value;
+    quantisePoints(rounded, options.pointBits);
+    text = encodeJson(rounded);
+  }
+  return writeFileAtomically(std::as_bytes(std::span(text)), file);
 }
 
-ValidationReport validateFile(const fs::path& file, const ValidateOptions& options) {
-  const auto bytes = readFileBytes(file);
-  if (bytes) return validateBytes(*bytes, options);
-  return {{bytes.error()}, 1, true};
+Expected<bool> writeCaseFile(const Case& value, const fs::path& file) {
+  const bool json = file.extension() == ".json";
+  return writeCaseFile(value, file, json ? CaseEncoding::Json : CaseEncoding::Binary);
 }
 
-Result<bool> writeCaseFile(const Case& value, const fs::path& file) {
-  if (auto valid = validate(value); !valid) return valid;
-  if (file.extension() == ".json") {
-    const std::string text = encodeJson(value);
-    return writeFileAtomically(std::as_bytes(std::span(text)), file);
-  }
-  return writeFileAtomically(encodeBinary(value), file);
+ValidationReport validateBytes(std::span<const std::byte> bytes, std::size_t maxIssues) {
+  IssueList issues(maxIssues);
+  (void)decode(bytes, issues);
+  return {issues.issues(), issues.errorCount(), !issues.full()};
 }
 
 }  // namespace lumen::formats

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "formats/case/json_decode.h"
+
 #include <charconv>
 #include <cmath>
 
 #include "formats/case/base64.h"
-#include "formats/case/case_decode.h"
 #include "formats/case/json_document.h"
 #include "formats/case/json_fields.h"
 #include "formats/case/metadata_json.h"
+#include "formats/case/validate.h"
 #include "formats/view/case_chunks.h"
 #include "formats/view/limits.h"
 
@@ -261,6 +263,13 @@ std::optional<Case> decodeJson(std::string_view text, IssueList& issues) {
   checkCase(parts.value, issues);
   if (issues.failed()) return std::nullopt;
   return std::move(parts.value);
+}
+
+Expected<Case> decodeJson(std::string_view text) {
+  IssueList issues(1, IssueList::Keep::Errors);
+  auto value = decodeJson(text, issues);
+  if (auto error = issues.firstError()) return *std::move(error);
+  return *std::move(value);
 }
 
 }  // namespace lumen::formats

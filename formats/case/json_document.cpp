@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "formats/case/issue_text.h"
 #include "formats/view/limits.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 namespace {
@@ -26,14 +26,17 @@ std::optional<float> floatFromText(std::string_view text, double value) {
   return static_cast<float>(value);
 }
 
-// What the library says, without its prefix, cut short, and free of what the file may have put into
-// it.
-std::string parserMessage(const char* what) {
-  std::string_view text(what);
-  if (const auto at = text.find("] "); at != std::string_view::npos) text.remove_prefix(at + 2);
+// Cut short, and free of control characters that the file may have put into it.
+std::string printable(std::string_view text) {
   std::string clean;
   for (const char c : text.substr(0, 160)) clean += c >= 0x20 && c < 0x7f ? c : '?';
   return clean;
+}
+
+// What the library says, without its prefix.
+std::string parserMessage(std::string_view what) {
+  if (const auto at = what.find("] "); at != std::string_view::npos) what.remove_prefix(at + 2);
+  return printable(what);
 }
 
 // Receives nlohmann's parse events; a callback that returns false ends the parse, m_error says why.
@@ -75,7 +78,8 @@ public:
     Level& level = m_levels.back();
     level.key = name;
     if (level.keys.insert(name).second) return true;
-    return fail(ErrorCode::JsonDuplicateKey, "the key occurs a second time in its object");
+    return fail(ErrorCode::JsonDuplicateKey,
+                "the key \"" + printable(name) + "\" occurs twice in its object");
   }
 
   bool start_array(std::size_t) {
@@ -188,8 +192,8 @@ private:
 
   bool open(json value) {
     if (m_levels.size() >= kMaxJsonDepth)
-      return fail(ErrorCode::JsonDepth,
-                  "more than " + std::to_string(kMaxJsonDepth) + " levels of arrays and objects");
+      return fail(ErrorCode::JsonDepth, "arrays and objects are nested deeper than " +
+                                            std::to_string(kMaxJsonDepth) + " levels");
     if (slotHere() != nullptr)
       return fail(ErrorCode::JsonType, "found an object, expected an array");
     m_levels.push_back({attach(std::move(value)), {}, {}});

@@ -15,7 +15,8 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/case/enum_names.h"
-#include "formats/case/issue_text.h"
+#include "formats/container/issue.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 

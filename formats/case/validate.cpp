@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "formats/case/validate.h"
+
 #include <algorithm>
 #include <string>
 
 #include "formats/case/case_as_view.h"
-#include "formats/case/case_decode.h"
-#include "formats/case/case_file.h"
-#include "formats/case/issue_text.h"
 #include "formats/case/metadata_json.h"
 #include "formats/view/limits.h"
 #include "formats/view/model_rules.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 namespace {
@@ -49,10 +49,10 @@ void checkCase(const Case& value, IssueList& issues) {
   checkOtherChunks(value.otherChunks, issues);
 }
 
-Result<bool> validate(const Case& value) {
+Expected<bool> validate(const Case& value) {
   IssueList issues(1, IssueList::Keep::Errors);
   checkCase(value, issues);
-  if (issues.failed()) return formatError(issues.issues().front());
+  if (auto error = issues.firstError()) return *std::move(error);
   return true;
 }
 

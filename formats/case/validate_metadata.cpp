@@ -4,10 +4,10 @@
 #include <set>
 #include <span>
 
-#include "formats/case/issue_text.h"
 #include "formats/case/metadata_json.h"
 #include "formats/view/limits.h"
 #include "formats/view/model_rules.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 namespace {
@@ -15,24 +15,9 @@ namespace {
 constexpr double kOrthonormalTolerance = 1e-4;
 constexpr std::int32_t kMaxPointBits = 30;
 
-std::string at(const std::string& array, std::size_t index) {
-  return array + "/" + std::to_string(index);
-}
-
 void checkName(const std::string& name, const std::string& place, IssueList& issues) {
   if (name.empty()) return issues.add(limitIssue(ErrorCode::TextLength, place, 0, kMaxNameBytes));
   checkText(name, kMaxNameBytes, place, issues);
-}
-
-void checkReal(double value, const std::string& place, IssueList& issues) {
-  if (!std::isfinite(value))
-    issues.add(foundIssue(ErrorCode::NotFinite, place, shortText(value), "a finite number"));
-}
-
-void checkPositive(double value, const std::string& place, ErrorCode code, IssueList& issues) {
-  checkReal(value, place, issues);
-  if (std::isfinite(value) && !(value > 0))
-    issues.add(foundIssue(code, place, shortText(value), "more than 0"));
 }
 
 // Columns a and b of the row-major 3x3 matrix.
@@ -43,7 +28,7 @@ double dotColumns(const std::array<double, 9>& m, std::size_t a, std::size_t b) 
 void checkDirection(const std::array<double, 9>& direction, IssueList& issues) {
   const std::string place = "/metadata/source/direction";
   for (std::size_t i = 0; i < direction.size(); ++i)
-    if (!std::isfinite(direction[i])) return checkReal(direction[i], at(place, i), issues);
+    if (!std::isfinite(direction[i])) return checkFinite(direction[i], at(place, i), issues);
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = a; b < 3; ++b) {
       const double expected = a == b ? 1.0 : 0.0;
@@ -72,7 +57,8 @@ void checkSource(const SourceVolume& source, IssueList& issues) {
                               "found 0, expected at least 1 voxel"));
   for (std::size_t a = 0; a < 3; ++a)
     checkPositive(source.spacing[a], at(place + "/spacing", a), ErrorCode::SourceSpacing, issues);
-  for (std::size_t a = 0; a < 3; ++a) checkReal(source.origin[a], at(place + "/origin", a), issues);
+  for (std::size_t a = 0; a < 3; ++a)
+    checkFinite(source.origin[a], at(place + "/origin", a), issues);
   checkDirection(source.direction, issues);
   checkSha256(source.sha256, place + "/sha256", ErrorCode::SourceSha256, issues);
 }
@@ -81,7 +67,7 @@ void checkParameter(const std::string& name, const ParameterValue& value, const 
                     IssueList& issues) {
   checkName(name, place, issues);
   const std::string at = place + "/" + jsonPointerToken(name);
-  if (const auto* number = std::get_if<double>(&value)) checkReal(*number, at, issues);
+  if (const auto* number = std::get_if<double>(&value)) checkFinite(*number, at, issues);
   if (const auto* text = std::get_if<std::string>(&value))
     checkText(*text, kMaxTextBytes, at, issues);
   if (name != "random-seed") return;

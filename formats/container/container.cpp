@@ -12,7 +12,6 @@ namespace lumen::formats {
 namespace {
 
 using Bytes = std::span<const std::byte>;
-using Failure = ContainerError;
 
 // The high bit shows a seven-bit channel, CR LF and LF a change of line ends; ^Z stops a DOS
 // listing.
@@ -41,10 +40,7 @@ std::size_t firstNonZero(Bytes bytes) {
 }
 
 std::string hex(std::uint32_t value) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string text = "0x";
-  for (int shift = 28; shift >= 0; shift -= 4) text += digits[(value >> shift) & 0xfu];
-  return text;
+  return "0x" + checksumText(value);
 }
 
 std::vector<Argument> foundExpected(std::uint64_t found, std::uint64_t expected) {
@@ -73,35 +69,34 @@ Header parseHeader(Bytes bytes) {
 }
 
 // The signature and the checksum come before the version: they are the same in every version.
-Expected<bool, Failure> checkFrame(Bytes bytes) {
+Expected<bool> checkFrame(Bytes bytes) {
   if (!startsLikeMagic(bytes))
-    return Failure{ErrorCode::Magic, 0,
-                   "the first ten bytes are not those of a .lumen file; a transfer in text mode "
-                   "changes them"};
+    return Issue{ErrorCode::Magic, 0,
+                 "the first ten bytes are not those of a .lumen file; a transfer in text mode "
+                 "changes them"};
   if (bytes.size() < kHeaderSize)
-    return Failure{ErrorCode::Truncated, bytes.size(),
-                   "the file ends inside its header of 64 bytes",
-                   foundExpected(bytes.size(), kHeaderSize)};
+    return Issue{ErrorCode::Truncated, bytes.size(), "the file ends inside its header of 64 bytes",
+                 foundExpected(bytes.size(), kHeaderSize)};
   const auto stated = loadLittle<std::uint32_t>(bytes.data() + kHeaderChecksumAt);
   const std::uint32_t found = crc32c(bytes.first(kHeaderChecksumAt));
   if (stated != found)
-    return Failure{ErrorCode::HeaderChecksum,
-                   kHeaderChecksumAt,
-                   "the header states checksum " + hex(stated) + ", its bytes have " + hex(found),
-                   {{"found", hex(found)}, {"expected", hex(stated)}}};
+    return Issue{ErrorCode::HeaderChecksum,
+                 kHeaderChecksumAt,
+                 "the header states checksum " + hex(stated) + ", its bytes have " + hex(found),
+                 {{"found", hex(found)}, {"expected", hex(stated)}}};
   return true;
 }
 
-Expected<bool, Failure> checkVersion(const Header& header) {
+Expected<bool> checkVersion(const Header& header) {
   if (header.version.major == 0 || header.minimumReader.major == 0 ||
       header.minimumReader > header.version)
-    return Failure{ErrorCode::Version,
-                   10,
-                   "version " + versionText(header.version) + " with minimum reader version " +
-                       versionText(header.minimumReader) + " does not exist",
-                   {{"found", versionText(header.version)}}};
+    return Issue{ErrorCode::Version,
+                 10,
+                 "version " + versionText(header.version) + " with minimum reader version " +
+                     versionText(header.minimumReader) + " does not exist",
+                 {{"found", versionText(header.version)}}};
   if (header.minimumReader > kFormatVersion)
-    return Failure{
+    return Issue{
         ErrorCode::Version,
         12,
         "the file needs a reader of version " + versionText(header.minimumReader) +
@@ -110,24 +105,24 @@ Expected<bool, Failure> checkVersion(const Header& header) {
   return true;
 }
 
-Expected<bool, Failure> checkLength(const Header& header, Bytes bytes) {
+Expected<bool> checkLength(const Header& header, Bytes bytes) {
   if (header.length > bytes.size())
-    return Failure{ErrorCode::Truncated, bytes.size(),
-                   "the file has " + std::to_string(bytes.size()) + " of the " +
-                       std::to_string(header.length) + " bytes that its header states",
-                   foundExpected(bytes.size(), header.length)};
+    return Issue{ErrorCode::Truncated, bytes.size(),
+                 "the file has " + std::to_string(bytes.size()) + " of the " +
+                     std::to_string(header.length) + " bytes that its header states",
+                 foundExpected(bytes.size(), header.length)};
   if (header.length < bytes.size())
-    return Failure{ErrorCode::TrailingBytes, header.length,
-                   "the file has " + std::to_string(bytes.size()) + " bytes, its header states " +
-                       std::to_string(header.length),
-                   foundExpected(bytes.size(), header.length)};
+    return Issue{ErrorCode::TrailingBytes, header.length,
+                 "the file has " + std::to_string(bytes.size()) + " bytes, its header states " +
+                     std::to_string(header.length),
+                 foundExpected(bytes.size(), header.length)};
   return true;
 }
 
-Expected<bool, Failure> checkTable(const Header& header, Bytes bytes) {
+Expected<bool> checkTable(const Header& header, Bytes bytes) {
   if (header.chunkCount > kMaxChunks ||
       header.chunkCount > (bytes.size() - kHeaderSize) / kTableEntrySize)
-    return Failure{
+    return Issue{
         ErrorCode::ChunkCount,
         24,
         std::to_string(header.chunkCount) + " chunks in a file of " + std::to_string(bytes.size()) +
@@ -136,24 +131,24 @@ Expected<bool, Failure> checkTable(const Header& header, Bytes bytes) {
   const std::uint32_t found =
       crc32c(bytes.subspan(kHeaderSize, header.chunkCount * kTableEntrySize));
   if (found != header.tableChecksum)
-    return Failure{ErrorCode::TableChecksum,
-                   kHeaderSize,
-                   "the header states checksum " + hex(header.tableChecksum) +
-                       " for the chunk table, its bytes have " + hex(found),
-                   {{"found", hex(found)}, {"expected", hex(header.tableChecksum)}}};
+    return Issue{ErrorCode::TableChecksum,
+                 kHeaderSize,
+                 "the header states checksum " + hex(header.tableChecksum) +
+                     " for the chunk table, its bytes have " + hex(found),
+                 {{"found", hex(found)}, {"expected", hex(header.tableChecksum)}}};
   return true;
 }
 
-Expected<bool, Failure> checkHeader(const Header& header, Bytes bytes) {
+Expected<bool> checkHeader(const Header& header, Bytes bytes) {
   if (auto version = checkVersion(header); !version) return version;
   if (header.headerSize != kHeaderSize)
-    return Failure{ErrorCode::HeaderField, 14,
-                   "header size " + std::to_string(header.headerSize) + ", expected 64",
-                   foundExpected(header.headerSize, kHeaderSize)};
+    return Issue{ErrorCode::HeaderField, 14,
+                 "header size " + std::to_string(header.headerSize) + ", expected 64",
+                 foundExpected(header.headerSize, kHeaderSize)};
   const Bytes reserved = bytes.subspan(32, kHeaderChecksumAt - 32);
   if (header.version <= kFormatVersion && firstNonZero(reserved) < reserved.size())
-    return Failure{ErrorCode::HeaderField, 32 + firstNonZero(reserved),
-                   "a reserved byte is not zero"};
+    return Issue{ErrorCode::HeaderField, 32 + firstNonZero(reserved),
+                 "a reserved byte is not zero"};
   if (auto length = checkLength(header, bytes); !length) return length;
   return checkTable(header, bytes);
 }
@@ -187,17 +182,17 @@ Entry parseEntry(Bytes bytes) {
   return entry;
 }
 
-Expected<bool, Failure> checkEntry(const Entry& entry, std::uint64_t entryAt, bool strict) {
+Expected<bool> checkEntry(const Entry& entry, std::uint64_t entryAt, bool strict) {
   for (int i = 0; i < 4; ++i)
     if (!isLetterOrDigit(static_cast<unsigned char>(entry.chunk.type >> (8 * i))))
-      return Failure{ErrorCode::ChunkType,
-                     entryAt,
-                     "chunk type " + hex(entry.chunk.type) + " is not four ASCII letters or digits",
-                     {{"found", hex(entry.chunk.type)}}};
+      return Issue{ErrorCode::ChunkType,
+                   entryAt,
+                   "chunk type " + hex(entry.chunk.type) + " is not four ASCII letters or digits",
+                   {{"found", hex(entry.chunk.type)}}};
   const bool reservedUsed = (entry.flags & ~(kCriticalFlag | kIndependentFlag)) != 0 ||
                             firstNonZero(entry.reserved) < entry.reserved.size();
   if (strict && reservedUsed)
-    return Failure{
+    return Issue{
         ErrorCode::ChunkField,
         entryAt,
         "chunk " + chunkName(entry.chunk.type) + " has a reserved flag or byte that is not zero",
@@ -207,38 +202,38 @@ Expected<bool, Failure> checkEntry(const Entry& entry, std::uint64_t entryAt, bo
 
 // Gives the chunk of a checked entry its bytes. `end` is where the chunk before ends, padding
 // included; it moves to the end of this one.
-Expected<Chunk, Failure> locateChunk(Bytes bytes, const Entry& entry, std::uint64_t entryAt,
-                                     std::uint64_t& end) {
+Expected<Chunk> locateChunk(Bytes bytes, const Entry& entry, std::uint64_t entryAt,
+                            std::uint64_t& end) {
   Chunk chunk = entry.chunk;
   const std::string name = "chunk " + chunkName(chunk.type);
   if (chunk.offset != end)
-    return Failure{ErrorCode::ChunkOffset,
-                   entryAt + 8,
-                   name + " starts at byte " + std::to_string(chunk.offset) + ", expected " +
-                       std::to_string(end),
-                   {{"chunk", chunkName(chunk.type)},
-                    {"found", std::to_string(chunk.offset)},
-                    {"expected", std::to_string(end)}}};
+    return Issue{ErrorCode::ChunkOffset,
+                 entryAt + 8,
+                 name + " starts at byte " + std::to_string(chunk.offset) + ", expected " +
+                     std::to_string(end),
+                 {{"chunk", chunkName(chunk.type)},
+                  {"found", std::to_string(chunk.offset)},
+                  {"expected", std::to_string(end)}}};
   if (end > bytes.size() || entry.storedSize > bytes.size() - end ||
       (chunk.encoding == 0 && chunk.rawSize != entry.storedSize))
-    return Failure{ErrorCode::ChunkSize,
-                   entryAt + 16,
-                   name + " states " + std::to_string(entry.storedSize) + " stored and " +
-                       std::to_string(chunk.rawSize) + " raw bytes at byte " + std::to_string(end) +
-                       " of " + std::to_string(bytes.size()),
-                   {{"chunk", chunkName(chunk.type)},
-                    {"found", std::to_string(entry.storedSize)},
-                    {"expected", std::to_string(chunk.rawSize)}}};
+    return Issue{ErrorCode::ChunkSize,
+                 entryAt + 16,
+                 name + " states " + std::to_string(entry.storedSize) + " stored and " +
+                     std::to_string(chunk.rawSize) + " raw bytes at byte " + std::to_string(end) +
+                     " of " + std::to_string(bytes.size()),
+                 {{"chunk", chunkName(chunk.type)},
+                  {"found", std::to_string(entry.storedSize)},
+                  {"expected", std::to_string(chunk.rawSize)}}};
   const bool known = chunk.encoding == static_cast<std::uint8_t>(ChunkEncoding::Zstd) ||
                      chunk.encoding == static_cast<std::uint8_t>(ChunkEncoding::Draco);
   if (known && chunk.rawSize > kMaxExpansion * entry.storedSize)
-    return Failure{ErrorCode::ChunkExpansion,
-                   entryAt + 24,
-                   name + " states " + std::to_string(chunk.rawSize) + " raw bytes for " +
-                       std::to_string(entry.storedSize) + " stored ones; the limit is 256 times",
-                   {{"chunk", chunkName(chunk.type)},
-                    {"found", std::to_string(chunk.rawSize)},
-                    {"limit", std::to_string(kMaxExpansion * entry.storedSize)}}};
+    return Issue{ErrorCode::ChunkExpansion,
+                 entryAt + 24,
+                 name + " states " + std::to_string(chunk.rawSize) + " raw bytes for " +
+                     std::to_string(entry.storedSize) + " stored ones; the limit is 256 times",
+                 {{"chunk", chunkName(chunk.type)},
+                  {"found", std::to_string(chunk.rawSize)},
+                  {"limit", std::to_string(kMaxExpansion * entry.storedSize)}}};
   chunk.stored =
       bytes.subspan(static_cast<std::size_t>(end), static_cast<std::size_t>(entry.storedSize));
   end += entry.storedSize;
@@ -246,16 +241,16 @@ Expected<Chunk, Failure> locateChunk(Bytes bytes, const Entry& entry, std::uint6
 }
 
 // Moves `end` over the zeros that fill the last line of 64 bytes.
-Expected<bool, Failure> skipPadding(Bytes bytes, Padding check, std::uint64_t& end) {
+Expected<bool> skipPadding(Bytes bytes, Padding check, std::uint64_t& end) {
   const std::uint64_t next = alignUp(end);
   if (next > bytes.size())
-    return Failure{ErrorCode::ChunkPadding, bytes.size(),
-                   "the file ends inside the padding up to byte " + std::to_string(next)};
+    return Issue{ErrorCode::ChunkPadding, bytes.size(),
+                 "the file ends inside the padding up to byte " + std::to_string(next)};
   const Bytes padding =
       bytes.subspan(static_cast<std::size_t>(end), static_cast<std::size_t>(next - end));
   if (check == Padding::Check)
     if (const std::size_t at = firstNonZero(padding); at < padding.size())
-      return Failure{ErrorCode::ChunkPadding, end + at, "a padding byte is not zero"};
+      return Issue{ErrorCode::ChunkPadding, end + at, "a padding byte is not zero"};
   end = next;
   return true;
 }
@@ -305,8 +300,7 @@ bool hasContainerMagic(std::span<const std::byte> bytes) {
   return bytes.size() >= kMagic.size() && startsLikeMagic(bytes);
 }
 
-Expected<Container, ContainerError> readContainer(std::span<const std::byte> bytes,
-                                                  Padding padding) {
+Expected<Container> readContainer(std::span<const std::byte> bytes, Padding padding) {
   if (auto frame = checkFrame(bytes); !frame) return frame.error();
   const Header header = parseHeader(bytes);
   if (auto checked = checkHeader(header, bytes); !checked) return checked.error();
@@ -327,23 +321,23 @@ Expected<Container, ContainerError> readContainer(std::span<const std::byte> byt
     container.chunks.push_back(*std::move(chunk));
   }
   if (end != bytes.size())
-    return Failure{
+    return Issue{
         ErrorCode::TrailingBytes, end,
         "the last chunk ends here, the file has " + std::to_string(bytes.size()) + " bytes",
         foundExpected(bytes.size(), end)};
   return container;
 }
 
-Expected<bool, ContainerError> verifyChunk(const Chunk& chunk) {
+Expected<bool> verifyChunk(const Chunk& chunk) {
   const std::uint32_t found = crc32c(chunk.stored);
   if (found != chunk.checksum)
-    return Failure{ErrorCode::ChunkChecksum,
-                   chunk.offset,
-                   "chunk " + chunkName(chunk.type) + " should have checksum " +
-                       hex(chunk.checksum) + ", its bytes have " + hex(found),
-                   {{"chunk", chunkName(chunk.type)},
-                    {"found", hex(found)},
-                    {"expected", hex(chunk.checksum)}}};
+    return Issue{ErrorCode::ChunkChecksum,
+                 chunk.offset,
+                 "chunk " + chunkName(chunk.type) + " should have checksum " + hex(chunk.checksum) +
+                     ", its bytes have " + hex(found),
+                 {{"chunk", chunkName(chunk.type)},
+                  {"found", hex(found)},
+                  {"expected", hex(chunk.checksum)}}};
   return true;
 }
 

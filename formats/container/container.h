@@ -67,8 +67,6 @@ struct Chunk {
   std::span<const std::byte> stored;
 };
 
-using ContainerError = Issue;
-
 /// A view: it owns nothing but the list of chunks.
 struct Container {
   FormatVersion version;
@@ -88,11 +86,11 @@ enum class Padding : std::uint8_t { Check, Skip };
 /// Checks all that lies between the chunks: header, table, order, alignment and padding. The chunks
 /// themselves are verified by verifyChunk(). The number of chunks is the only thing that is
 /// allocated for.
-Expected<Container, ContainerError> readContainer(std::span<const std::byte> bytes,
-                                                  Padding padding = Padding::Check);
+Expected<Container> readContainer(std::span<const std::byte> bytes,
+                                  Padding padding = Padding::Check);
 
 /// True, or CHUNK_CHECKSUM. Reads the whole chunk.
-Expected<bool, ContainerError> verifyChunk(const Chunk& chunk);
+Expected<bool> verifyChunk(const Chunk& chunk);
 
 /// A chunk to be written.
 struct ChunkSource {

@@ -79,4 +79,11 @@ std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t previous) {
   return crc32cByTables(bytes, previous);
 }
 
+std::string checksumText(std::uint32_t checksum) {
+  std::string text;
+  for (int shift = 28; shift >= 0; shift -= 4)
+    text += "0123456789abcdef"[(checksum >> shift) & 0xfu];
+  return text;
+}
+
 }  // namespace lumen::formats

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace lumen::formats {
 
@@ -15,5 +16,8 @@ std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t previous = 
 
 /// The same by tables alone: what crc32c() uses on processors without an instruction for it.
 std::uint32_t crc32cByTables(std::span<const std::byte> bytes, std::uint32_t previous = 0);
+
+/// A checksum as it is shown: eight lower-case hexadecimal digits.
+std::string checksumText(std::uint32_t checksum);
 
 }  // namespace lumen::formats

@@ -93,12 +93,7 @@ enum class ErrorCode : std::uint16_t {
   ExtensionRequired = 512,
   NodeArrayName = 513,
   NodeArrayComponents = 514,
-  // privacy: reported only when asked for
-  PrivacyDate = 601,
-  PrivacyPath = 602,
-  PrivacyAddress = 603,
-  PrivacyNumber = 604,
-  PrivacyName = 605,
+  // 601 to 605 are those of lumen validate --privacy, which are no rules of the format
   // files
   IoMissing = 901,
   IoNotAFile = 902,

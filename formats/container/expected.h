@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value, or the reason why there is none.
+// A value, or the issue that is the reason why there is none.
 #pragma once
 
 #include <utility>
 #include <variant>
+
+#include "formats/container/issue.h"
 
 namespace lumen::formats {
 
 /// What a reader of untrusted bytes returns: nothing half-built, no exception. Test it as a bool
 /// before reading `*result` (a value) or `result.error()`; reading the wrong one throws
 /// std::bad_variant_access.
-template <class T, class E>
+template <class T>
 class [[nodiscard]] Expected {
 public:
   Expected(T value) : m_state(std::in_place_index<0>, std::move(value)) {}
-  Expected(E error) : m_state(std::in_place_index<1>, std::move(error)) {}
+  Expected(Issue error) : m_state(std::in_place_index<1>, std::move(error)) {}
   [[nodiscard]] explicit operator bool() const { return m_state.index() == 0; }
   T& operator*() & { return std::get<0>(m_state); }
   const T& operator*() const& { return std::get<0>(m_state); }
   T&& operator*() && { return std::get<0>(std::move(m_state)); }
   T* operator->() { return &**this; }
   const T* operator->() const { return &**this; }
-  [[nodiscard]] const E& error() const { return std::get<1>(m_state); }
+  [[nodiscard]] const Issue& error() const { return std::get<1>(m_state); }
 
 private:
-  std::variant<T, E> m_state;
+  std::variant<T, Issue> m_state;
 };
 
 }  // namespace lumen::formats

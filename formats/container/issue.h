@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A broken rule: which, where, and what was found.
+// A broken rule: which, where, and what was found. All of the format library answers with it: a
+// file that cannot be read, bytes that are no container, a value that breaks a rule of the model.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,23 @@ struct Issue {
   std::string message{};                  ///< what was found and what was expected
   std::vector<Argument> arguments{};
   std::optional<std::string> pointer{};  ///< JSON pointer (RFC 6901) into the JSON encoding
+
+  /// "byte 128", a JSON pointer such as /tree/branches/2/label (empty: the whole), or "file".
+  [[nodiscard]] std::string place() const;
+  /// For people: "RADIUS_RANGE at byte 128 (/tree/radius/0): found -1, expected more than 0 mm".
+  [[nodiscard]] std::string text() const;
 };
+
+/// An issue with a JSON pointer.
+Issue pointerIssue(ErrorCode code, std::string pointer, std::string message,
+                   std::vector<Argument> arguments = {});
+
+/// An issue of the model: "found F, expected E".
+Issue foundIssue(ErrorCode code, std::string pointer, const std::string& found,
+                 const std::string& expected);
+
+/// An issue of a count beyond its published maximum, or of a text's length.
+Issue limitIssue(ErrorCode code, std::string pointer, std::size_t found, std::size_t limit);
 
 /// Collects issues up to a maximum. Checks ask full() to stop early.
 class IssueList {
@@ -48,6 +65,8 @@ public:
   /// True if there was an error, kept or not; warnings do not count.
   [[nodiscard]] bool failed() const { return m_errors > 0; }
   [[nodiscard]] std::size_t errorCount() const { return m_errors; }
+  /// The first that was kept of those that refuse the file.
+  [[nodiscard]] std::optional<Issue> firstError() const;
   [[nodiscard]] const std::vector<Issue>& issues() const { return m_issues; }
   [[nodiscard]] std::vector<Issue>& issues() { return m_issues; }
 

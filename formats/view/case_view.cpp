@@ -10,11 +10,9 @@
 namespace lumen::formats {
 namespace {
 
-using Problem = std::optional<Issue>;
-
 constexpr std::size_t kAlignment = 8;
 
-Problem checkMemory(std::span<const std::byte> bytes) {
+std::optional<Issue> checkMemory(std::span<const std::byte> bytes) {
   if constexpr (std::endian::native != std::endian::little)
     return Issue{ErrorCode::ViewMemory, std::nullopt,
                  "this machine is big-endian, so the file's numbers cannot be used in place"};
@@ -35,7 +33,7 @@ Issue sizeIssue(const Chunk& chunk, std::uint64_t expected) {
            {"expected", std::to_string(expected)}}};
 }
 
-Problem checkRaw(const Chunk& chunk) {
+std::optional<Issue> checkRaw(const Chunk& chunk) {
   if (chunk.encoding == static_cast<std::uint8_t>(ChunkEncoding::Raw)) return std::nullopt;
   const std::string name = chunkName(chunk.type);
   return Issue{ErrorCode::ChunkEncoding,
@@ -120,12 +118,7 @@ void checkLabels(const CaseView& view, const CaseChunks& chunks, IssueList& issu
   if (next != view.branchLabels.size()) issues.add(sizeIssue(labels, next));
 }
 
-Problem firstError(const IssueList& issues) {
-  if (issues.failed()) return issues.issues().front();
-  return std::nullopt;
-}
-
-Problem checkChunks(const Container& container, Verify verify) {
+std::optional<Issue> checkChunks(const Container& container, Verify verify) {
   for (const Chunk& chunk : container.chunks) {
     if (chunkRuleIndex(chunk.type) < kChunkRules.size())
       if (auto problem = checkRaw(chunk)) return problem;
@@ -187,22 +180,22 @@ CaseView assembleView(const CaseChunks& chunks, Verify verify, IssueList& issues
   return view;
 }
 
-Expected<CaseView, ContainerError> viewCase(std::span<const std::byte> bytes, Verify verify) {
+Expected<CaseView> viewCase(std::span<const std::byte> bytes, Verify verify) {
   if (auto problem = checkMemory(bytes)) return *std::move(problem);
   const auto container =
       readContainer(bytes, verify == Verify::All ? Padding::Check : Padding::Skip);
   if (!container) return container.error();
   IssueList issues(1, IssueList::Keep::Errors);
   const CaseChunks chunks = sortChunks(*container, issues);
-  if (auto problem = firstError(issues)) return *std::move(problem);
+  if (auto problem = issues.firstError()) return *std::move(problem);
   if (auto problem = checkChunks(*container, verify)) return *std::move(problem);
 
   CaseView view = assembleView(chunks, verify, issues);
-  if (auto problem = firstError(issues)) return *std::move(problem);
+  if (auto problem = issues.firstError()) return *std::move(problem);
   view.version = container->version;
   checkKernels(view, issues);
   if (verify == Verify::All) checkModelRules(view, issues);
-  if (auto problem = firstError(issues)) {
+  if (auto problem = issues.firstError()) {
     problem->offset = byteOffsetOf(*problem->pointer, chunks);
     return *std::move(problem);
   }

@@ -71,7 +71,7 @@ enum class Verify : std::uint8_t { Structure, All };
 /// The view of a file. `bytes` must start at a multiple of 8, as mapped and allocated memory does,
 /// and outlive the view. A chunk that is stored encoded cannot be viewed: CHUNK_ENCODING names it.
 /// Time and memory do not depend on the number of nodes for Verify::Structure.
-Expected<CaseView, ContainerError> viewCase(std::span<const std::byte> bytes, Verify verify);
+Expected<CaseView> viewCase(std::span<const std::byte> bytes, Verify verify);
 
 /// The view of chunks that hold no encoded bytes, and whose group of required ones is complete.
 /// Reports sizes that do not fit, labels that do not fill their chunk, and reserved bytes; the view

@@ -16,10 +16,6 @@ namespace {
 constexpr std::uint32_t kExponentBits = 0x7f800000u;
 constexpr std::uint32_t kNegativeZero = 0x80000000u;
 
-std::string at(const std::string& array, std::size_t index) {
-  return array + "/" + std::to_string(index);
-}
-
 // Two passes are faster than one that may stop: this one has no branch.
 bool allFinite(std::span<const float> values) {
   std::uint32_t greatest = 0;
@@ -30,10 +26,6 @@ bool allFinite(std::span<const float> values) {
 
 std::span<const float> flat(std::span<const ViewVector> vectors) {
   return {vectors.empty() ? nullptr : vectors.front().data(), 3 * vectors.size()};
-}
-
-Issue notFinite(double value, std::string pointer) {
-  return foundIssue(ErrorCode::NotFinite, std::move(pointer), shortText(value), "a finite number");
 }
 
 // One warning for an array: the first place says enough.
@@ -121,11 +113,6 @@ void checkBlobRules(const ModelView& model, std::size_t nodeCount, IssueList& is
   checkValues(model.width, "/models/width", kWidthRule, issues);
 }
 
-void checkPositive(double value, const std::string& pointer, ErrorCode code, IssueList& issues) {
-  if (!std::isfinite(value)) return issues.add(notFinite(value, pointer));
-  if (!(value > 0)) issues.add(foundIssue(code, pointer, shortText(value), "more than 0"));
-}
-
 void checkKernel(const ModelView& model, IssueList& issues) {
   if (model.kernel >= field::kKernelCount)
     return issues.add(foundIssue(ErrorCode::EnumValue, "/models/kernel",
@@ -134,12 +121,23 @@ void checkKernel(const ModelView& model, IssueList& issues) {
   const std::string parameter = "/models/kernelParameter";
   if (field::hasParameter(static_cast<field::Kernel>(model.kernel)))
     checkPositive(model.kernelParameter, parameter, ErrorCode::KernelParameter, issues);
-  else if (!std::isfinite(model.kernelParameter))
-    issues.add(notFinite(model.kernelParameter, parameter));
+  else
+    checkFinite(model.kernelParameter, parameter, issues);
   checkPositive(model.isoLevel, "/models/isoLevel", ErrorCode::IsoLevel, issues);
 }
 
 }  // namespace
+
+void checkFinite(double value, const std::string& pointer, IssueList& issues) {
+  if (!std::isfinite(value))
+    issues.add(foundIssue(ErrorCode::NotFinite, pointer, shortText(value), "a finite number"));
+}
+
+void checkPositive(double value, const std::string& pointer, ErrorCode code, IssueList& issues) {
+  checkFinite(value, pointer, issues);
+  if (std::isfinite(value) && !(value > 0))
+    issues.add(foundIssue(code, pointer, shortText(value), "more than 0"));
+}
 
 void checkFinite(std::span<const ViewVector> vectors, const std::string& pointer,
                  IssueList& issues) {
@@ -149,7 +147,7 @@ void checkFinite(std::span<const ViewVector> vectors, const std::string& pointer
     for (std::size_t c = 0; c < 3; ++c) {
       if (std::isfinite(vectors[i][c])) continue;
       if (issues.full()) return;
-      issues.add(notFinite(static_cast<double>(vectors[i][c]), at(at(pointer, i), c)));
+      checkFinite(static_cast<double>(vectors[i][c]), at(at(pointer, i), c), issues);
     }
 }
 
@@ -160,9 +158,9 @@ void checkValues(std::span<const float> values, const std::string& pointer, cons
     const float value = values[i];
     if (std::isfinite(value) && rule.legal(value)) continue;
     if (issues.full()) return;
-    issues.add(std::isfinite(value)
-                   ? foundIssue(rule.code, at(pointer, i), shortText(value), rule.expected)
-                   : notFinite(static_cast<double>(value), at(pointer, i)));
+    checkFinite(static_cast<double>(value), at(pointer, i), issues);
+    if (std::isfinite(value))
+      issues.add(foundIssue(rule.code, at(pointer, i), shortText(value), rule.expected));
   }
 }
 

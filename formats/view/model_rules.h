@@ -46,6 +46,8 @@ struct ValueRule {
 
 void checkValues(std::span<const float> values, const std::string& pointer, const ValueRule& rule,
                  IssueList& issues);
+void checkFinite(double value, const std::string& pointer, IssueList& issues);
+void checkPositive(double value, const std::string& pointer, ErrorCode code, IssueList& issues);
 void checkFinite(std::span<const ViewVector> vectors, const std::string& pointer,
                  IssueList& issues);
 /// False, with an issue, if they differ.

@@ -79,22 +79,4 @@ std::string jsonPointerToken(std::string_view key) {
   return token;
 }
 
-Issue foundIssue(ErrorCode code, std::string pointer, const std::string& found,
-                 const std::string& expected) {
-  return {code,
-          std::nullopt,
-          "found " + found + ", expected " + expected,
-          {{"found", found}, {"expected", expected}},
-          std::move(pointer)};
-}
-
-Issue limitIssue(ErrorCode code, std::string pointer, std::size_t found, std::size_t limit) {
-  const std::string count = std::to_string(found), most = std::to_string(limit);
-  return {code,
-          std::nullopt,
-          "found " + count + ", the limit is " + most,
-          {{"found", count}, {"limit", most}},
-          std::move(pointer)};
-}
-
 }  // namespace lumen::formats

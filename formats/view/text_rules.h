@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every text in a case must be, and texts of errors.
+// What every text in a case must be, and how pointers and numbers are spelt.
 #pragma once
 
 #include <charconv>
@@ -26,6 +26,11 @@ void checkText(std::string_view text, std::size_t maxBytes, const std::string& p
 /// One step of a JSON pointer (RFC 6901).
 std::string jsonPointerToken(std::string_view key);
 
+/// The pointer to an element of an array.
+inline std::string at(const std::string& array, std::size_t index) {
+  return array + "/" + std::to_string(index);
+}
+
 /// The shortest text that reads back as `value`; "nan" and "inf" included.
 template <class Number>
 std::string shortText(Number value) {
@@ -33,12 +38,5 @@ std::string shortText(Number value) {
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
   return std::string(buffer, result.ptr);
 }
-
-/// An issue of the model: "found F, expected E".
-Issue foundIssue(ErrorCode code, std::string pointer, const std::string& found,
-                 const std::string& expected);
-
-/// An issue of a count beyond its published maximum, or of a text's length.
-Issue limitIssue(ErrorCode code, std::string pointer, std::size_t found, std::size_t limit);
 
 }  // namespace lumen::formats

@@ -12,10 +12,6 @@
 namespace lumen::formats {
 namespace {
 
-std::string at(const std::string& array, std::size_t index) {
-  return array + "/" + std::to_string(index);
-}
-
 void checkParents(std::span<const std::int32_t> parents, IssueList& issues) {
   for (std::size_t i = 0; i < parents.size() && !issues.full(); ++i)
     if (parents[i] < -1 || parents[i] >= static_cast<std::int64_t>(i))

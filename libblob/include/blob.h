@@ -52,6 +52,9 @@
 #ifndef LUMEN_BLOB_H
 #define LUMEN_BLOB_H
 
+/* Comments stand in columns. */
+/* clang-format off */
+
 #include <stddef.h>
 #include <stdint.h>
 

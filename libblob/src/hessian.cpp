@@ -47,7 +47,8 @@ public:
 private:
   // Kept out of line: each loop gets all registers.
   template <class K, int order>
-  [[nodiscard, gnu::noinline]] field::Jet<order> sumBlobs(const FieldNode& where, const double* at) const {
+  [[nodiscard, gnu::noinline]] field::Jet<order> sumBlobs(const FieldNode& where,
+                                                          const double* at) const {
     field::Jet<order> f;
     const BlobBlock* blocks = m_model.field.blocks.data() + where.block;
     for (std::uint32_t b = 0; b < where.blockCount; ++b)

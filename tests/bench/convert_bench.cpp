@@ -79,7 +79,9 @@ void convertOnce(const std::string& stem, int threads) {
   Progress progress;
   convert::Volume volume;
   formats::Case value;
-  stage("read", [&] { volume = convert::readVolume(stem + ".nrrd", {}, progress); });
+  stage("read", [&] {
+    volume = convert::readVolume(stem + ".nrrd", convert::VolumeFormat::Nrrd, {}, progress);
+  });
   const auto seeds = convert::readSeeds(stem + ".json");
   stage("track", [&] { value = convert::track(volume, seeds, {}, progress).result; });
   stage("fit", [&] { convert::fit(value, {}, progress); });
@@ -95,7 +97,8 @@ void convertOnce(const std::string& stem, int threads) {
 
 void filterOnce(const std::string& stem, int threads) {
   Progress progress;
-  const convert::Volume volume = convert::readVolume(stem + ".nrrd", {}, progress);
+  const convert::Volume volume =
+      convert::readVolume(stem + ".nrrd", convert::VolumeFormat::Nrrd, {}, progress);
   print("volume", volumeMemory(volume));
   resetPeak();
   const bench::Vesselness out =
@@ -119,7 +122,7 @@ public:
     options.size = size;
     Progress progress;
     const convert::Phantom phantom = convert::makePhantom(options, progress);
-    convert::writeVolume(phantom.volume, stem(size) + ".nrrd");
+    convert::writeVolume(phantom.volume, stem(size) + ".nrrd", convert::VolumeFormat::Nrrd, true);
     convert::writeSeeds(phantom.seeds, stem(size) + ".json");
   }
 

@@ -62,7 +62,7 @@ TEST_F(InterruptGuardTest, WorkThatDoesNotStopIsEndedAndItsTemporaryFileRemoved)
         InterruptGuard guard(progress);
         std::filesystem::current_path(path(""));
         guard.watchOutput("volume.nrrd");
-        write(".tmp-" + std::to_string(getpid()) + "-volume.nrrd", "half");
+        write(".lumen-" + std::to_string(getpid()) + "-0.nrrd", "half");
         write("volume.nrrd", "whole");
         kill(getpid(), SIGINT);
         std::this_thread::sleep_for(std::chrono::hours(1));

@@ -106,7 +106,7 @@ TEST_F(ValidateTest, PrivacyLooksAtTextsOnlyWhenAskedTo) {
   EXPECT_EQ(lumen({"validate", "dated.lumen"}).code, 0);
   const Outcome found = lumen({"validate", "dated.lumen", "--privacy"});
   EXPECT_EQ(found.code, 3);
-  EXPECT_TRUE(contains(found.out, "PRIVACY_DATE")) << found.out;
+  EXPECT_TRUE(contains(found.out, "dated.lumen: warning PRIVACY_DATE")) << found.out;
   EXPECT_TRUE(contains(found.out, "/metadata/note")) << found.out;
 }
 

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text{reinterpret_cast<const char*>(data), size};
   if (hasContainerMagic(lumen::fuzz::bytesOf(data, size))) return 0;
   const auto decoded = decodeJson(text);
-  const auto report = validateBytes(lumen::fuzz::bytesOf(data, size), {});
+  const auto report = validateBytes(lumen::fuzz::bytesOf(data, size));
   if (!decoded) {
     expect(!report.valid(), "the validator refuses what the reader refuses");
     return 0;

@@ -15,7 +15,7 @@
 #include "converters/app/terminal_progress.h"
 #include "converters/fitting/error_of_fit.h"
 #include "converters/fitting/fit.h"
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/polygonise.h"
 #include "converters/phantom/phantom.h"
 #include "converters/tracking/tracker.h"
 #include "formats/case/case_file.h"
@@ -80,7 +80,7 @@ std::vector<Patient> syntheticPatients(Progress& progress) {
 std::vector<Patient> readPatients(const std::vector<std::string>& files) {
   std::vector<Patient> patients;
   for (const std::string& file : files) {
-    formats::Result<formats::Case> value = formats::readCaseFile(file);
+    formats::Expected<formats::Case> value = formats::readCaseFile(file);
     if (!value) throw invalidInput(value.error().text());
     if (!value->points) throw invalidInput(file + ": has no wall points");
     if (!value->metadata.voxelSize) throw invalidInput(file + ": states no voxel size");
@@ -92,7 +92,7 @@ std::vector<Patient> readPatients(const std::vector<std::string>& files) {
 double trianglesOf(const formats::Case& value, Progress& progress) {
   double triangles = 0;
   for (const convert::BranchMesh& branch : convert::polygonise(value, {}, progress)) {
-    triangles += static_cast<double>(branch.mesh.n_faces());
+    triangles += static_cast<double>(branch.triangle.size());
   }
   return triangles;
 }

@@ -19,7 +19,7 @@ namespace {
 using namespace lumen;
 
 formats::Case readCase(const std::string& file) {
-  formats::Result<formats::Case> value = formats::readCaseFile(file);
+  formats::Expected<formats::Case> value = formats::readCaseFile(file);
   if (!value) throw invalidInput(value.error().text());
   if (!value->metadata.voxelSize) throw invalidInput(file + ": states no voxel size");
   return *std::move(value);

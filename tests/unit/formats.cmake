@@ -1,7 +1,9 @@
 lumen_test(formats_test
+  LABELS memory
   LIBS lumen_case nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/allocation_meter.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/atomic_file_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/binary_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/blobby_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/case_view_test.cpp
@@ -12,7 +14,6 @@ lumen_test(formats_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/full_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/memory_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/privacy_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_tables.cpp

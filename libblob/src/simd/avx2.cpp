@@ -21,8 +21,8 @@ namespace {
 #pragma GCC target("avx2")
 #endif
 namespace avx2 {
-#include "simd/f8_avx.h"
 #include "simd/body.h"
+#include "simd/f8_avx.h"
 }  // namespace avx2
 #if defined(__clang__)
 #pragma clang attribute pop

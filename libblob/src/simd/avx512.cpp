@@ -22,8 +22,8 @@ namespace {
 #pragma GCC target("avx512f,avx512vl,avx512bw,avx512dq")
 #endif
 namespace avx512 {
-#include "simd/f8_avx.h"
 #include "simd/body.h"
+#include "simd/f8_avx.h"
 }  // namespace avx512
 #if defined(__clang__)
 #pragma clang attribute pop

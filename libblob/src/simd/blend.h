@@ -47,6 +47,21 @@ inline F4 weigh(const View& view, std::uint32_t node, F4 x, ActiveNodes& active)
   return withFirst(u, set4(u) * logarithmic);
 }
 
+// The factors that bring two values of an exponential kernel, each with a shift, to one shift,
+// which is left in `first`. That is the first's own, unless the second, raised to it, could leave
+// the range of floats; then the first, beside the second as good as nothing, is lowered.
+struct Factors {
+  float first, second;
+};
+
+inline Factors shareShift(float& first, float second) {
+  constexpr float kMostRaised = 60;  // exp(60) is 1e26
+  const float difference = first - second;
+  if (difference <= kMostRaised) return {1.0f, exponential(difference)};
+  first = second;
+  return {exponential(-difference), 1.0f};
+}
+
 // Sums over nodes of rows of four: u and its gradient; these times (f - f0), where f0 is the first
 // node's value, so that models that agree leave only the rounding of their difference; u times f
 // and its gradient.
@@ -68,7 +83,11 @@ inline void addNode(const View& view, std::uint32_t node, F4 x, F4 weight, Mixtu
     sum.f0 = firstOf(field);
     sum.shift = shift;
   } else if constexpr (kIsShifted<K>) {
-    field = field * set4(exponential(sum.shift - shift));
+    const Factors factors = shareShift(sum.shift, shift);
+    sum.f0 *= factors.first;
+    sum.excess = sum.excess * set4(factors.first);
+    sum.field = sum.field * set4(factors.first);
+    field = field * set4(factors.second);
   }
   sum.weight = sum.weight + weight;
   sum.excess = sum.excess + set4(firstOf(field) - sum.f0) * weight;
@@ -125,7 +144,11 @@ inline bool blendPair(const View& view, const D4& point, std::uint32_t node,
   const FieldNode& where = view.fieldNode(block.node[rival]);
   float shift;
   F4 field = evaluateNode<K>(view, where, x, shift);
-  if constexpr (kIsShifted<K>) field = field * set4(exponential(lane.shift - shift));
+  if constexpr (kIsShifted<K>) {
+    const Factors factors = shareShift(lane.shift, shift);
+    lane.field = lane.field * set4(factors.first);
+    field = field * set4(factors.second);
+  }
   const float s = 0.5f + 0.5f * t, rest = 1.0f - s;
   const float psi = smoothStep(s);
   const float slope = (15.0f * ((s * s) * (rest * rest))) * inverseTau;

@@ -66,10 +66,12 @@ struct Terms {
   F8 f, x, y, z;
 };
 
+// Padding is no nearer than the nearest blob: else its exponential could be infinite, and times no
+// width no number.
 template <class K>
 inline Terms termsOf(const BlobBlock& block, const Splats& at, float shift) {
   Offsets d = offsetsOf(block, at);
-  if constexpr (kIsShifted<K>) d.u = d.u - set1(shift);
+  if constexpr (kIsShifted<K>) d.u = max(d.u - set1(shift), set1(0.0f));
   const BlobTerm<F8> term = K::term(d.u, load(block.a), load(block.w));
   return {term.value, term.slope * d.x, term.slope * d.y, term.slope * d.z};
 }

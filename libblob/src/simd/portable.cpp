@@ -21,8 +21,8 @@ namespace lumen::blob {
 #if defined(__GNUC__)
 namespace {
 namespace portable {
-#include "simd/f8_pair.h"
 #include "simd/body.h"
+#include "simd/f8_pair.h"
 }  // namespace portable
 }  // namespace
 

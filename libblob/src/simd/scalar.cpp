@@ -12,8 +12,8 @@
 namespace lumen::blob {
 namespace {
 namespace scalar {
-#include "simd/f8_scalar.h"
 #include "simd/body.h"
+#include "simd/f8_scalar.h"
 }  // namespace scalar
 }  // namespace
 

@@ -70,7 +70,7 @@ TEST(EveryValidFile, IsRefusedAtEveryCut) {
       const Exact cut{std::span<const std::byte>(whole).first(size)};
       const auto result = decodeBinary(cut.span());
       ASSERT_FALSE(result) << file << " of " << size << " bytes";
-      ASSERT_EQ(result.error().code, "TRUNCATED") << file << " of " << size << " bytes";
+      ASSERT_EQ(result.error().code, ErrorCode::Truncated) << file << " of " << size << " bytes";
     }
   }
 }
@@ -123,9 +123,9 @@ TEST(EveryHostileFile, IsRefusedByTheViewUnlessItsMetadataAreAtFault) {
     ASSERT_FALSE(decoded) << file;
     const std::string pointer = decoded.error().pointer.value_or("");
     const bool needsMetadata =
-        decoded.error().code.starts_with("JSON_") || pointer.starts_with("/metadata") ||
-        pointer.starts_with("/nodeArrays") || file.stem().string().starts_with("node-array-") ||
-        file.stem() == "length-narr";
+        std::string_view(errorName(decoded.error().code)).starts_with("JSON_") ||
+        pointer.starts_with("/metadata") || pointer.starts_with("/nodeArrays") ||
+        file.stem().string().starts_with("node-array-") || file.stem() == "length-narr";
     const auto view = viewCase(bytes.span(), Verify::All);
     EXPECT_TRUE(needsMetadata || !view) << file;
   }

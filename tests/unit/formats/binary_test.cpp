@@ -109,7 +109,7 @@ TEST(Binary, RefusesAnUnknownCriticalChunkByName) {
   const auto result =
       decodeBinary(tampered([](Bytes& f) { f[entryOf(f, "NRAD")] = std::byte{'Q'}; }));
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, "CHUNK_UNKNOWN");
+  EXPECT_EQ(test::codeOf(result), "CHUNK_UNKNOWN");
   EXPECT_NE(result.error().message.find("QRAD"), std::string::npos);
 }
 
@@ -235,7 +235,7 @@ TEST(Binary, PlacesSyntaxErrorsOfTheMetadataByTheirByteInTheFile) {
   const Bytes file = tampered([](Bytes& f) { setData(f, "META", 1, std::uint8_t{'}'}); });
   const auto result = decodeBinary(file);
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().place, "byte " + std::to_string(dataOf(file, "META") + 3));
+  EXPECT_EQ(result.error().place(), "byte " + std::to_string(dataOf(file, "META") + 3));
 }
 
 // spec: M43, M44

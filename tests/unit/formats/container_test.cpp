@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"major_version_zero", 10, 0, 1, "VERSION"},
                     Fault{"newer_minimum_reader", 10, 0x01020102, 4, "VERSION"},
                     Fault{"newer_major_version", 10, 0x00020002, 4, "VERSION"},
-                    Fault{"minimum_reader_above_version", 13, 1, 1, "VERSION"},
+                    Fault{"minimum_reader_above_version", 13, 2, 1, "VERSION"},
                     Fault{"header_size", 14, 128, 2, "HEADER_FIELD"},
                     Fault{"reserved_header_byte", 40, 1, 1, "HEADER_FIELD"},
                     Fault{"length_beyond_file", 16, 384, 8, "TRUNCATED"},

@@ -72,8 +72,8 @@ TEST(FullCase, IsRefusedIfItRequiresAnExtensionAndThatIsNamed) {
   const auto result = decodeJson(replaced(
       "\"nodeArrays\": [\n", "\"extensionsRequired\": [\"ACME_flow\"], \"nodeArrays\": [\n"));
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, "EXTENSION_REQUIRED");
-  EXPECT_EQ(result.error().place, "/metadata/extensionsRequired/0");
+  EXPECT_EQ(test::codeOf(result), "EXTENSION_REQUIRED");
+  EXPECT_EQ(result.error().place(), "/metadata/extensionsRequired/0");
   EXPECT_NE(result.error().message.find("ACME_flow"), std::string::npos);
 }
 
@@ -91,8 +91,8 @@ class FullJson : public testing::TestWithParam<JsonChange> {};
 TEST_P(FullJson, IsRefused) {
   const auto result = decodeJson(replaced(GetParam().from, GetParam().to));
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, GetParam().code) << result.error().text();
-  EXPECT_EQ(result.error().place, GetParam().place);
+  EXPECT_EQ(test::codeOf(result), GetParam().code) << result.error().text();
+  EXPECT_EQ(result.error().place(), GetParam().place);
 }
 
 INSTANTIATE_TEST_SUITE_P(

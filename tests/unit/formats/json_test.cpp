@@ -169,8 +169,8 @@ TEST_P(JsonFault, IsFoundAtItsPlace) {
   const Fault& fault = GetParam();
   const auto result = decodeJson(replaced(fault.from, fault.to));
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, fault.code) << result.error().text();
-  EXPECT_EQ(result.error().place, fault.place) << result.error().text();
+  EXPECT_EQ(test::codeOf(result), fault.code) << result.error().text();
+  EXPECT_EQ(result.error().place(), fault.place) << result.error().text();
 }
 
 const Fault kFaults[] = {
@@ -178,7 +178,7 @@ const Fault kFaults[] = {
     {"version_text", "\"1.0\"", "\"1\"", "VERSION", "/version"},
     {"version_zero", "\"1.0\"", "\"0.9\"", "VERSION", "/version"},
     {"version_overflow", "\"1.0\"", "\"1.256\"", "VERSION", "/version"},
-    {"reader_newer", "\"version\": \"1.0\",\n  \"minimumReader\": \"1.0\"",
+    {"reader_newer", "\"version\": \"1.1\",\n  \"minimumReader\": \"1.0\"",
      "\"version\": \"2.3\", \"minimumReader\": \"2.0\"", "VERSION", "/minimumReader"},
     {"coordinate_system", "\"LPS\"", "\"RAS\"", "COORDINATE_SYSTEM", "/metadata/coordinateSystem"},
     {"no_coordinate_system", "\"coordinateSystem\": \"LPS\",", "", "JSON_KEY_MISSING", "/metadata"},
@@ -269,7 +269,7 @@ TEST(JsonSyntax, RefusesANumberBeyondADouble) {
 TEST(JsonSyntax, IsPlacedByItsByte) {
   const auto result = decodeJson("{\"format\" 5}");
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().place, "byte 11");
+  EXPECT_EQ(result.error().place(), "byte 11");
 }
 
 TEST(JsonSyntax, RefusesEveryTruncation) {

@@ -18,16 +18,16 @@ using test::tamperedFull;
 
 std::vector<std::string> codes(const ValidationReport& report) {
   std::vector<std::string> found;
-  for (const FormatError& issue : report.issues) found.push_back(issue.code);
+  for (const Issue& issue : report.issues) found.push_back(errorName(issue.code));
   return found;
 }
 
 ValidationReport reportOf(const Bytes& file, std::size_t maxIssues = 100) {
-  return validateBytes(file, {maxIssues, false});
+  return validateBytes(file, maxIssues);
 }
 
 ValidationReport reportOf(const std::string& text) {
-  return validateBytes(std::as_bytes(std::span(text)), {});
+  return validateBytes(std::as_bytes(std::span(text)));
 }
 
 using Codes = std::vector<std::string>;
@@ -37,7 +37,7 @@ TEST(Report, OfAValidFileTellsOnlyOfUnknownChunks) {
   EXPECT_TRUE(report.valid());
   EXPECT_TRUE(report.complete);
   EXPECT_EQ(codes(report), (Codes{"CHUNK_IGNORED", "CHUNK_IGNORED"}));
-  EXPECT_EQ(report.issues[0].severity, Severity::Information);
+  EXPECT_EQ(severityOf(report.issues[0].code), Severity::Information);
   EXPECT_TRUE(reportOf(encodeJson(test::richCase())).issues.empty());
 }
 
@@ -62,10 +62,10 @@ TEST(Report, PlacesFaultsOfABinaryFileByByteAndByPointer) {
   const Bytes file = manyFaults();
   const auto report = reportOf(file);
   const auto found = std::find_if(report.issues.begin(), report.issues.end(),
-                                  [](const FormatError& e) { return e.code == "WIDTH_RANGE"; });
+                                  [](const Issue& e) { return e.code == ErrorCode::WidthRange; });
   ASSERT_NE(found, report.issues.end());
   EXPECT_EQ(found->offset, dataOf(file, "MWID"));
-  EXPECT_EQ(found->place, "byte " + std::to_string(dataOf(file, "MWID")));
+  EXPECT_EQ(found->place(), "byte " + std::to_string(dataOf(file, "MWID")));
   EXPECT_EQ(found->pointer, "/models/width/0");
   EXPECT_EQ(found->text(), "WIDTH_RANGE at byte " + std::to_string(dataOf(file, "MWID")) +
                                " (/models/width/0): found -0.5, expected more than 0 mm");
@@ -129,7 +129,6 @@ TEST(Report, WarnsOfChunksInAnotherOrder) {
 
 TEST(Report, OfWhatIsNoCaseSaysSo) {
   EXPECT_EQ(codes(reportOf(std::string("solid cube"))), Codes{"NOT_LUMEN"});
-  EXPECT_EQ(codes(validateFile("/nowhere/a.lumen", {})), Codes{"IO_MISSING"});
 }
 
 TEST(Report, PlacesValuesOfEveryArrayInTheirChunk) {
@@ -152,7 +151,7 @@ TEST(Report, PlacesValuesOfEveryArrayInTheirChunk) {
       storeLittle(&f[at], nan);
     }));
     ASSERT_FALSE(result) << place.pointer;
-    EXPECT_EQ(result.error().code, "NOT_FINITE") << result.error().text();
+    EXPECT_EQ(test::codeOf(result), "NOT_FINITE") << result.error().text();
     EXPECT_EQ(result.error().offset, at) << result.error().text();
     EXPECT_EQ(result.error().pointer, place.pointer);
   }
@@ -162,7 +161,7 @@ TEST(Report, PlacesALabelInItsChunk) {
   const Bytes file = tamperedFull([](Bytes& f) { f[dataOf(f, "BLAB") + 8] = std::byte{0xff}; });
   const auto result = decodeBinary(file);
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().code, "TEXT_UTF8");
+  EXPECT_EQ(test::codeOf(result), "TEXT_UTF8");
   EXPECT_EQ(result.error().offset, dataOf(file, "BLAB") + 8);
 }
 
@@ -172,16 +171,14 @@ TEST(Report, HasNoArgumentThatItsRuleDoesNotDeclare) {
   const std::string text = encodeJson(test::fullCase());
   std::set<std::string> seen;
   const auto check = [&seen](const ValidationReport& report) {
-    for (const FormatError& issue : report.issues) {
-      const auto rules = errorRules();
-      const auto rule = std::find_if(rules.begin(), rules.end(),
-                                     [&](const ErrorRule& r) { return issue.code == r.name; });
-      ASSERT_NE(rule, rules.end());
-      seen.insert(issue.code);
-      std::istringstream words(rule->arguments);
+    for (const Issue& issue : report.issues) {
+      const ErrorRule& rule = errorRule(issue.code);
+      ASSERT_EQ(rule.code, issue.code);
+      seen.insert(rule.name);
+      std::istringstream words(rule.arguments);
       const std::set<std::string> declared{std::istream_iterator<std::string>(words), {}};
       for (const Argument& argument : issue.arguments)
-        ASSERT_TRUE(declared.contains(argument.name)) << issue.code << " " << argument.name;
+        ASSERT_TRUE(declared.contains(argument.name)) << rule.name << " " << argument.name;
     }
   };
   for (std::size_t at = 0; at < good.size(); ++at) {

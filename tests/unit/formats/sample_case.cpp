@@ -156,11 +156,4 @@ Bytes tamperedFull(const std::function<void(Bytes&)>& change) {
   return file;
 }
 
-std::string codeOf(const Result<Case>& result) {
-  return result ? "OK" : result.error().code;
-}
-std::string codeOf(const Result<bool>& result) {
-  return result ? "OK" : result.error().code;
-}
-
 }  // namespace lumen::formats::test

@@ -43,8 +43,10 @@ Bytes tampered(const std::function<void(Bytes&)>& change);
 /// The same for the full case.
 Bytes tamperedFull(const std::function<void(Bytes&)>& change);
 
-/// The code of the error that reading gives, or "OK".
-std::string codeOf(const Result<Case>& result);
-std::string codeOf(const Result<bool>& result);
+/// The name of the rule that was broken, or "OK".
+template <class T>
+std::string codeOf(const Expected<T>& result) {
+  return result ? "OK" : errorName(result.error().code);
+}
 
 }  // namespace lumen::formats::test

@@ -172,8 +172,8 @@ std::string errorsPage() {
       "Made from `formats/container/error_code.cpp`; see [the specification](lumen.md#errors).\n"
       "Numbers and names are stable and are never used again for another rule. A file with an "
       "error is\n"
-      "refused; warnings and information do not change that. The codes from 601 on are reported\n"
-      "only when they are asked for.\n\n"
+      "refused; warnings and information do not change that. Numbers from 601 to 700 are free for\n"
+      "programs that look for personal texts, which are no breach of the format.\n\n"
       "| number | code | severity | arguments | meaning |\n|---|---|---|---|---|\n";
   for (const ErrorRule& rule : errorRules())
     text += "| " + std::to_string(static_cast<int>(rule.code)) + " | `" + rule.name + "` | " +

@@ -20,11 +20,11 @@ struct Tracked {
   std::size_t seeds = 0;
 };
 
-Tracked trackFile(const std::string& volume, const std::string& seedsFile) {
+Tracked trackFile(const std::string& volume, VolumeFormat format, const std::string& seedsFile) {
   Progress silent;
   const auto seeds = readSeeds(std::filesystem::path(LUMEN_TEST_DATA) / seedsFile);
-  const Volume read =
-      readVolume(std::filesystem::path(LUMEN_SHARED_DATA) / volume, ReadVolumeOptions{}, silent);
+  const auto file = std::filesystem::path(LUMEN_SHARED_DATA) / volume;
+  const Volume read = readVolume(file, format, ReadVolumeOptions{}, silent);
   return {track(read, seeds, TrackOptions{}, silent), seeds.size()};
 }
 
@@ -57,7 +57,8 @@ class Angiogram3dra : public testing::Test {
 protected:
   void SetUp() override {
     if (absent("aneurism-3dra.nrrd")) GTEST_SKIP() << "aneurism-3dra.nrrd is not here";
-    static const Tracked once = trackFile("aneurism-3dra.nrrd", "aneurism-3dra.seeds.json");
+    static const Tracked once =
+        trackFile("aneurism-3dra.nrrd", VolumeFormat::Nrrd, "aneurism-3dra.seeds.json");
     tracked = &once;
   }
   const Tracked* tracked = nullptr;
@@ -99,7 +100,7 @@ TEST_F(Angiogram3dra, TheKissingAnteriorCerebralArteriesAreTwoVessels) {
 
 TEST(AngiogramAorta, TheAortaBothIliacsAndBothRenalsAreTracked) {
   if (absent("aorta/aorta.mha")) GTEST_SKIP() << "aorta/aorta.mha is not here";
-  const Tracked tracked = trackFile("aorta/aorta.mha", "aorta.seeds.json");
+  const Tracked tracked = trackFile("aorta/aorta.mha", VolumeFormat::MetaImage, "aorta.seeds.json");
   EXPECT_EQ(tracked.out.result.tree.branches.size(), tracked.seeds);
   EXPECT_GT(lengthOf(chainOf(tracked.out.result, "aorta")), 300);
   EXPECT_GT(lengthOf(chainOf(tracked.out.result, "left-iliac")), 100);
@@ -109,7 +110,7 @@ TEST(AngiogramAorta, TheAortaBothIliacsAndBothRenalsAreTracked) {
 
 TEST(AngiogramFistula, TheVeinAndTheFistulaAreTracked) {
   if (absent("avf/avf.nii")) GTEST_SKIP() << "avf/avf.nii is not here";
-  const Tracked tracked = trackFile("avf/avf.nii", "avf.seeds.json");
+  const Tracked tracked = trackFile("avf/avf.nii", VolumeFormat::Nifti, "avf.seeds.json");
   EXPECT_GT(lengthOf(chainOf(tracked.out.result, "vein")), 50);
   EXPECT_GT(lengthOf(chainOf(tracked.out.result, "fistula")), 55);
 }

@@ -258,5 +258,13 @@ TEST_F(Dicom, TruncatedImageIsRefused) {
   expectRefused(readRefusal(directory()), {"3: ", "a89.dcm", "truncated", "24 bytes"});
 }
 
+TEST_F(Dicom, ALengthThatIsTooShortForTheImageIsRefused) {
+  writeSeries("a", {}, 3);
+  std::string bytes = bytesOf(path("a89.dcm"));
+  bytes[bytes.size() - 28] = 20;  // of pixels, instead of 24
+  write("a89.dcm", bytes.substr(0, bytes.size() - 4));
+  expectRefused(readRefusal(directory()), {"3: ", "a89.dcm", "24 bytes"});
+}
+
 }  // namespace
 }  // namespace lumen::convert

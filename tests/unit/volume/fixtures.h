@@ -16,6 +16,7 @@
 
 #include "converters/common/error.h"
 #include "converters/volume/read_volume.h"
+#include "converters/volume/write_volume.h"
 
 namespace lumen::convert {
 
@@ -61,10 +62,24 @@ inline std::string refusal(const std::function<void()>& action) {
   return {};
 }
 
+/// The format that these tests' files have by their names; a folder is one of DICOM.
+inline VolumeFormat formatOf(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".nrrd" || extension == ".nhdr") return VolumeFormat::Nrrd;
+  if (extension == ".mha" || extension == ".mhd") return VolumeFormat::MetaImage;
+  if (extension == ".nii" || extension == ".gz") return VolumeFormat::Nifti;
+  return VolumeFormat::Dicom;
+}
+
 inline Volume readQuietly(const std::filesystem::path& path,
                           const ReadVolumeOptions& options = {}) {
   const Progress silent;
-  return readVolume(path, options, silent);
+  return readVolume(path, formatOf(path), options, silent);
+}
+
+/// Compressed, but for a name in .nii.
+inline void writeAsNamed(const Volume& volume, const std::filesystem::path& path) {
+  writeVolume(volume, path, formatOf(path), path.extension() != ".nii");
 }
 
 inline std::string readRefusal(const std::filesystem::path& path,

@@ -3,5 +3,5 @@
 
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libITKNrrdIO\nleak:libITKniftiio\n";
+  return "leak:libITKNrrdIO\n";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// NIfTI files made by hand: what ITK would get wrong or hide.
+// NIfTI files made by hand: what the libraries for it would get wrong or hide.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -91,14 +92,69 @@ TEST_F(Nifti, HeaderExtensionIsSkipped) {
   EXPECT_EQ(std::get<0>(readQuietly(write("v.nii", text + "abcdefgh")).voxels)[0], 'a');
 }
 
+/// A header with a quarter turn about z as its qform, and the sform of NiftiHeader, no turn.
+std::string bothTransforms(std::int16_t qform, std::int16_t sform) {
+  std::string text = NiftiHeader().text();
+  const auto put = [&](std::size_t at, const auto& value) {
+    std::memcpy(text.data() + at, &value, sizeof(value));
+  };
+  put(252, qform);
+  put(254, sform);
+  put(264, std::sqrt(0.5F));  // quatern_d
+  return text + "abcdefgh";
+}
+
+TEST_F(Nifti, TheScannersSformWinsAndTheQformOtherwise) {
+  const Eigen::Vector3d plain(-1, 0, 0), turned(0, -1, 0);
+  const auto firstAxis = [&](std::int16_t qform, std::int16_t sform) {
+    const auto v = readQuietly(write("v.nii", bothTransforms(qform, sform)));
+    return Eigen::Vector3d(v.geometry.direction.col(0));
+  };
+  constexpr std::int16_t kNone = 0, kScanner = 1, kAligned = 2;
+  EXPECT_LT((firstAxis(kScanner, kScanner) - plain).norm(), 1e-6);
+  EXPECT_LT((firstAxis(kNone, kAligned) - plain).norm(), 1e-6);
+  EXPECT_LT((firstAxis(kScanner, kAligned) - turned).norm(), 1e-6);
+  EXPECT_LT((firstAxis(kAligned, kNone) - turned).norm(), 1e-6);
+}
+
+TEST_F(Nifti, AShearedSformGivesWayToTheQform) {
+  std::string text = bothTransforms(1, 1);
+  const float shear = 0.01F;
+  std::memcpy(text.data() + 284, &shear, 4);
+  EXPECT_NEAR(readQuietly(write("v.nii", text)).geometry.direction(1, 0), -1, 1e-6);
+  const std::int16_t none = 0;
+  std::memcpy(text.data() + 252, &none, 2);
+  expectRefused(readRefusal(write("v.nii", text)), {"3: ", "v.nii", "not orthogonal"});
+}
+
+TEST_F(Nifti, WithoutATransformTheAxesAreTheVolumesOwn) {
+  const auto v = readQuietly(write("v.nii", bothTransforms(0, 0)));
+  EXPECT_EQ(v.geometry.direction, Eigen::Matrix3d::Identity());
+  EXPECT_EQ(v.geometry.origin, Eigen::Vector3d::Zero());
+}
+
 TEST_F(Nifti, MetresAreTurnedIntoMillimetres) {
   NiftiHeader h;
   h.pixdim = {1, 0.002F, 0.002F, 0.002F, 1, 1, 1, 1};
   std::string text = h.text();
-  text[123] = 1;                     // xyzt_units: metres
-  const std::int16_t qformOnly = 0;  // the sform of this header has spacing 1
-  std::memcpy(text.data() + 254, &qformOnly, 2);
-  EXPECT_NEAR(readQuietly(write("v.nii", text + "abcdefgh")).geometry.spacing[0], 2, 1e-6);
+  text[123] = 1;  // xyzt_units: metres
+  const float offset = 0.05F;
+  std::memcpy(text.data() + 292, &offset, 4);
+  const auto v = readQuietly(write("v.nii", text + "abcdefgh"));
+  EXPECT_NEAR(v.geometry.spacing[0], 2, 1e-6);
+  EXPECT_NEAR(v.geometry.origin[0], -50, 1e-5);
+}
+
+TEST_F(Nifti, MoreVoxelsThanAShortCountsAreNotWritten) {
+  const auto row = makeVolume<std::uint8_t>({40000, 2, 2}, [](int i, int, int) { return i % 7; });
+  expectRefused(refusal([&] { writeAsNamed(row, path("v.nii")); }), {"4: ", "v.nii", "32767"});
+  EXPECT_FALSE(std::filesystem::exists(path("v.nii")));
+}
+
+TEST_F(Nifti, VoxelsThatAreNotFiniteAreNotTakenForZeros) {
+  const std::string voxels = bytes<float>({0, 1, 2, 3, 4, 5, 6, NAN});
+  expectRefused(readRefusal(write("v.nii", header(16, 32).text() + voxels)),
+                {"3: ", "v.nii", "1 of its voxels"});
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "converters/volume/write_volume.h"
 #include "fixtures.h"
 
 namespace lumen::convert {
@@ -46,7 +45,7 @@ double difference(const VolumeGeometry& a, const VolumeGeometry& b) {
 template <class T>
 void expectRoundTrip(const fs::path& path) {
   const Volume written = oblique<T>();
-  writeVolume(written, path);
+  writeAsNamed(written, path);
   const Volume read = readQuietly(path);
   EXPECT_LT(difference(read.geometry, written.geometry), 1e-5) << path;
   EXPECT_EQ(read.voxels, written.voxels) << path;
@@ -65,37 +64,58 @@ TEST_F(ReadVolume, LeftHandedAxesSurviveEachFormat) {
   for (const char* name : {"v.nii", "v.nrrd", "v.mha"}) {
     Volume written = oblique<std::uint8_t>();
     written.geometry.direction.col(1) *= -1;
-    writeVolume(written, path(name));
+    writeAsNamed(written, path(name));
     EXPECT_LT(difference(readQuietly(path(name)).geometry, written.geometry), 1e-5) << name;
   }
 }
 
 TEST_F(ReadVolume, WritingLeavesNoOtherFile) {
-  writeVolume(oblique<float>(), path("v.nii.gz"));
+  writeAsNamed(oblique<float>(), path("v.nii.gz"));
   EXPECT_EQ(std::distance(fs::directory_iterator(path("")), fs::directory_iterator()), 1);
 }
 
 TEST_F(ReadVolume, FailedWriteLeavesNoFile) {
-  expectRefused(refusal([&] { writeVolume(oblique<float>(), path("absent/v.nrrd")); }),
+  expectRefused(refusal([&] { writeAsNamed(oblique<float>(), path("absent/v.nrrd")); }),
                 {"1: ", "v.nrrd"});
   EXPECT_FALSE(fs::exists(path("absent")));
 }
 
-TEST_F(ReadVolume, WritingRefusesAnotherExtension) {
-  expectRefused(refusal([&] { writeVolume(oblique<float>(), path("v.png")); }), {"4: ", ".nii.gz"});
+TEST_F(ReadVolume, DicomIsNotWritten) {
+  expectRefused(
+      refusal([&] { writeVolume(oblique<float>(), path("v"), VolumeFormat::Dicom, false); }),
+      {"4: ", "DICOM"});
+}
+
+TEST_F(ReadVolume, NamesDoNotMatter) {
+  const Progress silent;
+  for (const char* name : {"v.nii", "v.nii.gz", "v.nrrd", "v.mha"}) {
+    writeAsNamed(oblique<float>(), path(name));
+    fs::rename(path(name), path("scan"));
+    EXPECT_EQ(readVolume(path("scan"), formatOf(name), {}, silent).voxels, oblique<float>().voxels)
+        << name;
+  }
+}
+
+TEST_F(ReadVolume, AFolderIsDicomAndNothingElseIs) {
+  const Progress silent;
+  expectRefused(refusal([&] { (void)readVolume(path(""), VolumeFormat::Nifti, {}, silent); }),
+                {"3: ", "folder"});
+  expectRefused(
+      refusal([&] { (void)readVolume(write("a.dcm", "x"), VolumeFormat::Dicom, {}, silent); }),
+      {"3: ", "a.dcm", "folder that holds it"});
 }
 
 TEST_F(ReadVolume, CompressedFormatsAreCompressed) {
   const auto flat = makeVolume<float>({40, 40, 40}, [](int i, int, int) { return i == 0 ? 1 : 0; });
   for (const char* name : {"v.nii.gz", "v.nrrd", "v.mha"}) {
-    writeVolume(flat, path(name));
+    writeAsNamed(flat, path(name));
     EXPECT_LT(fs::file_size(path(name)), 20000U) << name;  // raw: 256000
   }
 }
 
 TEST_F(ReadVolume, CropKeepsItsBoxAndMovesTheOrigin) {
   const Volume whole = oblique<std::int16_t>();
-  writeVolume(whole, path("v.nrrd"));
+  writeAsNamed(whole, path("v.nrrd"));
   const Volume part = readQuietly(path("v.nrrd"), {{}, IndexBox{{1, 2, 0}, {3, 3, 1}}});
   EXPECT_EQ(part.geometry.size, (std::array{3, 2, 2}));
   EXPECT_EQ(std::get<1>(part.voxels),
@@ -104,7 +124,7 @@ TEST_F(ReadVolume, CropKeepsItsBoxAndMovesTheOrigin) {
 }
 
 TEST_F(ReadVolume, CropOutsideIsRefused) {
-  writeVolume(oblique<std::uint8_t>(), path("v.nrrd"));
+  writeAsNamed(oblique<std::uint8_t>(), path("v.nrrd"));
   expectRefused(readRefusal(path("v.nrrd"), {{}, IndexBox{{0, 0, 0}, {4, 4, 2}}}),
                 {"3: ", "v.nrrd", "crop box goes from 0 to 4 along axis 2", "0 to 3"});
   expectRefused(readRefusal(path("v.nrrd"), {{}, IndexBox{{3, 0, 0}, {2, 3, 2}}}), {"from 3 to 2"});
@@ -186,19 +206,8 @@ TEST_F(ReadVolume, CancelledProgressStopsIt) {
   Progress progress;
   progress.cancel();
   const auto file = writeMeta("MET_UCHAR", "abcdefgh");
-  expectRefused(refusal([&] { (void)readVolume(file, {}, progress); }), {"130: "});
-}
-
-TEST(IsVolumePath, KnowsItsExtensionsInAnyCase) {
-  for (const char* name :
-       {"a.nii", "a.nii.gz", "b.NII.GZ", "a.nrrd", "a.nhdr", "a.mha", "A.MHD", "x.y.Nrrd"})
-    EXPECT_TRUE(isVolumePath(name)) << name;
-  for (const char* name : {"a.lumen", "a.gz", "nii", "a.dcm", "a.stl", "a.nii.json"})
-    EXPECT_FALSE(isVolumePath(name)) << name;
-}
-
-TEST(IsVolumePath, TakesADirectory) {
-  EXPECT_TRUE(isVolumePath(fs::temp_directory_path()));
+  expectRefused(refusal([&] { (void)readVolume(file, VolumeFormat::MetaImage, {}, progress); }),
+                {"130: "});
 }
 
 TEST(RealVolume, RotationalAngiogramOpens) {

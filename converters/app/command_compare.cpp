@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen compare: a case against the truth.
+#include <cmath>
+
+#include "converters/app/command.h"
+#include "converters/app/file_access.h"
+#include "converters/app/report.h"
+#include "converters/compare/compare.h"
+
+namespace lumen::app {
+
+namespace {
+
+void addScore(Json& json, const convert::CenterlineScore& score,
+              const std::optional<convert::Quantiles>& wall) {
+  json["overlap"] = jsonNumber(score.overlap);
+  json["overlap_until_first_error"] = jsonNumber(score.overlapUntilFirstError);
+  json["average_inside_mm"] = jsonNumber(score.averageInside);
+  json["assd_mm"] = jsonNumber(score.assd);
+  json["assd_limited_mm"] = jsonNumber(score.assdLimited);
+  json["radius_bias_mm"] = jsonNumber(score.radiusBias);
+  json["radius_rms_mm"] = jsonNumber(score.radiusRms);
+  json["missed_mm"] = jsonNumber(score.missed);
+  json["false_mm"] = jsonNumber(score.falseLength);
+  if (wall)
+    json["wall_distance_mm"] = {{"median", jsonNumber(wall->median)},
+                                {"p90", jsonNumber(wall->p90)},
+                                {"max", jsonNumber(wall->max)}};
+  else
+    json["wall_distance_mm"] = nullptr;
+}
+
+Json comparisonJson(const convert::Comparison& comparison) {
+  Json json;
+  addScore(json, comparison.score, comparison.wallDistance);
+  json["branches"] = Json::array();
+  for (const auto& branch : comparison.branches) {
+    Json entry;
+    entry["label"] = branch.label;
+    addScore(entry, branch.score, branch.wallDistance);
+    json["branches"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+std::vector<std::string> scoreRow(const std::string& label, const convert::CenterlineScore& score,
+                                  const std::optional<convert::Quantiles>& wall) {
+  const convert::Quantiles none{NAN, NAN, NAN};
+  const convert::Quantiles& q = wall ? *wall : none;
+  return {label,
+          fixed(score.overlap, 3),
+          fixed(score.overlapUntilFirstError, 3),
+          fixed(score.averageInside, 3),
+          fixed(score.assd, 3),
+          fixed(score.assdLimited, 3),
+          fixed(score.radiusBias, 3),
+          fixed(score.radiusRms, 3),
+          fixed(score.missed, 1),
+          fixed(score.falseLength, 1),
+          fixed(q.median, 3),
+          fixed(q.p90, 3),
+          fixed(q.max, 3)};
+}
+
+std::string comparisonText(const convert::Comparison& comparison) {
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back({"branch", "OV", "OF", "AI", "ASSD", "limited", "bias", "RMS", "missed", "false",
+                  "wall", "p90", "max"});
+  for (const auto& branch : comparison.branches)
+    rows.push_back(scoreRow(branch.label, branch.score, branch.wallDistance));
+  rows.push_back(scoreRow("(all)", comparison.score, comparison.wallDistance));
+  return alignColumns(rows) +
+         "\nOV overlap, OF overlap until the first error, AI average inside; ASSD without and with "
+         "the\ndistance limit; bias and RMS of the radius; missed and false length; distance of "
+         "the "
+         "wall:\nmedian, 90th percentile, greatest. Lengths in mm.\n";
+}
+
+class CompareCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "compare"; }
+  [[nodiscard]] std::string summary() const override { return "Score a case against the truth"; }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen compare fork.lumen fork-truth.lumen --json";
+  }
+
+  void bind(CLI::App& app) override {
+    app.add_option("CASE", m_case, "The case to judge")->required()->configurable(false);
+    app.add_option("TRUTH", m_truth, "The true case")->required()->configurable(false);
+  }
+
+  int run(Context& context) override {
+    const formats::Case found = readCase(m_case);
+    const formats::Case truth = readCase(m_truth);
+    const auto comparison = convert::compareCases(found, truth, context.progress);
+    if (context.common.json)
+      answerJson(comparisonJson(comparison));
+    else
+      answer(comparisonText(comparison));
+    return 0;
+  }
+
+private:
+  std::string m_case, m_truth;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeCompareCommand() {
+  return std::make_unique<CompareCommand>();
+}
+
+}  // namespace lumen::app

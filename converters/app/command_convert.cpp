@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
+#include "converters/app/command.h"
+#include "converters/app/file_access.h"
+#include "converters/app/loss_report.h"
+#include "converters/app/report.h"
+#include "converters/app/stages.h"
+#include "converters/fitting/fit.h"
+
+namespace lumen::app {
+
+namespace {
+
+class ConvertCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "convert"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Turn a volume, or a case, into a case or a mesh";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
+           "  lumen convert head.lumen head.glb --draco";
+  }
+
+  void bind(CLI::App& app) override {
+    app.add_option("INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + ") or case")
+        ->required()
+        ->configurable(false);
+    app.add_option("OUTPUT", m_output, formatEndings(canWrite))->required()->configurable(false);
+    app.add_option("--from", m_from, "Format of INPUT, whatever its name")->type_name("F");
+    app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
+    addVolumeOptions(app, m_volume);
+    addTrackOptions(app, m_track);
+    addFitOptions(app, m_fit);
+    addMeshOptions(app, m_outputOptions);
+    addEncodingOptions(app, m_outputOptions.encoding);
+    app.get_option("--strict")
+        ->description(
+            "Exit with 1 if any seed started no track; with 4, writing nothing, if "
+            "OUTPUT cannot hold all of a case");
+  }
+
+  int run(Context& context) override {
+    const FileFormat& to = outputFormat(m_output, m_to);
+    requireInput(m_input, "input");
+    const FileFormat& from = inputFormat(m_input, m_from);
+    if (from.kind == FormatKind::Volume) m_seeds = loadSeeds(m_track);
+    requireWritable(m_output);
+    context.interrupts.watchOutput(m_output);
+
+    formats::Case value = load(from, context.progress);
+    complete(value, from, to, context.progress);
+    context.progress.check();
+    if (from.kind == FormatKind::Case)
+      reportLosses(value, to, m_output, m_track.strict, context.progress);
+    to.writeCase(value, m_output, m_outputOptions, context.progress);
+    report(value, context);
+    return m_track.strict && !m_failures.empty() ? 1 : 0;
+  }
+
+private:
+  formats::Case load(const FileFormat& from, Progress& progress) {
+    if (from.kind == FormatKind::Case) {
+      if (!m_track.seeds.empty())
+        progress.warn("--seeds is ignored: " + m_input + " is a case, already tracked");
+      // rounding makes another case; another encoding does not
+      return m_outputOptions.encoding.pointBits != 0 ? readParentCase(m_input)
+                                                     : from.readCase(m_input);
+    }
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
+    convert::TrackResult tracked =
+        trackSeeds(volume, m_seeds, m_track.seeds, m_track.options, progress);
+    m_failures = std::move(tracked.failures);
+    m_missedPoints = std::move(tracked.missedPoints);
+    return std::move(tracked.result);
+  }
+
+  /// A tracked volume gets its models; so does a case that has none when they are needed for a
+  /// mesh.
+  void complete(formats::Case& value, const FileFormat& from, const FileFormat& to,
+                Progress& progress) {
+    const bool meshNeedsModels = to.kind == FormatKind::Mesh && !value.models;
+    if (meshNeedsModels && !value.points)
+      throw invalidInput(m_input +
+                         ": this case has neither models nor wall points to fit them to, "
+                         "so there is no surface to make a mesh of");
+    if (from.kind == FormatKind::Volume || meshNeedsModels)
+      convert::fit(value, m_fit.options(), progress);
+  }
+
+  void report(const formats::Case& value, const Context& context) {
+    if (context.common.json) {
+      Json json = caseSummary(value);
+      json["failed_seeds"] = failedSeeds(m_failures);
+      json["missed_points"] = failedSeeds(m_missedPoints);
+      answerJson(json);
+    } else if (!context.common.quiet) {
+      answer(caseLine(m_output, value));
+    }
+  }
+
+  std::string m_input, m_output, m_from, m_to;
+  VolumeArguments m_volume;
+  TrackArguments m_track;
+  FitArguments m_fit;
+  OutputOptions m_outputOptions;
+  std::vector<convert::SeedBranch> m_seeds;
+  std::vector<convert::SeedFailure> m_failures, m_missedPoints;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeConvertCommand() {
+  return std::make_unique<ConvertCommand>();
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen fit: blobby models for a tracked case.
+#include "converters/app/command.h"
+#include "converters/app/file_access.h"
+#include "converters/app/options.h"
+#include "converters/app/report.h"
+
+namespace lumen::app {
+
+namespace {
+
+class FitCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "fit"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Fit blobby models to the wall points of a tracked case";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen fit tracked.lumen fitted.lumen --accuracy 0.2";
+  }
+
+  void bind(CLI::App& app) override {
+    app.add_option("IN", m_input, "Case with wall points")->required()->configurable(false);
+    app.add_option("OUT", m_output, "Case to write, " + formatEndings(canWriteCase) + "; may be IN")
+        ->required()
+        ->configurable(false);
+    addFitOptions(app, m_fit);
+    app.add_option("--to", m_to, "Format of OUT, whatever its name")->type_name("F");
+  }
+
+  int run(Context& context) override {
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen fit makes");
+    requireInput(m_input, "case file");
+    requireWritable(m_output);
+    context.interrupts.watchOutput(m_output);
+
+    formats::Case value = readParentCase(m_input);
+    if (!value.points)
+      throw invalidInput(m_input +
+                         ": this case has no wall points to fit to; lumen track makes one "
+                         "that has");
+    convert::fit(value, m_fit.options(), context.progress);
+    to.writeCase(value, m_output, {}, context.progress);
+    if (context.common.json)
+      answerJson(caseSummary(value));
+    else if (!context.common.quiet)
+      answer(caseLine(m_output, value));
+    return 0;
+  }
+
+private:
+  std::string m_input, m_output, m_to;
+  FitArguments m_fit;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeFitCommand() {
+  return std::make_unique<FitCommand>();
+}
+
+}  // namespace lumen::app

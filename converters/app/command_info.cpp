@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen info: what is in a case or a volume.
+#include "converters/app/case_info_report.h"
+#include "converters/app/chunk_info.h"
+#include "converters/app/command.h"
+#include "converters/app/file_access.h"
+#include "converters/app/report.h"
+#include "converters/app/stages.h"
+#include "converters/app/volume_info.h"
+
+namespace lumen::app {
+
+namespace {
+
+class InfoCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "info"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Tell what a case or a volume holds";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen info head.lumen --json | jq .radius_mm";
+  }
+
+  void bind(CLI::App& app) override {
+    app.add_option("FILE", m_input, "Case or volume")->required()->configurable(false);
+    app.add_option("--from", m_from, "Format of FILE, whatever its name")->type_name("F");
+    app.add_flag("--chunks", m_chunks, "List the chunks of a .lumen file instead");
+    addVolumeOptions(app, m_volume);
+  }
+
+  int run(Context& context) override {
+    requireInput(m_input, "case or volume");
+    if (m_chunks) {
+      const FileInfo info = describeChunks(m_input);
+      context.common.json ? answerJson(chunkInfoJson(info)) : answer(chunkInfoText(info));
+      return 0;
+    }
+    const FileFormat& from = inputFormat(m_input, m_from);
+    if (from.kind == FormatKind::Volume) {
+      const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
+      const VolumeInfo info = describeVolume(volume, context.progress);
+      context.common.json ? answerJson(volumeInfoJson(info)) : answer(volumeInfoText(info));
+    } else {
+      const formats::Case value = from.readCase(m_input);
+      const CaseInfo info = describeCase(value, context.progress);
+      context.common.json ? answerJson(caseInfoJson(info)) : answer(caseInfoText(info));
+    }
+    return 0;
+  }
+
+private:
+  std::string m_input, m_from;
+  bool m_chunks = false;
+  VolumeArguments m_volume;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeInfoCommand() {
+  return std::make_unique<InfoCommand>();
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen phantom: a synthetic angiogram with its truth and its seeds.
+#include <algorithm>
+
+#include "converters/app/command.h"
+#include "converters/app/file_access.h"
+#include "converters/app/options.h"
+#include "converters/app/report.h"
+#include "converters/phantom/phantom.h"
+#include "converters/seeds/seeds.h"
+
+namespace lumen::app {
+
+namespace {
+
+class PhantomCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "phantom"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Make a synthetic angiogram with a known truth";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen phantom bifurcation fork.nrrd --truth fork-truth.lumen --seeds fork-seeds.json";
+  }
+
+  void bind(CLI::App& app) override {
+    std::string names;
+    for (const auto& known : convert::phantomNames()) names += (names.empty() ? "" : ", ") + known;
+    app.add_option("NAME", m_options.name, names)->required()->configurable(false);
+    app.add_option("OUT", m_output, "Volume to write: " + formatEndings(canWriteVolume))
+        ->required()
+        ->configurable(false);
+    app.add_option("--truth", m_truth, "Also write the true tree, as a case")->type_name("FILE");
+    app.add_option("--seeds", m_seeds, "Also write the seeds that a user would click")
+        ->type_name("FILE");
+    addPhantomOptions(app, m_options);
+  }
+
+  int run(Context& context) override {
+    const Outputs outputs = checkOutputs(context);
+    const convert::Phantom phantom = convert::makePhantom(m_options, context.progress);
+    context.progress.begin("writing", 0);
+    outputs.volume.writeVolume(phantom.volume, m_output);
+    if (outputs.truth != nullptr)
+      outputs.truth->writeCase(phantom.truth, m_truth, {}, context.progress);
+    if (!m_seeds.empty()) convert::writeSeeds(phantom.seeds, m_seeds);
+    context.progress.end();
+    report(phantom, context);
+    return 0;
+  }
+
+private:
+  struct Outputs {
+    const FileFormat& volume;
+    const FileFormat* truth;  ///< null without --truth
+  };
+
+  /// Refuses what could not be written in the end.
+  Outputs checkOutputs(Context& context) const {
+    const auto& known = convert::phantomNames();
+    if (std::find(known.begin(), known.end(), m_options.name) == known.end())
+      throw Error(ErrorKind::Usage, m_options.name +
+                                        ": there is no such phantom; lumen phantom "
+                                        "--help lists them");
+    const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
+                          m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};
+    for (const std::string& output : {m_output, m_truth, m_seeds}) {
+      if (output.empty()) continue;
+      requireWritable(output);
+      context.interrupts.watchOutput(output);
+    }
+    return outputs;
+  }
+
+  void report(const convert::Phantom& phantom, const Context& context) const {
+    const auto& size = phantom.volume.geometry.size;
+    if (context.common.json) {
+      Json json = caseSummary(phantom.truth);
+      json["size"] = size;
+      json["voxel_size_mm"] = jsonNumber(phantom.volume.geometry.voxelSize());
+      json["seeds"] = phantom.seeds.size();
+      answerJson(json);
+    } else if (!context.common.quiet) {
+      answer(m_output + ": " + std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " +
+             std::to_string(size[2]) + " voxels of " +
+             fixed(phantom.volume.geometry.voxelSize(), 3) + " mm, " +
+             std::to_string(phantom.truth.tree.branches.size()) + " true branches, " +
+             fixed(totalLength(phantom.truth.tree), 1) + " mm\n");
+    }
+  }
+
+  convert::PhantomOptions m_options;
+  std::string m_output, m_truth, m_seeds;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makePhantomCommand() {
+  return std::make_unique<PhantomCommand>();
+}
+
+}  // namespace lumen::app

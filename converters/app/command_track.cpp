@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen track: a volume and seeds to a tree with wall points.
+#include "converters/app/command.h"
+#include "converters/app/file_access.h"
+#include "converters/app/report.h"
+#include "converters/app/stages.h"
+
+namespace lumen::app {
+
+namespace {
+
+class TrackCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "track"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Track vessels through a volume: a case with its tree and wall points";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen track head.nrrd head.lumen --seeds head-seeds.json --inlier-rate 0.6";
+  }
+
+  void bind(CLI::App& app) override {
+    app.add_option("VOLUME", m_input, formatTitles(canReadVolume))->required()->configurable(false);
+    app.add_option("OUT", m_output, "Case to write, " + formatEndings(canWriteCase))
+        ->required()
+        ->configurable(false);
+    addVolumeOptions(app, m_volume);
+    addTrackOptions(app, m_track);
+    app.add_option("--from", m_from, "Format of VOLUME, whatever its name")->type_name("F");
+    app.add_option("--to", m_to, "Format of OUT, whatever its name")->type_name("F");
+  }
+
+  int run(Context& context) override {
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen track makes");
+    requireInput(m_input, "volume");
+    const FileFormat& from = inputFormat(m_input, m_from);
+    if (from.kind != FormatKind::Volume)
+      throw unsupported(m_input + ": this is a case; lumen track reads a volume");
+    const auto seeds = loadSeeds(m_track);
+    requireWritable(m_output);
+    context.interrupts.watchOutput(m_output);
+
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
+    const convert::TrackResult tracked =
+        trackSeeds(volume, seeds, m_track.seeds, m_track.options, context.progress);
+    to.writeCase(tracked.result, m_output, {}, context.progress);
+    report(tracked, context);
+    return m_track.strict && !tracked.failures.empty() ? 1 : 0;
+  }
+
+private:
+  void report(const convert::TrackResult& tracked, const Context& context) const {
+    if (context.common.json) {
+      Json json = caseSummary(tracked.result);
+      json["failed_seeds"] = failedSeeds(tracked.failures);
+      json["missed_points"] = failedSeeds(tracked.missedPoints);
+      answerJson(json);
+    } else if (!context.common.quiet) {
+      answer(caseLine(m_output, tracked.result));
+    }
+  }
+
+  std::string m_input, m_output, m_from, m_to;
+  VolumeArguments m_volume;
+  TrackArguments m_track;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeTrackCommand() {
+  return std::make_unique<TrackCommand>();
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen validate: all that is wrong in case files.
+#include <optional>
+
+#include "converters/app/command.h"
+#include "converters/app/privacy.h"
+#include "converters/app/report.h"
+#include "formats/case/case_file.h"
+
+namespace lumen::app {
+
+namespace {
+
+using formats::Issue;
+using formats::ValidationReport;
+
+constexpr int kInvalid = 3;
+
+/// A broken rule, or a finding of the privacy check, as both outputs have it.
+struct Remark {
+  std::string code;
+  int number = 0;
+  std::string severity;
+  std::optional<std::uint64_t> offset;
+  std::optional<std::string> pointer;
+  std::vector<formats::Argument> arguments;
+  std::string message;
+  std::string text;  ///< "CODE at PLACE: message"
+};
+
+Remark remarkOf(const Issue& issue) {
+  return {formats::errorName(issue.code),
+          static_cast<int>(issue.code),
+          formats::severityName(formats::severityOf(issue.code)),
+          issue.offset,
+          issue.pointer,
+          issue.arguments,
+          issue.message,
+          issue.text()};
+}
+
+Remark remarkOf(const PrivacyFinding& finding) {
+  const std::string code(finding.code);
+  return {code,
+          finding.number,
+          formats::severityName(formats::Severity::Warning),
+          std::nullopt,
+          finding.pointer,
+          {{"found", finding.found}},
+          finding.message,
+          code + " at " + finding.pointer + ": " + finding.message};
+}
+
+struct FileReport {
+  bool valid = true;
+  bool complete = true;   ///< false if it stopped at its maximum
+  bool personal = false;  ///< the privacy check found something, which is a warning
+  std::vector<Remark> remarks;
+};
+
+/// At most `maxIssues` remarks, the broken rules first.
+FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy) {
+  const auto bytes = formats::readFileBytes(file);
+  if (!bytes) return {false, true, false, {remarkOf(bytes.error())}};
+  const ValidationReport report = formats::validateBytes(*bytes, maxIssues);
+  FileReport result{report.valid(), report.complete, false, {}};
+  for (const Issue& issue : report.issues) result.remarks.push_back(remarkOf(issue));
+  if (!privacy) return result;
+  for (const PrivacyFinding& finding : scanPrivacy(*bytes)) {
+    result.personal = true;
+    if (result.remarks.size() < maxIssues) result.remarks.push_back(remarkOf(finding));
+  }
+  result.complete = result.complete && result.remarks.size() < maxIssues;
+  return result;
+}
+
+Json remarkJson(const Remark& remark) {
+  Json arguments = Json::object();
+  for (const auto& argument : remark.arguments) arguments[argument.name] = argument.value;
+  Json json;
+  json["code"] = remark.code;
+  json["number"] = remark.number;
+  json["severity"] = remark.severity;
+  json["offset"] = remark.offset ? Json(*remark.offset) : Json(nullptr);
+  json["pointer"] = remark.pointer ? Json(*remark.pointer) : Json(nullptr);
+  json["arguments"] = std::move(arguments);
+  json["message"] = remark.message;
+  return json;
+}
+
+Json reportJson(const std::string& file, const FileReport& report) {
+  Json json;
+  json["file"] = file;
+  json["valid"] = report.valid;
+  json["complete"] = report.complete;
+  json["issues"] = Json::array();
+  for (const Remark& remark : report.remarks) json["issues"].push_back(remarkJson(remark));
+  return json;
+}
+
+std::string reportText(const std::string& file, const FileReport& report) {
+  std::string text;
+  for (const Remark& remark : report.remarks)
+    text.append(file).append(": ").append(remark.severity + " " + remark.text + "\n");
+  if (!report.complete) text.append(file).append(": --max-issues reached, there may be more\n");
+  return text.append(file).append(report.valid ? ": valid\n" : ": not valid\n");
+}
+
+class ValidateCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "validate"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Tell all that is wrong in case files; exit with 3 if anything is";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen validate head.lumen head.lumen.json --privacy";
+  }
+
+  void bind(CLI::App& app) override {
+    app.add_option("FILE", m_files, "Cases, .lumen or .lumen.json")
+        ->required()
+        ->configurable(false);
+    app.add_option("--max-issues", m_maxIssues, "Stop at so many issues in a file")
+        ->type_name("N")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}).description(""))
+        ->capture_default_str();
+    app.add_flag("--privacy", m_privacy,
+                 "Also warn of texts that may tell who a patient is, such as dates and names");
+  }
+
+  int run(Context& context) override {
+    bool valid = true, personal = false;
+    Json files = Json::array();
+    for (const std::string& file : m_files) {
+      context.progress.check();
+      const FileReport report = examine(file, m_maxIssues, m_privacy);
+      valid = valid && report.valid;
+      personal = personal || report.personal;
+      if (context.common.json)
+        files.push_back(reportJson(file, report));
+      else if (!context.common.quiet || !report.valid || report.personal)
+        answer(reportText(file, report));
+    }
+    if (context.common.json) answerJson({{"valid", valid}, {"files", std::move(files)}});
+    return valid && !personal ? 0 : kInvalid;
+  }
+
+private:
+  std::vector<std::string> m_files;
+  std::size_t m_maxIssues = formats::kDefaultMaxIssues;
+  bool m_privacy = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeValidateCommand() {
+  return std::make_unique<ValidateCommand>();
+}
+
+}  // namespace lumen::app

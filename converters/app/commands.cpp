@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of commands. Each is defined in command_NAME.cpp.
+#include "converters/app/command.h"
+
+namespace lumen::app {
+
+std::unique_ptr<Command> makeConvertCommand();
+std::unique_ptr<Command> makeTrackCommand();
+std::unique_ptr<Command> makeFitCommand();
+std::unique_ptr<Command> makeInfoCommand();
+std::unique_ptr<Command> makeValidateCommand();
+std::unique_ptr<Command> makeCompareCommand();
+std::unique_ptr<Command> makePhantomCommand();
+std::unique_ptr<Command> makeCompletionCommand();
+
+std::vector<std::unique_ptr<Command>> allCommands() {
+  std::vector<std::unique_ptr<Command>> commands;
+  for (const auto make :
+       {makeConvertCommand, makeTrackCommand, makeFitCommand, makeInfoCommand, makeValidateCommand,
+        makeCompareCommand, makePhantomCommand, makeCompletionCommand})
+    commands.push_back(make());
+  return commands;
+}
+
+}  // namespace lumen::app

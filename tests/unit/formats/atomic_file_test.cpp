@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/case/atomic_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "unit/formats/sample_case.h"
+
+namespace lumen::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+using test::codeOf;
+
+ino_t inodeOf(const fs::path& path) {
+  struct stat info {};
+  EXPECT_EQ(::stat(path.c_str(), &info), 0) << path;
+  return info.st_ino;
+}
+
+class AtomicOutput : public testing::Test {
+protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "lumen-test-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    m_directory = name;
+  }
+  void TearDown() override { fs::remove_all(m_directory); }
+
+  [[nodiscard]] fs::path path(const std::string& name) const { return m_directory / name; }
+  static void put(const fs::path& file, const std::string& content) {
+    std::ofstream(file, std::ios::binary) << content;
+  }
+  [[nodiscard]] std::string get(const std::string& name) const {
+    std::ifstream in(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  [[nodiscard]] Names names() const {
+    Names found;
+    for (const auto& entry : fs::directory_iterator(m_directory))
+      found.push_back(entry.path().filename().string());
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  [[nodiscard]] Expected<bool> write(const std::string& name, const std::string& content,
+                                     const FileCalls& calls) const {
+    return writeFileAtomically(std::as_bytes(std::span(content)), path(name), calls);
+  }
+  /// A folder with one file, `content` in "f", and an empty folder.
+  [[nodiscard]] Expected<bool> writeFolder(const std::string& name, const std::string& content,
+                                           PendingFolder::Existing existing,
+                                           const FileCalls& calls = systemCalls()) const {
+    auto pending = PendingFolder::beside(path(name), existing, calls);
+    if (!pending) return pending.error();
+    put(pending->path() / "f", content);
+    fs::create_directory(pending->path() / "sub");
+    return pending->commit();
+  }
+
+private:
+  fs::path m_directory;
+};
+
+/// What reached the disk, in order: inodes that were flushed, and 0 for a rename or an exchange.
+struct Journal {
+  std::vector<ino_t> steps;
+  FileCalls calls = {[this](int descriptor) {
+                       struct stat info {};
+                       EXPECT_EQ(::fstat(descriptor, &info), 0);
+                       steps.push_back(info.st_ino);
+                       return systemCalls().flush(descriptor);
+                     },
+                     [this](const char* from, const char* to) {
+                       steps.push_back(0);
+                       return systemCalls().rename(from, to);
+                     },
+                     [this](const char* a, const char* b) {
+                       steps.push_back(0);
+                       return systemCalls().exchange(a, b);
+                     }};
+};
+
+int refuse(int code) {
+  errno = code;
+  return -1;
+}
+
+TEST_F(AtomicOutput, FlushesAFileBeforeItsRenameAndTheFolderAfterIt) {
+  Journal journal;
+  ASSERT_EQ(codeOf(write("a", "x", journal.calls)), "OK");
+  EXPECT_EQ(journal.steps, (std::vector<ino_t>{inodeOf(path("a")), 0, inodeOf(path(""))}));
+}
+
+TEST_F(AtomicOutput, LeavesTheOldFileIfTheNewOneCannotBeFlushed) {
+  put(path("a"), "old");
+  FileCalls calls = systemCalls();
+  calls.flush = [](int) { return refuse(EIO); };
+  EXPECT_EQ(codeOf(write("a", "new", calls)), "IO_WRITE");
+  EXPECT_EQ(get("a"), "old");
+  EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, LeavesTheOldFileIfTheNewOneCannotBeRenamed) {
+  put(path("a"), "old");
+  FileCalls calls = systemCalls();
+  calls.rename = [](const char*, const char*) { return refuse(EIO); };
+  EXPECT_EQ(codeOf(write("a", "new", calls)), "IO_WRITE");
+  EXPECT_EQ(get("a"), "old");
+  EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, GivesLibrariesAHiddenNameWithTheEndingOfTheTarget) {
+  const auto pending = PendingFile::beside(path("head.v2.nii.gz"));
+  ASSERT_TRUE(pending);
+  const std::string name = pending->path().filename().string();
+  EXPECT_TRUE(name.starts_with(".lumen-" + std::to_string(::getpid()) + "-")) << name;
+  EXPECT_TRUE(name.ends_with(".nii.gz")) << name;
+  EXPECT_EQ(pending->path().parent_path(), path("head.v2.nii.gz").parent_path());
+}
+
+TEST_F(AtomicOutput, IsFlushedThoughALibraryWroteItByName) {
+  Journal journal;
+  auto pending = PendingFile::beside(path("a.nrrd"), journal.calls);
+  ASSERT_TRUE(pending);
+  fs::remove(pending->path());  // a library may write a file of its own
+  put(pending->path(), "voxels");
+  ASSERT_EQ(codeOf(pending->commit()), "OK");
+  EXPECT_EQ(get("a.nrrd"), "voxels");
+  EXPECT_EQ(journal.steps.front(), inodeOf(path("a.nrrd")));
+}
+
+TEST_F(AtomicOutput, ThatIsNotCommittedIsGone) {
+  {
+    const auto file = PendingFile::beside(path("a"));
+    const auto folder = PendingFolder::beside(path("b"), PendingFolder::Existing::Refuse);
+    ASSERT_TRUE(file && folder);
+    put(folder->path() / "f", "x");
+    EXPECT_EQ(names().size(), 2u);
+  }
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(AtomicOutput, OfALivingWriterIsNotTakenForALeftover) {
+  auto file = PendingFile::beside(path("a"));
+  auto folder = PendingFolder::beside(path("b"), PendingFolder::Existing::Refuse);
+  ASSERT_TRUE(file && folder);
+  removeTemporaries(path(""), Temporaries::Abandoned);
+  EXPECT_EQ(codeOf(file->commit()), "OK");
+  EXPECT_EQ(codeOf(folder->commit()), "OK");
+  EXPECT_EQ(names(), (Names{"a", "b"}));
+}
+
+TEST_F(AtomicOutput, OfThisProcessIsRemovedWhenItIsInterrupted) {
+  const auto file = PendingFile::beside(path("a"));
+  const auto folder = PendingFolder::beside(path("b"), PendingFolder::Existing::Refuse);
+  ASSERT_TRUE(file && folder);
+  removeTemporaries(path(""), Temporaries::AbandonedAndOwn);
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(AtomicOutput, AbandonedFoldersAreRemovedToo) {
+  fs::create_directories(path(".lumen-1234-0/meshes"));
+  put(path(".lumen-1234-0/meshes/wall.obj"), "half");
+  ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
+  EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, FlushesAllOfAFolderBeforeItsRename) {
+  Journal journal;
+  ASSERT_EQ(codeOf(writeFolder("scene", "x", PendingFolder::Existing::Refuse, journal.calls)),
+            "OK");
+  const auto renamed = std::find(journal.steps.begin(), journal.steps.end(), ino_t{0});
+  for (const char* part : {"scene", "scene/f", "scene/sub"})
+    EXPECT_NE(std::find(journal.steps.begin(), renamed, inodeOf(path(part))), renamed) << part;
+  EXPECT_EQ(journal.steps.back(), inodeOf(path("")));
+}
+
+TEST_F(AtomicOutput, ReplacesAFullFolderOnlyWhenToldTo) {
+  using Existing = PendingFolder::Existing;
+  ASSERT_EQ(codeOf(writeFolder("scene", "old", Existing::Refuse)), "OK");
+  put(path("scene/more"), "x");
+  EXPECT_EQ(codeOf(writeFolder("scene", "new", Existing::Refuse)), "IO_WRITE");
+  EXPECT_EQ(get("scene/f"), "old");
+  EXPECT_EQ(codeOf(writeFolder("scene", "new", Existing::Replace)), "OK");
+  EXPECT_EQ(get("scene/f"), "new");
+  EXPECT_FALSE(fs::exists(path("scene/more")));
+  EXPECT_EQ(names(), Names{"scene"});
+}
+
+TEST_F(AtomicOutput, ReplacesAnEmptyFolderAndCreatesOneUnderANameThatEndsInASlash) {
+  fs::create_directory(path("scene"));
+  EXPECT_EQ(codeOf(writeFolder("scene/", "x", PendingFolder::Existing::Refuse)), "OK");
+  EXPECT_EQ(codeOf(writeFolder("new/", "x", PendingFolder::Existing::Refuse)), "OK");
+  EXPECT_EQ(names(), (Names{"new", "scene"}));
+}
+
+TEST_F(AtomicOutput, ReplacesAFolderWhereTheKernelCannotExchangeNames) {
+  ASSERT_EQ(codeOf(writeFolder("scene", "old", PendingFolder::Existing::Refuse)), "OK");
+  FileCalls calls = systemCalls();
+  calls.exchange = [](const char*, const char*) { return refuse(EINVAL); };
+  EXPECT_EQ(codeOf(writeFolder("scene", "new", PendingFolder::Existing::Replace, calls)), "OK");
+  EXPECT_EQ(get("scene/f"), "new");
+  EXPECT_EQ(names(), Names{"scene"});
+}
+
+TEST_F(AtomicOutput, PutsTheOldFolderBackIfTheNewOneCannotTakeItsPlace) {
+  ASSERT_EQ(codeOf(writeFolder("scene", "old", PendingFolder::Existing::Refuse)), "OK");
+  int renames = 0;
+  FileCalls calls = systemCalls();
+  calls.exchange = [](const char*, const char*) { return refuse(ENOSYS); };
+  calls.rename = [&renames](const char* from, const char* to) {
+    // the first finds the name taken, the second moves the old one away
+    return ++renames == 3 ? refuse(EIO) : systemCalls().rename(from, to);
+  };
+  EXPECT_EQ(codeOf(writeFolder("scene", "new", PendingFolder::Existing::Replace, calls)),
+            "IO_WRITE");
+  EXPECT_EQ(get("scene/f"), "old");
+  EXPECT_EQ(names(), Names{"scene"});
+}
+
+TEST_F(AtomicOutput, OfAFolderIsNotPutOverAFile) {
+  put(path("a"), "x");
+  EXPECT_EQ(codeOf(writeFolder("a", "x", PendingFolder::Existing::Replace)), "IO_WRITE");
+  EXPECT_EQ(get("a"), "x");
+}
+
+}  // namespace
+}  // namespace lumen::formats
