@@ -21,8 +21,10 @@ namespace {
 #pragma GCC target("avx2")
 #endif
 namespace avx2 {
-#include "simd/body.h"
+// clang-format off
 #include "simd/f8_avx.h"
+#include "simd/body.h"
+// clang-format on
 }  // namespace avx2
 #if defined(__clang__)
 #pragma clang attribute pop

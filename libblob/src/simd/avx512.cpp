@@ -22,8 +22,10 @@ namespace {
 #pragma GCC target("avx512f,avx512vl,avx512bw,avx512dq")
 #endif
 namespace avx512 {
-#include "simd/body.h"
+// clang-format off
 #include "simd/f8_avx.h"
+#include "simd/body.h"
+// clang-format on
 }  // namespace avx512
 #if defined(__clang__)
 #pragma clang attribute pop

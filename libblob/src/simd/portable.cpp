@@ -21,8 +21,10 @@ namespace lumen::blob {
 #if defined(__GNUC__)
 namespace {
 namespace portable {
-#include "simd/body.h"
+// clang-format off
 #include "simd/f8_pair.h"
+#include "simd/body.h"
+// clang-format on
 }  // namespace portable
 }  // namespace
 

@@ -12,8 +12,10 @@
 namespace lumen::blob {
 namespace {
 namespace scalar {
-#include "simd/body.h"
+// clang-format off
 #include "simd/f8_scalar.h"
+#include "simd/body.h"
+// clang-format on
 }  // namespace scalar
 }  // namespace
 
