@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The energy of a local implicit model as a sum of squares, with its analytic Jacobian (thesis 4.3
-// and appendix B; docs/method.md, section 2.3).
+// The energy of a local implicit model as a sum of squares, with its analytic Jacobian
+// (docs/method.md, section 2.3; Yureidini's thesis, 4.3 and appendix B).
 //
 // clang-format off
 //   E       = E_d + alpha E_LJ + beta E_kappa + omega E_w

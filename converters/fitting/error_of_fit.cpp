@@ -20,7 +20,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of the level: fields below it say nothing about where the wall is.
 constexpr double kVanished = 1e-12;
-/// Of a node's points: those whose distances its error of fit bounds (thesis 4.8.4).
+/// Of a node's points: those whose distances its error of fit bounds (Yureidini's thesis, 4.8.4).
 constexpr double kShareOfPoints = 0.9;
 
 /// What there is to say about one point: f, |grad f|, and how far the node is.

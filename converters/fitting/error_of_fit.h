@@ -16,7 +16,7 @@ enum class FitDistance {
   /// the distance from the node outside, where a flat field would make Taubin's as large as it
   /// likes.
   Wall,
-  /// |T - f| / |grad f|, as in the thesis; infinity where the field is flat.
+  /// |T - f| / |grad f|, as in Yureidini's thesis; infinity where the field is flat.
   Taubin
 };
 

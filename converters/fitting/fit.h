@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Local implicit modelling: a blobby model for every centerline node (thesis chapter 4;
-// docs/method.md, section 2).
+// Local implicit modelling: a blobby model for every centerline node (docs/method.md,
+// section 2; Yureidini's thesis, chapter 4).
 #pragma once
 
 #include "converters/common/progress.h"

@@ -9,7 +9,7 @@
 namespace lumen::convert {
 namespace {
 
-/// Voxels: what thesis table 4.5 gives in mm for voxels of 0.2 mm.
+/// Voxels: what Yureidini's thesis, table 4.5, gives in mm for voxels of 0.2 mm.
 constexpr double kIsoLevel = 0.5, kAccuracy = 1.5, kMaxDistance = 100, kMinWidth = 0.1;
 
 void requireRange(const char* name, double value, double low, double high) {

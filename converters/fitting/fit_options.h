@@ -10,8 +10,8 @@
 
 namespace lumen::convert {
 
-/// Defaults are those of thesis table 4.5. The lengths marked * are tied to a 0.2 mm voxel there;
-/// left empty, they scale with the case's voxel size.
+/// Defaults are those of Yureidini's thesis, table 4.5. The lengths marked * are tied to a 0.2 mm
+/// voxel there; left empty, they scale with the case's voxel size.
 struct FitOptions {
   formats::Kernel kernel = formats::Kernel::Cauchy;
   std::optional<double> kernelParameter;  ///< Cauchy s^2 (1/5), Gaussian a^2 (1/2)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fit of one node: two blobs, refined by selection and subdivision (thesis 4.4 and 4.5;
-// docs/method.md, section 2.6). All lengths are in the fit's frame (see energy.h).
+// The fit of one node: two blobs, refined by selection and subdivision (docs/method.md, section
+// 2.6; Yureidini's thesis, 4.4 and 4.5). All lengths are in the fit's frame (see energy.h).
 #pragma once
 
 #include <span>

@@ -7,7 +7,8 @@
 namespace lumen::convert::fitting {
 namespace {
 
-/// Radius of the artery that the thesis' weights were tuned on, a carotid, in the fit's frame.
+/// Radius of the artery that the weights of Yureidini's thesis were tuned on, a carotid, in the
+/// fit's frame.
 constexpr double kTunedRadius = 2.0;
 /// The thesis' beta, in whose place the prior's weight comes once the noise is known.
 constexpr double kTunedCurvatureWeight = 1e-3;

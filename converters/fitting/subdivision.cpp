@@ -19,7 +19,8 @@ constexpr double kUnknownsPerBlob = 4;
 constexpr double kShareWhenFar = 0.25;
 /// Subdivisions in vain, in one fit, before it stops.
 constexpr std::size_t kMostRefusals = 10;
-/// Of the old width: how far a new blob is moved towards the farthest point (thesis section 4.5).
+/// Of the old width: how far a new blob is moved towards the farthest point (Yureidini's thesis,
+/// 4.5).
 constexpr double kDisplacement = 0.1;
 /// Trial positions of a new blob, and their spacing in displacements.
 constexpr int kTrialPlaces = 12;

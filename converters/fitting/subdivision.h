@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From few blobs to more: selection and subdivision (thesis section 4.5; docs/method.md, section
-// 2.6).
+// From few blobs to more: selection and subdivision (docs/method.md, section 2.6;
+// Yureidini's thesis, 4.5).
 #pragma once
 
 #include <cstddef>

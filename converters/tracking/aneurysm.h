@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Aneurysms are not tubes: their wall points come from the clicks alone (thesis section 3.7;
-// docs/method.md, section 1.7).
+// Aneurysms are not tubes: their wall points come from the clicks alone (docs/method.md,
+// section 1.7; Yureidini's thesis, 3.7).
 #pragma once
 
 #include "converters/seeds/seeds.h"

@@ -30,8 +30,8 @@ BranchStart startAtClick(const TrackContext& context, const SeedPoint& click,
                          TrackWorkspace& workspace);
 
 /// The first nodes of a child, and where they hang on its parent. A click near the parent: beyond
-/// the parent's wall on the way to the click (thesis section 3.6), else at the click itself. A
-/// click farther away: there, and from there back to the parent.
+/// the parent's wall on the way to the click (Yureidini's thesis, 3.6), else at the click
+/// itself. A click farther away: there, and from there back to the parent.
 BranchStart startChild(const TrackContext& context, const SeedBranch& seed,
                        const TrackedBranch& parent, Random& random, TrackWorkspace& workspace);
 

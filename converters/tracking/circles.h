@@ -24,8 +24,8 @@ struct CircleBlock {
 void drawTriples(const std::vector<float>& u, const std::vector<float>& v, Random& random,
                  CircleBlock& block);
 
-/// Turns triples into circles (thesis eq. 3.1). Valid are those with a radius in [low, high] that
-/// hold the origin.
+/// Turns triples into circles (Yureidini's thesis, eq. 3.1). Valid are those with a radius in
+/// [low, high] that hold the origin.
 void circlesThrough(CircleBlock& block, float low, float high);
 
 /// Points within `band` of the circle, by squared distances: low2 <= |p - centre|^2 <= high2.

@@ -116,10 +116,10 @@ Circle betterCircle(const CircleBlock& block, const CylinderWorkspace& points, f
   return best;
 }
 
-/// RANSAC over circles through three of the projected points (thesis algorithm 2), in blocks.
-/// Beyond the least number of trials it ends when a circle is accepted, or when three of the best
-/// circle's inliers have been drawn with near certainty (Fischler and Bolles, 1981). It ends early
-/// where a first look says that `needed` inliers are out of reach.
+/// RANSAC over circles through three of the projected points (Yureidini's thesis, algorithm
+/// 2), in blocks. Beyond the least number of trials it ends when a circle is accepted, or when
+/// three of the best circle's inliers have been drawn with near certainty (Fischler and Bolles,
+/// 1981). It ends early where a first look says that `needed` inliers are out of reach.
 Circle bestCircle(const CylinderSearch& search, const CylinderWorkspace& points, double rho,
                   double needed, Random& random) {
   const auto count = static_cast<std::uint32_t>(points.u.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cylinder through wall candidates: RANSAC with a pruned direction search (thesis section 3.4;
-// docs/method.md, sections 1.3 and 1.4).
+// A cylinder through wall candidates: RANSAC with a pruned direction search (docs/method.md,
+// sections 1.3 and 1.4; Yureidini's thesis, 3.4).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimation and prediction steps in turn (thesis algorithm 1; docs/method.md, section 1.5).
+// Estimation and prediction steps in turn (docs/method.md, section 1.5; Yureidini's thesis,
+// algorithm 1).
 #pragma once
 
 #include <span>

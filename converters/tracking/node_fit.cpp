@@ -15,7 +15,7 @@ namespace {
 
 /// Of a node's inliers: the share that its height holds; the rest are stragglers along the axis.
 constexpr double kHeld = 0.75;
-/// Of the accepting inlier rate: a cylinder below it is no vessel (thesis section 3.4).
+/// Of the accepting inlier rate: a cylinder below it is no vessel (Yureidini's thesis, 3.4).
 constexpr double kLeastRate = 0.5;
 
 /// Distance along the axis from the centre of `cylinder` to a candidate, mm.

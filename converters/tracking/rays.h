@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidate wall points around a centre (thesis section 3.3; docs/method.md, section 1.2).
+// Candidate wall points around a centre (docs/method.md, section 1.2; Yureidini's thesis, 3.3).
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,7 @@
 
 namespace lumen::convert {
 
-/// Defaults are those of thesis table 3.1.
+/// Defaults are those of Yureidini's thesis, table 3.1.
 struct TrackOptions {
   double inlierRate = 0.70;  ///< p_inl: accepts a cylinder
   double inlierBand = 0.10;  ///< r_t: half width of the inlier band, relative to the radius

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RANSAC-based tracking of vessels (thesis chapter 3; docs/method.md, section 1).
+// RANSAC-based tracking of vessels (docs/method.md, section 1; Yureidini's thesis, chapter 3).
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three doubles.
+// Three-vectors of doubles, and what is computed with them; the standard library only.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How smoothly a tip slid along a wall (thesis 5.5.3). */
+/* How smoothly a tip slid along a wall (Yureidini's thesis, 5.5.3). */
 #ifndef CATHETER_SCORE_H
 #define CATHETER_SCORE_H
 

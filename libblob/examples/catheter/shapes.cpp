@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The capsule and the spiral of thesis 5.5.2, synthetic: convolution surfaces of equal Cauchy blobs
-// along a skeleton. Writes NAME.lumen, the skeleton as a tracked case with wall points, to be
-// fitted, and NAME-truth.lumen, the exact surface, to make triangle meshes of and to measure
-// distances to. The thesis' formula 5.35 does not give its figure 5.6: this spiral is r = 8 + 1.85
-// angle, 1.5 turns, of about the same size.
+// The capsule and the spiral of Yureidini's thesis, 5.5.2, synthetic: convolution surfaces of equal
+// Cauchy blobs along a skeleton. Writes NAME.lumen, the skeleton as a tracked case with wall points,
+// to be fitted, and NAME-truth.lumen, the exact surface, to make triangle meshes of and to measure
+// distances to. The thesis' formula 5.35 does not give its figure 5.6: this spiral is
+// r = 8 + 1.85 angle, 1.5 turns, of about the same size.
 #include <algorithm>
 #include <array>
 #include <cmath>

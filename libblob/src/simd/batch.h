@@ -189,7 +189,8 @@ LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned 
       keep(evaluateLocal<K>(view, in.node[i], load4(g.at[i])), g, i);
 }
 
-// First, which points need it: the work for one is long, and a processor guesses badly who is next.
+// Decides first which points need blending, then blends those: in one loop the processor would
+// often mispredict whether the next point needs that long work.
 template <class K>
 LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned outOfRange,
                                const Inputs& in, Group& g) {

@@ -21,8 +21,8 @@ Case smallestCase();
 /// Two vessels and an aneurysm, six nodes, points, Cauchy models and every kind of metadata.
 Case richCase();
 
-/// The rich case with everything else that a file can hold: links, a note, the
-/// parent's digest, quantised points, two node arrays of an extension, and two chunks of others.
+/// The rich case with everything else that a file can hold: links, a note, the parent's digest,
+/// quantised points, two node arrays of an extension, and two chunks of others.
 Case fullCase();
 
 /// A straight case of `nodes` nodes with so many points and blobs each, for the benchmark.
