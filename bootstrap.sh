@@ -5,12 +5,13 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: ./bootstrap.sh demo|test
+Usage: ./bootstrap.sh demo|test|packages [PACKAGE...]
 
-  demo   make a synthetic angiogram in ./demo, turn it into a case and a mesh, and score the result
-  test   build everything and run all tests
+  demo       make a synthetic angiogram in ./demo, turn it into a case and a mesh, and score the result
+  test       build everything and run all tests
+  packages   only install what the tests need, and each PACKAGE
 
-Both install the missing Debian packages (with sudo unless run as root) and build into build/release.
+All install the missing Debian packages (with sudo unless run as root); demo and test build into build/release.
 TEXT
 }
 
@@ -142,11 +143,15 @@ install_validator() {
   (cd "$folder" && npm ci --no-audit --no-fund --fetch-retries=5)
 }
 
-run_tests() {
+install_test_packages() {
   have_node || packages+=(nodejs npm)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev emscripten python3-numpy)
-  install_packages "${packages[@]}"
+  install_packages "${packages[@]}" "$@"
+}
+
+run_tests() {
+  install_test_packages
   configure_and_build
   install_validator
   run_ctest
@@ -156,6 +161,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 case "${1:-}" in
   demo) run_demo ;;
   test) run_tests ;;
+  packages) install_test_packages "${@:2}" ;;
   -h | --help) usage ;;
   *)
     usage >&2

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "converters/app/report.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/topology.h"
 

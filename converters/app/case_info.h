@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "converters/app/report.h"
 #include "converters/common/progress.h"
 #include "converters/fitting/error_of_fit.h"
 #include "formats/case/case.h"
@@ -41,11 +40,5 @@ struct CaseInfo {
 };
 
 CaseInfo describeCase(const formats::Case& value, Progress& progress);
-
-/// branches, nodes, links, points, blobs, blobs_per_node, length_mm, radius_mm,
-/// error_of_fit_mm, provenance, note, node_arrays, branch_table. What the case does not have is
-/// null.
-Json caseInfoJson(const CaseInfo& info);
-std::string caseInfoText(const CaseInfo& info);
 
 }  // namespace lumen::app

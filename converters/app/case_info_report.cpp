@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/app/case_info_report.h"
+
 #include <sstream>
 
-#include "converters/app/case_info.h"
 #include "converters/app/volume_info.h"
 
 namespace lumen::app {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen info: what is in a case or a volume.
-#include "converters/app/case_info.h"
+#include "converters/app/case_info_report.h"
 #include "converters/app/chunk_info.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"

@@ -7,7 +7,8 @@
 #include "converters/app/file_access.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
-#include "converters/mesh/encode_mesh.h"
+#include "converters/mesh/write_gltf.h"
+#include "converters/mesh/write_plain.h"
 #include "converters/volume/write_volume.h"
 
 namespace lumen::app {

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "converters/common/progress.h"
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/polygonise.h"
+#include "converters/mesh/write_options.h"
 #include "converters/volume/read_volume.h"
 #include "formats/case/case.h"
 #include "formats/case/case_file.h"

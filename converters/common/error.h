@@ -8,7 +8,13 @@
 namespace lumen {
 
 /// Values are the process exit codes.
-enum class ErrorKind : int { Failed = 1, Usage = 2, InvalidInput = 3, Unsupported = 4, Cancelled = 130 };
+enum class ErrorKind : int {
+  Failed = 1,
+  Usage = 2,
+  InvalidInput = 3,
+  Unsupported = 4,
+  Cancelled = 130
+};
 
 class Error : public std::runtime_error {
 public:
@@ -20,10 +26,16 @@ private:
 };
 
 /// Bad input; `what` names the file, the place in it, what was found and what was expected.
-inline Error invalidInput(const std::string& what) { return {ErrorKind::InvalidInput, what}; }
+inline Error invalidInput(const std::string& what) {
+  return {ErrorKind::InvalidInput, what};
+}
 /// Legal input that this program does not handle.
-inline Error unsupported(const std::string& what) { return {ErrorKind::Unsupported, what}; }
+inline Error unsupported(const std::string& what) {
+  return {ErrorKind::Unsupported, what};
+}
 /// Anything else that went wrong, such as a full disk.
-inline Error failed(const std::string& what) { return {ErrorKind::Failed, what}; }
+inline Error failed(const std::string& what) {
+  return {ErrorKind::Failed, what};
+}
 
 }  // namespace lumen

@@ -10,7 +10,8 @@
 
 namespace lumen {
 
-/// Handed to every long stage. The default object is silent and never cancelled. All calls are thread-safe.
+/// Handed to every long stage. The default object is silent and never cancelled. All calls are
+/// thread-safe.
 class Progress {
 public:
   Progress() = default;

@@ -8,16 +8,16 @@
 
 namespace lumen {
 
-/// Mixes a 64-bit value into another that looks random (the finaliser of SplitMix64: Steele, Lea and
-/// Flood, "Fast splittable pseudorandom number generators", 2014).
+/// Mixes a 64-bit value into another that looks random (the finaliser of SplitMix64: Steele, Lea
+/// and Flood, "Fast splittable pseudorandom number generators", 2014).
 constexpr std::uint64_t mix64(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
   return z ^ (z >> 31);
 }
 
-/// SplitMix64. Seed one per independent unit of work, from (seed, unit), so that results do not depend
-/// on the order in which threads take the units.
+/// SplitMix64. Seed one per independent unit of work, from (seed, unit), so that results do not
+/// depend on the order in which threads take the units.
 class Random {
 public:
   explicit constexpr Random(std::uint64_t seed, std::uint64_t stream = 0)

@@ -5,14 +5,12 @@
 #include <array>
 #include <cmath>
 
+#include "converters/common/vectors.h"
+
 namespace lumen {
 namespace {
 
 constexpr std::uint32_t kLeafSegments = 4;
-
-Eigen::Vector3d asVector(const formats::Vec3f& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 double distanceToBox(const Eigen::Vector3d& p, const Eigen::Vector3d& low,
                      const Eigen::Vector3d& high) {
@@ -68,8 +66,8 @@ void TubeTreeDistance::addBranch(const formats::CenterlineTree& tree, std::uint3
   for (std::uint32_t n = b.firstNode; n + 1 < last || (n < last && b.nodeCount == 1); ++n) {
     const std::uint32_t next = std::min(n + 1, last - 1);
     m_segments.push_back(
-        {RoundCone(asVector(tree.centre[n]), static_cast<double>(tree.radius[n]),
-                   asVector(tree.centre[next]), static_cast<double>(tree.radius[next])),
+        {RoundCone(toEigen(tree.centre[n]), static_cast<double>(tree.radius[n]),
+                   toEigen(tree.centre[next]), static_cast<double>(tree.radius[next])),
          branch, n});
   }
 }
@@ -77,8 +75,8 @@ void TubeTreeDistance::addBranch(const formats::CenterlineTree& tree, std::uint3
 std::uint32_t TubeTreeDistance::build(const formats::CenterlineTree& tree, std::uint32_t first,
                                       std::uint32_t last) {
   const auto index = static_cast<std::uint32_t>(m_boxes.size());
-  Box box{asVector(tree.centre[m_segments[first].node]),
-          asVector(tree.centre[m_segments[first].node]),
+  Box box{toEigen(tree.centre[m_segments[first].node]),
+          toEigen(tree.centre[m_segments[first].node]),
           0,
           first,
           last,
@@ -88,8 +86,8 @@ std::uint32_t TubeTreeDistance::build(const formats::CenterlineTree& tree, std::
     const formats::Branch& branch = tree.branches[m_segments[s].branch];
     const std::uint32_t next = std::min(node + 1, branch.firstNode + branch.nodeCount - 1);
     for (const std::uint32_t end : {node, next}) {
-      box.low = box.low.cwiseMin(asVector(tree.centre[end]));
-      box.high = box.high.cwiseMax(asVector(tree.centre[end]));
+      box.low = box.low.cwiseMin(toEigen(tree.centre[end]));
+      box.high = box.high.cwiseMax(toEigen(tree.centre[end]));
       box.maxRadius = std::max(box.maxRadius, static_cast<double>(tree.radius[end]));
     }
   }

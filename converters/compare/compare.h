@@ -73,16 +73,16 @@ struct BranchComparison {
 
 struct Comparison {
   CenterlineScore score;
-  /// Distance, mm, of the models' surface to the wall of the true tree: the union of the round
-  /// cones between its nodes. A model's surface is sampled where its node's wall points project on
-  /// it along the gradient, or, without points, along rays from the node's centre. Only samples
-  /// within the node's own power cell among itself and its neighbours count, and of those only the
-  /// ones away from ends and junctions: not beyond the first or the last node of their found
-  /// branch; nearest to a part of the true axis that is farther than the true radius from both ends
-  /// of the true branch; and farther than that radius from the wall of every other true branch that
-  /// the nearest one is joined to (its parent, its children). The last node of an aneurysm is the
-  /// centre of its sac, hence no end.
-  /// Absent if the case has no models or no sample is left.
+  /// Distance, mm, of the case's surface to the wall of the true tree: the union of the round
+  /// cones between its nodes. The surface is that of the blended field, as spec/lumen.md defines
+  /// it: sampled where wall points project on it along the gradient, or, without points, along rays
+  /// from the node's centre. Only samples within the node's own power cell count, that is where
+  /// following ends at the node, and of those only the ones away from ends and junctions: not
+  /// beyond the first or the last node of their found branch; nearest to a part of the true axis
+  /// that is farther than the true radius from both ends of the true branch; and farther than that
+  /// radius from the wall of every other true branch that the nearest one is joined to (its parent,
+  /// its children). The last node of an aneurysm is the centre of its sac, hence no end. Absent if
+  /// the case has no models or no sample is left.
   std::optional<Quantiles> wallDistance;
   std::vector<BranchComparison> branches;  ///< one per true branch, in its order
 };

@@ -9,9 +9,11 @@
 #include <Eigen/Core>
 #include <tbb/parallel_for.h>
 
+#include "converters/common/statistics.h"
+#include "converters/common/surface_projection.h"
 #include "converters/common/tube_tree_distance.h"
-#include "formats/case/blobby.h"
-#include "formats/case/topology.h"
+#include "converters/common/vectors.h"
+#include "formats/case/case_field.h"
 
 namespace lumen::convert {
 namespace {
@@ -19,14 +21,8 @@ namespace {
 using Eigen::Vector3d;
 using formats::CenterlineTree;
 
-constexpr int kNewtonSteps = 30;
 constexpr int kBisections = 40;
 constexpr int kRays = 64;
-constexpr double kOnSurface = 1e-3;  // of the node's radius
-
-Vector3d vectorOf(const formats::Vec3f& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
 
 // Unit vectors spread evenly over the sphere along a golden spiral.
 std::vector<Vector3d> rayDirections() {
@@ -39,62 +35,53 @@ std::vector<Vector3d> rayDirections() {
   return directions;
 }
 
-// The surface of one node's model.
+// The surface of the found case around one node.
 class NodeSurface {
 public:
-  NodeSurface(const formats::Case& value, std::uint32_t node)
-      : m_models(*value.models),
+  NodeSurface(const formats::CenterlineTree& tree, const field::BlendedField& surface,
+              std::uint32_t node)
+      : m_surface(surface),
         m_node(node),
-        m_centre(vectorOf(value.tree.centre[node])),
-        m_radius(static_cast<double>(value.tree.radius[node])) {}
+        m_centre(toEigen(tree.centre[node])),
+        m_radius(static_cast<double>(tree.radius[node])) {}
 
-  // The point on the surface that Newton's method along the gradient reaches; false if it does not
-  // converge.
-  bool project(Vector3d& point) const {
-    for (int i = 0; i < kNewtonSteps; ++i) {
-      const formats::FieldValue value = at(point);
-      const Vector3d gradient(value.gradient.x, value.gradient.y, value.gradient.z);
-      const double slope = gradient.squaredNorm();
-      if (!(slope > 1e-20)) return false;
-      Vector3d step = gradient * ((m_models.isoLevel - value.f) / slope);
-      if (step.norm() <= kOnSurface * m_radius) {
-        point += step;
-        return true;
-      }
-      // far from the wall the field is flat and the step too long
-      if (step.norm() > 0.3 * m_radius) step *= 0.3 * m_radius / step.norm();
-      point += step;
-    }
-    return false;
+  // The point of the surface that the gradient leads to; nothing if it leads nowhere or out of the
+  // node's own power cell.
+  [[nodiscard]] std::optional<Vector3d> project(const Vector3d& point) const {
+    const auto found = projectOnSurface(m_surface, point, m_node, m_radius);
+    if (!found || found->node != m_node) return std::nullopt;
+    return found->position;
   }
 
-  // The first point of the surface along a ray from the node's centre; false if there is none
-  // within 4 radii.
-  bool cast(const Vector3d& direction, Vector3d& point) const {
-    const auto inside = [&](double t) {
-      return at(m_centre + t * direction).f > m_models.isoLevel;
-    };
-    if (!inside(0)) return false;
+  // The first point of the surface along a ray from the node's centre; nothing if there is none
+  // within 4 radii, or not in the node's own power cell.
+  [[nodiscard]] std::optional<Vector3d> cast(const Vector3d& direction) const {
+    const auto inside = [&](double t) { return isInside(m_centre + t * direction); };
+    if (!inside(0)) return std::nullopt;
     double low = 0, high = 0.125 * m_radius;
     while (inside(high)) {
       low = high;
       high += 0.125 * m_radius;
-      if (high > 4 * m_radius) return false;
+      if (high > 4 * m_radius) return std::nullopt;
     }
     for (int i = 0; i < kBisections; ++i) {
       const double middle = 0.5 * (low + high);
       (inside(middle) ? low : high) = middle;
     }
-    point = m_centre + 0.5 * (low + high) * direction;
-    return true;
+    const Vector3d point = m_centre + 0.5 * (low + high) * direction;
+    if (follow(point) != m_node) return std::nullopt;
+    return point;
   }
 
 private:
-  [[nodiscard]] formats::FieldValue at(const Vector3d& p) const {
-    return formats::evaluateField(m_models, m_node, {p.x(), p.y(), p.z()});
+  [[nodiscard]] std::uint32_t follow(const Vector3d& p) const {
+    return m_surface.follow({p.x(), p.y(), p.z()}, m_node);
+  }
+  [[nodiscard]] bool isInside(const Vector3d& p) const {
+    return m_surface.blended({p.x(), p.y(), p.z()}, follow(p)).value > m_surface.level();
   }
 
-  const formats::BlobbyModels& m_models;
+  const field::BlendedField& m_surface;
   std::uint32_t m_node;
   Vector3d m_centre;
   double m_radius;
@@ -121,14 +108,14 @@ public:
     const formats::Branch& branch = m_truth.branches[hit.branch];
     const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
     const std::uint32_t next = std::min(hit.node + 1, last);
-    const Vector3d a = vectorOf(m_truth.centre[hit.node]), b = vectorOf(m_truth.centre[next]);
+    const Vector3d a = toEigen(m_truth.centre[hit.node]), b = toEigen(m_truth.centre[next]);
     const Vector3d foot = a + hit.along * (b - a);
     const auto from = static_cast<double>(m_truth.radius[hit.node]);
     const double radius = from + hit.along * (static_cast<double>(m_truth.radius[next]) - from);
     for (const std::uint32_t end : {branch.firstNode, last})
       // an aneurysm's last node is the centre of its sac, not an open end
       if ((branch.kind == formats::BranchKind::Vessel || end != last) &&
-          (foot - vectorOf(m_truth.centre[end])).norm() <= radius)
+          (foot - toEigen(m_truth.centre[end])).norm() <= radius)
         return false;
     return std::none_of(
         m_joined[hit.branch].begin(), m_joined[hit.branch].end(),
@@ -142,62 +129,34 @@ private:
   std::vector<std::vector<std::uint32_t>> m_joined;  // for each branch, its parent and children
 };
 
-// The part of space in which a node's own model speaks.
-class Cell {
-public:
-  Cell(const CenterlineTree& tree, const formats::Neighbours& neighbours, std::uint32_t node)
-      : m_tree(tree), m_neighbours(neighbours.of(node)), m_node(node) {
-    const formats::Branch& branch = tree.branches[tree.branch[node]];
-    m_isFirst = node == branch.firstNode;
-    m_isLast = node + 1 == branch.firstNode + branch.nodeCount;
-  }
+// Whether a point lies beyond the first or the last node of the node's branch.
+bool isBeyondEnds(const CenterlineTree& tree, std::uint32_t node, const Vector3d& point) {
+  const formats::Branch& branch = tree.branches[tree.branch[node]];
+  const double along = (point - toEigen(tree.centre[node])).dot(toEigen(tree.direction[node]));
+  const bool isFirst = node == branch.firstNode;
+  const bool isLast = node + 1 == branch.firstNode + branch.nodeCount;
+  return (isFirst && along < 0) || (isLast && along > 0);
+}
 
-  [[nodiscard]] bool holds(const Vector3d& point) const {
-    const double along =
-        (point - vectorOf(m_tree.centre[m_node])).dot(vectorOf(m_tree.direction[m_node]));
-    if ((m_isFirst && along < 0) || (m_isLast && along > 0)) return false;
-    const double own = power(m_node, point);
-    return std::none_of(m_neighbours.begin(), m_neighbours.end(),
-                        [&](std::uint32_t n) { return power(n, point) < own; });
-  }
-
-private:
-  [[nodiscard]] double power(std::uint32_t node, const Vector3d& point) const {
-    const auto radius = static_cast<double>(m_tree.radius[node]);
-    return (point - vectorOf(m_tree.centre[node])).squaredNorm() - radius * radius;
-  }
-
-  const CenterlineTree& m_tree;
-  std::span<const std::uint32_t> m_neighbours;
-  std::uint32_t m_node;
-  bool m_isFirst, m_isLast;
-};
-
-std::vector<Vector3d> surfaceSamples(const formats::Case& found, std::uint32_t node,
-                                     const std::vector<Vector3d>& rays) {
-  const NodeSurface surface(found, node);
+std::vector<Vector3d> surfaceSamples(const formats::Case& found, const field::BlendedField& field,
+                                     std::uint32_t node, const std::vector<Vector3d>& rays) {
+  const NodeSurface surface(found.tree, field, node);
   std::vector<Vector3d> samples;
+  const auto add = [&](const std::optional<Vector3d>& point) {
+    if (point && !isBeyondEnds(found.tree, node, *point)) samples.push_back(*point);
+  };
   if (found.points && found.points->offset[node] < found.points->offset[node + 1]) {
-    for (std::uint32_t p = found.points->offset[node]; p < found.points->offset[node + 1]; ++p) {
-      Vector3d point = vectorOf(found.points->position[p]);
-      if (surface.project(point)) samples.push_back(point);
-    }
+    for (std::uint32_t p = found.points->offset[node]; p < found.points->offset[node + 1]; ++p)
+      add(surface.project(toEigen(found.points->position[p])));
     return samples;
   }
-  Vector3d point;
-  for (const Vector3d& ray : rays)
-    if (surface.cast(ray, point)) samples.push_back(point);
+  for (const Vector3d& ray : rays) add(surface.cast(ray));
   return samples;
 }
 
 std::optional<Quantiles> quantilesOf(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) -
-                  1];
-  };
-  return Quantiles{at(0.5), at(0.9), values.back()};
+  return Quantiles{nearestRank(values, 0.5), nearestRank(values, 0.9), nearestRank(values, 1.0)};
 }
 
 }  // namespace
@@ -206,7 +165,7 @@ WallComparison compareWalls(const formats::Case& found, const CenterlineTree& tr
                             Progress& progress) {
   const CenterlineTree& tree = found.tree;
   const TrueWall wall(truth);
-  const formats::Neighbours neighbours(tree);
+  const field::BlendedField field = formats::blendedFieldOf(found);
   const std::vector<Vector3d> rays = rayDirections();
   struct Sample {
     std::uint32_t branch;
@@ -216,9 +175,7 @@ WallComparison compareWalls(const formats::Case& found, const CenterlineTree& tr
   tbb::parallel_for(std::size_t{0}, tree.nodeCount(), [&](std::size_t n) {
     const auto node = static_cast<std::uint32_t>(n);
     progress.check();
-    const Cell cell(tree, neighbours, node);
-    for (const Vector3d& point : surfaceSamples(found, node, rays)) {
-      if (!cell.holds(point)) continue;
+    for (const Vector3d& point : surfaceSamples(found, field, node, rays)) {
       const WallHit hit = wall.nearest(point);
       if (wall.isAwayFromEndsAndJunctions(point, hit))
         samples[n].push_back({hit.branch, std::abs(hit.distance)});

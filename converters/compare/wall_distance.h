@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the surface of the models lies from the true wall.
+// How far the surface of a case lies from the true wall.
 #pragma once
 
 #include <optional>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "converters/fitting/energy_kernels.h"
+#include "converters/fitting/normal_equations.h"
 
 namespace lumen::convert::fitting {
 namespace {
@@ -38,8 +39,8 @@ double sumOfSquares(const double* values, std::size_t count) {
 }
 
 BlockParameters blockParameters(const EnergyParameters& p) {
-  return {p.kernel, p.kernelParameter, p.isoLevel, std::sqrt(p.curvatureWeight),
-          p.expectedCurvature};
+  return {p.kernel, field::chainScale(p.kernel, p.kernelParameter), p.isoLevel,
+          std::sqrt(p.curvatureWeight), p.expectedCurvature};
 }
 
 double cohesion(const Blob& a, const Blob& b, double scale) {
@@ -61,10 +62,10 @@ CohesionResidual cohesionResidual(const Blob& first, const Blob& second, double 
            -slope * dz, 3.0 * cube / second.width}};
 }
 
-void Energy::setPoints(std::span<const formats::Vec3d> points, std::span<const formats::Vec3d> ties,
-                       double tieShare) {
+void Energy::setPoints(std::span<const formats::Vec3d> points,
+                       std::span<const formats::Vec3d> seams, double seamWeight) {
   m_count = points.size();
-  m_padded = roundUp(m_count + ties.size(), kLanes);
+  m_padded = roundUp(m_count + seams.size(), kLanes);
   m_active = 0;
   for (auto* buffer : {&m_x, &m_y, &m_z, &m_weight, &m_share, &m_field, &m_gradient2, &m_slope2}) {
     reserve(*buffer, m_padded);
@@ -75,15 +76,16 @@ void Energy::setPoints(std::span<const formats::Vec3d> points, std::span<const f
   }
   reserve(m_residual, 2 * m_padded);
   const double weight = 1.0 / std::sqrt(static_cast<double>(m_count));
-  const double tied = ties.empty() ? 0.0 : std::sqrt(tieShare / static_cast<double>(ties.size()));
+  const double shared =
+      seams.empty() ? 0.0 : std::sqrt(seamWeight / static_cast<double>(seams.size()));
   for (std::size_t k = 0; k < m_padded; ++k) {
-    const bool isTie = k >= m_count && k < m_count + ties.size();
-    const formats::Vec3d& p = isTie ? ties[k - m_count] : points[std::min(k, m_count - 1)];
+    const bool onSeam = k >= m_count && k < m_count + seams.size();
+    const formats::Vec3d& p = onSeam ? seams[k - m_count] : points[std::min(k, m_count - 1)];
     m_x[k] = p.x;
     m_y[k] = p.y;
     m_z[k] = p.z;
     m_share[k] = k < m_count ? weight : 0.0;
-    m_weight[k] = isTie ? tied : m_share[k];
+    m_weight[k] = onSeam ? shared : m_share[k];
   }
 }
 

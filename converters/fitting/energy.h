@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // The energy of a local implicit model as a sum of squares, with its analytic Jacobian (thesis 4.3
-// and appendix B; design notes section 2).
+// and appendix B; docs/method.md, section 2.3).
 //
-//   E = E_d + alpha E_LJ + beta E_kappa + omega E_w
+// clang-format off
+//   E       = E_d + alpha E_LJ + beta E_kappa + omega E_w
+//
 //   E_d     = 1/Np sum_k u(P_k)^2 * S / (1/Np sum_k |grad u(P_k)|^2)
-//   E_LJ    = 1/(Nb (Nb - 1)) sum_{i != j} sigma_ij^3 (sigma_ij^3 - 2),  sigma_ij = s^2 w_i w_j /
-//   |C_i - C_j|^2 E_kappa = 1/Np sum_k (kappa(P_k) - kappa_0)^2,  kappa = (G^T H G - |G|^2 tr H) /
-//   (2 |G|^3)
-//
+//   E_LJ    = 2/(Nb (Nb - 1)) sum_{i < j} (sigma_ij^3 - 1)^2
+//   E_kappa = 1/Np sum_k (kappa(P_k) - kappa_0)^2
 //   E_w     = sum_j (w_j / w - 1)^2
 //
-// Because a (a - 2) = (a - 1)^2 - 1, E_LJ is 2/(Nb (Nb - 1)) sum_{i < j} (sigma_ij^3 - 1)^2 minus a
-// constant, so that E + alpha (when Nb > 1) is a sum of squares: that sum is the energy here.
+//   sigma_ij = s^2 w_i w_j / |C_i - C_j|^2
+//   kappa    = (G^T H G - |G|^2 tr H) / (2 |G|^3)
+// clang-format on
 //
-// u is T - f for all kernels but Cauchy's, as in the thesis. There u = 4 T ((T / f)^(1/4) - 1),
-// which is the same to first order at the surface. Far from a Cauchy blob f falls with the fourth
-// power of the distance, so that u is nearly a multiple of the distance to the wall on both of its
-// sides, where T - f grows inward and levels off outward: noise would move the surface.
+// E_LJ of the thesis is 1/(Nb (Nb - 1)) sum_{i != j} sigma_ij^3 (sigma_ij^3 - 2). Because
+// a (a - 2) = (a - 1)^2 - 1, the one above is that plus 1 (when Nb > 1), and E is a sum of squares.
+//
+// u is T - f, as in the thesis, for kernels that do not end like a power of the distance. For
+// Cauchy's, which does, u = 4 T ((T / f)^(1/4) - 1), which is the same to first order at the
+// surface. Far from a Cauchy blob f falls with the fourth power of the distance, so that u is
+// nearly a multiple of the distance to the wall on both of its sides, where T - f grows inward and
+// levels off outward: noise would move the surface.
 //
 // The last factor of E_d is not in the thesis. Without it the plain squares have a useless minimum
 // below every good one: f = T and flat at all points, made by a few wide blobs far away, because
@@ -41,6 +46,7 @@
 #include <span>
 #include <vector>
 
+#include "converters/fitting/blob.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case.h"
 
@@ -48,16 +54,6 @@ namespace lumen::convert::fitting {
 
 /// Length of a voxel in the fit's frame: the voxel that the thesis' weights were tuned at, in mm.
 constexpr double kReferenceVoxel = 0.2;
-
-/// Added to |G|^2 in the denominator of kappa: the curvature of a field that is flat at a point
-/// counts for nothing there instead of dividing by zero. |G| is 0.02 to 0.5 at the walls of
-/// vessels.
-constexpr double kFlatField = 1e-6;
-
-/// One term width * phi(|X - centre|^2 / width^2) of the model.
-struct Blob {
-  double x = 0, y = 0, z = 0, width = 0;
-};
 
 struct EnergyParameters {
   formats::Kernel kernel = formats::Kernel::Cauchy;
@@ -72,7 +68,7 @@ struct EnergyParameters {
   double evenWidth = 1;           ///< w
 };
 
-/// The terms, unweighted, of which E_LJ is the sum of squares (its thesis value plus 1, if Nb > 1).
+/// The terms, unweighted; each is zero where its weight is, but for the evenness.
 struct EnergyTerms {
   double data = 0, cohesion = 0, curvature = 0, evenness = 0;
 };
@@ -85,19 +81,13 @@ public:
 
   [[nodiscard]] const EnergyParameters& parameters() const { return m_parameters; }
   void setParameters(const EnergyParameters& parameters) { m_parameters = parameters; }
-  /// The points to fit, in the fit's frame; there must be at least one. `ties` are points that
-  /// count in E_d only, all together as much as `tieShare` times all points; pointCount(), slope()
-  /// and the field leave them out.
-  void setPoints(std::span<const formats::Vec3d> points, std::span<const formats::Vec3d> ties = {},
-                 double tieShare = 0);
+  /// The points to fit, in the fit's frame; there must be at least one. Those of `seams` count in
+  /// E_d only, all together as much as `seamWeight` times all points; pointCount(), slope() and the
+  /// field leave them out.
+  void setPoints(std::span<const formats::Vec3d> points, std::span<const formats::Vec3d> seams = {},
+                 double seamWeight = 0);
   [[nodiscard]] std::size_t pointCount() const { return m_count; }
   [[nodiscard]] formats::Vec3d point(std::size_t k) const;
-
-  /// Mean |grad u|^2 over the points, of the last evaluate() or linearise().
-  [[nodiscard]] double slope() const { return m_slope; }
-
-  /// Mean kappa over the points, of the last evaluate() or linearise(); kappa_0 if beta is 0.
-  [[nodiscard]] double meanCurvature() const;
 
   /// Sums the field of blobs[0] .. blobs[active - 1] once; until the next call they must stay as
   /// they are. evaluate() and linearise() then only visit the others, which are the unknowns.
@@ -107,9 +97,15 @@ public:
   double evaluate(std::span<const Blob> blobs);
   /// The same, and the Jacobian with respect to (x, y, z, width) of every unknown blob.
   double linearise(std::span<const Blob> blobs);
-  /// Of the last evaluate() or linearise().
+
+  // What the last call of evaluate() or linearise() found.
+
   [[nodiscard]] EnergyTerms terms() const { return m_terms; }
-  /// f and |grad f|^2 at every point, of the last evaluate() or linearise().
+  /// Mean |grad u|^2 over the points.
+  [[nodiscard]] double slope() const { return m_slope; }
+  /// Mean kappa over the points; kappa_0 if beta is 0.
+  [[nodiscard]] double meanCurvature() const;
+  /// f and |grad f|^2 at every point.
   [[nodiscard]] std::span<const double> field() const { return {m_field.data(), m_count}; }
   [[nodiscard]] std::span<const double> gradientSquared() const {
     return {m_gradient2.data(), m_count};

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/fitting/energy_kernels.h"
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include "converters/common/simd.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::convert::fitting {
 namespace {
@@ -21,10 +20,6 @@ namespace {
 #define LUMEN_INDEPENDENT _Pragma("GCC ivdep")
 #endif
 
-struct KernelLanes {
-  double phi, d1, d2, d3;
-};
-
 /// What the data term measures instead of f, of first order T - f at the surface (energy.h).
 struct Residual {
   double value;
@@ -32,81 +27,19 @@ struct Residual {
   double second;  ///< d2u/df2
 };
 
-struct PlainResidual {
-  LUMEN_INLINE static Residual residual(double f, double level) { return {level - f, 1.0, 0.0}; }
-};
+/// Of the level: smaller fields count as this, so that u stays finite where f vanishes.
+constexpr double kLeastField = 1e-12;
 
-struct Cauchy {
-  double s2;
-  LUMEN_INLINE static Residual residual(double f, double level) {
-    const double bounded = f > 1e-12 * level ? f : 1e-12 * level;
+template <class Phi>
+LUMEN_INLINE Residual residualOf(double f, double level) {
+  if constexpr (Phi::kTail == field::KernelTail::Power) {
+    const double least = kLeastField * level, bounded = f > least ? f : least;
     const double ratio = level / bounded, root = std::sqrt(std::sqrt(ratio));
     return {4.0 * level * (root - 1.0), ratio * root, 1.25 * ratio * root / bounded};
+  } else {
+    return {level - f, 1.0, 0.0};
   }
-  LUMEN_INLINE KernelLanes operator()(double x) const {
-    const double u = 1.0 / (1.0 + s2 * x);
-    const double phi = u * u;
-    const double d1 = -2.0 * s2 * phi * u;
-    const double d2 = -3.0 * s2 * d1 * u;
-    return {phi, d1, d2, -4.0 * s2 * d2 * u};
-  }
-};
-
-/// exp(-t) for t >= 0 to about 1e-15, from operations that every machine rounds alike (the C
-/// library's exp differs between machines): argument reduction by ln 2 in two parts, then a Taylor
-/// polynomial.
-LUMEN_INLINE double expOfMinus(double t) {
-  constexpr double kShift = 0x1.8p52;
-  const double x = -(t < 700.0 ? t : 700.0);
-  const double shifted = x * 1.44269504088896340736 + kShift;
-  const double n = shifted - kShift;
-  const double r = (x - n * 0x1.62e42fee00000p-1) - n * 0x1.a39ef35793c76p-33;
-  double p = 1.0 / 6227020800.0;
-  p = p * r + 1.0 / 479001600.0;
-  p = p * r + 1.0 / 39916800.0;
-  p = p * r + 1.0 / 3628800.0;
-  p = p * r + 1.0 / 362880.0;
-  p = p * r + 1.0 / 40320.0;
-  p = p * r + 1.0 / 5040.0;
-  p = p * r + 1.0 / 720.0;
-  p = p * r + 1.0 / 120.0;
-  p = p * r + 1.0 / 24.0;
-  p = p * r + 1.0 / 6.0;
-  p = p * r + 0.5;
-  p = p * r + 1.0;
-  p = p * r + 1.0;
-  // the low bits of `shifted` hold n; moved to the exponent they make 2^n
-  const auto power = (std::bit_cast<std::uint64_t>(shifted) + 1023U) << 52U;
-  return p * std::bit_cast<double>(power);
 }
-
-struct Gaussian : PlainResidual {
-  double a2;
-  LUMEN_INLINE KernelLanes operator()(double x) const {
-    const double phi = expOfMinus(a2 * x);
-    const double d1 = -a2 * phi;
-    const double d2 = -a2 * d1;
-    return {phi, d1, d2, -a2 * d2};
-  }
-};
-
-struct Quartic : PlainResidual {
-  LUMEN_INLINE KernelLanes operator()(double x) const {
-    const double inside = x < 1.0 ? 1.0 : 0.0;
-    const double u = inside * (1.0 - x);
-    return {u * u, -2.0 * u, 2.0 * inside, 0.0};
-  }
-};
-
-struct SoftObject : PlainResidual {
-  LUMEN_INLINE KernelLanes operator()(double x) const {
-    const double inside = x < 1.0 ? 1.0 : 0.0;
-    const double y = inside * x;
-    return {inside * (1.0 + y * (-22.0 / 9.0 + y * (17.0 / 9.0 - y * (4.0 / 9.0)))),
-            inside * (-22.0 / 9.0 + y * (34.0 / 9.0 - y * (12.0 / 9.0))),
-            inside * (34.0 / 9.0 - y * (24.0 / 9.0)), inside * (-24.0 / 9.0)};
-  }
-};
 
 using Lane = double[kBlock];
 
@@ -132,7 +65,7 @@ LUMEN_INLINE void start(const Block& in, Sums& s) {
 
 /// First pass over a blob: the field, its gradient, and the data rows of the Jacobian.
 template <bool kJacobian, class Phi>
-LUMEN_INLINE void addField(const Phi& phi, const Block& in, const Blob& blob, Sums& s,
+LUMEN_INLINE void addField(double kernelScale, const Block& in, const Blob& blob, Sums& s,
                            double* __restrict scratch, double* __restrict column) {
   const std::size_t count = in.count, stride = in.columnStride;
   const double inverse = 1.0 / blob.width, width = blob.width;
@@ -144,7 +77,7 @@ LUMEN_INLINE void addField(const Phi& phi, const Block& in, const Blob& blob, Su
     const double dx = (px[k] - cx) * inverse, dy = (py[k] - cy) * inverse;
     const double dz = (pz[k] - cz) * inverse;
     const double x = dx * dx + dy * dy + dz * dz;
-    const KernelLanes v = phi(x);
+    const field::KernelChain<double> v = Phi::chain(kernelScale * x, kernelScale);
     const double d1 = 2.0 * v.d1;
     s.f[k] += width * v.phi;
     s.gx[k] += d1 * dx;
@@ -220,7 +153,7 @@ LUMEN_INLINE void finishPoints(const BlockParameters& p, const Block& in, Sums& 
     const double direct = scale * inverse3, radial = scale * 3.0 * kappa * inverse2;
     field[k] = s.f[k];
     gradient2[k] = g2;
-    const Residual r = Phi::residual(s.f[k], level);
+    const Residual r = residualOf<Phi>(s.f[k], level);
     data[k] = weight[k] * r.value;
     slope2[k] = r.slope * r.slope * g2;
     s.dataSlope[k] = r.slope;
@@ -273,13 +206,14 @@ LUMEN_INLINE void differentiateCurvature(const Block& in, const Blob& blob, cons
 }
 
 template <bool kJacobian, class Phi>
-LUMEN_INLINE void evaluate(const Phi& phi, const BlockParameters& parameters, const Block& in,
+LUMEN_INLINE void evaluate(const BlockParameters& parameters, const Block& in,
                            std::span<const Blob> blobs) {
   Sums sums;
   start(in, sums);
   for (std::size_t j = 0; j < blobs.size(); ++j) {
-    addField<kJacobian>(phi, in, blobs[j], sums, in.scratch + j * kScratchArrays * kBlock,
-                        kJacobian ? in.jacobian + 4 * j * in.columnStride : nullptr);
+    addField<kJacobian, Phi>(parameters.kernelScale, in, blobs[j], sums,
+                             in.scratch + j * kScratchArrays * kBlock,
+                             kJacobian ? in.jacobian + 4 * j * in.columnStride : nullptr);
   }
   startCurvature(in, sums);
   for (std::size_t j = 0; j < blobs.size(); ++j) {
@@ -295,17 +229,7 @@ LUMEN_INLINE void evaluate(const Phi& phi, const BlockParameters& parameters, co
 }
 
 template <class Phi>
-LUMEN_INLINE void evaluate(const Phi& phi, const BlockParameters& parameters, const Block& in,
-                           std::span<const Blob> blobs, bool withJacobian) {
-  if (withJacobian) {
-    evaluate<true>(phi, parameters, in, blobs);
-  } else {
-    evaluate<false>(phi, parameters, in, blobs);
-  }
-}
-
-template <class Phi>
-LUMEN_INLINE void accumulate(const Phi& phi, std::size_t count, const double* __restrict px,
+LUMEN_INLINE void accumulate(double kernelScale, std::size_t count, const double* __restrict px,
                              const double* __restrict py, const double* __restrict pz,
                              const Blob& blob, double* const (&sums)[10]) {
   double* __restrict f = sums[0], * __restrict gx = sums[1], * __restrict gy = sums[2];
@@ -318,7 +242,7 @@ LUMEN_INLINE void accumulate(const Phi& phi, std::size_t count, const double* __
     const double dx = (px[k] - blob.x) * inverse, dy = (py[k] - blob.y) * inverse;
     const double dz = (pz[k] - blob.z) * inverse;
     const double x = dx * dx + dy * dy + dz * dz;
-    const KernelLanes v = phi(x);
+    const field::KernelChain<double> v = Phi::chain(kernelScale * x, kernelScale);
     const double d1 = 2.0 * v.d1, d2 = 4.0 * inverse * v.d2;
     const double isotropic = d2 * x + 4.0 * inverse * v.d1;
     f[k] += blob.width * v.phi;
@@ -336,42 +260,30 @@ LUMEN_INLINE void accumulate(const Phi& phi, std::size_t count, const double* __
 
 }  // namespace
 
+// Lambdas are inlined by force for the same reason as the loops.
+
 LUMEN_SIMD_CLONES
 void evaluateBlock(const BlockParameters& parameters, const Block& block,
                    std::span<const Blob> blobs, bool withJacobian) {
-  switch (parameters.kernel) {
-    case formats::Kernel::Cauchy:
-      return evaluate(Cauchy{parameters.kernelParameter}, parameters, block, blobs, withJacobian);
-    case formats::Kernel::Gaussian:
-      return evaluate(Gaussian{{}, parameters.kernelParameter}, parameters, block, blobs,
-                      withJacobian);
-    case formats::Kernel::Quartic:
-      return evaluate(Quartic{}, parameters, block, blobs, withJacobian);
-    case formats::Kernel::SoftObject:
-      return evaluate(SoftObject{}, parameters, block, blobs, withJacobian);
-  }
+  field::withKernel(
+      parameters.kernel, [&](auto phi) __attribute__((always_inline)) {
+        if (withJacobian) {
+          evaluate<true, decltype(phi)>(parameters, block, blobs);
+        } else {
+          evaluate<false, decltype(phi)>(parameters, block, blobs);
+        }
+      });
 }
 
 LUMEN_SIMD_CLONES
 void accumulateField(const BlockParameters& parameters, std::size_t count, const double* x,
                      const double* y, const double* z, std::span<const Blob> blobs,
                      double* const (&sums)[10]) {
-  for (const Blob& blob : blobs) {
-    switch (parameters.kernel) {
-      case formats::Kernel::Cauchy:
-        accumulate(Cauchy{parameters.kernelParameter}, count, x, y, z, blob, sums);
-        break;
-      case formats::Kernel::Gaussian:
-        accumulate(Gaussian{{}, parameters.kernelParameter}, count, x, y, z, blob, sums);
-        break;
-      case formats::Kernel::Quartic:
-        accumulate(Quartic{}, count, x, y, z, blob, sums);
-        break;
-      case formats::Kernel::SoftObject:
-        accumulate(SoftObject{}, count, x, y, z, blob, sums);
-        break;
-    }
-  }
+  field::withKernel(
+      parameters.kernel, [&](auto phi) __attribute__((always_inline)) {
+        for (const Blob& blob : blobs)
+          accumulate<decltype(phi)>(parameters.kernelScale, count, x, y, z, blob, sums);
+      });
 }
 
 }  // namespace lumen::convert::fitting

@@ -6,9 +6,15 @@
 #include <cstddef>
 #include <span>
 
-#include "converters/fitting/energy.h"
+#include "converters/fitting/blob.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::convert::fitting {
+
+/// Added to |G|^2 in the denominator of kappa: the curvature of a field that is flat at a point
+/// counts for nothing there instead of dividing by zero. |G| is 0.02 to 0.5 at the walls of
+/// vessels.
+constexpr double kFlatField = 1e-6;
 
 /// Partial sums run in this many independent lanes, whatever the machine's vectors are, so that
 /// every machine adds in the same order.
@@ -40,8 +46,8 @@ struct Block {
 };
 
 struct BlockParameters {
-  formats::Kernel kernel;
-  double kernelParameter;
+  field::Kernel kernel;
+  double kernelScale;  ///< of field::chainScale
   double isoLevel;
   double curvatureScale;     ///< sqrt(beta)
   double expectedCurvature;  ///< kappa_0
@@ -55,14 +61,5 @@ void evaluateBlock(const BlockParameters& parameters, const Block& block,
 void accumulateField(const BlockParameters& parameters, std::size_t count, const double* x,
                      const double* y, const double* z, std::span<const Blob> blobs,
                      double* const (&sums)[10]);
-
-/// a += J^T J (n x n row-major, upper triangle) and b += J^T r, for n columns of `rows` values; n
-/// is a multiple of 4, `rows` of kLanes.
-void multiplyTransposed(const double* jacobian, std::size_t columnStride, std::size_t n,
-                        const double* residual, std::size_t rows, double* a, double* b);
-
-/// sums[i] = sum of the `rows` values of column i < n; n is a multiple of 4, `rows` of kLanes.
-void sumColumns(const double* jacobian, std::size_t columnStride, std::size_t n, std::size_t rows,
-                double* sums);
 
 }  // namespace lumen::convert::fitting

@@ -9,8 +9,10 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "converters/common/statistics.h"
 #include "formats/case/blobby.h"
 #include "formats/case/topology.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::convert {
 namespace {
@@ -18,46 +20,21 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of the level: fields below it say nothing about where the wall is.
 constexpr double kVanished = 1e-12;
-
-/// The smallest value that at least `share` of the values do not exceed; reorders them.
-float percentile(std::vector<float>& values, double share) {
-  const auto count = static_cast<double>(values.size());
-  const auto rank = static_cast<std::size_t>(std::ceil(share * count - 1e-9));
-  const std::size_t index = std::max<std::size_t>(rank, 1) - 1;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(index),
-                   values.end());
-  return values[index];
-}
+/// Of a node's points: those whose distances its error of fit bounds (thesis 4.8.4).
+constexpr double kShareOfPoints = 0.9;
 
 /// What there is to say about one point: f, |grad f|, and how far the node is.
 struct At {
   double f = 0, slope = 0, toNode = 0;
 };
 
-struct Straight {
-  double h = 0, slope = 0;
-};
-
-/// A function of f that grows nearly with the square of the distance from the axis; f > 0.
-Straight straighten(formats::Kernel kernel, double f, double slope) {
-  switch (kernel) {
-    case formats::Kernel::Cauchy:
-      return {1.0 / std::sqrt(f), 0.5 * slope / (f * std::sqrt(f))};
-    case formats::Kernel::Gaussian:
-      return {-formats::repeatableLog(f), slope / f};
-    case formats::Kernel::Quartic:
-    case formats::Kernel::SoftObject:
-      break;
-  }
-  return {-std::sqrt(f), 0.5 * slope / std::sqrt(f)};
-}
-
-/// |grad h| / (2 c) - R of the design notes, without its cancellation.
+/// |grad h| / (2 c) - R of docs/method.md, section 4.2, without its cancellation.
 double wallDistance(formats::Kernel kernel, double level, const At& at, double radius) {
   const double farSide = at.toNode + radius;
   if (!(at.f > kVanished * level)) return farSide;
-  const Straight here = straighten(kernel, at.f, at.slope);
-  const double d = std::abs(straighten(kernel, level, 0).h - here.h), gr = here.slope * radius;
+  const field::LevelTransform here = field::levelTransform(kernel, at.f, at.slope);
+  const double d = std::abs(field::levelTransform(kernel, level).h - here.h);
+  const double gr = here.slope * radius;
   const double s = std::sqrt(d * d + gr * gr), t = gr + s;
   if (!(d > 0)) return 0;
   if (at.f > level) return radius * d * (t + d) / (t * (d + s));
@@ -103,7 +80,7 @@ std::vector<float> errorOfFit(const formats::Case& value, int neighbourhood, Pro
             static_cast<float>(distanceTo(value, node, points.position[k], measure)));
       }
     }
-    if (!distances.empty()) errors[i] = percentile(distances, 0.9);
+    if (!distances.empty()) errors[i] = nearestRank(distances, kShareOfPoints);
     progress.advance();
   });
   progress.end();
@@ -114,7 +91,7 @@ ErrorOfFitSummary summariseErrorOfFit(std::vector<float> errors) {
   std::erase_if(errors, [](float e) { return std::isnan(e); });
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (errors.empty()) return {kNone, kNone, kNone};
-  return {percentile(errors, 0.5), percentile(errors, 0.9), percentile(errors, 1.0)};
+  return {nearestRank(errors, 0.5), nearestRank(errors, 0.9), nearestRank(errors, 1.0)};
 }
 
 }  // namespace lumen::convert

@@ -10,11 +10,11 @@
 namespace lumen::convert {
 
 enum class FitDistance {
-  /// The distance that libblob answers from one evaluation (design notes section 3): with a
-  /// function
-  /// h of f that grows like the square of the distance from the axis, and the node's radius R. The
-  /// same as Taubin's to first order at the wall; at most R inside, and at most R and the distance
-  /// from the node outside, where a flat field would make Taubin's as large as it likes.
+  /// The distance that libblob answers from one evaluation (docs/method.md, section 4.2): with a
+  /// function h of f that grows like the square of the distance from the axis, and the node's
+  /// radius R. The same as Taubin's to first order at the wall; at most R inside, and at most R and
+  /// the distance from the node outside, where a flat field would make Taubin's as large as it
+  /// likes.
   Wall,
   /// |T - f| / |grad f|, as in the thesis; infinity where the field is flat.
   Taubin

@@ -47,31 +47,28 @@ public:
         m_scale(frameScale(value, options)),
         m_local(localOptions(options, m_scale)),
         m_neighbours(value.tree),
-        m_blobs(value.tree.nodeCount()),
-        m_energy(value.tree.nodeCount()),
-        m_seam(value.tree.nodeCount()),
-        m_workers([this] {
-          return Worker{fitting::LocalModel(m_local), {}, {}, {}};
-        }) {}
+        m_models(value.tree.nodeCount()),
+        m_seam(value.tree.nodeCount()) {}
 
   /// Fits every node for itself.
   void fit(Progress& progress) {
     forEachNode(progress, [&](std::uint32_t node, Worker& worker) {
-      gather(node, worker);
-      set(node, worker.model.fit(data(node, worker), progress));
-      m_energy[node] = worker.model.parameters();
+      gatherPoints(node, worker);
+      m_models[node] =
+          fitting::fitLocalModel(m_local, data(node, worker), progress, worker.workspace);
     });
   }
 
   /// Brings the surfaces of adjacent models together where they meet. Reads the models of the sweep
   /// before only, so that the order of the nodes does not matter.
   void refine(Progress& progress) {
-    tbb::parallel_for(std::uint32_t{0}, nodeCount(), [&](std::uint32_t node) { meet(node); });
+    tbb::parallel_for(std::uint32_t{0}, nodeCount(), [&](std::uint32_t node) { findSeam(node); });
     forEachNode(progress, [&](std::uint32_t node, Worker& worker) {
-      gather(node, worker);
-      gatherTies(node, worker.ties);
-      set(node, worker.model.refine(data(node, worker), worker.ties, m_blobs[node],
-                                    m_options.seamWeight, m_energy[node]));
+      gatherPoints(node, worker);
+      gatherSeams(node, worker.seams);
+      m_models[node].blobs = fitting::refineLocalModel(m_local, data(node, worker),
+                                                       {worker.seams, m_options.seamWeight},
+                                                       m_models[node], worker.workspace);
     });
   }
 
@@ -79,8 +76,8 @@ public:
 
 private:
   struct Worker {
-    fitting::LocalModel model;
-    std::vector<Vec3d> points, ties;
+    fitting::FitWorkspace workspace;
+    std::vector<Vec3d> points, seams;
     std::vector<Ball> lumen;
   };
 
@@ -100,9 +97,6 @@ private:
     const Vec3f& d = m_tree.direction[node];
     return {worker.points, m_tree.radius[node] * m_scale, {d.x, d.y, d.z}, worker.lumen};
   }
-  void set(std::uint32_t node, std::span<const Blob> blobs) {
-    m_blobs[node].assign(blobs.begin(), blobs.end());
-  }
 
   template <class Action>
   void forEachNode(Progress& progress, const Action& action) {
@@ -113,9 +107,9 @@ private:
     });
   }
 
-  void gather(std::uint32_t node, Worker& worker) const;
-  void gatherTies(std::uint32_t node, std::vector<Vec3d>& ties) const;
-  void meet(std::uint32_t node);
+  void gatherPoints(std::uint32_t node, Worker& worker) const;
+  void gatherSeams(std::uint32_t node, std::vector<Vec3d>& seams) const;
+  void findSeam(std::uint32_t node);
 
   const formats::Case& m_case;
   const formats::CenterlineTree& m_tree;
@@ -123,14 +117,13 @@ private:
   double m_scale;
   fitting::LocalModelOptions m_local;
   formats::Neighbours m_neighbours;
-  std::vector<std::vector<Blob>> m_blobs;           ///< in the frame of their node
-  std::vector<fitting::EnergyParameters> m_energy;  ///< that every node's fit ended with
+  std::vector<fitting::LocalModel> m_models;  ///< in the frame of their node
   std::vector<std::vector<Vec3d>> m_seam;  ///< between a node and its parent, in the node's frame
   tbb::enumerable_thread_specific<Worker> m_workers;
 };
 
 /// What the nodes of the neighbourhood say about its wall and its inside.
-void Models::gather(std::uint32_t node, Worker& worker) const {
+void Models::gatherPoints(std::uint32_t node, Worker& worker) const {
   const std::vector<std::uint32_t>& offset = m_case.points->offset;
   worker.points.clear();
   worker.lumen.clear();
@@ -143,19 +136,19 @@ void Models::gather(std::uint32_t node, Worker& worker) const {
 }
 
 /// The points of all seams of a node, in its frame.
-void Models::gatherTies(std::uint32_t node, std::vector<Vec3d>& ties) const {
-  ties = m_seam[node];
+void Models::gatherSeams(std::uint32_t node, std::vector<Vec3d>& seams) const {
+  seams = m_seam[node];
   for (const std::uint32_t child : m_neighbours.of(node)) {
     if (m_tree.parent[child] != static_cast<std::int32_t>(node)) continue;
     const Vec3d shift = toLocal(node, m_tree.centre[child]);
     for (const Vec3d& p : m_seam[child]) {
-      ties.push_back({p.x + shift.x, p.y + shift.y, p.z + shift.z});
+      seams.push_back({p.x + shift.x, p.y + shift.y, p.z + shift.z});
     }
   }
 }
 
 /// Finds the seam of a node and its parent.
-void Models::meet(std::uint32_t node) {
+void Models::findSeam(std::uint32_t node) {
   if (m_tree.parent[node] == formats::kNoParent) return;
   const auto parent = static_cast<std::uint32_t>(m_tree.parent[node]);
   std::vector<Ball> others;
@@ -164,8 +157,8 @@ void Models::meet(std::uint32_t node) {
       if (near != node && near != parent) others.push_back(ball(node, near));
     }
   }
-  m_seam[node] = fitting::seamPoints(m_local.energy, {ball(node, node), m_blobs[node]},
-                                     {ball(node, parent), m_blobs[parent]}, others);
+  m_seam[node] = fitting::seamPoints(m_local.energy, {ball(node, node), m_models[node].blobs},
+                                     {ball(node, parent), m_models[parent].blobs}, others);
 }
 
 formats::BlobbyModels Models::assemble() const {
@@ -173,11 +166,11 @@ formats::BlobbyModels Models::assemble() const {
   models.kernel = m_options.kernel;
   models.kernelParameter = *m_options.kernelParameter;
   models.isoLevel = *m_options.isoLevel;
-  models.offset.reserve(m_blobs.size() + 1);
+  models.offset.reserve(m_models.size() + 1);
   models.offset.push_back(0);
-  for (std::size_t i = 0; i < m_blobs.size(); ++i) {
+  for (std::size_t i = 0; i < m_models.size(); ++i) {
     const Vec3f& c = m_tree.centre[i];
-    for (const Blob& blob : m_blobs[i]) {
+    for (const Blob& blob : m_models[i].blobs) {
       models.centre.push_back({static_cast<float>(c.x + blob.x / m_scale),
                                static_cast<float>(c.y + blob.y / m_scale),
                                static_cast<float>(c.z + blob.z / m_scale)});

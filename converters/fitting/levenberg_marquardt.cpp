@@ -17,6 +17,8 @@ constexpr double kLargestMove = 1.0;
 constexpr double kLargestResize = 0.5;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kLargestDamping = 1e12;
+/// Of the tolerance: a step that promises less is not worth an evaluation.
+constexpr double kWorthTrying = 0.1;
 /// Added to the diagonal, relative to its largest entry: an unknown without influence stays put.
 constexpr double kFloor = 1e-14;
 
@@ -39,6 +41,87 @@ void keepWithin(std::span<const Ball> balls, Blob& blob) {
   blob.x = nearest->centre.x + back * (blob.x - nearest->centre.x);
   blob.y = nearest->centre.y + back * (blob.y - nearest->centre.y);
   blob.z = nearest->centre.z + back * (blob.z - nearest->centre.z);
+}
+
+/// A x = -b for n unknowns, and its solution.
+struct NormalEquations {
+  std::span<double> a, b, factor, step;
+
+  [[nodiscard]] std::size_t unknowns() const { return b.size(); }
+};
+
+/// Buffers only grow.
+NormalEquations makeRoom(std::size_t n, MinimiseWorkspace& workspace) {
+  for (auto* square : {&workspace.a, &workspace.factor})
+    square->resize(std::max(square->size(), n * n));
+  for (auto* row : {&workspace.b, &workspace.step}) row->resize(std::max(row->size(), n));
+  return {std::span(workspace.a).first(n * n), std::span(workspace.b).first(n),
+          std::span(workspace.factor).first(n * n), std::span(workspace.step).first(n)};
+}
+
+/// The step of (A + damping) x = -b. False if that is not positive definite.
+bool solveDamped(const NormalEquations& equations, double damping) {
+  const std::size_t n = equations.unknowns();
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, equations.a[i * n + i]);
+  std::copy(equations.a.begin(), equations.a.end(), equations.factor.begin());
+  for (std::size_t i = 0; i < n; ++i) {
+    equations.factor[i * n + i] += damping * equations.factor[i * n + i] + kFloor * largest;
+  }
+  return solveSymmetric(equations.factor, equations.b, n, equations.step);
+}
+
+/// Shortens the step to what the bounds on moves and resizings allow.
+void shortenStep(std::span<const Blob> unknown, std::span<double> step) {
+  double excess = 1;
+  for (std::size_t j = 0; j < unknown.size(); ++j) {
+    const double* s = step.data() + 4 * j;
+    const double move = std::sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    excess = std::max(excess, move / (kLargestMove * unknown[j].width));
+    excess = std::max(excess, std::abs(s[3]) / (kLargestResize * unknown[j].width));
+  }
+  for (double& value : step) value /= excess;
+}
+
+/// The blobs after a step, which is shortened before; projected into the reach and the lumen.
+void moveWithinBounds(std::span<const Blob> blobs, std::size_t active,
+                      const MinimiseOptions& options, std::span<double> step,
+                      std::span<Blob> moved) {
+  shortenStep(blobs.subspan(active), step);
+  for (std::size_t j = active; j < blobs.size(); ++j) {
+    const double* s = step.data() + 4 * (j - active);
+    const Blob& from = blobs[j];
+    Blob& to = moved[j];
+    to = {from.x + s[0], from.y + s[1], from.z + s[2], from.width + s[3]};
+    keepWithin(options.lumen, to);
+    const double distance = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
+    if (distance <= options.reach) continue;
+    const double back = options.reach / distance;
+    to.x *= back;
+    to.y *= back;
+    to.z *= back;
+  }
+}
+
+/// The decrease of the quadratic model, |r|^2 - |r + J step|^2.
+double predictDecrease(const NormalEquations& equations) {
+  const std::size_t n = equations.unknowns();
+  const std::span<const double> a = equations.a, step = equations.step;
+  double predicted = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double product = a[i * n + i] * step[i];
+    for (std::size_t j = i + 1; j < n; ++j) product += 2.0 * a[i * n + j] * step[j];
+    predicted -= step[i] * (2.0 * equations.b[i] + product);
+  }
+  return predicted;
+}
+
+/// What the damping is multiplied by after a step that lowered the energy by so much of what was
+/// predicted (K. Madsen, H. B. Nielsen, O. Tingleff: Methods for non-linear least squares problems,
+/// 2004).
+double dampingFactor(double gain) {
+  const double surprise = 2.0 * gain - 1.0;
+  return std::max(1.0 / 3.0, 1.0 - surprise * surprise * surprise);
 }
 
 }  // namespace
@@ -72,73 +155,25 @@ bool solveSymmetric(std::span<double> a, std::span<const double> b, std::size_t 
   return true;
 }
 
-bool LevenbergMarquardt::solve(std::size_t n, double damping) {
-  double largest = 0;
-  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, m_a[i * n + i]);
-  std::copy_n(m_a.begin(), n * n, m_factor.begin());
-  for (std::size_t i = 0; i < n; ++i) {
-    m_factor[i * n + i] += damping * m_factor[i * n + i] + kFloor * largest;
-  }
-  return solveSymmetric(std::span(m_factor).first(n * n), std::span(m_b).first(n), n,
-                        std::span(m_step).first(n));
-}
-
-double LevenbergMarquardt::tryStep(std::span<const Blob> blobs, std::size_t active,
-                                   const MinimiseOptions& options) {
-  const std::size_t n = 4 * (blobs.size() - active);
-  double excess = 1;
-  for (std::size_t j = active; j < blobs.size(); ++j) {
-    const double* step = m_step.data() + 4 * (j - active);
-    const double move = std::sqrt(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
-    excess = std::max(excess, move / (kLargestMove * blobs[j].width));
-    excess = std::max(excess, std::abs(step[3]) / (kLargestResize * blobs[j].width));
-  }
-  for (std::size_t i = 0; i < n; ++i) m_step[i] /= excess;
-  for (std::size_t j = active; j < blobs.size(); ++j) {
-    const double* step = m_step.data() + 4 * (j - active);
-    const Blob& from = blobs[j];
-    Blob& to = m_trial[j];
-    to = {from.x + step[0], from.y + step[1], from.z + step[2], from.width + step[3]};
-    keepWithin(options.lumen, to);
-    const double distance = std::sqrt(to.x * to.x + to.y * to.y + to.z * to.z);
-    if (distance <= options.reach) continue;
-    const double back = options.reach / distance;
-    to.x *= back;
-    to.y *= back;
-    to.z *= back;
-  }
-  // the decrease of the quadratic model, |r|^2 - |r + J step|^2
-  double predicted = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double product = m_a[i * n + i] * m_step[i];
-    for (std::size_t j = i + 1; j < n; ++j) product += 2.0 * m_a[i * n + j] * m_step[j];
-    predicted -= m_step[i] * (2.0 * m_b[i] + product);
-  }
-  return predicted;
-}
-
-MinimiseResult LevenbergMarquardt::minimise(Energy& energy, std::span<Blob> blobs,
-                                            std::size_t active, const MinimiseOptions& options,
-                                            std::vector<double>* trace) {
-  const std::size_t n = 4 * (blobs.size() - active);
-  m_a.resize(std::max(m_a.size(), n * n));
-  m_factor.resize(m_a.size());
-  m_b.resize(std::max(m_b.size(), n));
-  m_step.resize(m_b.size());
-  m_trial.assign(blobs.begin(), blobs.end());
-  const std::span<double> a = std::span(m_a).first(n * n), b = std::span(m_b).first(n);
+MinimiseResult minimise(Energy& energy, std::span<Blob> blobs, std::size_t active,
+                        const MinimiseOptions& options, MinimiseWorkspace& workspace,
+                        std::vector<double>* trace) {
+  const NormalEquations equations = makeRoom(4 * (blobs.size() - active), workspace);
+  workspace.trial.assign(blobs.begin(), blobs.end());
+  const std::span<Blob> trial = workspace.trial;
 
   MinimiseResult result{energy.linearise(blobs), 1};
-  energy.normalEquations(blobs, a, b);
+  energy.normalEquations(blobs, equations.a, equations.b);
   if (trace) trace->assign(1, result.energy);
   double damping = kFirstDamping, growth = 2;
   bool fresh = true;  // the field of `energy` is that of `blobs`
   while (result.iterations < options.maxIterations && damping < kLargestDamping) {
     double predicted = 0, next = result.energy;
-    if (solve(n, damping)) {
-      predicted = tryStep(blobs, active, options);
-      if (predicted < 0.1 * options.tolerance * result.energy) break;
-      next = energy.linearise(m_trial);
+    if (solveDamped(equations, damping)) {
+      moveWithinBounds(blobs, active, options, equations.step, trial);
+      predicted = predictDecrease(equations);
+      if (predicted < kWorthTrying * options.tolerance * result.energy) break;
+      next = energy.linearise(trial);
       ++result.iterations;
       fresh = false;
     }
@@ -147,17 +182,15 @@ MinimiseResult LevenbergMarquardt::minimise(Energy& energy, std::span<Blob> blob
       growth *= 2;
       continue;
     }
-    // K. Madsen, H. B. Nielsen, O. Tingleff: Methods for non-linear least squares problems, 2004
     const double decrease = result.energy - next;
-    const double surprise = 2.0 * decrease / predicted - 1.0;
-    damping *= std::max(1.0 / 3.0, 1.0 - surprise * surprise * surprise);
+    damping *= dampingFactor(decrease / predicted);
     growth = 2;
-    std::copy(m_trial.begin(), m_trial.end(), blobs.begin());
+    std::copy(trial.begin(), trial.end(), blobs.begin());
     result.energy = next;
     fresh = true;
     if (trace) trace->push_back(next);
     if (decrease < options.tolerance * next) break;
-    energy.normalEquations(blobs, a, b);
+    energy.normalEquations(blobs, equations.a, equations.b);
   }
   if (!fresh) energy.evaluate(blobs);
   return result;

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Levenberg-Marquardt on the residuals of the fit's energy.
+// Levenberg-Marquardt on the residuals of the fit's energy (docs/method.md, section 2.5).
+//
+// Not Ceres, nor Eigen's factorisations: steps are bounded by the blobs' widths and projected into
+// the lumen, the normal equations come from the energy without its Jacobian ever being a matrix of
+// theirs, the unknowns are a dozen or two, and the result must have the same bits on every machine,
+// with and without wide vectors, which neither of them promises.
 #pragma once
 
 #include <cstddef>
@@ -32,24 +37,20 @@ struct MinimiseResult {
   int iterations = 0;  ///< evaluations of the Jacobian
 };
 
-/// Minimises energies; keeps its memory from call to call.
-class LevenbergMarquardt {
-public:
-  /// Lowers the energy by moving and resizing blobs[active .. ], after energy.freeze(blobs,
-  /// active). Never ends at a higher energy than it began with. Widths stay positive. Afterwards
-  /// the field of `energy` is that of the final blobs. `trace`, if given, receives the energy at
-  /// the start and after every accepted step.
-  MinimiseResult minimise(Energy& energy, std::span<Blob> blobs, std::size_t active,
-                          const MinimiseOptions& options, std::vector<double>* trace = nullptr);
-
-private:
-  bool solve(std::size_t n, double damping);
-  double tryStep(std::span<const Blob> blobs, std::size_t active, const MinimiseOptions& options);
-
-  std::vector<double> m_a, m_b;  ///< normal equations
-  std::vector<double> m_factor, m_step;
-  std::vector<Blob> m_trial;
+/// Buffers of minimise(), of no meaning between calls. One per thread.
+struct MinimiseWorkspace {
+  std::vector<double> a, b;  ///< normal equations
+  std::vector<double> factor, step;
+  std::vector<Blob> trial;
 };
+
+/// Lowers the energy by moving and resizing blobs[active ..], after energy.freeze(blobs, active).
+/// Never ends at a higher energy than it began with. Widths stay positive. Afterwards the field of
+/// `energy` is that of the final blobs. `trace`, if given, receives the energy at the start and
+/// after every accepted step.
+MinimiseResult minimise(Energy& energy, std::span<Blob> blobs, std::size_t active,
+                        const MinimiseOptions& options, MinimiseWorkspace& workspace,
+                        std::vector<double>* trace = nullptr);
 
 /// Solves A x = -b by Cholesky's decomposition; A is n x n row-major, its upper triangle is read
 /// and overwritten. False if A is not positive definite.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include "converters/fitting/normal_equations.h"
+
 #include <cstring>
 
 #include "converters/common/simd.h"
-#include "converters/fitting/energy_kernels.h"
 
 namespace lumen::convert::fitting {
 namespace {

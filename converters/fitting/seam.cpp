@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Geometry>
+#include "converters/common/vectors.h"
 
 namespace lumen::convert::fitting {
 namespace {
@@ -21,14 +21,13 @@ constexpr std::array<double, kSeamRays> kCosine = {
     -1, -0.92387953251128674, -0.70710678118654752, -0.38268343236508977,
     0,  0.38268343236508977,  0.70710678118654752,  0.92387953251128674};
 
-constexpr double kLongestRay = 3;  // of the wider radius
-constexpr double kStep = 0.1;      // of the wider radius
+/// Of the wider radius: the length of a ray, the step at which it looks for the surface, and how
+/// precisely it finds it.
+constexpr double kLongestRay = 3, kStep = 0.1, kPrecision = 1e-5;
+/// Bound on the steps of the root search, which needs far fewer.
 constexpr int kRefinements = 40;
-constexpr double kPrecision = 1e-5;  // of the wider radius
-
-Vector3d toEigen(const Vec3d& v) {
-  return {v.x, v.y, v.z};
-}
+/// Of the narrower radius: surfaces that are farther apart have no common seam.
+constexpr double kFarthestApart = 0.5;
 
 /// A ray from a point that is inside.
 class Ray {
@@ -105,8 +104,8 @@ std::vector<Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide
   if (!(distance > 0)) return points;
   const Vector3d normal = way / distance;
   const Vector3d origin = from + 0.5 * (distance + (r0 - r1) * (r0 + r1) / distance) * normal;
-  const Vector3d side = normal.unitOrthogonal(), up = normal.cross(side);
-  const double farthest = 0.5 * std::min(r0, r1);
+  const auto [side, up] = planeBasis(normal);
+  const double farthest = kFarthestApart * std::min(r0, r1);
   for (std::size_t i = 0; i < kSeamRays; ++i) {
     const Vector3d direction =
         kCosine[i] * side + kCosine[(i + 3 * kSeamRays / 4) % kSeamRays] * up;
@@ -121,7 +120,7 @@ std::vector<Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide
                     [&](const Ball& other) { return power(other, p) < own; })) {
       continue;
     }
-    points.push_back({p.x(), p.y(), p.z()});
+    points.push_back(toVec3d(p));
   }
   return points;
 }

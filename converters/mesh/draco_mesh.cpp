@@ -8,6 +8,8 @@
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
 
+#include "converters/common/error.h"
+
 namespace lumen::convert {
 namespace {
 
@@ -22,23 +24,21 @@ struct DracoInput {
   int position = 0, normal = 0;  // attribute indices
 };
 
-void fill(const TriMesh& mesh, DracoInput& input) {
-  const auto vertices = static_cast<std::uint32_t>(mesh.n_vertices());
+void fill(const BranchMesh& mesh, DracoInput& input) {
+  const auto vertices = static_cast<std::uint32_t>(mesh.position.size());
   input.mesh.set_num_points(vertices);
   input.position = addAttribute(input.mesh, draco::GeometryAttribute::POSITION, vertices);
   input.normal = addAttribute(input.mesh, draco::GeometryAttribute::NORMAL, vertices);
-  for (const auto v : mesh.vertices()) {
-    const draco::AttributeValueIndex at(static_cast<std::uint32_t>(v.idx()));
-    input.mesh.attribute(input.position)->SetAttributeValue(at, mesh.point(v).data());
-    input.mesh.attribute(input.normal)->SetAttributeValue(at, mesh.normal(v).data());
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    const draco::AttributeValueIndex at(v);
+    input.mesh.attribute(input.position)->SetAttributeValue(at, mesh.position[v].data());
+    input.mesh.attribute(input.normal)->SetAttributeValue(at, mesh.normal[v].data());
   }
-  input.mesh.SetNumFaces(mesh.n_faces());
-  for (const auto f : mesh.faces()) {
+  input.mesh.SetNumFaces(mesh.triangle.size());
+  for (std::uint32_t f = 0; f < mesh.triangle.size(); ++f) {
     draco::Mesh::Face face;
-    std::size_t next = 0;
-    for (const auto v : mesh.fv_range(f))
-      face[next++] = draco::PointIndex(static_cast<std::uint32_t>(v.idx()));
-    input.mesh.SetFace(draco::FaceIndex(static_cast<std::uint32_t>(f.idx())), face);
+    for (std::size_t i = 0; i < 3; ++i) face[i] = draco::PointIndex(mesh.triangle[f][i]);
+    input.mesh.SetFace(draco::FaceIndex(f), face);
   }
 }
 
@@ -61,17 +61,16 @@ void measureDecoded(DracoMesh& coded) {
   coded.vertices = mesh->num_points();
   coded.triangles = mesh->num_faces();
   for (draco::PointIndex i(0); i < mesh->num_points(); ++i) {
-    OpenMesh::Vec3f p;
+    Float3 p;
     position->GetMappedValue(i, p.data());
     if (i == 0U) coded.low = coded.high = p;
-    coded.low.minimize(p);
-    coded.high.maximize(p);
+    extendBox(p, coded.low, coded.high);
   }
 }
 
 }  // namespace
 
-DracoMesh encodeDraco(const TriMesh& mesh, const WriteMeshOptions& options) {
+DracoMesh encodeDraco(const BranchMesh& mesh, const WriteMeshOptions& options) {
   checkBits(options.dracoPositionBits, 1, "position");
   checkBits(options.dracoNormalBits, 2, "normal");
   DracoInput input;

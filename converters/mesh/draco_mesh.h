@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/branch_mesh.h"
+#include "converters/mesh/write_options.h"
 
 namespace lumen::convert {
 
@@ -14,11 +15,11 @@ struct DracoMesh {
   int positionId = 0, normalId = 0;  ///< Draco's unique ids of the attributes
   std::size_t vertices = 0,
               triangles = 0;  ///< as they decode: Draco renumbers, and may split or drop some
-  OpenMesh::Vec3f low, high;  ///< box of the decoded positions, mm
+  Float3 low{}, high{};       ///< box of the decoded positions, mm
 };
 
 /// Throws Error(Usage) for options out of range, and Error(Failed) if Draco refuses the mesh, which
 /// needs at least one triangle.
-DracoMesh encodeDraco(const TriMesh& mesh, const WriteMeshOptions& options);
+DracoMesh encodeDraco(const BranchMesh& mesh, const WriteMeshOptions& options);
 
 }  // namespace lumen::convert

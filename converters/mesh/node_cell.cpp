@@ -3,14 +3,12 @@
 
 #include <algorithm>
 
+#include "converters/common/vectors.h"
+
 namespace lumen::convert {
 namespace {
 
 constexpr int kModelNeighbourhood = 2;  // edges
-
-Eigen::Vector3d toEigen(const formats::Vec3f& v) {
-  return {v.x, v.y, v.z};
-}
 
 bool hasModel(const formats::Case& source, std::uint32_t node) {
   return source.models->offset[node] < source.models->offset[node + 1];
@@ -53,14 +51,13 @@ void addFreeEnds(const formats::Case& source, std::uint32_t node,
 
 }  // namespace
 
-std::optional<std::vector<HalfSpace>> nodeCell(const formats::Case& source,
-                                               const formats::Neighbours& neighbours,
-                                               std::uint32_t node) {
+std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Neighbours& neighbours,
+                                 std::uint32_t node) {
   const formats::CenterlineTree& tree = source.tree;
   const std::vector<std::uint32_t> nodes = neighbours.within(node, kModelNeighbourhood);
   const Eigen::Vector3d centre = toEigen(tree.centre[node]);
   const double radius = tree.radius[node];
-  std::vector<HalfSpace> spaces;
+  NodeCell cell;
   for (const std::uint32_t other : nodes) {
     if (other == node || !hasModel(source, other)) continue;
     const Eigen::Vector3d away = toEigen(tree.centre[other]) - centre;
@@ -68,13 +65,13 @@ std::optional<std::vector<HalfSpace>> nodeCell(const formats::Case& source,
     if (distance > 0) {
       const double power = (radius - otherRadius) * (radius + otherRadius);
       const Eigen::Vector3d normal = away / distance;
-      spaces.push_back({normal, normal.dot(centre) + 0.5 * (distance + power / distance)});
+      cell.radical.push_back({normal, normal.dot(centre) + 0.5 * (distance + power / distance)});
     } else if (otherRadius > radius || (otherRadius == radius && other < node)) {
       return std::nullopt;  // two nodes in one place: the wider one draws, or else the first
     }
   }
-  addFreeEnds(source, node, nodes, spaces);
-  return spaces;
+  addFreeEnds(source, node, nodes, cell.ends);
+  return cell;
 }
 
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of space in which a node's model draws the wall.
+// The part of space in which a node draws the wall.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,13 @@
 
 namespace lumen::convert {
 
-/// The half-spaces whose intersection is the part that `node` draws of the surface: its power cell,
-/// cut at free ends. Nothing if it is empty.
+/// The part of space in which a node draws the surface: the intersection of these half-spaces.
+struct NodeCell {
+  std::vector<HalfSpace> radical;  ///< its power cell
+  std::vector<HalfSpace> ends;     ///< where the vessel is cut open
+};
+
+/// The cell of `node`. Nothing if it is empty.
 ///
 /// Its power cell is bounded by the radical planes (equal power |X - O|^2 - r^2) to the nodes
 /// within two edges that have a model. Two and not one, because a model is fitted to the points of
@@ -25,8 +30,7 @@ namespace lumen::convert {
 /// by a quarter of the radius within a third of a height. Half a radius is always kept. An
 /// aneurysm's dome is wall that was seen and stays whole, and so does an end that another node
 /// continues.
-std::optional<std::vector<HalfSpace>> nodeCell(const formats::Case& source,
-                                               const formats::Neighbours& neighbours,
-                                               std::uint32_t node);
+std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Neighbours& neighbours,
+                                 std::uint32_t node);
 
 }  // namespace lumen::convert

@@ -34,8 +34,8 @@ public:
   void sampleRowReference(int first, double cell, double y, double z, std::span<double> out) const;
 
   /// The share t in (0, 1) of the way from a to b at which f = T; f(a) = fa and f(b) = fb lie on
-  /// either side of T. Newton's method within the bracket, on a function of f that is nearly
-  /// straight across a wall.
+  /// either side of T. Newton's method within the bracket, on the level transform of f, which is
+  /// nearly straight across a wall.
   [[nodiscard]] double crossing(const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b,
                                 double fb) const;
 
@@ -54,8 +54,6 @@ public:
   [[nodiscard]] double isoLevel() const { return m_level; }
 
 private:
-  [[nodiscard]] double straightened(double f) const;
-
   formats::Kernel m_kernel;
   double m_parameter, m_level;
   std::vector<double> m_x, m_y, m_z, m_width;

@@ -2,15 +2,14 @@
 // A piece of surface while it is being made: plain arrays, before it joins its branch's mesh.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
-namespace lumen::convert {
+#include "converters/mesh/branch_mesh.h"
 
-using Triangle = std::array<std::uint32_t, 3>;
+namespace lumen::convert {
 
 /// An indexed triangle mesh, mm, LPS; triangles counter-clockwise seen from outside.
 struct Patch {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/mesh/polygonise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,10 +8,13 @@
 
 #include <tbb/parallel_for.h>
 
+#include "converters/common/error.h"
+#include "converters/common/surface_projection.h"
+#include "converters/common/vectors.h"
 #include "converters/mesh/marching_cubes.h"
-#include "converters/mesh/mesh.h"
 #include "converters/mesh/node_cell.h"
 #include "converters/mesh/node_field.h"
+#include "formats/case/case_field.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {
@@ -30,15 +35,20 @@ constexpr double kMinRadiusCells = 2;
 constexpr int kMaxHalvings = 3;
 // Vertices this near to a plane, in cells, are on it.
 constexpr double kSnap = 1e-4;
+// How far, in radii, a vertex of a local surface may be moved onto the surface of the case.
+constexpr double kMaxShift = 0.5;
 
 struct NodePatch {
   Patch patch;
-  std::vector<OpenMesh::Vec3f> normal;
+  std::vector<Float3> normal;
 };
 
-Eigen::Vector3d toEigen(const formats::Vec3f& v) {
-  return {v.x, v.y, v.z};
-}
+// What all patches are made from.
+struct Source {
+  const formats::Case& value;
+  const formats::Neighbours& neighbours;
+  const field::BlendedField& surface;
+};
 
 struct Interval {
   double low = -std::numeric_limits<double>::infinity();
@@ -115,61 +125,101 @@ void sampleField(const NodeField& field, SampleGrid& grid) {
   }
 }
 
-std::vector<OpenMesh::Vec3f> outwardNormals(const NodeField& field, const Eigen::Vector3d& centre,
-                                            const std::vector<Eigen::Vector3d>& position) {
-  std::vector<OpenMesh::Vec3f> normals;
-  normals.reserve(position.size());
-  for (const Eigen::Vector3d& p : position) {
-    Eigen::Vector3d outward = -field.sample(p).gradient;
+// The plane among those of `spaces` that a point lies on; null if it is on none.
+const HalfSpace* planeThrough(const std::vector<HalfSpace>& spaces, const Eigen::Vector3d& point,
+                              double snap) {
+  const auto found = std::find_if(spaces.begin(), spaces.end(), [&](const HalfSpace& space) {
+    return std::abs(space.distance(point)) <= snap;
+  });
+  return found == spaces.end() ? nullptr : &*found;
+}
+
+// Moves vertices from the surface of the node's own model onto that of the case, where patches
+// meet. What a plane has cut stays in that plane, unless the surface is so oblique to it that it
+// lies far away there; ends always stay flat. A vertex that finds no surface near by is left.
+void moveOntoSurface(const Source& source, std::uint32_t node, const NodeCell& cell, double snap,
+                     Patch& patch) {
+  const double radius = source.value.tree.radius[node];
+  const auto move = [&](Eigen::Vector3d& p, const HalfSpace* plane) {
+    const auto found = projectOnSurface(source.surface, p, node, radius,
+                                        plane != nullptr ? &plane->normal : nullptr);
+    const bool isNear = found && (found->position - p).norm() <= kMaxShift * radius;
+    if (isNear) p = found->position;
+    return isNear;
+  };
+  for (Eigen::Vector3d& p : patch.position) {
+    if (const HalfSpace* end = planeThrough(cell.ends, p, snap)) {
+      move(p, end);
+      continue;
+    }
+    const HalfSpace* radical = planeThrough(cell.radical, p, snap);
+    if (!move(p, radical) && radical != nullptr) move(p, nullptr);
+  }
+}
+
+std::vector<Float3> outwardNormals(const Source& source, std::uint32_t node, const Patch& patch) {
+  const Eigen::Vector3d centre = toEigen(source.value.tree.centre[node]);
+  std::vector<Float3> normals;
+  normals.reserve(patch.position.size());
+  for (const Eigen::Vector3d& p : patch.position) {
+    const field::Vec point{p.x(), p.y(), p.z()};
+    const std::uint32_t current = source.surface.follow(point, node);
+    Eigen::Vector3d outward = -Eigen::Vector3d(source.surface.blended(point, current).gradient);
     if (outward.squaredNorm() < 1e-200)
       outward = p - centre;  // a flat spot has no normal of its own
     if (outward.squaredNorm() < 1e-200) outward = Eigen::Vector3d::UnitZ();
     const Eigen::Vector3f n = outward.normalized().cast<float>();
-    normals.emplace_back(n.x(), n.y(), n.z());
+    normals.push_back({n.x(), n.y(), n.z()});
   }
   return normals;
 }
 
-NodePatch polygoniseNode(const formats::Case& source, const formats::Neighbours& neighbours,
-                         std::uint32_t node, double voxel) {
-  const NodeField field(*source.models, node);
-  const double cell = cellForRadius(voxel, source.tree.radius[node]);
-  const auto spaces = nodeCell(source, neighbours, node);
-  if (field.empty() || !spaces) return {};
+// The surface of the node's own model around its lumen, before it is cut.
+Patch polygoniseModel(const formats::Case& source, std::uint32_t node, const NodeField& field,
+                      const std::vector<HalfSpace>& spaces, double cell) {
   const formats::CenterlineTree& tree = source.tree;
   const Eigen::Vector3d centre = toEigen(tree.centre[node]);
   const double radius = tree.radius[node];
   const double reach = kReachRadii * radius + kReachHeights * double(tree.height[node]) + 2 * cell;
   const Eigen::Vector3d low = field.low().cwiseMax((centre.array() - reach).matrix());
   const Eigen::Vector3d high = field.high().cwiseMin((centre.array() + reach).matrix());
-  SampleGrid grid = layOutGrid(field, *spaces, low, high, cell);
+  SampleGrid grid = layOutGrid(field, spaces, low, high, cell);
   sampleField(field, grid);
-
   const auto state = markLumen(grid, field.isoLevel(), centre, radius + cell);
+  return marchingCubes(grid, state,
+                       [&field](const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b,
+                                double fb) { return field.crossing(a, fa, b, fb); });
+}
+
+NodePatch polygoniseNode(const Source& source, std::uint32_t node, double voxel) {
+  const NodeField field(*source.value.models, node);
+  const formats::CenterlineTree& tree = source.value.tree;
+  const double radius = tree.radius[node], size = cellForRadius(voxel, radius);
+  const auto cell = nodeCell(source.value, source.neighbours, node);
+  if (field.empty() || !cell) return {};
+  std::vector<HalfSpace> spaces = cell->radical;
+  spaces.insert(spaces.end(), cell->ends.begin(), cell->ends.end());
   NodePatch result;
-  result.patch =
-      marchingCubes(grid, state,
-                    [&field](const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b,
-                             double fb) { return field.crossing(a, fa, b, fb); });
-  for (const HalfSpace& space : *spaces) clip(result.patch, space, kSnap * cell);
-  dropFarParts(result.patch, centre, kLumenRadii * radius);
-  roundToFloat(result.patch);
-  separateFans(result.patch);
-  result.normal = outwardNormals(field, centre, result.patch.position);
+  Patch& patch = result.patch;
+  patch = polygoniseModel(source.value, node, field, spaces, size);
+  for (const HalfSpace& space : spaces) clip(patch, space, kSnap * size);
+  dropFarParts(patch, toEigen(tree.centre[node]), kLumenRadii * radius);
+  moveOntoSurface(source, node, *cell, kSnap * size, patch);
+  roundToFloat(patch);
+  separateFans(patch);
+  result.normal = outwardNormals(source, node, patch);
   return result;
 }
 
-void append(const NodePatch& part, TriMesh& mesh) {
-  std::vector<TriMesh::VertexHandle> handle;
-  handle.reserve(part.patch.position.size());
-  for (std::size_t v = 0; v < part.patch.position.size(); ++v) {
-    const Eigen::Vector3f p = part.patch.position[v].cast<float>();
-    handle.push_back(mesh.add_vertex(TriMesh::Point(p.x(), p.y(), p.z())));
-    mesh.set_normal(handle.back(), part.normal[v]);
+void append(const NodePatch& part, BranchMesh& mesh) {
+  const auto base = static_cast<std::uint32_t>(mesh.position.size());
+  for (const Eigen::Vector3d& p : part.patch.position) {
+    const Eigen::Vector3f q = p.cast<float>();
+    mesh.position.push_back({q.x(), q.y(), q.z()});
   }
+  mesh.normal.insert(mesh.normal.end(), part.normal.begin(), part.normal.end());
   for (const Triangle& t : part.patch.triangle)
-    if (!mesh.add_face(handle[t[0]], handle[t[1]], handle[t[2]]).is_valid())
-      throw failed("a patch of the surface is not a manifold");
+    mesh.triangle.push_back({base + t[0], base + t[1], base + t[2]});
 }
 
 double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
@@ -189,11 +239,13 @@ std::vector<BranchMesh> polygonise(const formats::Case& source, const Polygonise
   const double cell = cellOf(source, options);
   const formats::CenterlineTree& tree = source.tree;
   const formats::Neighbours neighbours(tree);
+  const field::BlendedField surface = formats::blendedFieldOf(source);
+  const Source all{source, neighbours, surface};
   std::vector<NodePatch> parts(tree.nodeCount());
   progress.begin("mesh", parts.size());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
     progress.check();
-    parts[i] = polygoniseNode(source, neighbours, static_cast<std::uint32_t>(i), cell);
+    parts[i] = polygoniseNode(all, static_cast<std::uint32_t>(i), cell);
     progress.advance();
   });
   std::vector<BranchMesh> result(tree.branches.size());
@@ -203,7 +255,7 @@ std::vector<BranchMesh> polygonise(const formats::Case& source, const Polygonise
     for (std::size_t i = branch.firstNode; i < branch.firstNode + std::size_t{branch.nodeCount};
          ++i) {
       progress.check();
-      append(parts[i], result[b].mesh);
+      append(parts[i], result[b]);
       parts[i] = {};
     }
   });

@@ -2,14 +2,16 @@
 // glTF 2.0 through tinygltf, and KHR_draco_mesh_compression through Draco.
 #define TINYGLTF_NO_INCLUDE_STB_IMAGE
 #define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
+#include "converters/mesh/write_gltf.h"
+
 #include <cstring>
 #include <limits>
 #include <sstream>
 
 #include <tiny_gltf.h>
 
+#include "converters/common/error.h"
 #include "converters/mesh/draco_mesh.h"
-#include "converters/mesh/encode_mesh.h"
 
 namespace lumen::convert {
 namespace {
@@ -51,15 +53,14 @@ int addIndices(tinygltf::Model& model, const std::vector<std::uint32_t>& index, 
   return addAccessor(model, view, componentType, TINYGLTF_TYPE_SCALAR, packed.size());
 }
 
-int addVectors(tinygltf::Model& model, const std::vector<OpenMesh::Vec3f>& vectors) {
-  const int view = addView(model, vectors.data(), vectors.size() * sizeof(OpenMesh::Vec3f),
-                           TINYGLTF_TARGET_ARRAY_BUFFER);
+int addVectors(tinygltf::Model& model, const std::vector<Float3>& vectors) {
+  const int view =
+      addView(model, vectors.data(), vectors.size() * sizeof(Float3), TINYGLTF_TARGET_ARRAY_BUFFER);
   return addAccessor(model, view, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
                      vectors.size());
 }
 
-void setBounds(tinygltf::Accessor& accessor, const OpenMesh::Vec3f& low,
-               const OpenMesh::Vec3f& high) {
+void setBounds(tinygltf::Accessor& accessor, const Float3& low, const Float3& high) {
   accessor.minValues.assign(low.begin(), low.end());
   accessor.maxValues.assign(high.begin(), high.end());
 }
@@ -67,32 +68,24 @@ void setBounds(tinygltf::Accessor& accessor, const OpenMesh::Vec3f& low,
 // Index 65535 is the primitive restart value of 16-bit indices, which glTF forbids.
 constexpr std::size_t kMaxShortVertices = 65535;
 
-tinygltf::Primitive plainPrimitive(tinygltf::Model& model, const TriMesh& mesh) {
-  std::vector<OpenMesh::Vec3f> position, normal;
+tinygltf::Primitive plainPrimitive(tinygltf::Model& model, const BranchMesh& mesh) {
   std::vector<std::uint32_t> index;
-  for (const auto v : mesh.vertices()) {
-    position.push_back(mesh.point(v));
-    normal.push_back(mesh.normal(v));
-  }
-  for (const auto f : mesh.faces())
-    for (const auto v : mesh.fv_range(f)) index.push_back(static_cast<std::uint32_t>(v.idx()));
-  OpenMesh::Vec3f low = position.front(), high = low;
-  for (const OpenMesh::Vec3f& p : position) {
-    low.minimize(p);
-    high.maximize(p);
-  }
+  index.reserve(3 * mesh.triangle.size());
+  for (const Triangle& t : mesh.triangle) index.insert(index.end(), t.begin(), t.end());
+  Float3 low = mesh.position.front(), high = low;
+  for (const Float3& p : mesh.position) extendBox(p, low, high);
   tinygltf::Primitive primitive;
-  primitive.attributes["POSITION"] = addVectors(model, position);
+  primitive.attributes["POSITION"] = addVectors(model, mesh.position);
   setBounds(model.accessors.back(), low, high);
-  primitive.attributes["NORMAL"] = addVectors(model, normal);
+  primitive.attributes["NORMAL"] = addVectors(model, mesh.normal);
   primitive.indices =
-      position.size() <= kMaxShortVertices
+      mesh.position.size() <= kMaxShortVertices
           ? addIndices<std::uint16_t>(model, index, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
           : addIndices<std::uint32_t>(model, index, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
   return primitive;
 }
 
-tinygltf::Primitive dracoPrimitive(tinygltf::Model& model, const TriMesh& mesh,
+tinygltf::Primitive dracoPrimitive(tinygltf::Model& model, const BranchMesh& mesh,
                                    const WriteMeshOptions& options) {
   const DracoMesh coded = encodeDraco(mesh, options);
   constexpr int kNoView = -1, kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT;
@@ -160,13 +153,13 @@ tinygltf::Model emptyModel(bool draco) {
 
 std::string encodeGltf(const std::vector<BranchMesh>& meshes, bool binary,
                        const WriteMeshOptions& options) {
-  const auto hasFaces = [](const BranchMesh& branch) { return branch.mesh.n_faces() > 0; };
+  const auto hasFaces = [](const BranchMesh& branch) { return !branch.triangle.empty(); };
   const bool any = std::any_of(meshes.begin(), meshes.end(), hasFaces);
   tinygltf::Model model = emptyModel(options.draco && any);
   for (const BranchMesh& branch : meshes) {
     if (!hasFaces(branch)) continue;
-    tinygltf::Primitive primitive = options.draco ? dracoPrimitive(model, branch.mesh, options)
-                                                  : plainPrimitive(model, branch.mesh);
+    tinygltf::Primitive primitive =
+        options.draco ? dracoPrimitive(model, branch, options) : plainPrimitive(model, branch);
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = 0;
     tinygltf::Mesh mesh;

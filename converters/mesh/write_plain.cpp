@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// OBJ, STL and PLY. OpenMesh's own writers take one mesh and no comment: they could not name the
+// OBJ, STL and PLY. OpenMesh's writers take one mesh and no comment: they could not name the
 // branches, nor say the unit and the frame.
+#include "converters/mesh/write_plain.h"
+
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <set>
 
-#include "converters/mesh/encode_mesh.h"
+#include <Eigen/Geometry>
+
+#include "converters/common/error.h"
 
 namespace lumen::convert {
 namespace {
@@ -22,7 +26,7 @@ void put(std::string& out, T value) {
   out.append(bytes, sizeof(T));
 }
 
-void putVector(std::string& out, const OpenMesh::Vec3f& v) {
+void putVector(std::string& out, const Float3& v) {
   for (std::size_t a = 0; a < 3; ++a) put(out, v[a]);
 }
 
@@ -34,7 +38,7 @@ void putNumber(std::string& out, T value) {
   out.append(digits, static_cast<std::size_t>(end - digits));
 }
 
-void putLine(std::string& out, const char* keyword, const OpenMesh::Vec3f& v) {
+void putLine(std::string& out, const char* keyword, const Float3& v) {
   out += keyword;
   for (std::size_t a = 0; a < 3; ++a) {
     out += ' ';
@@ -54,14 +58,26 @@ std::string objName(const std::string& label, std::set<std::string>& taken) {
 
 std::size_t countVertices(const std::vector<BranchMesh>& meshes) {
   std::size_t count = 0;
-  for (const BranchMesh& m : meshes) count += m.mesh.n_vertices();
+  for (const BranchMesh& m : meshes) count += m.position.size();
   return count;
 }
 
 std::size_t countFaces(const std::vector<BranchMesh>& meshes) {
   std::size_t count = 0;
-  for (const BranchMesh& m : meshes) count += m.mesh.n_faces();
+  for (const BranchMesh& m : meshes) count += m.triangle.size();
   return count;
+}
+
+// Unit; zero for a triangle without area.
+Float3 faceNormal(const BranchMesh& mesh, const Triangle& t) {
+  const auto at = [&](std::size_t i) {
+    return Eigen::Vector3f(mesh.position[t[i]].data()).cast<double>().eval();
+  };
+  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
+  const double length = normal.norm();
+  if (!(length > 0)) return {};
+  const Eigen::Vector3f n = (normal / length).cast<float>();
+  return {n.x(), n.y(), n.z()};
 }
 
 void checkCount(std::size_t count, const char* format) {
@@ -78,23 +94,21 @@ std::string encodeObj(const std::vector<BranchMesh>& meshes) {
   std::set<std::string> taken;
   std::size_t base = 1;
   for (const BranchMesh& branch : meshes) {
-    const TriMesh& mesh = branch.mesh;
-    if (mesh.n_faces() == 0) continue;
+    if (branch.triangle.empty()) continue;
     out += "o " + objName(branch.label, taken) + "\n";
-    for (const auto v : mesh.vertices()) putLine(out, "v", mesh.point(v));
-    for (const auto v : mesh.vertices()) putLine(out, "vn", mesh.normal(v));
-    for (const auto f : mesh.faces()) {
+    for (const Float3& p : branch.position) putLine(out, "v", p);
+    for (const Float3& n : branch.normal) putLine(out, "vn", n);
+    for (const Triangle& t : branch.triangle) {
       out += 'f';
-      for (const auto v : mesh.fv_range(f)) {
-        const std::size_t index = base + static_cast<std::size_t>(v.idx());
+      for (const std::uint32_t v : t) {
         out += ' ';
-        putNumber(out, index);
+        putNumber(out, base + v);
         out += "//";
-        putNumber(out, index);
+        putNumber(out, base + v);
       }
       out += '\n';
     }
-    base += mesh.n_vertices();
+    base += branch.position.size();
   }
   return out;
 }
@@ -108,16 +122,9 @@ std::string encodeStl(const std::vector<BranchMesh>& meshes) {
   out.reserve(84 + 50 * faces);
   put(out, static_cast<std::uint32_t>(faces));
   for (const BranchMesh& branch : meshes) {
-    const TriMesh& mesh = branch.mesh;
-    for (const auto f : mesh.faces()) {
-      std::array<OpenMesh::Vec3f, 3> corner;
-      std::size_t next = 0;
-      for (const auto v : mesh.fv_range(f)) corner[next++] = mesh.point(v);
-      const OpenMesh::Vec3d e1(corner[1] - corner[0]), e2(corner[2] - corner[0]);
-      const OpenMesh::Vec3d normal = OpenMesh::cross(e1, e2);
-      const double length = OpenMesh::norm(normal);
-      putVector(out, length > 0 ? OpenMesh::Vec3f(normal / length) : OpenMesh::Vec3f(0, 0, 0));
-      for (const OpenMesh::Vec3f& p : corner) putVector(out, p);
+    for (const Triangle& t : branch.triangle) {
+      putVector(out, faceNormal(branch, t));
+      for (const std::uint32_t v : t) putVector(out, branch.position[v]);
       put(out, std::uint16_t{0});
     }
   }
@@ -140,18 +147,18 @@ std::string encodePly(const std::vector<BranchMesh>& meshes) {
          "\nproperty list uchar int vertex_indices\nproperty int branch\nend_header\n";
   out.reserve(out.size() + 24 * vertices + 17 * faces);
   for (const BranchMesh& branch : meshes)
-    for (const auto v : branch.mesh.vertices()) {
-      putVector(out, branch.mesh.point(v));
-      putVector(out, branch.mesh.normal(v));
+    for (std::size_t v = 0; v < branch.position.size(); ++v) {
+      putVector(out, branch.position[v]);
+      putVector(out, branch.normal[v]);
     }
   std::int32_t base = 0;
   for (std::size_t b = 0; b < meshes.size(); ++b) {
-    for (const auto f : meshes[b].mesh.faces()) {
+    for (const Triangle& t : meshes[b].triangle) {
       put(out, std::uint8_t{3});
-      for (const auto v : meshes[b].mesh.fv_range(f)) put(out, base + v.idx());
+      for (const std::uint32_t v : t) put(out, base + static_cast<std::int32_t>(v));
       put(out, static_cast<std::int32_t>(b));
     }
-    base += static_cast<std::int32_t>(meshes[b].mesh.n_vertices());
+    base += static_cast<std::int32_t>(meshes[b].position.size());
   }
   return out;
 }

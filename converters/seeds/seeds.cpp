@@ -5,11 +5,15 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <span>
 #include <sstream>
 #include <utility>
 
 #include "converters/common/error.h"
+#include "converters/seeds/seeds_json.h"
+#include "converters/seeds/seeds_markups.h"
 #include "converters/seeds/seeds_parse.h"
+#include "formats/case/atomic_file.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
 
@@ -188,6 +192,12 @@ void checkSeedsInside(const std::vector<SeedBranch>& seeds, const VolumeGeometry
                          std::to_string(geometry.size[1]) + " x " +
                          std::to_string(geometry.size[2]) + " voxels" + hint);
     }
+}
+
+void writeSeeds(const std::vector<SeedBranch>& seeds, const fs::path& file) {
+  const std::string text = seedsText(seeds);
+  const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
+  if (!written) throw failed(file.string() + ": " + written.error().text());
 }
 
 }  // namespace lumen::convert

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen's own seeds format, both ways (spec/seeds.md).
-#include <algorithm>
-#include <span>
+#include "converters/seeds/seeds_json.h"
 
-#include "converters/common/error.h"
-#include "converters/seeds/seeds_parse.h"
-#include "formats/case/atomic_file.h"
+#include <algorithm>
 
 namespace lumen::convert {
 namespace {
@@ -92,15 +88,13 @@ std::vector<SeedBranch> parseSeeds(const JsonPlace& root) {
   return branches;
 }
 
-void writeSeeds(const std::vector<SeedBranch>& seeds, const std::filesystem::path& file) {
+std::string seedsText(const std::vector<SeedBranch>& seeds) {
   std::string text =
       "{\n  \"format\": \"lumen-seeds\",\n  \"version\": 1,\n  \"coordinateSystem\": \"LPS\",\n"
       "  \"units\": \"mm\",\n  \"branches\": [\n";
   for (std::size_t i = 0; i < seeds.size(); ++i)
     text += branchText(seeds[i]) + (i + 1 < seeds.size() ? ",\n" : "\n");
-  text += "  ]\n}\n";
-  const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
-  if (!written) throw failed(file.string() + ": " + written.error().text());
+  return text + "  ]\n}\n";
 }
 
 }  // namespace lumen::convert

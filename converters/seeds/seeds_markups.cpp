@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // 3D Slicer Markups as seeds (Slicer's markups-schema-v1.0.3.json).
+#include "converters/seeds/seeds_markups.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
 
 #include "converters/common/error.h"
 #include "converters/common/text.h"
-#include "converters/seeds/seeds_parse.h"
 
 namespace lumen::convert {
 namespace {

@@ -61,10 +61,4 @@ double scaleOf(const JsonPlace& unit);
 /// "vessel" or "aneurysm"; nothing for another word.
 std::optional<formats::BranchKind> branchKind(const std::string& word);
 
-/// lumen's own format (spec/seeds.md), not yet checked across branches.
-std::vector<SeedBranch> parseSeeds(const JsonPlace& root);
-
-/// 3D Slicer Markups, not yet checked across branches. `stem` labels a curve without a name.
-std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& stem);
-
 }  // namespace lumen::convert

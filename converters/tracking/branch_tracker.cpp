@@ -32,6 +32,17 @@ BranchStart startOf(const TrackContext& context, const SeedBranch& seed,
                       direction.has_value(), random, workspace);
 }
 
+/// Why a branch cannot go on from its start; empty if it can.
+std::string failureOf(const TrackOptions& options, const BranchStart& start,
+                      std::span<const TrackedBranch* const> finished) {
+  if (start.nodes.empty())
+    return start.inParent ? "what fits at the seed lies in its parent's lumen"
+                          : "no valid cylinder at the seed: " + rateText(options, start.bestRate);
+  if (inCore(finished, start.nodes.back().centre))
+    return "the seed leads into a vessel that another seed has tracked";
+  return {};
+}
+
 /// A further click on the same vessel that the track may have missed: tracks from there back to the
 /// track, gives up what the track has beyond the place of meeting, and goes on from the click. Says
 /// why if nothing fits there; else empty.
@@ -60,16 +71,8 @@ TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
   TrackedBranch branch;
   BranchStart start = startOf(context, seed, parent, random, workspace);
   branch.parentNode = start.parentNode;
-  if (start.nodes.empty()) {
-    branch.failure = start.inParent ? "what fits at the seed lies in its parent's lumen"
-                                    : "no valid cylinder at the seed: " +
-                                          rateText(context.options, start.bestRate);
-    return branch;
-  }
-  if (inCore(finished, start.nodes.back().centre)) {
-    branch.failure = "the seed leads into a vessel that another seed has tracked";
-    return branch;
-  }
+  branch.failure = failureOf(context.options, start, finished);
+  if (!branch.failure.empty()) return branch;
   branch.nodes = std::move(start.nodes);
   const bool bothWays = !parent && !seed.direction && seed.points.size() == 1;
   if (bothWays) {

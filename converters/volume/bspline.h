@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cubic B-spline interpolation of a volume, with coefficients computed brick by brick when first
-// needed.
+// needed. ITK's BSplineDecompositionImageFilter and BSplineInterpolateImageFunction do the same
+// mathematics, but make all coefficients of the volume before the first sample, where tracking
+// needs those along the vessels only; they smooth by another pass over another copy, and promise no
+// bits. Here the smoothing is folded into the prefilter's taps, and every machine and any number of
+// threads give the same floats.
 #pragma once
 
 #include <atomic>

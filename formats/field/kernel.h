@@ -32,11 +32,15 @@ inline double naturalLog(double x) {
 
 #include "formats/field/kernel_formulas.h"
 
-inline constexpr std::size_t kKernelCount = 4;
+inline constexpr std::size_t kKernelCount = static_cast<std::size_t>(Kernel::SoftObject) + 1;
 
 /// The names that kernels have in files and on the command line, in the order of their values.
-inline constexpr std::array<std::string_view, kKernelCount> kKernelNames = {
-    Cauchy::kName, Gaussian::kName, Quartic::kName, SoftObject::kName};
+inline constexpr auto kKernelNames = [] {
+  std::array<std::string_view, kKernelCount> names;
+  for (std::size_t i = 0; i < kKernelCount; ++i)
+    names[i] = withKernel(static_cast<Kernel>(i), [](auto k) { return std::string_view(k.kName); });
+  return names;
+}();
 
 /// How the kernel ends far out.
 inline KernelTail tailOf(Kernel kernel) {

@@ -11,8 +11,10 @@
 // constant(T, double), positivePart(T), sqrt(T), expOfMinus(T), naturalLog(T) and, for derivatives
 // of the second order and above, ifPositive(T, T).
 //
-// To add a kernel: a value of Kernel in kernel.h, a structure here with all that the others have,
-// its line in withKernel(), and a row in the table of the specification.
+// To add a kernel: its value and the count in kernel.h, a structure here with all that the others
+// have, its line in withKernel(), its value in blob.h, and a row in the table of the specification.
+
+// clang-format off
 
 #define LUMEN_FORMULA [[gnu::always_inline]] static inline
 
@@ -28,16 +30,19 @@ struct BlobTerm {
   T value, slope;
 };
 
-// Of each kernel: phi(u), phi'(u), phi''(u); chain(s x, s); term(a |X - C|^2, a, w); inverse(phi,
-// s), the x >= 0 at which phi(s x) has a value between 0 and 1; and the level transform, a falling
-// function h of f that grows nearly with the square of the distance from the axis of a tube:
-// level(f, 1 / f, shift) where f is given times exp(shift), and levelSlope(h, |grad f| / f), which
-// is |grad h|.
+// What each kernel has:
+//   phi(u), first(u), second(u)   phi and its derivatives by u
+//   chain(s x, s)                 phi(s x) and three derivatives by x
+//   term(u, a, w)                 what a blob adds to f and grad f
+//   inverse(value, s)             the x >= 0 at which phi(s x) is a value between 0 and 1
+//   reach(ratio)                  a u from which on phi <= 1 / ratio; not more than 0 if that is all
+//   level(f, 1 / f, shift)        the level transform h, a falling function of f that grows nearly with
+//                                 the square of the distance from the axis of a tube; f is given times
+//                                 exp(shift), which only the Gaussian needs
+//   levelSlope(h, |grad f| / f)   |grad h|
 
 /// How a kernel ends far out: like a power of the distance, faster than any, or at u = 1.
 enum class KernelTail { Power, Exponential, Compact };
-
-// clang-format off
 
 /// phi = 1 / (1 + u)^2
 struct Cauchy {
@@ -67,8 +72,15 @@ struct Cauchy {
     return (1.0 - value) / (edge * (1.0 + edge) * s);
   }
 
-  template <class T> LUMEN_FORMULA T level(T, T inverseF, T) { using std::sqrt; return sqrt(inverseF); }
-  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) { return constant(h, 0.5) * h * relative; }
+  LUMEN_FORMULA double reach(double ratio) { return std::sqrt(ratio) - 1.0; }
+
+  template <class T> LUMEN_FORMULA T level(T, T inverseF, T) {
+    using std::sqrt;
+    return sqrt(inverseF);
+  }
+  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) {
+    return constant(h, 0.5) * h * relative;
+  }
 };
 
 /// phi = exp(-u)
@@ -91,7 +103,9 @@ struct Gaussian {
     return {value, (constant(u, -2.0) * a) * value};
   }
 
-  LUMEN_FORMULA double inverse(double value, double s) { return -naturalLog(value) / s; }
+  LUMEN_FORMULA double inverse(double value, double s) { return -::lumen::field::repeatableLog(value) / s; }
+
+  LUMEN_FORMULA double reach(double ratio) { return ::lumen::field::repeatableLog(ratio); }
 
   template <class T> LUMEN_FORMULA T level(T f, T, T shift) { return shift - naturalLog(f); }
   template <class T> LUMEN_FORMULA T levelSlope(T, T relative) { return relative; }
@@ -117,10 +131,19 @@ struct Quartic {
     return {w * (v * v), (constant(u, -4.0) * a) * (w * v)};
   }
 
-  LUMEN_FORMULA double inverse(double value, double) { return (1.0 - value) / (1.0 + std::sqrt(value)); }
+  LUMEN_FORMULA double inverse(double value, double) {
+    return (1.0 - value) / (1.0 + std::sqrt(value));
+  }
 
-  template <class T> LUMEN_FORMULA T level(T f, T, T) { using std::sqrt; return constant(f, 0.0) - sqrt(f); }
-  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) { return constant(h, -0.5) * h * relative; }
+  LUMEN_FORMULA double reach(double) { return 1.0; }
+
+  template <class T> LUMEN_FORMULA T level(T f, T, T) {
+    using std::sqrt;
+    return constant(f, 0.0) - sqrt(f);
+  }
+  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) {
+    return constant(h, -0.5) * h * relative;
+  }
 };
 
 /// phi = 1 - (4/9) u^3 + (17/9) u^2 - (22/9) u for u < 1, else 0. Written in v = 1 - u it loses no
@@ -159,21 +182,27 @@ struct SoftObject {
     const double bound = std::sqrt(1.8 * value);
     double v = bound < 1.0 ? bound : 1.0;
     for (;;) {
-      const double next = v - (v * v * (5.0 + 4.0 * v) / 9.0 - value) / (v * (10.0 + 12.0 * v) / 9.0);
+      const double excess = v * v * (5.0 + 4.0 * v) / 9.0 - value;
+      const double next = v - excess / (v * (10.0 + 12.0 * v) / 9.0);
       if (!(next < v)) return 1.0 - v;
       v = next;
     }
   }
 
+  LUMEN_FORMULA double reach(double) { return 1.0; }
+
   template <class T> LUMEN_FORMULA T level(T f, T, T) { return Quartic::level(f, f, f); }
-  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) { return Quartic::levelSlope(h, relative); }
+  template <class T> LUMEN_FORMULA T levelSlope(T h, T relative) {
+    return Quartic::levelSlope(h, relative);
+  }
 };
 
 // clang-format on
 
 /// use(K{}) for the structure K of a kernel. A value that is no kernel counts as the last.
 template <class Use>
-[[gnu::always_inline]] inline decltype(auto) withKernel(::lumen::field::Kernel kernel, Use&& use) {
+[[gnu::always_inline]] constexpr decltype(auto) withKernel(::lumen::field::Kernel kernel,
+                                                           Use&& use) {
   switch (kernel) {
     case ::lumen::field::Kernel::Cauchy:
       return use(Cauchy{});

@@ -2,15 +2,18 @@
  *
  * libblob: signed distance, gradient and inside test of a vessel tree, for simulators. C99 and C++11.
  *
- * A vessel tree is a set of nodes along centerlines. Each node has a centre, a radius and its own smooth
- * implicit surface, a sum of a few blobs (A. Yureidini, Robust blood vessel surface reconstruction for
- * interactive simulations from patient data, 2014):
+ * A vessel tree is a set of nodes along centerlines. Each node has a centre O, a radius r and its own
+ * smooth implicit function, a sum of a few blobs (A. Yureidini, Robust blood vessel surface
+ * reconstruction for interactive simulations from patient data, 2014):
  *
- *     f(X) = sum over the node's blobs j of  w_j * phi(|X - C_j|^2 / w_j^2)
+ *     f_k(X) = sum over node k's blobs j of  w_j * phi(|X - C_j|^2 / w_j^2)
  *
- * The wall is f = T (the iso-level), the lumen is f > T, and f falls outwards. A tool point remembers its
- * node, its cursor, and moves it along the tree only, never across space: two vessels that touch stay two
- * vessels. So a query looks at one node, or at a few where models are blended, however large the tree is.
+ * Nodes that are neighbours along the tree blend into one field f, see BLOB_BLENDED. The wall is f = T
+ * (the iso-level), the lumen is f > T, and f falls outwards. spec/lumen.md defines all of this.
+ *
+ * A tool point remembers its node, its cursor, and moves it along the tree only, never across space:
+ * two vessels that touch stay two vessels. So a query looks at one node, or at the few that blend,
+ * however large the tree is.
  *
  * In short:
  *
@@ -21,28 +24,36 @@
  *     blob_query(vessel, 0, point, &cursor, &s); // s.distance < 0: inside; s.normal points outwards
  *     blob_model_close(vessel);
  *
+ * How to read this header. Each function's comment says, in this order: what it computes; what the
+ * caller provides; what comes back; how it can fail; what it costs. n is the number of nodes and b the
+ * number of blobs of a node. Measured times and errors are in libblob/README.md.
+ *
  * Units and frame. Lengths are millimetres, in the frame of the case: LPS (+x left, +y posterior, +z
  * superior). f and T are lengths, grad f has no unit.
  *
  * Sign. Distances are negative in the lumen. MuJoCo's signed distance fields, SOFA's distance grids and
  * Bullet's are positive where a tool may move: negate.
  *
+ * Failure. Constructions answer a blob_status. Queries cannot fail: they never allocate, lock, log or
+ * throw, and are defined for every point. A NaN coordinate gives NaN numbers, "outside" and an unmoved
+ * cursor; an infinite one gives f = 0, an infinite distance, a zero normal and "outside". Null pointers
+ * (where not allowed) and closed models are misuse: a call to the misuse handler in debug builds,
+ * undefined otherwise.
+ *
  * Threads. A model does not change after construction; any number of threads may query it. Nothing else
  * is shared but the handler of blob_set_misuse_handler().
  *
- * Queries never allocate, lock, log or throw, and are defined for every point: a NaN coordinate gives NaN
- * numbers, "outside" and an unmoved cursor; an infinite one gives f = 0, an infinite distance, a zero
- * normal and "outside". Null pointers (where not allowed) and closed models are misuse: a call to the
- * misuse handler in debug builds, undefined otherwise.
- *
  * Arithmetic. Points are doubles. Within a node's neighbourhood the work is done in floats relative to
- * the node's centre, a relative error of some 1e-6. Every SIMD path gives the same bits as the scalar one
- * on every machine (BLOB_DISTANCE_EXACT also calls the C library's hypot, sin and cos: the last bits are
- * that library's), batches give the bits of single queries, and no result depends on the number of
- * threads.
+ * the node's centre, with a relative error of some 1e-6; blob_query_hessian() works in doubles. Every
+ * SIMD back end gives the same bits as the scalar one on every machine (BLOB_DISTANCE_EXACT also calls
+ * the C library's hypot, sin, cos and atan2: the last bits are that library's), batches give the bits
+ * of single queries, and no result depends on the number of threads.
  */
 #ifndef LUMEN_BLOB_H
 #define LUMEN_BLOB_H
+
+/* Comments stand in columns. */
+/* clang-format off */
 
 #include <stddef.h>
 #include <stdint.h>
@@ -64,7 +75,7 @@ extern "C" {
 #endif
 
 #define BLOB_VERSION_MAJOR 0
-#define BLOB_VERSION_MINOR 1
+#define BLOB_VERSION_MINOR 2
 #define BLOB_VERSION_PATCH 0
 
 /* ---------------------------------------------------------------- status */
@@ -72,21 +83,23 @@ extern "C" {
 /* What a construction answers. Values are only appended. */
 typedef enum blob_status {
   BLOB_OK = 0,
-  BLOB_ERROR_MEMORY = 1,     /* the system has no more memory */
-  BLOB_ERROR_ARGUMENT = 2,   /* a null pointer, or a definition not made by blob_model_def_default() */
-  BLOB_ERROR_FILE = 3,       /* the file cannot be opened, read or mapped */
-  BLOB_ERROR_FORMAT = 4,     /* the bytes are not a .lumen file, or break a rule of the format */
-  BLOB_ERROR_CHECKSUM = 5,   /* a chunk's bytes do not match their checksum */
-  BLOB_ERROR_ENCODING = 6,   /* a chunk that is needed is stored compressed; convert the file to raw */
-  BLOB_ERROR_NO_MODELS = 7,  /* the case has no models: fit it first */
-  BLOB_ERROR_EMPTY = 8,      /* no node */
-  BLOB_ERROR_LIMIT = 9,      /* more nodes, blobs or links than the limits below */
-  BLOB_ERROR_RANGE = 10,     /* a number is not finite or out of its range, see blob_model_def */
-  BLOB_ERROR_TOPOLOGY = 11,  /* a parent, link or offset names what does not exist */
-  BLOB_ERROR_KERNEL = 12     /* no such kernel */
+  BLOB_ERROR_MEMORY = 1,    /* the system has no more memory */
+  BLOB_ERROR_ARGUMENT = 2,  /* a null pointer, or a definition not made by its default function */
+  BLOB_ERROR_FILE = 3,      /* the file cannot be opened or read, or is empty */
+  BLOB_ERROR_FORMAT = 4,    /* the bytes are not a .lumen file, or break a rule of the format */
+  BLOB_ERROR_CHECKSUM = 5,  /* the bytes do not match their checksum */
+  BLOB_ERROR_ENCODING = 6,  /* a chunk that is needed is stored compressed; convert the file to raw */
+  BLOB_ERROR_NO_MODELS = 7, /* the case has no models: fit it first */
+  BLOB_ERROR_EMPTY = 8,     /* there is no node */
+  BLOB_ERROR_LIMIT = 9,     /* more nodes, blobs or links than the limits below */
+  BLOB_ERROR_RANGE = 10,    /* a number is not finite or out of its range, see blob_model_def */
+  BLOB_ERROR_TOPOLOGY = 11, /* a parent, link or offset names what does not exist */
+  BLOB_ERROR_KERNEL = 12    /* there is no such kernel */
 } blob_status;
 
-/* One English sentence without a full stop, static and never null, for any value. */
+/* What a status means.
+ * Takes any value, also one that is no status.
+ * Returns one English sentence without a full stop, static, never null. O(1). */
 BLOB_API const char* blob_status_text(blob_status status) BLOB_NOEXCEPT;
 
 /* ---------------------------------------------------------------- model */
@@ -97,7 +110,7 @@ typedef struct blob_model blob_model;
 /* phi(x) of x = |X - C|^2 / w^2. Values are those of the file format. */
 typedef enum blob_kernel {
   BLOB_CAUCHY = 0,     /* (1 + p x)^-2; infinite support; p = kernel_parameter, usually 0.2 */
-  BLOB_GAUSSIAN = 1,   /* exp(-p x); infinite support; usually 0.5; the slowest: eight exponentials a block */
+  BLOB_GAUSSIAN = 1,   /* exp(-p x); infinite support; usually 0.5; the slowest */
   BLOB_QUARTIC = 2,    /* (1 - x)^2 for x < 1, else 0 */
   BLOB_SOFT_OBJECT = 3 /* 1 - (4/9) x^3 + (17/9) x^2 - (22/9) x for x < 1, else 0 */
 } blob_kernel;
@@ -106,7 +119,7 @@ typedef enum blob_kernel {
 typedef enum blob_simd {
   BLOB_SIMD_BEST = 0,     /* the best that this processor has */
   BLOB_SIMD_SCALAR = 1,   /* the reference */
-  BLOB_SIMD_PORTABLE = 2, /* the compiler's vectors for the build's target: SSE2, NEON, WebAssembly SIMD */
+  BLOB_SIMD_PORTABLE = 2, /* the compiler's vectors for the build's target: SSE2, NEON, WebAssembly */
   BLOB_SIMD_AVX2 = 3,
   BLOB_SIMD_AVX512 = 4
 } blob_simd;
@@ -115,88 +128,111 @@ typedef enum blob_simd {
 #define BLOB_MAX_BLOBS 67108864u /* 2^26 */
 #define BLOB_MAX_LINKS 16777216u
 
-/* How to open. Get one from blob_open_def_default(), then change fields. */
+/* How to open a file. */
 typedef struct blob_open_def {
-  int verify;          /* 1 (default): every checksum and value; 0: only sizes and what queries rely on */
-  blob_simd simd;      /* BLOB_SIMD_BEST; a path that the processor lacks falls back to the next below */
+  int verify;          /* 1 (default): every checksum and value; 0: only what queries rely on */
+  blob_simd simd;      /* BLOB_SIMD_BEST; one that the processor lacks falls back to the next below */
   char* message;       /* null, or where a sentence about a failure goes, zero-terminated */
   size_t message_size; /* bytes at `message` */
   uint32_t cookie;     /* set by blob_open_def_default() */
 } blob_open_def;
 
+/* The usual way to open: verify everything, best instructions, no message.
+ * Returns a definition; change its fields, not its cookie. Cannot fail. O(1). */
 BLOB_API blob_open_def blob_open_def_default(void) BLOB_NOEXCEPT;
 
-/* Opens the .lumen file at `path` (UTF-8). The file is mapped, read in place and released again. `def`
- * may be null: the defaults. On BLOB_OK, *model is a model to be closed; otherwise null. Costs about 1 us
- * for each node. */
+/* Opens a .lumen file.
+ * The caller provides its path (UTF-8), and a definition or null for the default. The file is mapped,
+ * read in place and released again.
+ * On BLOB_OK *model is a model, to be closed by blob_model_close(); otherwise it is null.
+ * Fails with any status; def->message, if there is one, says where and why.
+ * O(file size) to verify and O(n) to build. */
 BLOB_API blob_status blob_model_open(const char* path, const blob_open_def* def,
                                      blob_model** model) BLOB_NOEXCEPT;
 
-/* The same from `size` bytes in memory, of any alignment, that the caller owns. They are read in place,
- * not copied, and not needed after the call: what queries read is laid out anew, in blocks for SIMD. */
+/* Opens a .lumen file that is in memory.
+ * The caller provides and keeps `size` bytes of any alignment, and a definition or null. The bytes are
+ * read during the call only: what queries read is laid out anew, in blocks for SIMD.
+ * Result, failures and cost are those of blob_model_open(), without BLOB_ERROR_FILE. */
 BLOB_API blob_status blob_model_open_bytes(const void* bytes, size_t size, const blob_open_def* def,
                                            blob_model** model) BLOB_NOEXCEPT;
 
 /* The blobs of all nodes, node i owning offset[i] .. offset[i + 1] - 1. */
 typedef struct blob_blobs {
   blob_kernel kernel;      /* default BLOB_CAUCHY */
-  double kernel_parameter; /* default 0.2; 1e-4 to 1e4; not used by the compact kernels */
+  double kernel_parameter; /* default 0.2; 1e-4 to 1e4; not used by kernels without a parameter */
   double iso_level;        /* T, mm; default 0.1; 1e-6 to 1e3 */
-  const uint32_t* offset;  /* node_count + 1 entries, from 0, not decreasing; a node without blobs answers
-                              with those of the nearest node along the tree that has some, and is outside
-                              everywhere (f = 0) if there is none */
+  /* node_count + 1 entries, from 0, not decreasing. A node without blobs answers with those of the
+   * nearest node along the tree that has some (the fewest edges away; of several, the lowest index),
+   * which stay where they are. If its connected component has none, f = 0: it is outside everywhere. */
+  const uint32_t* offset;
   const float (*centre)[3]; /* mm, offset[node_count] entries; within 1e6 of zero */
   const float* width;       /* mm, as many; 1e-5 to 1e3 */
 } blob_blobs;
 
-/* A model from arrays, which are read during blob_model_create() only. Get one from
- * blob_model_def_default(), then set at least node_count, centre, radius and blobs. */
+/* A model as arrays, which are read during blob_model_create() only. */
 typedef struct blob_model_def {
   size_t node_count;
   const float (*centre)[3]; /* mm; within 1e6 of zero */
   const float* radius;      /* mm; 1e-5 to 1e3 */
   const int32_t* parent;    /* a node other than itself, or -1; null: no node has a parent */
-  size_t link_count;        /* pairs of nodes that are neighbours besides parents and children */
+  size_t link_count;        /* pairs of nodes that are joined besides parents and children */
   const uint32_t (*link)[2];
   blob_blobs blobs;
-  const blob_blobs* twin; /* null, or a compact twin for BLOB_TWIN; a kernel of any kind */
   blob_simd simd;
   uint32_t cookie; /* set by blob_model_def_default() */
 } blob_model_def;
 
+/* A definition without nodes, with the default kernel, parameter and iso-level.
+ * Returns it; set at least node_count, centre, radius and blobs. Cannot fail. O(1). */
 BLOB_API blob_model_def blob_model_def_default(void) BLOB_NOEXCEPT;
 
+/* Builds a model from arrays.
+ * The caller provides a definition from blob_model_def_default(), whose arrays it may free afterwards.
+ * On BLOB_OK *model is a model, to be closed by blob_model_close(); otherwise it is null.
+ * Fails with BLOB_ERROR_MEMORY, _ARGUMENT, _EMPTY, _LIMIT, _RANGE, _TOPOLOGY or _KERNEL.
+ * O(n log n). */
 BLOB_API blob_status blob_model_create(const blob_model_def* def, blob_model** model) BLOB_NOEXCEPT;
 
-/* Frees a model; null is allowed. */
+/* Frees a model.
+ * The caller provides a model that no query uses any more, or null, which does nothing.
+ * Cannot fail. O(n). */
 BLOB_API void blob_model_close(blob_model* model) BLOB_NOEXCEPT;
 
+/* What a model is made of. */
 typedef struct blob_model_info {
   size_t node_count, blob_count;
   blob_kernel kernel;
   double kernel_parameter, iso_level;
-  int has_twin;
-  blob_simd simd;      /* the path in use */
+  blob_simd simd;         /* in use */
   double low[3], high[3]; /* box of the nodes' balls, mm */
-  size_t bytes;        /* memory of the model; about 0.5 kB for each node of 8 blobs or fewer */
+  size_t bytes;           /* memory of the model; about 0.5 kB for each node of 8 blobs or fewer */
 } blob_model_info;
 
+/* Describes a model.
+ * Returns its counts, kernel, box and memory. Cannot fail. O(log n). */
 BLOB_API blob_model_info blob_model_describe(const blob_model* model) BLOB_NOEXCEPT;
 
-/* Centre (mm) and radius (mm) of a node; its parent, or -1. A node that does not exist gives NaN and -1. */
+/* One node of the tree. */
 typedef struct blob_node {
-  double centre[3], radius;
-  int32_t parent;
+  double centre[3], radius; /* mm */
+  int32_t parent;           /* or -1 */
 } blob_node;
 
+/* Looks up a node.
+ * The caller provides its index.
+ * Returns its centre, radius and parent; for an index that is no node, NaN and -1. O(1). */
 BLOB_API blob_node blob_model_node(const blob_model* model, uint32_t node) BLOB_NOEXCEPT;
 
-/* The neighbours that a cursor at `node` may step to: those one or two edges away (parents, children and
- * links are edges), and, up to four times the sum of both radii away along the tree, nodes whose cells of
- * least power meet this one's past the nodes between: in tight bends, in the crotch of a bifurcation, beside
- * nodes too thin to have cells of their own. Such nodes' balls overlap, or the way along the tree is at most
- * twice the straight one. At most 32 besides the edges. Symmetric.
- * Writes the first `capacity` of them, returns their number. */
+/* Lists the neighbours of a node: those that a cursor there may step to, and whose models may blend
+ * with its own. Neighbours are: the nodes one or two edges away (parents, children and links are edges);
+ * and, at most four times the sum of both radii away along the tree, nodes whose power cells meet this
+ * one's, or nearly meet, past the nodes between - in tight bends, in the crotch of a bifurcation, beside
+ * nodes too thin to have cells of their own. Such nodes' balls overlap, or the way along the tree is
+ * less than twice the straight one. At most 32 besides the edges. The relation is symmetric.
+ * The caller provides an index and room for `capacity` indices; null if that is 0.
+ * Returns the number of neighbours, and writes the first `capacity`, ascending; 0 for no node.
+ * O(number of neighbours). */
 BLOB_API size_t blob_model_neighbours(const blob_model* model, uint32_t node, uint32_t* neighbours,
                                       size_t capacity) BLOB_NOEXCEPT;
 
@@ -205,53 +241,54 @@ BLOB_API size_t blob_model_neighbours(const blob_model* model, uint32_t node, ui
 /* A cursor is the index of a node. Any value that is no node means "not known": the query locates. */
 #define BLOB_NOWHERE UINT32_MAX
 
-/* The node of least power |X - O|^2 - r^2 in the whole tree, the lowest index among equals; BLOB_NOWHERE
- * for a point that is not finite. Through a tree of boxes: about 0.2 to 1 us for 10,000 nodes. Use it when a
- * tool point appears, not in every step: it sees no walls, so a point in a vessel that touches another is
- * located in whichever is nearer. */
+/* Finds the node of least power |X - O|^2 - r^2 in the whole tree, the lowest index among equals. For a
+ * tool point that appears, not for every step: it sees no walls, so a point in a vessel that touches
+ * another is located in whichever is nearer.
+ * The caller provides a point.
+ * Returns the node; BLOB_NOWHERE for a point that is not finite. O(log n), through a tree of boxes. */
 BLOB_API uint32_t blob_cursor_locate(const blob_model* model, const double point[3]) BLOB_NOEXCEPT;
 
-/* Walks from `cursor` to the neighbour of least power while the power falls, at most 256 steps. A point
- * that moves less than a radius from query to query needs none or one. */
+/* Walks along the tree: from the cursor's node to the neighbour of least power (of equal ones the lowest
+ * index) while that is less than the node's own, at most 256 steps.
+ * The caller provides a point and a cursor; one that is not known is located first.
+ * Returns the node where the walk ends; the cursor itself for a point that is not finite or is farther
+ * than 1e9 mm. O(steps); a point that moves less than a radius between queries needs none or one. */
 BLOB_API uint32_t blob_cursor_follow(const blob_model* model, const double point[3],
                                      uint32_t cursor) BLOB_NOEXCEPT;
 
-/* ---------------------------------------------------------------- queries */
+/* ---------------------------------------------------------------- flags of queries */
 
-/* Flags of queries; 0 is the default: blended, distance from one evaluation, cursor follows. */
+/* To be added up; 0 is the default: blended, distance from one evaluation, the cursor follows. The value 8
+ * was used before version 0.2 and stays free; unknown flags are ignored. */
 
-/* The cursor's node alone answers, as in the thesis. Fastest. Within a node's cell all is as smooth as the
- * kernel; at the seam between two cells value and gradient jump by the models' disagreement, commonly some
- * hundredths of a millimetre in distance. */
-#define BLOB_LOCAL 1u
-
-/* Default. The models of the cursor's node and its neighbours, weighted by smooth functions of their
- * differences of power: u_k = product over k's neighbours j of psi((p_k - p_j) / tau_kj), psi falling from
- * 1 to 0 between -1 and 1 with two continuous derivatives, f = sum u_k f_k / sum u_k. One model answers
- * near the nodes of a tube, two in the middle 60 % of the way between them. So f is twice continuously
- * differentiable where the kernel is (Cauchy, Gaussian), along the tree and through bifurcations, distance
- * and normal once; the gradient is the blended f's own. A vessel that merely touches has no influence.
- *
- * Measured (seam_sweep, LOCAL in brackets). On two fitted synthetic trees of 40 vessels nothing jumps: value,
- * gradient and distance by at most 5e-8, 6e-7 and 3e-7 at 65,854 seams (0.11 mm, 0.72, 0.48 mm), and
- * elsewhere on the same lines by no more than rounding. On a real angiogram with vessels of one voxel, 13 of
- * 44,493 seams jump, one within the radius of the cursor's node; of 347,987 steps at seams and elsewhere 39
- * jump, 7 of them within that radius: where an aneurysm lies against the vessel that it hangs on, or a
- * vessel's course turns back on itself. At most 24 models blend.
- */
+/* The wall of the case: the models of the cursor's node and of neighbours that nearly tie with it,
+ * weighted. With p_k the power of node k, tau_kj a width that belongs to a pair of neighbours, and psi
+ * rising from 0 at -1 to 1 at 1 with two continuous derivatives,
+ *     f = sum u_k f_k / sum u_k,   u_k = product over k's neighbours j of psi((p_j - p_k) / tau_kj),
+ * over the nodes with u_k > 0 that the cursor's node leads to. One model answers near the nodes of a
+ * tube, two in the middle 60 % of the way between them; at most 24 blend. The gradient is f's own. So f
+ * is twice continuously differentiable where the kernel is (Cauchy, Gaussian), along the tree and
+ * through bifurcations, distance and normal once. A vessel that merely touches has no influence. */
 #define BLOB_BLENDED 0u
+
+/* The cursor's node alone answers, as in the thesis. An approximation, and the fastest. Within a node's
+ * power cell all is as smooth as the kernel; at the seam between two cells value and gradient jump by
+ * the models' disagreement, commonly some hundredths of a millimetre in distance. */
+#define BLOB_LOCAL 1u
 
 /* `distance` and `normal` are those of the nearest point of the wall, as blob_nearest() finds it, instead
  * of the one-evaluation form. */
 #define BLOB_DISTANCE_EXACT 2u
 
 /* The cursor stays where it is. For BLOB_LOCAL: one node's model anywhere. With blending, the weights are
- * meant for the node of least power: hold a cursor only while the point stays in its cell. */
+ * meant for the node of least power: hold a cursor only while the point stays in its power cell. Where no
+ * node has a weight, the cursor's own model answers. */
 #define BLOB_HOLD 4u
 
-/* Answer from the compact twin where the model has one, else from the model. The twin's surface is another
- * fit of the same vessel: near the wall the two may differ by their errors of fit. */
-#define BLOB_TWIN 8u
+/* ---------------------------------------------------------------- samples */
+
+#define BLOB_INSIDE 1u        /* f > T */
+#define BLOB_NOT_CONVERGED 2u /* an iteration met its bound on steps before its tolerance */
 
 /* What is known at a point. */
 typedef struct blob_sample {
@@ -261,23 +298,15 @@ typedef struct blob_sample {
    *
    * One-evaluation form (default). With h a function of f that grows with the square of the distance from
    * the axis (Cauchy: f^-1/2, Gaussian: -ln f, compact kernels: -f^1/2) and R the node's radius,
-   *     c = ((h_T - h) + sqrt((h_T - h)^2 + R^2 |grad h|^2)) / (2 R^2),  distance = |grad h| / (2 c) - R,
-   * which is right to first order at the wall, -R on the axis, and grows like the distance far outside.
-   * Where f vanishes (outside a compact kernel's support) it is the distance to the node's ball, or 0.
-   * Error against BLOB_DISTANCE_EXACT, in radii, on a fitted tree of 2,220 nodes, blended; median and 99 %
-   * of points at distance d:
-   *     |d| < 0.05 R  0.0001  0.001        0.2 R to 0.4 R outside  0.011  0.06
-   *     |d| < 0.2 R   0.002   0.017        0.4 R to 0.7 R outside  0.033  0.16
-   *     to 0.4 R deep 0.010   0.08         0.7 R to 1 R outside    0.07   0.27
-   *     to 0.8 R deep 0.028   0.24         the axis                0.05   0.37 (bifurcations, aneurysm)
-   * Cost on one core of an AMD EPYC (Zen 4): 14 ns LOCAL, 42 ns BLENDED in batches; 33 and 65 ns
-   * alone. It is once continuously differentiable where f is twice. Outside, where grad f nearly vanishes
-   * between two parts of a vessel, it is cut at the
-   * distance to the far side of the node's ball.
+   *     c = ((h_T - h) + sqrt((h_T - h)^2 + R^2 |grad h|^2)) / (2 R^2),   distance = |grad h| / (2 c) - R,
+   * which is right to first order at the wall, -R on the axis, and grows like the distance far outside. It
+   * is once continuously differentiable where f is twice. Outside, where grad f nearly vanishes between two
+   * parts of a vessel, it is cut at the distance to the far side of the node's ball. Where f vanishes
+   * (outside a compact kernel's support) it is the distance to the node's ball, or 0.
    *
-   * BLOB_DISTANCE_EXACT: the distance to the nearest point of the wall, found as by blob_nearest(). Error
-   * 1e-5 R; cost 1 to 2.5 us; continuous, with a kink where two points of the wall are equally near. About
-   * 2 points in 1000, mostly near an axis, end with BLOB_NOT_CONVERGED and the nearest point so far. */
+   * BLOB_DISTANCE_EXACT: the distance to the nearest point of the wall, found as by blob_nearest() with an
+   * error of 1e-5 R; continuous, with a kink where two points of the wall are equally near. About one point
+   * in 1000, mostly near an axis, ends with BLOB_NOT_CONVERGED and the nearest point so far. */
   double distance;
   /* Outward unit normal, -grad f / |grad f|; zero where grad f is zero; away from the node's centre where f
    * vanishes. With BLOB_DISTANCE_EXACT that of the nearest point of the wall. */
@@ -286,30 +315,35 @@ typedef struct blob_sample {
   uint32_t state; /* BLOB_INSIDE and BLOB_NOT_CONVERGED */
 } blob_sample;
 
-#define BLOB_INSIDE 1u        /* f > T */
-#define BLOB_NOT_CONVERGED 2u /* an iteration met its bound on steps before its tolerance */
-
-/* One point. `cursor` is read and moved; null: located, which costs more than the query. */
+/* Evaluates f, its gradient, distance and normal at one point.
+ * The caller provides flags, a point and its cursor, which is read and moved; null: the point is located,
+ * which costs more than the query.
+ * *sample is the answer. Cannot fail.
+ * O(b), times the number of nodes that blend; some 40 times that with BLOB_DISTANCE_EXACT. */
 BLOB_API void blob_query(const blob_model* model, uint32_t flags, const double point[3],
                          uint32_t* cursor, blob_sample* sample) BLOB_NOEXCEPT;
 
-/* `count` points, packed; one cursor and one sample for each. `cursors` may be null: each point is located. */
+/* Evaluates blob_query() at many points, faster than one by one.
+ * The caller provides `count` points, packed, one cursor for each, which are read and moved, and room for
+ * one sample for each. `cursors` may be null: each point is located. All may be null if `count` is 0.
+ * samples[i] has the bits of a single query of points[i]. Cannot fail.
+ * O(count) queries. */
 BLOB_API void blob_query_many(const blob_model* model, uint32_t flags, size_t count,
                               const double (*points)[3], uint32_t* cursors,
                               blob_sample* samples) BLOB_NOEXCEPT;
 
-/* Points and answers as strided columns: structure of arrays (strides of one number) or any array of
+/* Points and answers as strided columns: a structure of arrays (strides of one number) or any array of
  * structures. Element i of a column is at its pointer plus i * stride bytes, of any alignment. Columns of
  * answers may be null: not wanted. In place: an answer may be written over a column of points of the same
  * pointer and stride. */
 typedef struct blob_columns {
   size_t count;
   const double* point[3];
-  ptrdiff_t point_stride; /* bytes; default sizeof(double) */
-  uint32_t* cursor;       /* may be null: each point is located */
+  ptrdiff_t point_stride;  /* bytes; default sizeof(double) */
+  uint32_t* cursor;        /* may be null: each point is located */
   ptrdiff_t cursor_stride; /* bytes; default sizeof(uint32_t) */
   double* value;
-  double* gradient[3]; /* all three or none */
+  double* gradient[3];     /* all three or none */
   double* distance;
   double* normal[3];       /* all three or none */
   ptrdiff_t answer_stride; /* bytes, of the columns of doubles; default sizeof(double) */
@@ -317,12 +351,22 @@ typedef struct blob_columns {
   ptrdiff_t state_stride;  /* bytes; default 1 */
 } blob_columns;
 
+/* Columns of nothing, with the default strides.
+ * Returns them; set count, point and the answers that are wanted. Cannot fail. O(1). */
 BLOB_API blob_columns blob_columns_default(void) BLOB_NOEXCEPT;
 
+/* Evaluates blob_query() at many points in the caller's own layout.
+ * The caller provides columns from blob_columns_default(), with points, and cursors that are read and
+ * moved.
+ * The columns of answers that are not null are filled, with the bits of single queries. Cannot fail.
+ * O(count) queries. */
 BLOB_API void blob_query_columns(const blob_model* model, uint32_t flags,
                                  const blob_columns* columns) BLOB_NOEXCEPT;
 
-/* 1 if f > T, else 0: value only, no gradient. With BLOB_TWIN and a compact twin the cheapest query. */
+/* Tells whether a point is in the lumen.
+ * The caller provides flags, a point and its cursor, as for blob_query().
+ * Returns 1 if f > T, else 0. Cannot fail.
+ * O(b), times the number of nodes that blend; no distance and no normal are computed. */
 BLOB_API int blob_inside(const blob_model* model, uint32_t flags, const double point[3],
                          uint32_t* cursor) BLOB_NOEXCEPT;
 
@@ -336,30 +380,38 @@ typedef struct blob_nearest_point {
   int converged;    /* 0: the bound on steps was met; `point` is the best so far */
 } blob_nearest_point;
 
-/* Newton's method on h (see blob_sample.distance) to the wall, then along it until the way back to the
- * query point is the normal, to `tolerance` mm (0: 1e-5 of the node's radius), in at most `max_steps`
- * evaluations with second derivatives (0: 40). The point found is a nearest one of its surroundings: on
- * the axis of a tube, where a ring of points is equally near, one of them. */
+/* Finds the nearest point of the wall: Newton's method on h (see blob_sample.distance) to the wall, then
+ * along it until the way back to the query point is the normal. It is a nearest one of its surroundings: on
+ * the axis of a tube, where a ring of points is equally near, one of them.
+ * The caller provides flags, a point and its cursor, as for blob_query(); a tolerance in mm (0: 1e-5 of the
+ * node's radius); and a bound on evaluations (0: 40).
+ * *nearest is the answer; converged = 0 if the bound was met first. Cannot fail.
+ * O(max_steps) evaluations, some of them with second derivatives. */
 BLOB_API void blob_nearest(const blob_model* model, uint32_t flags, const double point[3],
                            uint32_t* cursor, double tolerance, uint32_t max_steps,
                            blob_nearest_point* nearest) BLOB_NOEXCEPT;
 
-/* Second derivatives, in doubles throughout. */
-typedef struct blob_second {
+/* f and its first and second derivatives, in doubles throughout. */
+typedef struct blob_hessian {
   double value;       /* f, mm */
   double gradient[3]; /* grad f */
   double hessian[6];  /* xx, yy, zz, xy, xz, yz of f, 1/mm */
-  /* Of the level set of f through the point, 1/mm: (k1 + k2) / 2 and k1 k2, principal curvatures counted
-   * positive where the surface bends away from its outward normal (a lumen of radius r: 1/r along the
+  /* Of the level set of f through the point: (k1 + k2) / 2, 1/mm, and k1 k2, 1/mm^2; principal curvatures
+   * count positive where the surface bends away from its outward normal (a lumen of radius r: 1/r along the
    * ring). NaN where grad f is zero. */
   double mean_curvature, gaussian_curvature;
-} blob_second;
+} blob_hessian;
 
-BLOB_API void blob_query_second(const blob_model* model, uint32_t flags, const double point[3],
-                                uint32_t* cursor, blob_second* second) BLOB_NOEXCEPT;
+/* Evaluates f, its gradient, its Hessian and the curvatures of its level set.
+ * The caller provides flags, a point and its cursor, as for blob_query().
+ * *answer is the answer. Cannot fail.
+ * O(b), times the number of nodes that blend; scalar code, some times slower than blob_query(). */
+BLOB_API void blob_query_hessian(const blob_model* model, uint32_t flags, const double point[3],
+                                 uint32_t* cursor, blob_hessian* answer) BLOB_NOEXCEPT;
 
 /* ---------------------------------------------------------------- segments, for tools */
 
+/* Where a segment crosses the wall. */
 typedef struct blob_hit {
   int hit;          /* 1: the segment crosses the wall at `t`; 0: it does not, or steps ran out at `t` */
   int complete;     /* 0: the bound on steps was met at `t`; up to there is no crossing */
@@ -370,17 +422,21 @@ typedef struct blob_hit {
   uint32_t steps;   /* evaluations made */
 } blob_hit;
 
-/* The first crossing of the wall, outwards or inwards, on the way from `from` to `to`. The cursor belongs
- * to `from` and is moved to `from` only; on the way a copy of it follows the tree, so that a segment which
- * leaves its vessel into one that touches is a hit, however thin the gap. Steps are as long as bounds on f
- * in balls around the path allow, and no shorter than `tolerance` mm (0: 1e-3 of the node's radius): no
- * crossing is missed but those that go back within that length. `t` is right to the tolerance, on the
- * side of `from`. At most `max_steps` evaluations (0: 16384); only a
- * segment that grazes the wall for a long way needs more than some tens. */
+/* Finds the first crossing of the wall, outwards or inwards, on the way from `from` to `to`, by sphere
+ * tracing: steps are as long as bounds on f in balls around the path allow, and no shorter than the
+ * tolerance, so that no crossing is missed but those that go back within that length. A segment that leaves
+ * its vessel into one that touches is a hit, however thin the gap.
+ * The caller provides flags, both ends, and the cursor of `from`, which is moved to `from` only (on the way
+ * a copy of it follows the tree); a tolerance in mm (0: 1e-3 of the node's radius); and a bound on
+ * evaluations (0: 16384).
+ * *hit is the answer; its t is right to the tolerance, on the side of `from`. complete = 0 if the bound was
+ * met first. An end that is not finite gives NaN and no hit. Cannot fail.
+ * O(steps) evaluations; only a segment that grazes the wall for a long way needs more than some tens. */
 BLOB_API void blob_segment_hit(const blob_model* model, uint32_t flags, const double from[3],
                                const double to[3], uint32_t* cursor, double tolerance,
                                uint32_t max_steps, blob_hit* hit) BLOB_NOEXCEPT;
 
+/* Where a capsule comes closest to leaving the lumen. */
 typedef struct blob_approach {
   double t;         /* share of the way from `from` to `to` of the deepest point of the axis */
   double point[3];  /* that point of the axis */
@@ -391,18 +447,24 @@ typedef struct blob_approach {
   uint32_t state;   /* BLOB_INSIDE: of `point`; BLOB_NOT_CONVERGED */
 } blob_approach;
 
-/* Where a capsule (axis `from` to `to`, `radius` mm) comes closest to leaving the lumen: the axis point of
- * the greatest distance, by samples no more than a quarter of the local radius apart (at most 128) and a
- * search between them. `cursor` belongs to `from`. A chain of capsules passes one array of cursors. */
+/* Finds the point of a capsule's axis that has the greatest distance, by samples no more than a quarter of
+ * the local radius apart (at most 128) and a golden-section search between them.
+ * The caller provides flags, both ends of the axis, the radius in mm, and the cursor of `from`, which is
+ * moved to `from` only. A chain of capsules passes one array of cursors.
+ * *approach is the answer. An end that is not finite gives NaN. Cannot fail.
+ * O(length / radius) evaluations, and 16 more. */
 BLOB_API void blob_capsule_approach(const blob_model* model, uint32_t flags, const double from[3],
                                     const double to[3], double radius, uint32_t* cursor,
                                     blob_approach* approach) BLOB_NOEXCEPT;
 
 /* ---------------------------------------------------------------- misuse */
 
-/* Called in builds without NDEBUG with the broken condition and its place; the default prints nothing and
- * aborts. Null restores the default. */
+/* Takes the condition that was broken and its place. */
 typedef void (*blob_misuse_handler)(const char* condition, const char* file, int line);
+
+/* Sets what happens on misuse, in builds without NDEBUG; for all models and threads.
+ * The caller provides a handler; null restores the default, which prints nothing and aborts.
+ * Cannot fail. O(1). */
 BLOB_API void blob_set_misuse_handler(blob_misuse_handler handler) BLOB_NOEXCEPT;
 
 #ifdef __cplusplus

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // The C boundary.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <new>
 
-#include "build.h"
+#include "answer.h"
+#include "build_model.h"
+#include "check_definition.h"
+#include "columns.h"
+#include "hessian.h"
+#include "locate.h"
 #include "nearest.h"
-#include "open.h"
-#include "path.h"
+#include "open_case.h"
 #include "segment.h"
-#include "support.h"
+#include "simd/backend.h"
 
 namespace {
 
@@ -55,7 +61,71 @@ bool enter(const blob_model& model, std::uint32_t flags, const double* point, st
   if (!isFinitePoint(point)) return false;
   node = nodeFor(model, flags, point, node);
   if (cursor != nullptr) *cursor = node;
-  return isNear(model.nodes[node], point);
+  return isInRange(model.nodes[node], point);
+}
+
+blob_columns packedColumns(std::size_t count, const double (*points)[3],
+                           std::uint32_t* cursors) noexcept {
+  blob_columns columns = blob_columns_default();
+  columns.count = count;
+  for (int i = 0; i < 3; ++i) columns.point[i] = &points[0][i];
+  columns.point_stride = 3 * sizeof(double);
+  columns.cursor = cursors;
+  return columns;
+}
+
+// A batch whose points and cursors have been copied: answers may be written over points.
+struct ExactBatch {
+  static constexpr std::size_t kMost = 64;
+  double point[kMost][3];
+  std::uint32_t cursor[kMost];
+  blob_sample sample[kMost];
+  bool inRange[kMost];
+
+  void read(const blob_columns& c, std::size_t first, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (int k = 0; k < 3; ++k)
+        std::memcpy(&point[i][k], column(c.point[k], first + i, c.point_stride), sizeof(double));
+      cursor[i] = BLOB_NOWHERE;
+      if (c.cursor != nullptr)
+        std::memcpy(&cursor[i], column(c.cursor, first + i, c.cursor_stride), sizeof cursor[i]);
+    }
+  }
+
+  void answer(const blob_model& model, std::uint32_t flags, std::size_t count) noexcept {
+    Job job{packedColumns(count, point, cursor), sample, inRange};
+    model.backend->query(model, flags, job);
+    for (std::size_t i = 0; i < count; ++i)
+      if (inRange[i]) refineSample(model, flags, point[i], sample[i]);
+  }
+
+  void write(const Job& job, std::size_t first, std::size_t count) const noexcept {
+    const blob_columns& c = job.columns;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (c.cursor != nullptr) put(c.cursor, first + i, c.cursor_stride, cursor[i]);
+      if (job.samples != nullptr)
+        job.samples[first + i] = sample[i];
+      else
+        putSample(c, first + i, sample[i]);
+    }
+  }
+};
+
+void queryExact(const blob_model& model, std::uint32_t flags, const Job& job) noexcept {
+  ExactBatch batch;
+  for (std::size_t first = 0; first < job.columns.count; first += ExactBatch::kMost) {
+    const std::size_t count = std::min(job.columns.count - first, ExactBatch::kMost);
+    batch.read(job.columns, first, count);
+    batch.answer(model, flags, count);
+    batch.write(job, first, count);
+  }
+}
+
+void queryJob(const blob_model& model, std::uint32_t flags, const Job& job) noexcept {
+  if ((flags & BLOB_DISTANCE_EXACT) != 0)
+    queryExact(model, flags, job);
+  else
+    model.backend->query(model, flags, job);
 }
 
 bool hasNan(const double* p) noexcept {
@@ -67,36 +137,6 @@ void fill(double* values, int count, double value) noexcept {
 }
 
 }  // namespace
-
-namespace lumen::blob {
-
-std::uint32_t nodeFor(const blob_model& model, std::uint32_t flags, const double* point,
-                      std::uint32_t cursor) noexcept {
-  const std::uint32_t node = cursor < model.nodes.size() ? cursor : locateNode(model, point);
-  if ((flags & BLOB_HOLD) != 0 || !isNear(model.nodes[node], point)) return node;
-  return model.path(flags).follow(model, point, node);
-}
-
-void answerRemote(const blob_model& model, const double* point, std::uint32_t node,
-                  blob_sample& sample) noexcept {
-  const bool nan = hasNan(point), finite = isFinitePoint(point);
-  sample.value = nan ? kNan : 0.0;
-  sample.distance = nan ? kNan : std::numeric_limits<double>::infinity();
-  fill(sample.gradient, 3, sample.value);
-  fill(sample.normal, 3, sample.value);
-  sample.node = node;
-  sample.state = 0;
-  if (!finite) return;
-  const NodeRecord& record = model.nodes[node];
-  double way[3];
-  for (int i = 0; i < 3; ++i) way[i] = point[i] - record.centre[i];
-  const double length = std::hypot(way[0], way[1], way[2]);
-  sample.distance = length - double{record.radius()};
-  if (!(length < std::numeric_limits<double>::infinity())) return;
-  for (int i = 0; i < 3; ++i) sample.normal[i] = way[i] / length;
-}
-
-}  // namespace lumen::blob
 
 extern "C" {
 
@@ -191,10 +231,9 @@ blob_model_info blob_model_describe(const blob_model* model) noexcept {
   blob_model_info info{};
   info.node_count = model->nodes.size();
   info.blob_count = model->blobCount;
-  info.kernel = model->main.kernel;
-  info.kernel_parameter = model->main.kernelParameter;
-  info.iso_level = model->main.isoLevel;
-  info.has_twin = model->hasTwin() ? 1 : 0;
+  info.kernel = model->field.kernel;
+  info.kernel_parameter = model->field.kernelParameter;
+  info.iso_level = model->field.isoLevel;
   info.simd = model->simd;
   for (int i = 0; i < 3; ++i) {
     info.low[i] = model->low[i];
@@ -220,10 +259,11 @@ size_t blob_model_neighbours(const blob_model* model, uint32_t node, uint32_t* n
   if (node >= model->nodes.size()) return 0;
   const NodeRecord& record = model->nodes[node];
   std::size_t count = 0;
-  for (std::uint32_t b = record.fan; b < record.fan + record.fanCount; ++b)
+  for (std::uint32_t b = 0; b < record.neighbourBlocks; ++b)
     for (int lane = 0; lane < kLanes; ++lane) {
-      if (isPadding(model->fans[b], lane)) continue;
-      if (count < capacity) neighbours[count] = model->fans[b].node[lane];
+      const NeighbourBlock& block = model->neighbours[record.firstNeighbours + b];
+      if (isPadding(block, lane)) continue;
+      if (count < capacity) neighbours[count] = block.node[lane];
       ++count;
     }
   return count;
@@ -244,25 +284,20 @@ void blob_query(const blob_model* model, uint32_t flags, const double point[3], 
                 blob_sample* sample) noexcept {
   BLOB_REQUIRE(model != nullptr && point != nullptr && sample != nullptr);
   std::uint32_t unknown = BLOB_NOWHERE;
-  model->path(flags).queryOne(*model, flags, point, cursor != nullptr ? *cursor : unknown, *sample);
+  sampleAt(*model, flags, point, cursor != nullptr ? *cursor : unknown, *sample);
 }
 
 void blob_query_many(const blob_model* model, uint32_t flags, size_t count,
                      const double (*points)[3], uint32_t* cursors, blob_sample* samples) noexcept {
   BLOB_REQUIRE(model != nullptr && ((points != nullptr && samples != nullptr) || count == 0));
   if (count == 0) return;
-  Job job{blob_columns_default(), samples};
-  job.columns.count = count;
-  for (int i = 0; i < 3; ++i) job.columns.point[i] = &points[0][i];
-  job.columns.point_stride = 3 * sizeof(double);
-  job.columns.cursor = cursors;
-  model->path(flags).query(*model, flags, job);
+  queryJob(*model, flags, Job{packedColumns(count, points, cursors), samples, nullptr});
 }
 
 void blob_query_columns(const blob_model* model, uint32_t flags,
                         const blob_columns* columns) noexcept {
   BLOB_REQUIRE(model != nullptr && columns != nullptr);
-  model->path(flags).query(*model, flags, Job{*columns, nullptr});
+  queryJob(*model, flags, Job{*columns, nullptr, nullptr});
 }
 
 int blob_inside(const blob_model* model, uint32_t flags, const double point[3],
@@ -270,7 +305,7 @@ int blob_inside(const blob_model* model, uint32_t flags, const double point[3],
   BLOB_REQUIRE(model != nullptr && point != nullptr);
   std::uint32_t node;
   if (!enter(*model, flags, point, cursor, node)) return 0;
-  return model->path(flags).inside(*model, flags, point, node) ? 1 : 0;
+  return model->backend->inside(*model, flags, point, node) ? 1 : 0;
 }
 
 void blob_nearest(const blob_model* model, uint32_t flags, const double point[3], uint32_t* cursor,
@@ -282,7 +317,7 @@ void blob_nearest(const blob_model* model, uint32_t flags, const double point[3]
     return;
   }
   blob_sample sample;
-  answerRemote(*model, point, node, sample);
+  answerOutOfRange(*model, point, node, sample);
   *nearest = {};
   for (int i = 0; i < 3; ++i) {
     nearest->normal[i] = sample.normal[i];
@@ -292,20 +327,20 @@ void blob_nearest(const blob_model* model, uint32_t flags, const double point[3]
   nearest->node = node;
 }
 
-void blob_query_second(const blob_model* model, uint32_t flags, const double point[3],
-                       uint32_t* cursor, blob_second* second) noexcept {
-  BLOB_REQUIRE(model != nullptr && point != nullptr && second != nullptr);
+void blob_query_hessian(const blob_model* model, uint32_t flags, const double point[3],
+                        uint32_t* cursor, blob_hessian* hessian) noexcept {
+  BLOB_REQUIRE(model != nullptr && point != nullptr && hessian != nullptr);
   std::uint32_t node;
   if (enter(*model, flags, point, cursor, node)) {
-    evaluateSecond(*model, flags, point, node, *second);
+    evaluateHessian(*model, flags, point, node, *hessian);
     return;
   }
-  *second = {};
-  second->mean_curvature = second->gaussian_curvature = kNan;
+  *hessian = {};
+  hessian->mean_curvature = hessian->gaussian_curvature = kNan;
   if (!hasNan(point)) return;
-  second->value = kNan;
-  fill(second->gradient, 3, kNan);
-  fill(second->hessian, 6, kNan);
+  hessian->value = kNan;
+  fill(hessian->gradient, 3, kNan);
+  fill(hessian->hessian, 6, kNan);
 }
 
 void blob_segment_hit(const blob_model* model, uint32_t flags, const double from[3],
@@ -314,8 +349,8 @@ void blob_segment_hit(const blob_model* model, uint32_t flags, const double from
   BLOB_REQUIRE(model != nullptr && from != nullptr && to != nullptr && hit != nullptr);
   *hit = {};
   std::uint32_t node;
-  const bool near = enter(*model, flags, from, cursor, node);
-  if (near && isFinitePoint(to)) {
+  const bool inRange = enter(*model, flags, from, cursor, node);
+  if (inRange && isFinitePoint(to)) {
     findHit(*model, flags, from, to, node, tolerance, max_steps, *hit);
     return;
   }
@@ -330,9 +365,9 @@ void blob_capsule_approach(const blob_model* model, uint32_t flags, const double
                            blob_approach* approach) noexcept {
   BLOB_REQUIRE(model != nullptr && from != nullptr && to != nullptr && approach != nullptr);
   std::uint32_t node;
-  const bool near = enter(*model, flags, from, cursor, node);
+  const bool inRange = enter(*model, flags, from, cursor, node);
   *approach = {};
-  if (near && isFinitePoint(to)) {
+  if (inRange && isFinitePoint(to)) {
     findDeepest(*model, flags, from, to, node, *approach);
   } else {
     fill(approach->point, 3, kNan);

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "path.h"
-#include "support.h"
+#include "answer.h"
+#include "simd/backend.h"
 
 namespace lumen::blob {
 namespace {
@@ -129,11 +129,14 @@ LocateTree buildLocateTree(const std::vector<NodeRecord>& nodes) {
 }
 
 std::uint32_t locateNode(const blob_model& model, const double* point) noexcept {
-  return model.mainPath->locate(model, point);
+  return model.backend->locate(model, point);
 }
 
-std::uint32_t locateAny(const blob_model& model, const double* point) noexcept {
-  return isFinitePoint(point) ? locateNode(model, point) : BLOB_NOWHERE;
+std::uint32_t nodeFor(const blob_model& model, std::uint32_t flags, const double* point,
+                      std::uint32_t cursor) noexcept {
+  const std::uint32_t node = cursor < model.nodes.size() ? cursor : locateNode(model, point);
+  if ((flags & BLOB_HOLD) != 0 || !isInRange(model.nodes[node], point)) return node;
+  return model.backend->follow(model, point, node);
 }
 
 }  // namespace lumen::blob

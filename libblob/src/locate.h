@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of boxes behind blob_cursor_locate().
+// The node of a point: by the tree of boxes behind blob_cursor_locate(), and by following.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "model.h"
@@ -9,5 +10,12 @@
 namespace lumen::blob {
 
 LocateTree buildLocateTree(const std::vector<NodeRecord>& nodes);
+
+/// The node of least power, the lowest index among equals. The point is finite.
+std::uint32_t locateNode(const blob_model& model, const double* point) noexcept;
+
+/// The node for a query at a finite point: the cursor, or located, and followed unless held.
+std::uint32_t nodeFor(const blob_model& model, std::uint32_t flags, const double* point,
+                      std::uint32_t cursor) noexcept;
 
 }  // namespace lumen::blob

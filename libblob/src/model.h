@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "blob.h"
+#include "formats/field/kernel.h"
 
 namespace lumen::blob {
 
@@ -25,6 +26,11 @@ int codeOf(const Enumeration& stored) noexcept {
   return code;
 }
 
+/// A checked kernel.
+inline field::Kernel kernelOf(blob_kernel kernel) noexcept {
+  return static_cast<field::Kernel>(kernel);
+}
+
 /// Eight blobs relative to their node's centre. Padding has a = w = 0 and adds exactly nothing.
 struct alignas(32) BlobBlock {
   float x[kLanes], y[kLanes], z[kLanes];  ///< mm
@@ -32,9 +38,9 @@ struct alignas(32) BlobBlock {
   float w[kLanes];                        ///< mm
 };
 
-/// Eight neighbours k of a node i: p_k - p_i = n . (X - O_i) + c, in square millimetres. Padding
-/// has n = 0 and a c that no point undercuts.
-struct alignas(32) FanBlock {
+/// Eight neighbours k of a node i and the radical planes between: p_k - p_i = n . (X - O_i) + c,
+/// in square millimetres. Padding has n = 0 and a c that no point undercuts.
+struct alignas(32) NeighbourBlock {
   float nx[kLanes], ny[kLanes], nz[kLanes], c[kLanes];
   float inverseTau[kLanes];  ///< 1 / tau_ik of the blending weights, 1/mm^2
   std::uint32_t node[kLanes];
@@ -51,24 +57,24 @@ static_assert(sizeof(FieldNode) == 24, "part of a NodeRecord");
 
 constexpr float kNeverLess = 3e38f;  ///< the power difference of padding, mm^2
 
-inline bool isPadding(const FanBlock& fan, int lane) noexcept {
-  return fan.c[lane] == kNeverLess;
+inline bool isPadding(const NeighbourBlock& block, int lane) noexcept {
+  return block.c[lane] == kNeverLess;
 }
 
 struct alignas(64) NodeRecord {
   double centre[4];  ///< mm, LPS, and zero
   FieldNode field;
-  std::uint32_t fan, fanCount;
+  std::uint32_t firstNeighbours, neighbourBlocks;  ///< into the model's blocks of neighbours
 
   [[nodiscard]] float radius() const noexcept { return field.place[3]; }
 };
 static_assert(sizeof(NodeRecord) == 64, "one cache line");
 
-/// One kind of implicit function on all nodes.
+/// The implicit functions of all nodes.
 struct Field {
   blob_kernel kernel = BLOB_CAUCHY;
   double kernelParameter = 0, isoLevel = 0;
-  double straightLevel = 0;  ///< h at the iso-level, see straightened()
+  double transformedLevel = 0;  ///< h at the iso-level, see field::levelTransform()
   std::vector<BlobBlock> blocks;
 };
 
@@ -91,35 +97,19 @@ struct LocateTree {
   std::vector<std::vector<LocateBlock>> levels;
 };
 
-struct PathTable;
+struct Backend;
 
 }  // namespace lumen::blob
 
 struct blob_model {
   std::vector<lumen::blob::NodeRecord> nodes;
-  std::vector<lumen::blob::FanBlock> fans;
-  lumen::blob::Field main, twin;
-  std::vector<lumen::blob::FieldNode> twinNodes;  ///< empty without a twin
+  std::vector<lumen::blob::NeighbourBlock> neighbours;
+  lumen::blob::Field field;
   lumen::blob::LocateTree locate;
   std::vector<std::int32_t> parent;
   std::size_t blobCount = 0;
   double low[3]{}, high[3]{};            ///< box of the nodes' balls, mm
   double reachLow[3]{}, reachHigh[3]{};  ///< a box that holds every wall, mm
   blob_simd simd = BLOB_SIMD_SCALAR;
-  const lumen::blob::PathTable *mainPath = nullptr, *twinPath = nullptr;
-
-  [[nodiscard]] bool hasTwin() const noexcept { return !twinNodes.empty(); }
-  [[nodiscard]] bool usesTwin(std::uint32_t flags) const noexcept {
-    return (flags & BLOB_TWIN) != 0 && hasTwin();
-  }
-  [[nodiscard]] const lumen::blob::Field& field(std::uint32_t flags) const noexcept {
-    return usesTwin(flags) ? twin : main;
-  }
-  [[nodiscard]] const lumen::blob::FieldNode& fieldNode(std::uint32_t flags,
-                                                        std::uint32_t node) const noexcept {
-    return usesTwin(flags) ? twinNodes[node] : nodes[node].field;
-  }
-  [[nodiscard]] const lumen::blob::PathTable& path(std::uint32_t flags) const noexcept {
-    return usesTwin(flags) ? *twinPath : *mainPath;
-  }
+  const lumen::blob::Backend* backend = nullptr;
 };

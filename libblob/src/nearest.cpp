@@ -4,35 +4,38 @@
 #include <algorithm>
 #include <cmath>
 
-#include "path.h"
-#include "support.h"
-#include "vector.h"
+#include "formats/field/vector.h"
+#include "hessian.h"
+#include "simd/backend.h"
 
 namespace lumen::blob {
 namespace {
+
+using field::Vec;
 
 // A unit vector across the vessel at a node, for points where grad f is zero.
 Vec acrossVessel(const blob_model& model, std::uint32_t node) {
   const NodeRecord& record = model.nodes[node];
   Vec along{1, 0, 0};
-  if (record.fanCount > 0) {
-    const FanBlock& fan = model.fans[record.fan];
-    const Vec towards{fan.nx[0], fan.ny[0], fan.nz[0]};
+  if (record.neighbourBlocks > 0) {
+    const NeighbourBlock& block = model.neighbours[record.firstNeighbours];
+    const Vec towards{block.nx[0], block.ny[0], block.nz[0]};
     if (dot(towards, towards) > 0) along = towards;
   }
-  return perpendicular(along);
+  return field::perpendicular(along);
 }
 
-class Search {
+// Newton's method to the wall, then along it.
+class NewtonProjection {
 public:
-  Search(const blob_model& model, std::uint32_t flags, const double* point, std::uint32_t node,
-         double tolerance, std::uint32_t maxSteps)
+  NewtonProjection(const blob_model& model, std::uint32_t flags, const double* point,
+                   std::uint32_t node, double tolerance, std::uint32_t maxSteps)
       : m_model(model),
-        m_flags(flags & ~static_cast<std::uint32_t>(BLOB_DISTANCE_EXACT)),
+        m_flags(flags),
         m_query{point[0], point[1], point[2]},
         m_radius(model.nodes[node].radius()),
-        m_tolerance(tolerance > 0 ? tolerance : 1e-5 * m_radius),
-        m_maxSteps(maxSteps > 0 ? maxSteps : 40) {
+        m_tolerance(tolerance > 0 ? tolerance : kUsualTolerance * m_radius),
+        m_maxSteps(maxSteps > 0 ? maxSteps : kUsualSteps) {
     m_best.at = m_query;
     m_best.node = node;
   }
@@ -52,6 +55,16 @@ public:
   }
 
 private:
+  static constexpr double kUsualTolerance = 1e-5;  // of the node's radius
+  static constexpr std::uint32_t kUsualSteps = 40;
+  static constexpr int kMaxShortenings = 8;  // of a step along the wall, by half each
+  static constexpr double kGainShare = 0.1;  // of the tolerance, below which a step is not worth it
+  static constexpr double kStalledGain =
+      1e-3;                                    // of the square of the way, when no step shortens it
+  static constexpr double kLongestStep = 0.5;  // of the node's radius
+  static constexpr double kFlat = 0.02;        // least eigenvalue that a step is divided by
+  static constexpr double kLeaveMaximum = 0.1;  // of the radius: the step off a farthest point
+
   struct Foot {
     Vec at;
     std::uint32_t node;
@@ -61,7 +74,9 @@ private:
   blob_sample sample(Foot& foot) {
     ++m_steps;
     const double p[3] = {foot.at.x, foot.at.y, foot.at.z};
-    return sampleAt(m_model, m_flags, p, foot.node);
+    blob_sample here;
+    m_model.backend->queryOne(m_model, m_flags, p, foot.node, here);
+    return here;
   }
 
   // Newton's method to the wall along the normals.
@@ -82,18 +97,19 @@ private:
   bool improve() {
     ++m_steps;
     const double p[3] = {m_best.at.x, m_best.at.y, m_best.at.z};
-    blob_second second;
-    evaluateSecond(m_model, m_flags, p, m_best.node, second);
-    const Vec gradient{second.gradient[0], second.gradient[1], second.gradient[2]};
+    blob_hessian local;
+    evaluateHessian(m_model, m_flags, p, m_best.node, local);
+    const Vec gradient{local.gradient[0], local.gradient[1], local.gradient[2]};
     const double slope = norm(gradient);
     if (!(slope > 0)) return false;
-    Vec step = stepAlong(gradient, slope, second.hessian);
+    Vec step = stepAlong(gradient, slope, local.hessian);
     // what the step could still shorten the way by
     const Vec way = m_query - m_best.at;
     const double gain = 0.5 * dot(way, step);
-    m_converged = norm(step) <= m_tolerance || gain <= 0.1 * m_tolerance * m_best.length;
+    m_converged = norm(step) <= m_tolerance || gain <= kGainShare * m_tolerance * m_best.length;
     if (m_converged) return true;
-    for (int tries = 0; tries < 8 && m_steps < m_maxSteps; ++tries, step = 0.5 * step) {
+    for (int tries = 0; tries < kMaxShortenings && m_steps < m_maxSteps;
+         ++tries, step = 0.5 * step) {
       Foot foot{m_best.at + step, m_best.node, 0};
       const blob_sample there = sample(foot);
       if (!project(foot, there)) return false;
@@ -103,7 +119,7 @@ private:
       }
     }
     // no shorter way in this direction: rounding, or a ring of equally near points
-    m_converged = m_steps < m_maxSteps && gain <= 1e-3 * m_best.length * m_best.length;
+    m_converged = m_steps < m_maxSteps && gain <= kStalledGain * m_best.length * m_best.length;
     return false;
   }
 
@@ -123,14 +139,14 @@ private:
     const Vec v1 = std::cos(angle) * e1 + std::sin(angle) * e2;
     const Vec v2 = std::cos(angle) * e2 - std::sin(angle) * e1;
     const Vec step = along(v1, way, mean + root) + along(v2, way, mean - root);
-    const double length = norm(step), longest = 0.5 * m_radius;
+    const double length = norm(step), longest = kLongestStep * m_radius;
     return length > longest ? (longest / length) * step : step;
   }
 
   [[nodiscard]] Vec along(const Vec& direction, const Vec& way, double eigenvalue) const {
-    constexpr double kFlat = 0.02;
     const double part = dot(direction, way);
-    if (eigenvalue < -kFlat && std::abs(part) < m_tolerance) return (0.1 * m_radius) * direction;
+    if (eigenvalue < -kFlat && std::abs(part) < m_tolerance)
+      return (kLeaveMaximum * m_radius) * direction;
     return (part / std::max(std::abs(eigenvalue), kFlat)) * direction;
   }
 
@@ -157,17 +173,16 @@ private:
 
 }  // namespace
 
-blob_sample sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
-                     std::uint32_t& node) noexcept {
-  blob_sample sample;
-  model.path(flags).queryOne(model, flags, point, node, sample);
-  return sample;
-}
-
 void findNearest(const blob_model& model, std::uint32_t flags, const double* point,
                  std::uint32_t node, double tolerance, std::uint32_t maxSteps,
                  blob_nearest_point& nearest) noexcept {
-  Search(model, flags, point, node, tolerance, maxSteps).run(nearest);
+  NewtonProjection(model, flags, point, node, tolerance, maxSteps).run(nearest);
+}
+
+void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
+              std::uint32_t& node, blob_sample& sample) noexcept {
+  const bool inRange = model.backend->queryOne(model, flags, point, node, sample);
+  if ((flags & BLOB_DISTANCE_EXACT) != 0 && inRange) refineSample(model, flags, point, sample);
 }
 
 void refineSample(const blob_model& model, std::uint32_t flags, const double* point,

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest point of the wall.
+// Samples with an exact distance, and the nearest point of the wall.
 #pragma once
+
+#include <cstdint>
 
 #include "model.h"
 
 namespace lumen::blob {
 
-/// As blob_nearest(), for a finite point within kFar of its node, which is not moved.
+/// blob_query(): the back end's answer, whose distance and normal are then refined if the flags ask
+/// for it. The cursor follows.
+void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
+              std::uint32_t& node, blob_sample& sample) noexcept;
+
+/// Replaces distance and normal by those of the nearest point of the wall. The sample is an answer
+/// of f at the point.
+void refineSample(const blob_model& model, std::uint32_t flags, const double* point,
+                  blob_sample& sample) noexcept;
+
+/// As blob_nearest(), for a finite point in range of its node, which is not moved.
 void findNearest(const blob_model& model, std::uint32_t flags, const double* point,
                  std::uint32_t node, double tolerance, std::uint32_t maxSteps,
                  blob_nearest_point& nearest) noexcept;
-
-/// One sample without refinement; the cursor follows.
-blob_sample sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
-                     std::uint32_t& node) noexcept;
 
 }  // namespace lumen::blob

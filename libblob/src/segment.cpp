@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/field/vector.h"
 #include "nearest.h"
-#include "path.h"
-#include "support.h"
-#include "vector.h"
+#include "simd/backend.h"
 
 namespace lumen::blob {
 namespace {
+
+using field::Vec;
 
 Vec vec(const double* p) {
   return {p[0], p[1], p[2]};
@@ -44,18 +45,21 @@ Range clip(const blob_model& model, const double* from, const double* to) {
   return range;
 }
 
-class Walk {
+// Sphere tracing: steps as long as bounds on f in balls around the path allow (J. C. Hart, "Sphere
+// tracing", 1996, with bounds in place of a Lipschitz constant).
+class SphereTracing {
 public:
-  Walk(const blob_model& model, std::uint32_t flags, const double* from, const double* to,
-       std::uint32_t node, double tolerance, std::uint32_t maxSteps)
+  SphereTracing(const blob_model& model, std::uint32_t flags, const double* from, const double* to,
+                std::uint32_t node, double tolerance, std::uint32_t maxSteps)
       : m_model(model),
-        m_flags(flags & ~static_cast<std::uint32_t>(BLOB_DISTANCE_EXACT)),
+        m_flags(flags),
         m_from(vec(from)),
         m_way(vec(to) - vec(from)),
         m_length(norm(m_way)),
-        m_level(static_cast<float>(model.field(flags).isoLevel)),
-        m_tolerance(tolerance > 0 ? tolerance : 1e-3 * double{model.nodes[node].radius()}),
-        m_maxSteps(maxSteps > 0 ? maxSteps : 16384),
+        m_level(static_cast<float>(model.field.isoLevel)),
+        m_tolerance(tolerance > 0 ? tolerance
+                                  : kUsualTolerance * double{model.nodes[node].radius()}),
+        m_maxSteps(maxSteps > 0 ? maxSteps : kUsualSteps),
         m_node(node) {}
 
   void run(const Range& range, blob_hit& hit) {
@@ -84,11 +88,19 @@ public:
   }
 
 private:
+  static constexpr double kUsualTolerance = 1e-3;  // of the node's radius
+  static constexpr std::uint32_t kUsualSteps = 16384;
+  static constexpr double kDistanceShare = 0.6;  // of the one-evaluation distance: the first try
+  static constexpr double kLongestStep = 0.5;    // of the node's radius, as Backend::bounds asks
+  static constexpr double kBisectTo = 0.1;       // of the tolerance
+
   blob_sample sample(double t) {
     ++m_steps;
     double p[3];
     put(m_from + t * m_way, p);
-    return sampleAt(m_model, m_flags, p, m_node);
+    blob_sample here;
+    m_model.backend->queryOne(m_model, m_flags, p, m_node, here);
+    return here;
   }
 
   // A length in which the wall is not crossed, mm: a ball in which bounds on f exclude it, or the
@@ -97,12 +109,12 @@ private:
     double p[3];
     put(m_from + t * m_way, p);
     const double radius = m_model.nodes[m_node].radius();
-    double step = std::min(0.6 * std::abs(here.distance), 0.5 * radius);
+    double step = std::min(kDistanceShare * std::abs(here.distance), kLongestStep * radius);
     for (; step > m_tolerance && m_steps < m_maxSteps; step *= 0.5) {
       ++m_steps;
       float least, greatest;
-      m_model.path(m_flags).bounds(m_model, m_flags, p, m_node, static_cast<float>(step), &least,
-                                   &greatest);
+      m_model.backend->bounds(m_model, m_flags, p, m_node, static_cast<float>(step), &least,
+                              &greatest);
       if (inside ? least > m_level : greatest < m_level) return step;
     }
     return m_tolerance;
@@ -112,7 +124,7 @@ private:
   double crossing(double t, double beyond, std::uint32_t side) {
     constexpr int kMaxHalvings = 60;
     const std::uint32_t start = m_node;
-    for (int i = 0; i < kMaxHalvings && (beyond - t) * m_length > 0.1 * m_tolerance; ++i) {
+    for (int i = 0; i < kMaxHalvings && (beyond - t) * m_length > kBisectTo * m_tolerance; ++i) {
       const double middle = 0.5 * (t + beyond);
       m_node = start;
       const blob_sample there = sample(middle);
@@ -142,11 +154,11 @@ private:
   std::uint32_t m_maxSteps, m_steps = 0, m_node;
 };
 
-// The greatest distance along an axis.
-class Deepest {
+// The greatest distance along an axis: samples, then golden-section search between two of them.
+class GoldenSectionSearch {
 public:
-  Deepest(const blob_model& model, std::uint32_t flags, const double* from, const double* to,
-          std::uint32_t node)
+  GoldenSectionSearch(const blob_model& model, std::uint32_t flags, const double* from,
+                      const double* to, std::uint32_t node)
       : m_model(model),
         m_flags(flags),
         m_from(vec(from)),
@@ -154,13 +166,14 @@ public:
         m_node(node) {}
 
   void run(blob_approach& approach) {
-    constexpr double kFewest = 1.0 / 128;
+    constexpr double kLeastStep = 1.0 / 128;  // of the axis
+    constexpr double kStep = 0.25;            // of the local radius
     const double length = norm(m_way);
     double before = 0, low = 0, high = 1;
     visit(0);
     for (double t = 0; t < 1;) {
-      const double quarter = 0.25 * double{m_model.nodes[m_node].radius()};
-      const double next = std::min(1.0, t + std::max(kFewest, quarter / std::max(length, quarter)));
+      const double usual = kStep * double{m_model.nodes[m_node].radius()};
+      const double next = std::min(1.0, t + std::max(kLeastStep, usual / std::max(length, usual)));
       if (m_bestAt == t) {  // the best so far is bracketed by the samples on either side
         low = before;
         high = next;
@@ -181,7 +194,8 @@ private:
   double visit(double t) {
     double p[3];
     put(m_from + t * m_way, p);
-    const blob_sample at = sampleAt(m_model, m_flags, p, m_node);
+    blob_sample at;
+    sampleAt(m_model, m_flags, p, m_node, at);
     if (at.distance > m_best.distance || m_bestAt < 0) {
       m_bestAt = t;
       m_best.t = t;
@@ -232,7 +246,7 @@ void findHit(const blob_model& model, std::uint32_t flags, const double* from, c
              std::uint32_t node, double tolerance, std::uint32_t maxSteps, blob_hit& hit) noexcept {
   const Range range = clip(model, from, to);
   if (range.first <= range.last) {
-    Walk(model, flags, from, to, node, tolerance, maxSteps).run(range, hit);
+    SphereTracing(model, flags, from, to, node, tolerance, maxSteps).run(range, hit);
     return;
   }
   hit.complete = 1;
@@ -243,7 +257,7 @@ void findHit(const blob_model& model, std::uint32_t flags, const double* from, c
 
 void findDeepest(const blob_model& model, std::uint32_t flags, const double* from, const double* to,
                  std::uint32_t node, blob_approach& approach) noexcept {
-  Deepest(model, flags, from, to, node).run(approach);
+  GoldenSectionSearch(model, flags, from, to, node).run(approach);
 }
 
 }  // namespace lumen::blob

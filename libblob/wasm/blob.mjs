@@ -4,9 +4,11 @@
 // Units: mm, in the case's frame (LPS). Distances are negative in the lumen. See blob.h.
 
 /** Flags of queries, to be added up; 0 is the default. */
-export const Flags = Object.freeze({ LOCAL: 1, DISTANCE_EXACT: 2, HOLD: 4, TWIN: 8 });
+export const Flags = Object.freeze({ LOCAL: 1, DISTANCE_EXACT: 2, HOLD: 4 });
 /** Bits of a state. */
 export const State = Object.freeze({ INSIDE: 1, NOT_CONVERGED: 2 });
+/** Some of the values of blob_status: why a model was not opened. */
+export const Status = Object.freeze({ CHECKSUM: 5, ENCODING: 6, NO_MODELS: 7 });
 /** A cursor that is not known: the query locates. */
 export const NOWHERE = 0xffffffff;
 
@@ -45,7 +47,7 @@ export class Blob {
     while (size < most && bytes[size] !== 0) ++size;
     return new TextDecoder().decode(bytes.slice(0, size));
   }
-  /** Opens the bytes of a .lumen file; throws an Error that says what is wrong.
+  /** Opens the bytes of a .lumen file; throws an Error that says what is wrong, with a number `status`.
    * @param {Uint8Array} bytes @returns {Model} */
   open(bytes) {
     const file = this.allocate(bytes.length), def = this.allocate(kOpenDef + 4 + kMessage);
@@ -60,7 +62,7 @@ export class Blob {
     const why = this.text(message, kMessage) || this.text(this.exports.blob_status_text(status));
     this.exports.free(file);
     this.exports.free(def);
-    if (status !== 0) throw new Error(`libblob: ${why}`);
+    if (status !== 0) throw Object.assign(new Error(`libblob: ${why}`), { status });
     return new Model(this, handle);
   }
 }

@@ -2,6 +2,7 @@
 // From a synthetic tube to a case, a mesh and a score.
 #include <nlohmann/json.hpp>
 
+#include "converters/app/file_format.h"
 #include "formats/case/case_file.h"
 #include "tests/cli/run_lumen.h"
 
@@ -110,13 +111,25 @@ TEST_F(TubeTest, TrackThenFitGivesConvertsCaseAndNamesItsParentForAnyNumberOfThr
 
 TEST_F(TubeTest, ACaseBecomesEveryOtherFormatAndBothEncodingsHoldTheSame) {
   ASSERT_EQ(lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"}).code, 0);
-  for (const char* name : {"a.lumen.json", "a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
+  for (const auto& format : app::fileFormats()) {
+    if (!app::canWrite(format)) continue;
+    const std::string name = "a" + std::string(format.endings.front());
     const Outcome made = lumen({"convert", "tube.lumen", name});
     EXPECT_EQ(made.code, 0) << name << ": " << made.err;
     EXPECT_FALSE(read(name).empty()) << name;
   }
   ASSERT_EQ(lumen({"convert", "a.lumen.json", "back.lumen"}).code, 0);
   EXPECT_TRUE(read("tube.lumen") == read("back.lumen"));
+}
+
+TEST_F(TubeTest, EveryVolumeFormatThatIsWrittenReadsBackTheSame) {
+  const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
+  for (const auto& format : app::fileFormats()) {
+    if (!app::canWriteVolume(format)) continue;
+    const std::string name = "other" + std::string(format.endings.front());
+    ASSERT_EQ(lumen({"phantom", "tube", name, "--size", "64"}).code, 0) << name;
+    EXPECT_EQ(Json::parse(lumen({"info", name, "--json"}).out)["sha256"], info["sha256"]) << name;
+  }
 }
 
 TEST_F(TubeTest, ATreeAloneHasNoSurfaceToMakeAMeshOf) {

@@ -8,8 +8,8 @@ namespace lumen::test {
 
 namespace {
 
-const std::vector<std::string> kCommands = {"convert", "track",    "fit",    "info",
-                                            "compare", "validate", "phantom"};
+const std::vector<std::string> kCommands = {"convert", "track",    "fit",     "info",
+                                            "compare", "validate", "phantom", "completion"};
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen_circles FOLDER: circles from pixelated discs by nine combinations of interpolation and
-// gradient (Yureidini's thesis, 3.8.2, table 3.2). Writes circles.md, circles.json and a plot.
+// gradient (Yureidini's thesis, 3.8.2, table 3.2). Writes circles.md, circles.json and
+// circles.plot.json.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -12,8 +13,8 @@
 #include <tbb/parallel_for.h>
 
 #include "circle_search.h"
+#include "plot.h"
 #include "report.h"
-#include "svg_plot.h"
 
 namespace {
 
@@ -235,7 +236,7 @@ void run(const std::filesystem::path& folder, Progress& progress) {
   report.table(spreadTable("Distance from the true circle, trimmed", trimmedOutcome, 1));
   report.table(spreadTable("Share within a tenth, trimmed", trimmedOutcome, 2));
   std::filesystem::create_directories(folder);
-  writeText(folder / "circles.svg", svg(plotByAcross(outcome)));
+  writePlot(folder, "circles", plotByAcross(outcome));
   report.write(folder, "circles");
   std::fputs(report.markdown().c_str(), stdout);
 }

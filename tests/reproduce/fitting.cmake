@@ -5,10 +5,10 @@ add_library(lumen_reproduce STATIC
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/family_fit.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/implicit_surface.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/particles.cpp
+  ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/plot.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/report.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/seams.cpp
-  ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/shape_fit.cpp
-  ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/svg_plot.cpp)
+  ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/shape_fit.cpp)
 target_link_libraries(lumen_reproduce PUBLIC lumen_fitting
   PRIVATE lumen_terminal nlohmann_json::nlohmann_json)
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen_four_shapes FOLDER: the fit of four shapes without and with noise (Yureidini's
 // thesis, 4.8.2 and 4.9.1, tables 4.6 and 4.7, figure 4.22). Writes four_shapes.md,
-// four_shapes.json and plots.
+// four_shapes.json and the data of plots.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,10 +16,10 @@
 #include "convolution_shapes.h"
 #include "family_fit.h"
 #include "particles.h"
+#include "plot.h"
 #include "report.h"
 #include "seams.h"
 #include "shape_fit.h"
-#include "svg_plot.h"
 
 namespace {
 
@@ -227,8 +227,8 @@ void run(const std::filesystem::path& folder, Progress& progress) {
   report.table(noisy);
   report.picture("four_shapes_noisy.svg", noisyPlot.title);
   std::filesystem::create_directories(folder);
-  writeText(folder / "four_shapes_clean.svg", svg(cleanPlot));
-  writeText(folder / "four_shapes_noisy.svg", svg(noisyPlot));
+  writePlot(folder, "four_shapes_clean", cleanPlot);
+  writePlot(folder, "four_shapes_noisy", noisyPlot);
   report.write(folder, "four_shapes");
   std::fputs(report.markdown().c_str(), stdout);
 }

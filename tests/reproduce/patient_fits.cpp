@@ -15,7 +15,7 @@
 #include "converters/app/terminal_progress.h"
 #include "converters/fitting/error_of_fit.h"
 #include "converters/fitting/fit.h"
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/polygonise.h"
 #include "converters/phantom/phantom.h"
 #include "converters/tracking/tracker.h"
 #include "formats/case/case_file.h"
@@ -92,7 +92,7 @@ std::vector<Patient> readPatients(const std::vector<std::string>& files) {
 double trianglesOf(const formats::Case& value, Progress& progress) {
   double triangles = 0;
   for (const convert::BranchMesh& branch : convert::polygonise(value, {}, progress)) {
-    triangles += static_cast<double>(branch.mesh.n_faces());
+    triangles += static_cast<double>(branch.triangle.size());
   }
   return triangles;
 }

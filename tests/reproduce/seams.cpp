@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
 
+#include "converters/common/vectors.h"
 #include "formats/case/topology.h"
 #include "implicit_surface.h"
 
@@ -20,10 +20,6 @@ constexpr int kRays = 32;
 constexpr int kCellNeighbourhood = 2;  // edges
 constexpr double kLongestRay = 4;      // of the wider node's radius
 
-Vector3d vectorOf(const formats::Vec3f& v) {
-  return {double{v.x}, double{v.y}, double{v.z}};
-}
-
 /// The radical plane of two nodes, and the other nodes that cut it.
 class Seam {
 public:
@@ -32,8 +28,8 @@ public:
       : m_tree(value.tree),
         m_first(first),
         m_radius(std::max(double{m_tree.radius[first]}, double{m_tree.radius[second]})) {
-    const Vector3d from = vectorOf(m_tree.centre[first]);
-    const Vector3d way = vectorOf(m_tree.centre[second]) - from;
+    const Vector3d from = toEigen(m_tree.centre[first]);
+    const Vector3d way = toEigen(m_tree.centre[second]) - from;
     const double distance = way.norm();
     if (!(distance > 0)) return;
     const double r0 = m_tree.radius[first], r1 = m_tree.radius[second];
@@ -65,7 +61,7 @@ public:
 private:
   [[nodiscard]] double power(std::uint32_t node, const Vector3d& p) const {
     const double r = m_tree.radius[node];
-    return (p - vectorOf(m_tree.centre[node])).squaredNorm() - r * r;
+    return (p - toEigen(m_tree.centre[node])).squaredNorm() - r * r;
   }
 
   const formats::CenterlineTree& m_tree;

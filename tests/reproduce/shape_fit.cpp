@@ -38,9 +38,10 @@ formats::BlobbyModels fitShape(const ConvolutionShape& shape, const std::vector<
     local.push_back({q.x(), q.y(), q.z()});
   }
   const std::vector<Blob> start = startOf(shape, centre, options.energy);
-  convert::fitting::LocalModel model(options);
+  convert::fitting::FitWorkspace workspace;
+  const convert::fitting::NodeData node{local, 1, {1, 0, 0}, {}, start};
   formats::BlobbyModels out;
-  for (const Blob& b : model.fit({local, 1, {1, 0, 0}, {}, start}, Progress())) {
+  for (const Blob& b : fitLocalModel(options, node, Progress(), workspace).blobs) {
     const Vector3d c = Vector3d(b.x, b.y, b.z) + centre;
     out.centre.push_back(
         {static_cast<float>(c.x()), static_cast<float>(c.y()), static_cast<float>(c.z())});

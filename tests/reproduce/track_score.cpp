@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "converters/common/random.h"
+#include "converters/common/vectors.h"
 #include "converters/compare/sampled_path.h"
 #include "formats/case/topology.h"
 
@@ -18,10 +19,6 @@ namespace {
 using convert::ClosestPoint;
 using convert::SampledPath;
 using Eigen::Vector3d;
-
-Vector3d vectorOf(const formats::Vec3f& v) {
-  return Vector3d(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
-}
 
 std::map<std::string, std::uint32_t> indexByLabel(const formats::CenterlineTree& tree) {
   std::map<std::string, std::uint32_t> index;
@@ -55,7 +52,7 @@ void scoreNodes(const formats::CenterlineTree& found, const formats::Branch& bra
   const std::uint32_t parent = parentOf(truth, index);
   bool beginning = true;
   for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n) {
-    const Vector3d centre = vectorOf(found.centre[n]);
+    const Vector3d centre = toEigen(found.centre[n]);
     beginning = beginning && parent != kNone && holds(paths[parent], centre);
     if (beginning) continue;
     const ClosestPoint closest = convert::closestOn(paths[index].samples, centre);
@@ -74,7 +71,7 @@ std::uint32_t nearestNode(const formats::CenterlineTree& tree, const formats::Br
                           const Vector3d& point) {
   std::uint32_t best = branch.firstNode;
   for (std::uint32_t n = best; n < branch.firstNode + branch.nodeCount; ++n)
-    if ((vectorOf(tree.centre[n]) - point).norm() < (vectorOf(tree.centre[best]) - point).norm())
+    if ((toEigen(tree.centre[n]) - point).norm() < (toEigen(tree.centre[best]) - point).norm())
       best = n;
   return best;
 }
@@ -121,9 +118,9 @@ void disturbClicks(convert::Phantom& phantom, const ClickError& error, std::uint
     if (click.kind != formats::BranchKind::Vessel) continue;
     const formats::Branch& branch = truth.branches[index.at(click.label)];
     const std::uint32_t node = nearestNode(truth, branch, click.points[0].position);
-    const Vector3d axis = vectorOf(truth.direction[node]).normalized();
+    const Vector3d axis = toEigen(truth.direction[node]).normalized();
     const double radius = static_cast<double>(truth.radius[node]);
-    const Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
+    const auto [u, v] = planeBasis(axis);
     const double angle = 2 * std::numbers::pi * random.uniform();
     const Vector3d across = std::cos(angle) * u + std::sin(angle) * v;
     click.points[0].position += error.offset * radius * across;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen_tracking_report FOLDER [SEEDS]: the tracker on synthetic patients: success, accuracy by
 // radius, and where noise, coarse data and careless clicks make it fail. Writes tracking.md,
-// tracking.json and plots. SEEDS patients (10) as they come, the first three of them under
-// everything else.
+// tracking.json and the data of plots. SEEDS patients (10) as they come, the first three of them
+// under everything else.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "converters/app/terminal_progress.h"
+#include "plot.h"
 #include "report.h"
 #include "seams.h"
-#include "svg_plot.h"
 #include "track_score.h"
 
 namespace {
@@ -323,8 +323,8 @@ void run(const std::filesystem::path& folder, std::uint64_t seeds, Progress& pro
   report.table(reliability("noise 0.05", allNodes(plain), reliabilityPlot));
   noiseSweep(few, report, reliabilityPlot, noisePlot, progress);
   report.picture("tracking_reliability.svg", reliabilityPlot.title);
-  writeText(folder / "tracking_noise.svg", svg(noisePlot));
-  writeText(folder / "tracking_reliability.svg", svg(reliabilityPlot));
+  writePlot(folder, "tracking_noise", noisePlot);
+  writePlot(folder, "tracking_reliability", reliabilityPlot);
   report.write(folder, "tracking");
   report.table(runCases("Data", dataCases(), few, progress));
   report.write(folder, "tracking");

@@ -1,4 +1,5 @@
 lumen_test(blob_test
+  LABELS memory threads
   LIBS lumen_options lumen::blob_static lumen_case
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/batch_test.cpp

@@ -1,4 +1,5 @@
 lumen_test(compare_test
+  LABELS threads
   LIBS lumen_compare
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/centerline_test.cpp

@@ -1,13 +1,17 @@
-# The conformance set of the format, run against our readers and against the reference reader.
+# The conformance set of the format, run against our readers, libblob and the reference reader.
 set(conformance ${PROJECT_SOURCE_DIR}/spec/conformance)
 
 lumen_test(conformance_test
+  LABELS memory
   LIBS lumen_case
   SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/damage_test.cpp)
 target_compile_definitions(conformance_test PRIVATE LUMEN_CONFORMANCE="${conformance}")
 
 add_executable(case_reader ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/case_reader.cpp)
 target_link_libraries(case_reader PRIVATE lumen_case nlohmann_json::nlohmann_json)
+
+add_executable(blob_reader ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/blob_reader.cpp)
+target_link_libraries(blob_reader PRIVATE lumen_options lumen::blob nlohmann_json::nlohmann_json)
 
 find_package(Python3 3.9 COMPONENTS Interpreter)
 if(Python3_FOUND)
@@ -16,6 +20,18 @@ if(Python3_FOUND)
   add_test(NAME Conformance.OfTheReferenceReaderHolds
     COMMAND Python3::Interpreter ${conformance}/run.py --lacks zstd --lacks draco
       --reader "{python} -S -E ${PROJECT_SOURCE_DIR}/spec/reference/lumen_reader.py")
+  # libblob answers queries, has neither decoder, and computes with floats
+  set(queries_only ${conformance}/run.py --queries-only --tolerance 1e-5 --lacks zstd --lacks draco)
+  add_test(NAME Conformance.OfLibblobHolds
+    COMMAND Python3::Interpreter ${queries_only} --reader $<TARGET_FILE:blob_reader>)
+  add_test(NAME Conformance.OfLibblobInDoublesHolds
+    COMMAND Python3::Interpreter ${queries_only} --reader "$<TARGET_FILE:blob_reader> --doubles")
+  find_program(NODE node)
+  if(TARGET blob_wasm AND NODE)
+    add_test(NAME Conformance.OfLibblobInWebAssemblyHolds
+      COMMAND Python3::Interpreter ${queries_only} --reader
+        "${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/blob_reader.mjs $<TARGET_PROPERTY:blob_wasm,WASM>")
+  endif()
   add_test(NAME Conformance.FilesAreThoseOfTheirRecipes
     COMMAND Python3::Interpreter ${conformance}/make.py --check)
 endif()

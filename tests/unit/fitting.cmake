@@ -1,4 +1,5 @@
 lumen_test(fitting_test
+  LABELS threads
   LIBS lumen_fitting lumen_reproduce
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/conjugate_gradients.cpp

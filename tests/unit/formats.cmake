@@ -1,4 +1,5 @@
 lumen_test(formats_test
+  LABELS memory
   LIBS lumen_case nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/allocation_meter.cpp

@@ -2,7 +2,8 @@ find_package(OpenMesh REQUIRED)
 find_package(draco REQUIRED)
 find_package(TinyGLTF REQUIRED)
 lumen_test(mesh_test
-  LIBS lumen_mesh draco::draco TinyGLTF::TinyGLTF
+  LABELS threads
+  LIBS lumen_mesh OpenMeshCore draco::draco TinyGLTF::TinyGLTF
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/marching_cubes_table_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/marching_cubes_test.cpp

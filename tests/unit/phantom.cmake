@@ -1,4 +1,5 @@
 lumen_test(phantom_test
+  LABELS threads
   LIBS lumen_phantom lumen_tube_tree
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/phantom/intensity_test.cpp

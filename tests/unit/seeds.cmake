@@ -1,4 +1,5 @@
 lumen_test(seeds_test
+  LABELS memory
   LIBS lumen_seeds
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/seeds/markups_test.cpp

@@ -1,5 +1,6 @@
 find_package(ZLIB REQUIRED)
 lumen_test(volume_test
+  LABELS memory threads
   LIBS lumen_volume
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/bspline_test.cpp

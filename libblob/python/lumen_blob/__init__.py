@@ -11,8 +11,8 @@ Lengths are millimetres in the frame of the case: LPS (+x left, +y posterior, +z
 (n, 3), or (3,) for one; answers have as many rows. libblob's header, blob.h, says what each number is, its
 error and where it is smooth.
 """
-from ._model import (BLENDED, DISTANCE_EXACT, HOLD, INSIDE, LOCAL, NOT_CONVERGED, NOWHERE, TWIN, Answer,
+from ._model import (BLENDED, DISTANCE_EXACT, HOLD, INSIDE, LOCAL, NOT_CONVERGED, NOWHERE, Answer,
                      Error, Hits, Model, Nearest)
 
 __all__ = ["Answer", "BLENDED", "DISTANCE_EXACT", "Error", "HOLD", "Hits", "INSIDE", "LOCAL", "Model",
-           "NOT_CONVERGED", "NOWHERE", "Nearest", "TWIN"]
+           "NOT_CONVERGED", "NOWHERE", "Nearest"]

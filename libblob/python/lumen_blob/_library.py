@@ -14,7 +14,7 @@ class OpenDef(ctypes.Structure):
 
 class Info(ctypes.Structure):
     _fields_ = [("node_count", c_size_t), ("blob_count", c_size_t), ("kernel", c_int),
-                ("kernel_parameter", c_double), ("iso_level", c_double), ("has_twin", c_int),
+                ("kernel_parameter", c_double), ("iso_level", c_double),
                 ("simd", c_int), ("low", c_double * 3), ("high", c_double * 3), ("bytes", c_size_t)]
 
 

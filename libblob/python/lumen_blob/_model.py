@@ -8,7 +8,7 @@ import numpy as np
 from ._library import lib
 
 NOWHERE = 0xFFFFFFFF  #: a cursor that is not known: the query locates
-BLENDED, LOCAL, DISTANCE_EXACT, HOLD, TWIN = 0, 1, 2, 4, 8  #: flags of queries
+BLENDED, LOCAL, DISTANCE_EXACT, HOLD = 0, 1, 2, 4  #: flags of queries
 INSIDE, NOT_CONVERGED = 1, 2  #: bits of Answer.state
 
 _NEAREST = np.dtype([("point", "f8", 3), ("normal", "f8", 3), ("distance", "f8"), ("node", "u4"),

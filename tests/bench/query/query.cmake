@@ -8,7 +8,7 @@ add_executable(query_bench
   ${folder}/query_bench.cpp
   ${folder}/report.cpp
   ${folder}/surfaces.cpp)
-target_link_libraries(query_bench PRIVATE lumen_mesh lumen_case lumen::blob_static OpenMeshTools lumen_options)
+target_link_libraries(query_bench PRIVATE lumen_mesh lumen_case lumen::blob_static OpenMeshCore OpenMeshTools lumen_options)
 
 # A rival's headers are not held to our warnings.
 function(lumen_bench_rival name file)
@@ -45,3 +45,6 @@ endif()
 
 add_executable(seam_sweep ${folder}/seam_sweep.cpp)
 target_link_libraries(seam_sweep PRIVATE lumen::blob_static lumen_options)
+
+add_executable(distance_error ${folder}/distance_error.cpp)
+target_link_libraries(distance_error PRIVATE lumen::blob_static lumen_options)

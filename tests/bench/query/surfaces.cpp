@@ -7,10 +7,11 @@
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/polygonise.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case_file.h"
 #include "method.h"
+#include "tests/unit/mesh/open_mesh.h"
 
 namespace lumen::bench {
 namespace {
@@ -95,37 +96,39 @@ Meshes meshes(const Case& source, double cell) {
 
 std::size_t facesOf(const Meshes& branches) {
   std::size_t count = 0;
-  for (const convert::BranchMesh& branch : branches) count += branch.mesh.n_faces();
+  for (const convert::BranchMesh& branch : branches) count += branch.triangle.size();
   return count;
 }
 
-Triangles triangles(const Meshes& branches) {
-  Triangles result;
-  for (const convert::BranchMesh& branch : branches) {
-    const auto first = static_cast<std::uint32_t>(result.vertex.size());
-    for (const auto v : branch.mesh.vertices()) {
-      const auto& p = branch.mesh.point(v);
-      result.vertex.push_back({p[0], p[1], p[2]});
-    }
-    for (const auto f : branch.mesh.faces()) {
-      std::array<std::uint32_t, 3> corners{};
-      std::size_t i = 0;
-      for (const auto v : branch.mesh.fv_range(f))
-        corners[i++] = first + static_cast<std::uint32_t>(v.idx());
-      result.face.push_back(corners);
-    }
-  }
-  return result;
+void append(const convert::BranchMesh& branch, Triangles& result) {
+  const auto first = static_cast<std::uint32_t>(result.vertex.size());
+  for (const convert::Float3& p : branch.position) result.vertex.push_back({p[0], p[1], p[2]});
+  for (const convert::Triangle& t : branch.triangle)
+    result.face.push_back({first + t[0], first + t[1], first + t[2]});
 }
 
-void decimate(convert::TriMesh& mesh, std::size_t faces) {
-  OpenMesh::Decimater::DecimaterT<convert::TriMesh> decimater(mesh);
-  OpenMesh::Decimater::ModQuadricT<convert::TriMesh>::Handle quadric;
+void appendDecimated(const convert::BranchMesh& branch, double share, Triangles& result) {
+  test::TriMesh mesh = test::toOpenMesh(branch);
+  OpenMesh::Decimater::DecimaterT<test::TriMesh> decimater(mesh);
+  OpenMesh::Decimater::ModQuadricT<test::TriMesh>::Handle quadric;
   decimater.add(quadric);
   decimater.module(quadric).unset_max_err();
   decimater.initialize();
-  decimater.decimate_to_faces(0, faces);
+  const double faces = share * static_cast<double>(mesh.n_faces());
+  decimater.decimate_to_faces(0, static_cast<std::size_t>(faces));
   mesh.garbage_collection();
+  const auto first = static_cast<std::uint32_t>(result.vertex.size());
+  for (const auto v : mesh.vertices()) {
+    const auto& p = mesh.point(v);
+    result.vertex.push_back({p[0], p[1], p[2]});
+  }
+  for (const auto f : mesh.faces()) {
+    std::array<std::uint32_t, 3> corners{};
+    std::size_t i = 0;
+    for (const auto v : mesh.fv_range(f))
+      corners[i++] = first + static_cast<std::uint32_t>(v.idx());
+    result.face.push_back(corners);
+  }
 }
 
 // About 100,000 triangles: their number goes with the inverse square of the cell, until thin
@@ -139,11 +142,13 @@ Triangles wantedMesh(const Case& source) {
     branches = meshes(source, cell);
   }
   const double share = kWanted / static_cast<double>(facesOf(branches));
-  if (share < 0.9)
-    for (convert::BranchMesh& branch : branches)
-      decimate(branch.mesh,
-               static_cast<std::size_t>(share * static_cast<double>(branch.mesh.n_faces())));
-  return triangles(branches);
+  Triangles result;
+  for (const convert::BranchMesh& branch : branches)
+    if (share < 0.9)
+      appendDecimated(branch, share, result);
+    else
+      append(branch, result);
+  return result;
 }
 
 // The nodes from a root to the leaf that is farthest along the tree.

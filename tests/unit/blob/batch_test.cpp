@@ -74,7 +74,7 @@ TEST_P(BlobPath, HasTheBitsOfTheScalarReference) {
   for (int i = 0; i < 19; ++i) tree.addBlob({8 + 0.1 * i, 1, 0.02 * i}, 0.3);  // three blocks
   const Model reference = tree.build(BLOB_SIMD_SCALAR), model = tree.build(simd);
   if (blob_model_describe(model.get()).simd != simd)
-    GTEST_SKIP() << "this processor or build does not have the path";
+    GTEST_SKIP() << "this processor or build does not have the back end";
   for (const std::uint32_t flags : kFlags)
     expectSame(batch(reference.get(), flags, points(1000)),
                batch(model.get(), flags, points(1000)));

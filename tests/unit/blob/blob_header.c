@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The header is C99 and C++11, and a plain C program can use the library. */
+/* First, as it must need nothing before it. */
+/* clang-format off */
 #include "blob.h"
+/* clang-format on */
 
 #include <stdio.h>
 

@@ -115,11 +115,11 @@ TEST(BlobClosedForm, ACompactKernelVanishesOutsideItsSupport) {
 // A sphere of radius 1.243: curvatures 1 / r at distance r from the centre.
 TEST(BlobClosedForm, CurvaturesAreThoseOfASphere) {
   std::uint32_t cursor = 0;
-  blob_second second;
+  blob_hessian hessian;
   const Point p{0, 0.6, 0.8};
-  blob_query_second(oneBlob().build().get(), 0, p.data(), &cursor, &second);
-  EXPECT_NEAR(second.mean_curvature, 1.0, 1e-6);
-  EXPECT_NEAR(second.gaussian_curvature, 1.0, 1e-6);
+  blob_query_hessian(oneBlob().build().get(), 0, p.data(), &cursor, &hessian);
+  EXPECT_NEAR(hessian.mean_curvature, 1.0, 1e-6);
+  EXPECT_NEAR(hessian.gaussian_curvature, 1.0, 1e-6);
 }
 
 TEST(BlobClosedForm, ATubeCurvesInOneDirectionOnly) {
@@ -127,11 +127,11 @@ TEST(BlobClosedForm, ATubeCurvesInOneDirectionOnly) {
   line.addNode({0, 0, 0}, 1.0);
   for (int i = -50; i <= 50; ++i) line.addBlob({0.3 * i, 0, 0}, 0.4);
   std::uint32_t cursor = 0;
-  blob_second second;
+  blob_hessian hessian;
   const Point p{0, 0, 1};
-  blob_query_second(line.build().get(), 0, p.data(), &cursor, &second);
-  EXPECT_NEAR(second.mean_curvature, 0.5, 0.01);
-  EXPECT_NEAR(second.gaussian_curvature, 0.0, 0.01);
+  blob_query_hessian(line.build().get(), 0, p.data(), &cursor, &hessian);
+  EXPECT_NEAR(hessian.mean_curvature, 0.5, 0.01);
+  EXPECT_NEAR(hessian.gaussian_curvature, 0.0, 0.01);
 }
 
 }  // namespace

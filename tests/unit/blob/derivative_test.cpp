@@ -62,8 +62,8 @@ TEST_P(BlobKernel, TheHessianIsThatOfTheSumInLongDoubles) {
   for (int n = 0; n < 200; ++n) {
     const Point p = randomPoint(random, 0.9);
     std::uint32_t cursor = 0;
-    blob_second s;
-    blob_query_second(model.get(), 0, p.data(), &cursor, &s);
+    blob_hessian s;
+    blob_query_hessian(model.get(), 0, p.data(), &cursor, &s);
     const auto shifted = [&](int i, long double a, int j, long double b) {
       std::array<long double, 3> x{p[0], p[1], p[2]};
       x[static_cast<std::size_t>(i)] += a;
@@ -89,21 +89,21 @@ TEST(BlobBlended, GradientAndHessianAreDerivativesOfTheValue) {
   const Model model = fork(0.5, 0.05).build();
   std::mt19937 random(3);
   const double h = 1e-5;
-  const auto second = [&](Point p, std::uint32_t cursor) {
-    blob_second s;
-    blob_query_second(model.get(), BLOB_HOLD, p.data(), &cursor, &s);
+  const auto hessianAt = [&](Point p, std::uint32_t cursor) {
+    blob_hessian s;
+    blob_query_hessian(model.get(), BLOB_HOLD, p.data(), &cursor, &s);
     return s;
   };
   for (int n = 0; n < 300; ++n) {
     Point p = randomPoint(random, 1.0);
     p[0] += 0.02 * n - 3;
     const std::uint32_t node = blob_cursor_locate(model.get(), p.data());
-    const blob_second here = second(p, node);
+    const blob_hessian here = hessianAt(p, node);
     for (std::size_t i = 0; i < 3; ++i) {
       Point low = p, high = p;
       low[i] -= h;
       high[i] += h;
-      const blob_second a = second(low, node), b = second(high, node);
+      const blob_hessian a = hessianAt(low, node), b = hessianAt(high, node);
       ASSERT_NEAR(here.gradient[i], (b.value - a.value) / (2 * h), 1e-7);
       for (int k = 0; k < 6; ++k)
         if (kRow[k] == static_cast<int>(i)) {
@@ -122,9 +122,9 @@ TEST(BlobBlended, FloatsAndDoublesAgree) {
     p[0] += 0.002 * n - 2;
     std::uint32_t cursor = BLOB_NOWHERE;
     blob_sample s;
-    blob_second d;
+    blob_hessian d;
     blob_query(model.get(), 0, p.data(), &cursor, &s);
-    blob_query_second(model.get(), 0, p.data(), &cursor, &d);
+    blob_query_hessian(model.get(), 0, p.data(), &cursor, &d);
     ASSERT_NEAR(s.value, d.value, 3e-6 * d.value);
     for (int i = 0; i < 3; ++i) ASSERT_NEAR(s.gradient[i], d.gradient[i], 1e-5);
   }

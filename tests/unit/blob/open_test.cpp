@@ -45,19 +45,6 @@ formats::Case caseOf(const Tree& tree) {
   return result;
 }
 
-// A tube whose compact twin is one wide blob at each node.
-formats::Case tubeWithTwin() {
-  formats::Case result = caseOf(tube(12));
-  Tree twin;
-  twin.kernel = BLOB_QUARTIC;
-  for (const auto& c : tube(12).centre) {
-    twin.addNode({c[0], c[1], c[2]}, 1);
-    twin.addBlob({c[0], c[1], c[2]}, 1.3);
-  }
-  result.compactModels = modelsOf(twin);
-  return result;
-}
-
 struct Opened {
   blob_status status;
   Model model;
@@ -107,23 +94,6 @@ TEST(BlobOpen, BytesMayLieAnywhereAndGoAfterwards) {
     std::fill(moved.begin(), moved.end(), '\xff');
     EXPECT_LT(distanceAt(opened.model, {3, 0, 0}), -0.9);
   }
-}
-
-TEST(BlobOpen, TheTwinAnswersWhenAsked) {
-  const auto bytes = formats::encodeBinary(tubeWithTwin());
-  const Opened opened = open(bytes.data(), bytes.size());
-  ASSERT_EQ(opened.status, BLOB_OK) << opened.message;
-  EXPECT_EQ(blob_model_describe(opened.model.get()).has_twin, 1);
-  std::uint32_t cursor = BLOB_NOWHERE;
-  const Point in{3, 0.2, 0}, out{3, 1.4, 0};
-  EXPECT_EQ(blob_inside(opened.model.get(), BLOB_TWIN, in.data(), &cursor), 1);
-  EXPECT_EQ(blob_inside(opened.model.get(), BLOB_TWIN, out.data(), &cursor), 0);
-  EXPECT_EQ(blob_inside(opened.model.get(), BLOB_TWIN | BLOB_LOCAL, in.data(), &cursor), 1);
-  blob_sample s;
-  blob_query(opened.model.get(), BLOB_TWIN, out.data(), &cursor, &s);
-  EXPECT_EQ(s.value, 0.0);  // beyond the twin's support
-  blob_query(opened.model.get(), 0, out.data(), &cursor, &s);
-  EXPECT_GT(s.value, 0.0);
 }
 
 TEST(BlobOpen, WhatIsMissingIsNamed) {

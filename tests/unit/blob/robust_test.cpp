@@ -41,7 +41,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Everything {
   blob_sample sample, exact, local;
   blob_nearest_point nearest;
-  blob_second second;
+  blob_hessian hessian;
   blob_hit hit;
   blob_approach approach;
   int inside;
@@ -59,7 +59,7 @@ Everything queryAll(const Model& model, const Point& p, const Point& to, std::ui
   std::uint32_t own = cursor;
   e.inside = blob_inside(model.get(), 0, p.data(), &own);
   blob_nearest(model.get(), 0, p.data(), &own, 0, 0, &e.nearest);
-  blob_query_second(model.get(), 0, p.data(), &own, &e.second);
+  blob_query_hessian(model.get(), 0, p.data(), &own, &e.hessian);
   blob_segment_hit(model.get(), 0, p.data(), to.data(), &own, 0, 200, &e.hit);
   blob_capsule_approach(model.get(), 0, p.data(), to.data(), 0.2, &own, &e.approach);
   return e;
@@ -80,7 +80,7 @@ TEST(BlobRobust, NanGivesNanAndOutside) {
       EXPECT_EQ(e.sample.state, 0U);
       EXPECT_EQ(e.inside, 0);
       EXPECT_TRUE(std::isnan(e.nearest.point[0]));
-      EXPECT_TRUE(std::isnan(e.second.hessian[5]));
+      EXPECT_TRUE(std::isnan(e.hessian.hessian[5]));
       EXPECT_EQ(e.hit.hit, 0);
       EXPECT_TRUE(std::isnan(e.approach.depth));
     }

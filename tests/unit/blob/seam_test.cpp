@@ -161,6 +161,27 @@ TEST(BlobSeam, AtANodeOfAStraightTubeItsModelAnswersAlone) {
   EXPECT_NEAR(blended.value, local.value, 1e-7);
 }
 
+// A hub and ten leaves, more neighbours than one block of lanes. The last leaf, close to the hub,
+// beats it by tau; the others are its rivals and would have weights.
+TEST(BlobSeam, AHeldNodeWithoutWeightAnswersAlone) {
+  Tree tree;
+  tree.addNode({0, 0, 0}, 0.6);
+  tree.addBlob({0, 0, 0}, 0.3);
+  for (int leaf = 1; leaf <= 10; ++leaf) {
+    const double angle = 0.7 * leaf;
+    const Point far{0.5, 0.8 * std::cos(angle), 0.8 * std::sin(angle)}, close{0.5, 0, 0};
+    tree.addNode(leaf == 10 ? close : far, leaf == 10 ? 0.6 : 0.97, 0);
+    tree.addBlob(leaf == 10 ? close : far, 0.3 + 0.02 * leaf);
+  }
+  const Model model = tree.build();
+  const Point p{0.45, 0, 0};
+  std::uint32_t hub = 0;
+  blob_sample blended, local;
+  blob_query(model.get(), BLOB_BLENDED | BLOB_HOLD, p.data(), &hub, &blended);
+  blob_query(model.get(), BLOB_LOCAL | BLOB_HOLD, p.data(), &hub, &local);
+  EXPECT_TRUE(sameBits(blended, local));
+}
+
 // A second vessel that touches changes nothing, not even the last bit.
 TEST(BlobSeam, AVesselThatTouchesHasNoInfluence) {
   const Model both = kissing(0.0).build();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Our reader behind the protocol of spec/conformance/README.md: case_reader FILE < questions.json
-#include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <iostream>
 #include <iterator>
 #include <string>
@@ -10,57 +8,46 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/case/blobby.h"
+#include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
-#include "formats/case/topology.h"
 
 namespace {
 
 using namespace lumen::formats;
+using lumen::field::BlendedField;
+using lumen::field::Jet;
+using lumen::field::Vec;
 using nlohmann::json;
 
 /// The power of a point with respect to a node, mm^2.
-double power(const CenterlineTree& tree, std::size_t node, const Vec3d& p) {
+double power(const CenterlineTree& tree, std::size_t node, const Vec& p) {
   const Vec3f& c = tree.centre[node];
   const double x = p.x - c.x, y = p.y - c.y, z = p.z - c.z, r = tree.radius[node];
   return x * x + y * y + z * z - r * r;
 }
 
-std::uint32_t nodeOfPoint(const CenterlineTree& tree, const Vec3d& p) {
-  std::uint32_t best = 0;
-  for (std::uint32_t node = 1; node < tree.nodeCount(); ++node)
-    if (power(tree, node, p) < power(tree, best, p)) best = node;
-  return best;
+/// The field of a case; one without blobs, to find nodes by, where it has no models.
+BlendedField fieldOf(const Case& value) {
+  if (value.models) return blendedFieldOf(value);
+  BlobbyModels none;
+  none.offset.assign(value.tree.nodeCount() + 1, 0);
+  return {treeViewOf(value.tree), modelsViewOf(none)};
 }
 
-/// From a node to its neighbour of smallest power, for as long as that lowers the power.
-std::uint32_t walk(const CenterlineTree& tree, const Neighbours& neighbours, std::uint32_t node,
-                   const Vec3d& p) {
-  for (;;) {
-    std::uint32_t best = node;
-    for (const std::uint32_t next : neighbours.of(node))
-      if (power(tree, next, p) < power(tree, best, p)) best = next;
-    if (best == node) return node;
-    node = best;
-  }
+json fieldAnswer(const BlendedField& field, const Jet<1>& f) {
+  return {{"value", f.value}, {"gradient", f.gradient}, {"inside", f.value > field.level()}};
 }
 
-json fieldAnswer(const BlobbyModels& models, std::uint32_t node, const Vec3d& p) {
-  const FieldValue field = evaluateField(models, node, p);
-  return {{"value", field.f},
-          {"gradient", {field.gradient.x, field.gradient.y, field.gradient.z}},
-          {"inside", field.f > models.isoLevel}};
-}
-
-json answer(const Case& value, const Neighbours& neighbours, const json& question) {
+json answer(const Case& value, const BlendedField& field, const json& question) {
   const auto xyz = question.at("point").get<std::vector<double>>();
-  const Vec3d p{xyz.at(0), xyz.at(1), xyz.at(2)};
-  const std::uint32_t node =
-      question.contains("current")
-          ? walk(value.tree, neighbours, question["current"].get<std::uint32_t>(), p)
-          : nodeOfPoint(value.tree, p);
+  const Vec p{xyz.at(0), xyz.at(1), xyz.at(2)};
+  const std::uint32_t node = question.contains("current")
+                                 ? field.follow(p, question["current"].get<std::uint32_t>())
+                                 : field.locate(p);
   json out = {{"node", node}, {"power", power(value.tree, node, p)}};
-  if (value.models) out.update(fieldAnswer(*value.models, node, p));
+  if (!value.models) return out;
+  out.update(fieldAnswer(field, field.local(p, node)));
+  out["blended"] = fieldAnswer(field, field.blended(p, node));
   return out;
 }
 
@@ -83,10 +70,9 @@ int main(int argc, char** argv) {
     return 0;
   }
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-  const Neighbours neighbours(value->tree);
+  const BlendedField field = fieldOf(*value);
   json answers = json::array();
-  for (const json& question : json::parse(text))
-    answers.push_back(answer(*value, neighbours, question));
+  for (const json& question : json::parse(text)) answers.push_back(answer(*value, field, question));
   // the case is written by the library's own encoder, so that it is tested too
   std::cout << R"({"accepted": true, "answers": )" << answers.dump()
             << ", \"case\": " << encodeJson(*value) << "}\n";

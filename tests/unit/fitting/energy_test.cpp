@@ -59,9 +59,9 @@ double& coordinate(Blob& b, std::size_t i) {
 
 /// Largest difference between analytic and central differences, relative to the largest derivative.
 double derivativeError(const EnergyParameters& parameters, std::vector<Blob> blobs,
-                       std::size_t active, const std::vector<Vec3d>& ties = {}) {
+                       std::size_t active, const std::vector<Vec3d>& seam = {}) {
   Energy energy(parameters);
-  energy.setPoints(scatteredPoints(), ties, 2);
+  energy.setPoints(scatteredPoints(), seam, 2);
   energy.freeze(blobs, active);
   const std::size_t n = 4 * (blobs.size() - active);
   std::vector<double> a(n * n), b(n);
@@ -84,20 +84,20 @@ double derivativeError(const EnergyParameters& parameters, std::vector<Blob> blo
   return worst / largest;
 }
 
-TEST(Energy, TiesCountInTheDataTermOnly) {
+TEST(Energy, SeamsCountInTheDataTermOnly) {
   EnergyParameters p = parametersFor(Kernel::Cauchy);
   p.cohesionWeight = 0;
-  const std::vector<Vec3d> points = scatteredPoints(), ties{{0.5, 0.2, 0.1}, {-0.4, 0.3, 0.9}};
+  const std::vector<Vec3d> points = scatteredPoints(), seam{{0.5, 0.2, 0.1}, {-0.4, 0.3, 0.9}};
   const std::vector<Blob> blobs = scatteredBlobs(0.6);
-  Energy plain(p), tied(p), ofTies(p);
+  Energy plain(p), shared(p), ofSeam(p);
   plain.setPoints(points);
-  tied.setPoints(points, ties, 3);
-  ofTies.setPoints(ties);
-  for (Energy* energy : {&plain, &tied, &ofTies}) energy->evaluate(blobs);
-  EXPECT_NEAR(tied.terms().data, plain.terms().data + 3 * ofTies.terms().data, 1e-14);
-  EXPECT_NEAR(tied.terms().curvature, plain.terms().curvature, 1e-12);
-  EXPECT_NEAR(tied.slope(), plain.slope(), 1e-14);
-  EXPECT_EQ(tied.field().size(), points.size());
+  shared.setPoints(points, seam, 3);
+  ofSeam.setPoints(seam);
+  for (Energy* energy : {&plain, &shared, &ofSeam}) energy->evaluate(blobs);
+  EXPECT_NEAR(shared.terms().data, plain.terms().data + 3 * ofSeam.terms().data, 1e-14);
+  EXPECT_NEAR(shared.terms().curvature, plain.terms().curvature, 1e-12);
+  EXPECT_NEAR(shared.slope(), plain.slope(), 1e-14);
+  EXPECT_EQ(shared.field().size(), points.size());
 }
 
 class EnergyOfKernel : public testing::TestWithParam<Kernel> {
@@ -118,11 +118,11 @@ TEST_P(EnergyOfKernel, NormalisedDataDerivativesMatchCentralDifferences) {
   EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0), 1e-6);
 }
 
-TEST_P(EnergyOfKernel, DerivativesWithTiesMatchCentralDifferences) {
+TEST_P(EnergyOfKernel, DerivativesWithSeamsMatchCentralDifferences) {
   EnergyParameters p = parametersFor(GetParam());
   p.referenceSlope = 0.3;
-  const std::vector<Vec3d> ties{{0.5, 0.2, 0.1}, {-0.4, 0.3, 0.9}, {0.1, -0.7, 0.3}};
-  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0, ties), 1e-6);
+  const std::vector<Vec3d> seam{{0.5, 0.2, 0.1}, {-0.4, 0.3, 0.9}, {0.1, -0.7, 0.3}};
+  EXPECT_LT(derivativeError(p, scatteredBlobs(width()), 0, seam), 1e-6);
 }
 
 TEST_P(EnergyOfKernel, CurvatureDerivativesMatchCentralDifferences) {

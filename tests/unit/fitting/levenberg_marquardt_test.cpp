@@ -57,12 +57,19 @@ TEST(SolveSymmetric, RefusesAnIndefiniteMatrix) {
   EXPECT_FALSE(solveSymmetric(a, std::vector<double>{1, 1}, 2, x));
 }
 
+/// minimise() with fresh buffers.
+MinimiseResult minimised(Energy& energy, std::vector<Blob>& blobs, std::size_t active,
+                         const MinimiseOptions& options, std::vector<double>* trace = nullptr) {
+  MinimiseWorkspace workspace;
+  return minimise(energy, blobs, active, options, workspace, trace);
+}
+
 TEST(LevenbergMarquardt, EveryStepLowersTheEnergy) {
   Energy energy({});
   energy.setPoints(tubePoints(4, 0.05));
   std::vector<Blob> blobs = rowOfBlobs(4, 4);
   std::vector<double> trace;
-  const MinimiseResult result = LevenbergMarquardt().minimise(energy, blobs, 0, {}, &trace);
+  const MinimiseResult result = minimised(energy, blobs, 0, {}, &trace);
   ASSERT_GT(trace.size(), 3U);
   for (std::size_t i = 1; i < trace.size(); ++i) EXPECT_LT(trace[i], trace[i - 1]);
   EXPECT_EQ(result.energy, trace.back());
@@ -82,7 +89,7 @@ TEST(LevenbergMarquardt, OneBlobFindsASphere) {
   Energy energy(p);
   energy.setPoints(points);
   std::vector<Blob> blobs{{0, 0.2, 0, 0.3}};
-  LevenbergMarquardt().minimise(energy, blobs, 0, {100, 1e-12});
+  minimised(energy, blobs, 0, {100, 1e-12});
   EXPECT_NEAR(blobs[0].x, 0.3, 1e-6);
   EXPECT_NEAR(blobs[0].y, 0, 1e-6);
   EXPECT_NEAR(formats::isoRadius(p.kernel, p.kernelParameter, blobs[0].width, p.isoLevel), 1, 1e-6);
@@ -94,7 +101,7 @@ TEST(LevenbergMarquardt, FrozenBlobsStay) {
   std::vector<Blob> blobs = rowOfBlobs(3, 4);
   const Blob first = blobs[0], second = blobs[1], third = blobs[2];
   energy.freeze(blobs, 2);
-  LevenbergMarquardt().minimise(energy, blobs, 2, {});
+  minimised(energy, blobs, 2, {});
   EXPECT_EQ(blobs[0].x, first.x);
   EXPECT_EQ(blobs[1].width, second.width);
   EXPECT_NE(blobs[2].width, third.width);
@@ -106,7 +113,7 @@ TEST(LevenbergMarquardt, CentresStayWithinReach) {
   std::vector<Blob> blobs{{-0.2, 0, 0, 0.35}, {0.2, 0, 0, 0.35}};
   MinimiseOptions options;
   options.reach = 1;
-  LevenbergMarquardt().minimise(energy, blobs, 0, options);
+  minimised(energy, blobs, 0, options);
   for (const Blob& b : blobs) EXPECT_LE(b.x * b.x + b.y * b.y + b.z * b.z, 1 + 1e-12);
 }
 
@@ -121,11 +128,11 @@ TEST(LevenbergMarquardt, CentresStayInTheUnionOfTheBalls) {
   std::vector<Blob> free{{-0.2, 0, 0, 0.35}, {0.2, 0, 0, 0.35}}, kept = free;
   Energy energy(normalised(points, free));
   energy.setPoints(points);
-  LevenbergMarquardt().minimise(energy, free, 0, {});
+  minimised(energy, free, 0, {});
   EXPECT_TRUE(std::any_of(free.begin(), free.end(), outside));
   MinimiseOptions options;
   options.lumen = balls;
-  LevenbergMarquardt().minimise(energy, kept, 0, options);
+  minimised(energy, kept, 0, options);
   EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), outside));
 }
 
@@ -136,7 +143,7 @@ TEST(LevenbergMarquardt, EndsAtNoHigherEnergyThanTheThesisConjugateGradients) {
       std::vector<Blob> ours = rowOfBlobs(count, 4), theirs = ours;
       Energy energy(normalised(points, ours));
       energy.setPoints(points);
-      const double reached = LevenbergMarquardt().minimise(energy, ours, 0, {60, 1e-4}).energy;
+      const double reached = minimised(energy, ours, 0, {60, 1e-4}).energy;
       const double reference = test::minimiseByConjugateGradients(energy, theirs, 5, 12);
       EXPECT_LE(reached, 1.001 * reference) << count << " blobs, noise " << noise;
     }

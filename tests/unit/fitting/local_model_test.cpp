@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/common/random.h"
+#include "converters/fitting/subdivision.h"
 
 namespace lumen::convert::fitting {
 namespace {
@@ -38,6 +39,11 @@ std::vector<Vec3d> tubePoints(double noise) {
   return points;
 }
 
+LocalModel fitted(const NodeData& node, const LocalModelOptions& options = {}) {
+  FitWorkspace workspace;
+  return fitLocalModel(options, node, Progress(), workspace);
+}
+
 double fieldAt(std::span<const Blob> blobs, const Vec3d& p) {
   double f = 0;
   for (const Blob& b : blobs) {
@@ -65,38 +71,30 @@ double radiusAt(std::span<const Blob> blobs, double x) {
 }
 
 TEST(Split, TwoHalvesHaveTheSurfaceOfTheirBlob) {
-  const EnergyParameters parameters;
   const Blob whole{0, 0, 0, 0.5};
   const double radius = formats::isoRadius(formats::Kernel::Cauchy, 0.2, whole.width, 0.1);
-  Blob first = whole, second;
-  split(parameters, {0, 5, 0}, first, second);
+  const auto [first, second] = splitBlob({}, {0, 5, 0}, whole);
   EXPECT_EQ(first.width, second.width);
   EXPECT_NEAR(fieldAt(std::vector<Blob>{first, first}, {0, 0, radius}), 0.1, 1e-12);
 }
 
 TEST(Split, TheSecondHalfMovesByATenthOfTheWidthTowardsThePoint) {
-  Blob first{0, 0, 0, 0.5}, second;
-  split({}, {0, 5, 0}, first, second);
+  const auto [first, second] = splitBlob({}, {0, 5, 0}, {0, 0, 0, 0.5});
   EXPECT_EQ(first.y, 0);
   EXPECT_NEAR(second.y, 0.05, 1e-15);
   EXPECT_EQ(second.x, 0);
 }
 
 TEST(Split, ABlobThatNeverReachesTheLevelIsHalved) {
-  Blob first{0, 0, 0, 0.08}, second;
-  split({}, {0, 5, 0}, first, second);
-  EXPECT_EQ(first.width, 0.04);
+  EXPECT_EQ(splitBlob({}, {0, 5, 0}, {0, 0, 0, 0.08}).first.width, 0.04);
 }
 
 TEST(Split, APointInTheCentreStillPartsTheHalves) {
-  Blob first{1, 2, 3, 0.5}, second;
-  split({}, {1, 2, 3}, first, second);
-  EXPECT_NEAR(second.x, 1.05, 1e-15);
+  EXPECT_NEAR(splitBlob({}, {1, 2, 3}, {1, 2, 3, 0.5}).second.x, 1.05, 1e-15);
 }
 
 TEST(LocalModel, NoPointsGiveTwoBlobsAsWideAsTheNode) {
-  LocalModel model({});
-  const auto blobs = model.fit({{}, 1, kAlongX, {}}, Progress());
+  const auto blobs = fitted({{}, 1, kAlongX, {}}).blobs;
   ASSERT_EQ(blobs.size(), 2U);
   EXPECT_EQ(blobs[0].x, -0.5);
   EXPECT_EQ(blobs[1].x, 0.5);
@@ -106,15 +104,13 @@ TEST(LocalModel, NoPointsGiveTwoBlobsAsWideAsTheNode) {
 }
 
 TEST(LocalModel, SevenPointsAreTooFew) {
-  LocalModel model({});
   const std::vector<Vec3d> points(7, Vec3d{0, 0, 3});
-  EXPECT_EQ(model.fit({points, 1, kAlongX, {}}, Progress())[0].x, -0.5);
+  EXPECT_EQ(fitted({points, 1, kAlongX, {}}).blobs[0].x, -0.5);
 }
 
 TEST(LocalModel, EightEqualPointsGiveAFiniteModel) {
-  LocalModel model({});
   const std::vector<Vec3d> points(8, Vec3d{0, 0, 1});
-  for (const Blob& b : model.fit({points, 1, kAlongX, {}}, Progress())) {
+  for (const Blob& b : fitted({points, 1, kAlongX, {}}).blobs) {
     EXPECT_TRUE(std::isfinite(b.x + b.y + b.z + b.width));
     EXPECT_GT(b.width, 0);
   }
@@ -124,8 +120,7 @@ TEST(LocalModel, ReproducesASphereToAThousandth) {
   LocalModelOptions options;
   options.energy.cohesionWeight = options.energy.curvatureWeight = 0;
   options.accuracy = 1e-3;
-  LocalModel model(options);
-  const auto blobs = model.fit({spherePoints(1), 1, kAlongX, {}}, Progress());
+  const auto blobs = fitted({spherePoints(1), 1, kAlongX, {}}, options).blobs;
   for (const Vec3d& p : spherePoints(1)) {
     const double outward = fieldAt(blobs, {1.001 * p.x, 1.001 * p.y, 1.001 * p.z});
     const double inward = fieldAt(blobs, {0.999 * p.x, 0.999 * p.y, 0.999 * p.z});
@@ -134,24 +129,20 @@ TEST(LocalModel, ReproducesASphereToAThousandth) {
 }
 
 TEST(LocalModel, ATubeIsAsWideAtItsNodeAsItsPoints) {
-  LocalModel model({});
-  const auto blobs = model.fit({tubePoints(0.05), 1, kAlongX, {}}, Progress());
+  const auto blobs = fitted({tubePoints(0.05), 1, kAlongX, {}}).blobs;
   for (const double x : {-0.5, -0.25, 0.0, 0.25, 0.5}) EXPECT_NEAR(radiusAt(blobs, x), 1, 0.04);
 }
 
 TEST(LocalModel, AFewOutliersDoNotMoveTheWall) {
   std::vector<Vec3d> points = tubePoints(0.05);
   for (const double x : {-0.8, 0.0, 0.9}) points.push_back({x, 1.6, 0});
-  LocalModel model({});
-  const auto blobs = model.fit({points, 1, kAlongX, {}}, Progress());
+  const auto blobs = fitted({points, 1, kAlongX, {}}).blobs;
   for (const double x : {-0.5, 0.0, 0.5}) EXPECT_NEAR(radiusAt(blobs, x), 1, 0.05);
 }
 
 TEST(LocalModel, AWrongStartingRadiusDoesNotMatter) {
-  LocalModel model({});
   for (const double radius : {0.7, 1.0, 1.4}) {
-    EXPECT_NEAR(radiusAt(model.fit({tubePoints(0.05), radius, kAlongX, {}}, Progress()), 0), 1,
-                0.04)
+    EXPECT_NEAR(radiusAt(fitted({tubePoints(0.05), radius, kAlongX, {}}).blobs, 0), 1, 0.04)
         << radius;
   }
 }
@@ -175,8 +166,7 @@ struct FarFork {
 
 TEST(LocalModel, ABranchThatStartsFarFromItsParentCoversBoth) {
   const FarFork fork;
-  LocalModel model({});
-  const auto blobs = model.fit({fork.points, 0.15, kAlongX, fork.lumen}, Progress());
+  const auto blobs = fitted({fork.points, 0.15, kAlongX, fork.lumen}).blobs;
   EXPECT_GT(fieldAt(blobs, {-2, 3.5, 0.25}), 0.1);
   EXPECT_LT(fieldAt(blobs, {-2, 3.5, 0.35}), 0.1);
   EXPECT_GT(fieldAt(blobs, {0.15, 0, 0.12}), 0.1);
@@ -186,9 +176,9 @@ TEST(LocalModel, ABranchThatStartsFarFromItsParentCoversBoth) {
 TEST(LocalModel, NoSubdivisionLeavesTwoBlobs) {
   LocalModelOptions options;
   options.maxSubdivisions = 0;
-  LocalModel model(options);
-  EXPECT_EQ(model.fit({tubePoints(0), 1, kAlongX, {}}, Progress()).size(), 2U);
-  EXPECT_EQ(model.subdivisions(), 0);
+  const LocalModel model = fitted({tubePoints(0), 1, kAlongX, {}}, options);
+  EXPECT_EQ(model.blobs.size(), 2U);
+  EXPECT_EQ(model.subdivisions, 0);
 }
 
 TEST(LocalModel, MoreSubdivisionsNeverEndAtAHigherEnergy) {
@@ -197,18 +187,20 @@ TEST(LocalModel, MoreSubdivisionsNeverEndAtAHigherEnergy) {
     LocalModelOptions options;
     options.maxSubdivisions = subdivisions;
     options.accuracy = 0.01;
-    LocalModel model(options);
-    model.fit({tubePoints(0.02), 1, kAlongX, {}}, Progress());
-    EXPECT_LE(model.energy(), 1.001 * previous);
-    previous = model.energy();
+    const double energy = fitted({tubePoints(0.02), 1, kAlongX, {}}, options).energy;
+    EXPECT_LE(energy, 1.001 * previous);
+    previous = energy;
   }
 }
 
 TEST(LocalModel, AFitDoesNotDependOnTheOneBefore) {
-  LocalModel fresh({}), used({});
-  const auto expected = fresh.fit({tubePoints(0.05), 1, kAlongX, {}}, Progress());
-  used.fit({spherePoints(2), 2, kAlongX, {}}, Progress());
-  const auto found = used.fit({tubePoints(0.05), 1, kAlongX, {}}, Progress());
+  const auto fit = [](std::vector<Vec3d> points, double radius, FitWorkspace& workspace) {
+    return fitLocalModel({}, {points, radius, kAlongX, {}}, Progress(), workspace).blobs;
+  };
+  FitWorkspace fresh, used;
+  const auto expected = fit(tubePoints(0.05), 1, fresh);
+  fit(spherePoints(2), 2, used);
+  const auto found = fit(tubePoints(0.05), 1, used);
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].x, expected[i].x);
@@ -219,8 +211,7 @@ TEST(LocalModel, AFitDoesNotDependOnTheOneBefore) {
 TEST(LocalModel, BlobsOfAFitLieWithinMaxDistance) {
   LocalModelOptions options;
   options.maxDistance = 1.2;
-  LocalModel model(options);
-  for (const Blob& b : model.fit({tubePoints(0), 1, kAlongX, {}}, Progress())) {
+  for (const Blob& b : fitted({tubePoints(0), 1, kAlongX, {}}, options).blobs) {
     EXPECT_LE(std::sqrt(b.x * b.x + b.y * b.y + b.z * b.z), 1.2);
   }
 }

@@ -3,9 +3,20 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <string>
 
-#include "converters/mesh/mesh.h"
+#include "converters/mesh/polygonise.h"
+#include "converters/mesh/write_gltf.h"
 #include "synthetic.h"
+
+namespace {
+
+void write(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
@@ -19,16 +30,16 @@ int main(int argc, char** argv) {
     std::filesystem::create_directories(folder);
     Progress progress;
     const auto meshes = convert::polygonise(tree, {}, progress);
-    convert::writeMesh(meshes, folder / "tree.glb", "glb", {});
-    convert::writeMesh(meshes, folder / "tree.gltf", "gltf", {});
-    convert::writeMesh(meshes, folder / "draco.glb", "glb", {.draco = true});
-    convert::writeMesh(meshes, folder / "draco.gltf", "gltf", {.draco = true});
+    write(folder / "tree.glb", convert::encodeGltf(meshes, true, {}));
+    write(folder / "tree.gltf", convert::encodeGltf(meshes, false, {}));
+    write(folder / "draco.glb", convert::encodeGltf(meshes, true, {.draco = true}));
+    write(folder / "draco.gltf", convert::encodeGltf(meshes, false, {.draco = true}));
     // More vertices than 16-bit indices reach.
     const auto fine = convert::polygonise(test::sphereCase(1.0, 0.43), {0.015}, progress);
-    if (fine[0].mesh.n_vertices() <= 65536) return 1;
-    convert::writeMesh(fine, folder / "fine.glb", "glb", {});
-    convert::writeMesh(fine, folder / "fine_draco.glb", "glb", {.draco = true});
-    convert::writeMesh({}, folder / "empty.glb", "glb", {.draco = true});
+    if (fine[0].position.size() <= 65536) return 1;
+    write(folder / "fine.glb", convert::encodeGltf(fine, true, {}));
+    write(folder / "fine_draco.glb", convert::encodeGltf(fine, true, {.draco = true}));
+    write(folder / "empty.glb", convert::encodeGltf({}, true, {.draco = true}));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -11,23 +11,14 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/mesh/mesh.h"
 #include "converters/mesh/patch.h"
 
 namespace lumen::test {
 
-inline convert::Patch toPatch(const convert::TriMesh& mesh) {
+inline convert::Patch toPatch(const convert::BranchMesh& mesh) {
   convert::Patch patch;
-  for (const auto v : mesh.vertices()) {
-    const auto p = mesh.point(v);
-    patch.position.emplace_back(p[0], p[1], p[2]);
-  }
-  for (const auto f : mesh.faces()) {
-    convert::Triangle t{};
-    std::size_t next = 0;
-    for (const auto v : mesh.fv_range(f)) t[next++] = static_cast<std::uint32_t>(v.idx());
-    patch.triangle.push_back(t);
-  }
+  for (const convert::Float3& p : mesh.position) patch.position.emplace_back(p[0], p[1], p[2]);
+  patch.triangle = mesh.triangle;
   return patch;
 }
 

@@ -12,11 +12,17 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
-#include "converters/mesh/encode_mesh.h"
+#include "converters/common/error.h"
+#include "converters/mesh/polygonise.h"
+#include "converters/mesh/write_gltf.h"
+#include "converters/mesh/write_plain.h"
+#include "open_mesh.h"
 #include "synthetic.h"
 
 namespace lumen::convert {
 namespace {
+
+using test::TriMesh;
 
 // Two vessels, and a branch without triangles between them.
 std::vector<BranchMesh> sample() {
@@ -25,19 +31,19 @@ std::vector<BranchMesh> sample() {
   test::addModels(source);
   Progress progress;
   auto meshes = polygonise(source, {}, progress);
-  meshes.insert(meshes.begin() + 1, BranchMesh{"empty", {}});
+  meshes.insert(meshes.begin() + 1, BranchMesh{"empty", {}, {}, {}});
   return meshes;
 }
 
 std::size_t verticesOf(const std::vector<BranchMesh>& meshes) {
   std::size_t count = 0;
-  for (const BranchMesh& m : meshes) count += m.mesh.n_vertices();
+  for (const BranchMesh& m : meshes) count += m.position.size();
   return count;
 }
 
 std::size_t facesOf(const std::vector<BranchMesh>& meshes) {
   std::size_t count = 0;
-  for (const BranchMesh& m : meshes) count += m.mesh.n_faces();
+  for (const BranchMesh& m : meshes) count += m.triangle.size();
   return count;
 }
 
@@ -75,18 +81,17 @@ TEST_P(Gltf, ReadsBackWithOneNamedMeshPerBranch) {
   EXPECT_EQ(model.nodes[2].name, "side a");
   EXPECT_EQ(model.asset.generator, "lumen " LUMEN_VERSION);
   for (std::size_t b = 0; b < 2; ++b) {
-    const TriMesh& mesh = meshes[2 * b].mesh;
+    const BranchMesh& mesh = meshes[2 * b];
     const tinygltf::Primitive& primitive = model.meshes[b].primitives.at(0);
     const int position = primitive.attributes.at("POSITION"),
               normal = primitive.attributes.at("NORMAL");
-    EXPECT_EQ(model.accessors[static_cast<std::size_t>(position)].count, mesh.n_vertices());
+    EXPECT_EQ(model.accessors[static_cast<std::size_t>(position)].count, mesh.position.size());
     EXPECT_EQ(model.accessors[static_cast<std::size_t>(primitive.indices)].count,
-              3 * mesh.n_faces());
-    const TriMesh::VertexHandle last(static_cast<int>(mesh.n_vertices()) - 1);
-    const std::size_t at = 3 * (mesh.n_vertices() - 1);
+              3 * mesh.triangle.size());
+    const std::size_t at = 3 * (mesh.position.size() - 1);
     for (std::size_t a = 0; a < 3; ++a) {
-      EXPECT_EQ(floatsOf(model, position)[at + a], mesh.point(last)[a]);
-      EXPECT_EQ(floatsOf(model, normal)[at + a], mesh.normal(last)[a]);
+      EXPECT_EQ(floatsOf(model, position)[at + a], mesh.position.back()[a]);
+      EXPECT_EQ(floatsOf(model, normal)[at + a], mesh.normal.back()[a]);
     }
   }
 }
@@ -135,8 +140,8 @@ TEST(GltfDraco, DecodesToTheCountsAndTheBoxOfItsAccessors) {
     const auto& accessor =
         model.accessors[static_cast<std::size_t>(primitive.attributes.at("POSITION"))];
     const auto decoded = decodeDraco(model, b);
-    EXPECT_EQ(decoded->num_faces(), meshes[2 * b].mesh.n_faces());
-    EXPECT_EQ(decoded->num_points(), meshes[2 * b].mesh.n_vertices());
+    EXPECT_EQ(decoded->num_faces(), meshes[2 * b].triangle.size());
+    EXPECT_EQ(decoded->num_points(), meshes[2 * b].position.size());
     EXPECT_EQ(accessor.count, decoded->num_points());
     const auto& ids = primitive.extensions.at("KHR_draco_mesh_compression").Get("attributes");
     const auto* position = decoded->GetAttributeByUniqueId(
@@ -161,11 +166,11 @@ TEST(GltfDraco, MovesNoVertexFartherThanItsQuantisation) {
   // each axis.
   const double bound = 0.5 * std::sqrt(3.0) * 4.4 / 16383 + 1e-6;
   for (draco::PointIndex i(0); i < decoded->num_points(); ++i) {
-    OpenMesh::Vec3f p;
+    Eigen::Vector3f p;
     position->GetMappedValue(i, p.data());
-    double nearest = 1e9;
-    for (const auto v : meshes[0].mesh.vertices())
-      nearest = std::min(nearest, double{OpenMesh::norm(meshes[0].mesh.point(v) - p)});
+    float nearest = 1e9F;
+    for (const Float3& q : meshes[0].position)
+      nearest = std::min(nearest, (Eigen::Vector3f(q.data()) - p).norm());
     EXPECT_LT(nearest, bound);
   }
 }
@@ -192,8 +197,8 @@ TEST(Obj, ReadsBackWithItsNormals) {
   EXPECT_EQ(mesh.n_vertices(), verticesOf(meshes));
   EXPECT_EQ(mesh.n_faces(), facesOf(meshes));
   const TriMesh::VertexHandle first(0);
-  EXPECT_EQ(mesh.point(first), meshes[0].mesh.point(first));
-  EXPECT_EQ(mesh.normal(first), meshes[0].mesh.normal(first));
+  EXPECT_EQ(mesh.point(first), TriMesh::Point(meshes[0].position[0].data()));
+  EXPECT_EQ(mesh.normal(first), TriMesh::Normal(meshes[0].normal[0].data()));
 }
 
 TEST(Obj, NamesItsBranchesWithoutSpacesAndOnlyOnce) {
@@ -214,8 +219,8 @@ TEST(Ply, ReadsBackWithItsNormals) {
   EXPECT_EQ(mesh.n_vertices(), verticesOf(meshes));
   EXPECT_EQ(mesh.n_faces(), facesOf(meshes));
   const TriMesh::VertexHandle first(0);
-  EXPECT_EQ(mesh.point(first), meshes[0].mesh.point(first));
-  EXPECT_EQ(mesh.normal(first), meshes[0].mesh.normal(first));
+  EXPECT_EQ(mesh.point(first), TriMesh::Point(meshes[0].position[0].data()));
+  EXPECT_EQ(mesh.normal(first), TriMesh::Normal(meshes[0].normal[0].data()));
 }
 
 TEST(Stl, HasFiftyBytesPerTriangleAndUnitNormals) {
@@ -237,37 +242,6 @@ TEST(WriteMesh, GivesTheSameBytesEachTime) {
   const auto meshes = sample();
   EXPECT_EQ(encodeGltf(meshes, true, {.draco = true}), encodeGltf(meshes, true, {.draco = true}));
   EXPECT_EQ(encodeGltf(meshes, false, {}), encodeGltf(meshes, false, {}));
-}
-
-std::string messageOf(const std::filesystem::path& file, const std::string& format,
-                      ErrorKind kind) {
-  try {
-    writeMesh(sample(), file, format, {});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind);
-    return error.what();
-  }
-  return "";
-}
-
-TEST(WriteMesh, WritesWhatItEncodes) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "lumen_write_mesh_test.stl";
-  EXPECT_EQ(messageOf(file, "stl", ErrorKind::Failed), "");
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_EQ(bytes, encodeStl(sample()));
-  std::filesystem::remove(file);
-}
-
-TEST(WriteMesh, NamesTheKnownFormatsWhenAskedForAnother) {
-  const std::string message = messageOf("x.fbx", "fbx", ErrorKind::Unsupported);
-  EXPECT_NE(message.find("\"fbx\""), std::string::npos);
-  EXPECT_NE(message.find("glb, gltf, obj, stl, ply"), std::string::npos);
-}
-
-TEST(WriteMesh, NamesTheFileItCannotWrite) {
-  const std::string message = messageOf("no/such/folder/x.stl", "stl", ErrorKind::Failed);
-  EXPECT_NE(message.find("no/such/folder/x.stl"), std::string::npos);
 }
 
 }  // namespace

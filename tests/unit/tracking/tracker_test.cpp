@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "converters/common/random.h"
+#include "converters/common/vectors.h"
 #include "converters/tracking/smoothing.h"
 #include "tube_volume.h"
 
@@ -31,10 +32,6 @@ Volume straightTube(double radius) {
 TrackResult trackOne(const Volume& volume, const std::vector<SeedBranch>& seeds) {
   Progress silent;
   return track(volume, seeds, TrackOptions{}, silent);
-}
-
-Vector3d toVector(const formats::Vec3f& v) {
-  return {v.x, v.y, v.z};
 }
 
 /// A T: a child of half the trunk's radius leaves its middle along x.
@@ -68,9 +65,9 @@ TEST(Tracker, NodesHoldWallPointsWithinTheirHeight) {
   for (std::size_t i = 0; i < tree.nodeCount(); ++i) {
     EXPECT_GT(points.offset[i + 1] - points.offset[i], 40u);
     for (std::uint32_t k = points.offset[i]; k < points.offset[i + 1]; ++k) {
-      const Vector3d p = toVector(points.position[k]) - toVector(tree.centre[i]);
-      EXPECT_LE(std::abs(p.dot(toVector(tree.direction[i]))), 0.5 * tree.height[i] + 1e-3);
-      EXPECT_NEAR(p.cross(toVector(tree.direction[i])).norm(), tree.radius[i],
+      const Vector3d p = toEigen(points.position[k]) - toEigen(tree.centre[i]);
+      EXPECT_LE(std::abs(p.dot(toEigen(tree.direction[i]))), 0.5 * tree.height[i] + 1e-3);
+      EXPECT_NEAR(p.cross(toEigen(tree.direction[i])).norm(), tree.radius[i],
                   0.11 * tree.radius[i]);
     }
   }
@@ -168,7 +165,7 @@ TEST(Tracker, PassesThroughAFurtherClickInsteadOfGoingStraightOn) {
   const auto& tree = out.result.tree;
   EXPECT_GT(tree.centre.back().x, 11.0F);
   for (std::size_t i = 1; i < tree.nodeCount(); ++i)
-    EXPECT_LT((toVector(tree.centre[i]) - toVector(tree.centre[i - 1])).norm(), 1.7);
+    EXPECT_LT((toEigen(tree.centre[i]) - toEigen(tree.centre[i - 1])).norm(), 1.7);
 }
 
 TEST(Tracker, ReportsAFurtherClickWhereNothingFits) {
@@ -285,7 +282,7 @@ TEST(Tracker, TheCentresOfAWideBentVesselLieOnItsAxis) {
   ASSERT_GT(tree.nodeCount(), 6u);
   double sum = 0;
   for (std::size_t n = 2; n + 2 < tree.nodeCount(); ++n) {
-    const Vector3d q = toVector(tree.centre[n]) - middle;
+    const Vector3d q = toEigen(tree.centre[n]) - middle;
     sum += std::hypot(q.x(), q.z()) / static_cast<double>(tree.nodeCount() - 4);
   }
   EXPECT_NEAR(sum, 4.5, 0.02);
@@ -359,7 +356,7 @@ TEST(Tracker, AnAneurysmKeepsTheWallPointsSeenFromItsCentres) {
   EXPECT_NEAR(tree.height[0], 1.0, 1e-6);
   EXPECT_GT(out.result.points->position.size(), 300u);
   for (const auto& p : out.result.points->position)
-    EXPECT_NEAR((toVector(p) - centre).norm(), 3.0, 0.06);
+    EXPECT_NEAR((toEigen(p) - centre).norm(), 3.0, 0.06);
 }
 
 TEST(Tracker, GivesTheSameCaseOnOneThreadAndOnTwo) {

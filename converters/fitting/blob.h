@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// What local models are made of.
+#pragma once
+
+namespace lumen::convert::fitting {
+
+/// One term width * phi(|X - centre|^2 / width^2) of the model, in the fit's frame (see energy.h).
+struct Blob {
+  double x = 0, y = 0, z = 0, width = 0;
+};
+
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// From few blobs to more: selection and subdivision (thesis section 4.5; docs/method.md, section
+// 2.6).
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "converters/fitting/model_energy.h"
+
+namespace lumen::convert::fitting {
+
+/// Two blobs of equal width whose union has the surface of `blob`: the first in its place, the
+/// second moved by a tenth of the old width towards `point` (thesis eq. 4.26 and 4.27). Of a blob
+/// that is too narrow to reach the level, two of half its width.
+std::pair<Blob, Blob> splitBlob(const EnergyParameters& parameters, const formats::Vec3d& point,
+                                const Blob& blob);
+
+/// A model on its way.
+struct GrowingModel {
+  std::vector<Blob> blobs;
+  double energy = 0;                   ///< of these blobs
+  int subdivisions = 0;                ///< tried
+  std::vector<std::size_t> refused{};  ///< points that a subdivision did not help
+};
+
+/// One round of selection, subdivision and optimisation. The new blobs stay if they lower the
+/// energy; if the farthest point was within the accuracy already, only if they lower it by more
+/// than four more unknowns lower that of noise. False if the fit is good enough or nothing helps.
+bool subdivide(const NodeProblem& problem, GrowingModel& model, FitWorkspace& workspace);
+
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A triangle mesh as every writer takes it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lumen::convert {
+
+using Float3 = std::array<float, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// The wall of one branch. Each patch in it is an oriented 2-manifold with boundary.
+struct BranchMesh {
+  std::string label;
+  std::vector<Float3> position;    ///< mm, LPS
+  std::vector<Float3> normal;      ///< unit, out of the lumen; one for each position
+  std::vector<Triangle> triangle;  ///< indices of positions, counter-clockwise seen from outside
+};
+
+/// Widens the box `low` .. `high` so that it holds `point`.
+inline void extendBox(const Float3& point, Float3& low, Float3& high) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] = std::min(low[a], point[a]);
+    high[a] = std::max(high[a], point[a]);
+  }
+}
+
+}  // namespace lumen::convert

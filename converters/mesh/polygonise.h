@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wall of a case as triangles.
+#pragma once
+
+#include <vector>
+
+#include "converters/common/progress.h"
+#include "converters/mesh/branch_mesh.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+struct PolygoniseOptions {
+  /// Edge of a marching-cubes cell, mm; 0: the case's voxel size. Nodes narrower than two cells get
+  /// a cell of a half, a quarter or an eighth, so that thin vessels stay whole and round.
+  double cell = 0;
+};
+
+/// One mesh per branch, in the tree's order (docs/method.md, section 5). For each node with blobs,
+/// marching cubes at the iso-level on a lattice that all nodes share, of the connected component
+/// of the lumen at the node's centre. The patch is cut by the radical planes to the nodes within
+/// two edges, and the node's side kept. A vessel's free end is cut flat at the end of its last
+/// node's cylinder and left open; an aneurysm's dome stays whole.
+///
+/// Within a patch vertices are shared and the surface is an oriented 2-manifold with boundary.
+/// Patches of adjacent nodes meet at the radical planes only to within their models' disagreement,
+/// and share no vertex. Normals are the model's, outward.
+///
+/// Throws Error(InvalidInput) if the case has no models, no voxel size while `cell` is 0, or a cell
+/// that is too small for it, and Error(Cancelled).
+std::vector<BranchMesh> polygonise(const formats::Case& source, const PolygoniseOptions& options,
+                                   Progress& progress);
+
+}  // namespace lumen::convert

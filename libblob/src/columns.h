@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading and writing the strided columns of blob_columns.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "blob.h"
+
+namespace lumen::blob {
+
+/// Element `index` of a column whose elements are `stride` bytes apart; it may be of any alignment.
+template <class T>
+inline T* column(T* first, std::size_t index, std::ptrdiff_t stride) {
+  using Byte = std::conditional_t<std::is_const_v<T>, const char, char>;
+  return reinterpret_cast<T*>(reinterpret_cast<Byte*>(first) +
+                              static_cast<std::ptrdiff_t>(index) * stride);
+}
+
+template <class T, class V>
+inline void put(T* first, std::size_t index, std::ptrdiff_t stride, V value) {
+  const T converted = static_cast<T>(value);
+  std::memcpy(column(first, index, stride), &converted, sizeof converted);
+}
+
+/// Writes a sample's answers, but not its cursor, to the columns that are wanted.
+inline void putSample(const blob_columns& c, std::size_t i, const blob_sample& sample) {
+  if (c.value != nullptr) put(c.value, i, c.answer_stride, sample.value);
+  if (c.distance != nullptr) put(c.distance, i, c.answer_stride, sample.distance);
+  if (c.normal[0] != nullptr)
+    for (int k = 0; k < 3; ++k) put(c.normal[k], i, c.answer_stride, sample.normal[k]);
+  if (c.gradient[0] != nullptr)
+    for (int k = 0; k < 3; ++k) put(c.gradient[k], i, c.answer_stride, sample.gradient[k]);
+  if (c.state != nullptr) put(c.state, i, c.state_stride, sample.state);
+}
+
+/// Whether points lie side by side, so that four doubles at a time can be copied; not for the last
+/// point, after which there may be nothing.
+inline bool arePacked(const blob_columns& c) {
+  return c.point_stride == 3 * sizeof(double) && c.point[1] == c.point[0] + 1 &&
+         c.point[2] == c.point[0] + 2;
+}
+
+}  // namespace lumen::blob

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// libblob behind the protocol of spec/conformance/README.md, through its public functions alone:
+// blob_reader [--doubles] FILE < questions.json. With --doubles, value and gradient are those of
+// blob_query_hessian().
+#include <cstdint>
+#include <iostream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "blob.h"
+
+namespace {
+
+using nlohmann::json;
+
+/// Why there is no model: the codes that the protocol names, and for all else the status.
+json refusal(blob_status status, const char* message) {
+  json out = {{"accepted", false}, {"code", "STATUS_" + std::to_string(status)}};
+  if (status == BLOB_ERROR_NO_MODELS) out["code"] = "NO_MODELS";
+  if (status == BLOB_ERROR_ENCODING) out["code"] = "CHUNK_ENCODING";
+  // a message may quote bytes of the file that are not UTF-8
+  out["message"] = json::parse(json(message).dump(-1, ' ', true, json::error_handler_t::replace));
+  return out;
+}
+
+/// Value, gradient and `inside` at a point; the cursor is moved. With the node, as "node".
+json sampled(const blob_model* model, std::uint32_t flags, const double* point,
+             std::uint32_t& cursor) {
+  blob_sample s;
+  blob_query(model, flags, point, &cursor, &s);
+  return {{"node", s.node},
+          {"value", s.value},
+          {"gradient", s.gradient},
+          {"inside", (s.state & BLOB_INSIDE) != 0}};
+}
+
+json differentiated(const blob_model* model, std::uint32_t flags, const double* point,
+                    std::uint32_t& cursor) {
+  blob_hessian s;
+  blob_query_hessian(model, flags, point, &cursor, &s);
+  return {{"node", cursor},
+          {"value", s.value},
+          {"gradient", s.gradient},
+          {"inside", blob_inside(model, flags, point, &cursor) != 0}};
+}
+
+/// Both fields are asked from where the point came from, so that either has to follow.
+json answer(const blob_model* model, bool doubles, const json& question) {
+  const auto point = question.at("point").get<std::vector<double>>();
+  const std::uint32_t start = question.value("current", BLOB_NOWHERE);
+  const auto query = doubles ? differentiated : sampled;
+  std::uint32_t local = start, blended = start;
+  json out = query(model, BLOB_LOCAL, point.data(), local);
+  out["blended"] = query(model, BLOB_BLENDED, point.data(), blended);
+  if (local != blended) out["node"] = nullptr;
+  return out;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool doubles = argc == 3 && std::string_view(argv[1]) == "--doubles";
+  if (argc != 2 && !doubles) return 2;
+  char message[512] = "";
+  blob_open_def how = blob_open_def_default();
+  how.message = message;
+  how.message_size = sizeof message;
+  blob_model* model;
+  const blob_status status = blob_model_open(argv[argc - 1], &how, &model);
+  if (status != BLOB_OK) {
+    std::cout << refusal(status, message) << '\n';
+    return 0;
+  }
+  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  json answers = json::array();
+  for (const json& question : json::parse(text))
+    answers.push_back(answer(model, doubles, question));
+  blob_model_close(model);
+  std::cout << json{{"accepted", true}, {"answers", answers}} << '\n';
+}
