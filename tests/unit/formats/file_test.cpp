@@ -205,20 +205,25 @@ TEST_F(CaseFile, IsTheOldOrTheNewOneWheneverTheWriterIsKilled) {
   const char* kills = std::getenv("LUMEN_KILLS");
   const int count = kills == nullptr ? 20 : std::atoi(kills);
   const std::string contents[2] = {std::string(400'000, 'a'), std::string(700'000, 'b')};
-  const auto start = std::chrono::steady_clock::now();
   ASSERT_EQ(codeOf(write("f", contents[0])), "OK");
-  // within the time of a few writes, however busy the machine is
-  const std::chrono::nanoseconds longest = 6 * (std::chrono::steady_clock::now() - start);
   Random random(11);
   int seen[2] = {0, 0};
   for (int i = 0; i < count; ++i) {
+    int written[2];  // a byte for every finished write
+    ASSERT_EQ(::pipe(written), 0);
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0)
-      for (std::size_t k = 0;; ++k) (void)write("f", contents[k % 2]);
-    std::this_thread::sleep_for(longest * (random.next() % 1000) / 1000);
+      for (std::size_t k = 1;; ++k)
+        if (!write("f", contents[k % 2]) || ::write(written[1], "", 1) != 1) ::_exit(1);
+    char byte = 0;
+    for (auto writes = random.next() % 3; writes > 0; --writes)
+      ASSERT_EQ(::read(written[0], &byte, 1), 1);
+    std::this_thread::sleep_for(std::chrono::microseconds(random.next() % 3000));
     ASSERT_EQ(::kill(child, SIGKILL), 0);
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    ::close(written[0]);
+    ::close(written[1]);
     const std::string found = get("f");
     ASSERT_TRUE(found == contents[0] || found == contents[1]) << found.size();
     ++seen[found == contents[1] ? 1 : 0];
