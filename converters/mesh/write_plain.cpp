@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <set>
@@ -68,16 +69,16 @@ std::size_t countFaces(const std::vector<BranchMesh>& meshes) {
   return count;
 }
 
-// Unit; zero for a triangle without area.
+// Unit; zero for a triangle without area. Edges in floats, the rest in doubles, summed from x to z.
 Float3 faceNormal(const BranchMesh& mesh, const Triangle& t) {
-  const auto at = [&](std::size_t i) {
-    return Eigen::Vector3f(mesh.position[t[i]].data()).cast<double>().eval();
-  };
-  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
-  const double length = normal.norm();
+  const auto at = [&](std::size_t i) { return Eigen::Vector3f(mesh.position[t[i]].data()); };
+  const Eigen::Vector3d first = (at(1) - at(0)).cast<double>();
+  const Eigen::Vector3d second = (at(2) - at(0)).cast<double>();
+  const Eigen::Vector3d n = first.cross(second);
+  const double length = std::sqrt(n.x() * n.x() + n.y() * n.y() + n.z() * n.z());
   if (!(length > 0)) return {};
-  const Eigen::Vector3f n = (normal / length).cast<float>();
-  return {n.x(), n.y(), n.z()};
+  const Eigen::Vector3f unit = (n / length).cast<float>();
+  return {unit.x(), unit.y(), unit.z()};
 }
 
 void checkCount(std::size_t count, const char* format) {
