@@ -17,12 +17,12 @@ std::string some(std::size_t count, const std::string& noun, const std::string& 
 
 std::string modelsText(const std::optional<formats::BlobbyModels>& models) {
   if (!models) return "";
-  return "the models (" + countedIfAny(models->width.size(), "blob", "blobs") + ")";
+  return "the models (" + counted(models->width.size(), "blob", "blobs") + ")";
 }
 
 std::string treeText(const formats::CenterlineTree& tree) {
-  return "the tree (" + countedIfAny(tree.branches.size(), "branch", "branches") + ", " +
-         countedIfAny(tree.nodeCount(), "node", "nodes") + ")";
+  return "the tree (" + counted(tree.branches.size(), "branch", "branches") + ", " +
+         counted(tree.nodeCount(), "node", "nodes") + ")";
 }
 
 bool hasRates(const formats::CenterlineTree& tree) {
