@@ -8,7 +8,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr int kModelNeighbourhood = 2;  // edges
+constexpr int kContinuedWithin = 2;  // edges: how near a node must be to continue a vessel
 
 bool hasModel(const formats::Case& source, std::uint32_t node) {
   return source.models->offset[node] < source.models->offset[node + 1];
@@ -51,15 +51,14 @@ void addFreeEnds(const formats::Case& source, std::uint32_t node,
 
 }  // namespace
 
-std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Neighbours& neighbours,
-                                 std::uint32_t node) {
+std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Neighbours& edges,
+                                 std::span<const std::uint32_t> neighbours, std::uint32_t node) {
   const formats::CenterlineTree& tree = source.tree;
-  const std::vector<std::uint32_t> nodes = neighbours.within(node, kModelNeighbourhood);
   const Eigen::Vector3d centre = toEigen(tree.centre[node]);
   const double radius = tree.radius[node];
   NodeCell cell;
-  for (const std::uint32_t other : nodes) {
-    if (other == node || !hasModel(source, other)) continue;
+  for (const std::uint32_t other : neighbours) {
+    if (!hasModel(source, other)) continue;
     const Eigen::Vector3d away = toEigen(tree.centre[other]) - centre;
     const double distance = away.norm(), otherRadius = tree.radius[other];
     if (distance > 0) {
@@ -70,7 +69,7 @@ std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Nei
       return std::nullopt;  // two nodes in one place: the wider one draws, or else the first
     }
   }
-  addFreeEnds(source, node, nodes, cell.ends);
+  addFreeEnds(source, node, edges.within(node, kContinuedWithin), cell.ends);
   return cell;
 }
 

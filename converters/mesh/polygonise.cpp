@@ -46,7 +46,7 @@ struct NodePatch {
 // What all patches are made from.
 struct Source {
   const formats::Case& value;
-  const formats::Neighbours& neighbours;
+  const formats::Neighbours& edges;
   const field::BlendedField& surface;
 };
 
@@ -136,7 +136,8 @@ const HalfSpace* planeThrough(const std::vector<HalfSpace>& spaces, const Eigen:
 
 // Moves vertices from the surface of the node's own model onto that of the case, where patches
 // meet. What a plane has cut stays in that plane, unless the surface is so oblique to it that it
-// lies far away there; ends always stay flat. A vertex that finds no surface near by is left.
+// lies far away there; ends always stay flat. Where there is no surface of the case near by, as
+// where a model draws a wall within the lumen of its neighbours, triangles are dropped.
 void moveOntoSurface(const Source& source, std::uint32_t node, const NodeCell& cell, double snap,
                      Patch& patch) {
   const double radius = source.value.tree.radius[node];
@@ -147,14 +148,18 @@ void moveOntoSurface(const Source& source, std::uint32_t node, const NodeCell& c
     if (isNear) p = found->position;
     return isNear;
   };
-  for (Eigen::Vector3d& p : patch.position) {
+  std::vector<bool> isLost(patch.position.size(), false);
+  for (std::size_t v = 0; v < patch.position.size(); ++v) {
+    Eigen::Vector3d& p = patch.position[v];
     if (const HalfSpace* end = planeThrough(cell.ends, p, snap)) {
       move(p, end);
       continue;
     }
     const HalfSpace* radical = planeThrough(cell.radical, p, snap);
-    if (!move(p, radical) && radical != nullptr) move(p, nullptr);
+    isLost[v] = !move(p, radical) && (radical == nullptr || !move(p, nullptr));
   }
+  std::erase_if(patch.triangle,
+                [&](const Triangle& t) { return isLost[t[0]] || isLost[t[1]] || isLost[t[2]]; });
 }
 
 std::vector<Float3> outwardNormals(const Source& source, std::uint32_t node, const Patch& patch) {
@@ -195,7 +200,7 @@ NodePatch polygoniseNode(const Source& source, std::uint32_t node, double voxel)
   const NodeField field(*source.value.models, node);
   const formats::CenterlineTree& tree = source.value.tree;
   const double radius = tree.radius[node], size = cellForRadius(voxel, radius);
-  const auto cell = nodeCell(source.value, source.neighbours, node);
+  const auto cell = nodeCell(source.value, source.edges, source.surface.neighbours(node), node);
   if (field.empty() || !cell) return {};
   std::vector<HalfSpace> spaces = cell->radical;
   spaces.insert(spaces.end(), cell->ends.begin(), cell->ends.end());
@@ -238,9 +243,9 @@ std::vector<BranchMesh> polygonise(const formats::Case& source, const Polygonise
                                    Progress& progress) {
   const double cell = cellOf(source, options);
   const formats::CenterlineTree& tree = source.tree;
-  const formats::Neighbours neighbours(tree);
+  const formats::Neighbours edges(tree);
   const field::BlendedField surface = formats::blendedFieldOf(source);
-  const Source all{source, neighbours, surface};
+  const Source all{source, edges, surface};
   std::vector<NodePatch> parts(tree.nodeCount());
   progress.begin("mesh", parts.size());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {

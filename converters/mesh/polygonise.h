@@ -18,13 +18,15 @@ struct PolygoniseOptions {
 
 /// One mesh per branch, in the tree's order (docs/method.md, section 5). For each node with blobs,
 /// marching cubes at the iso-level on a lattice that all nodes share, of the connected component
-/// of the lumen at the node's centre. The patch is cut by the radical planes to the nodes within
-/// two edges, and the node's side kept. A vessel's free end is cut flat at the end of its last
-/// node's cylinder and left open; an aneurysm's dome stays whole.
+/// of the lumen at the node's centre. The patch is cut by the radical planes to the node's
+/// neighbours, and the node's side kept; what is left is moved onto the surface of the blended field,
+/// and dropped where there is none near by. A vessel's free end is cut flat at the end of its last
+/// node's cylinder and left open; an aneurysm's dome stays whole. See docs/method.md, section 5.
 ///
 /// Within a patch vertices are shared and the surface is an oriented 2-manifold with boundary.
-/// Patches of adjacent nodes meet at the radical planes only to within their models' disagreement,
-/// and share no vertex. Normals are the model's, outward.
+/// Vertices lie within 1e-3 of the local radius of the surface of the case, but on free ends and
+/// where the field itself jumps; patches of adjacent nodes meet in its curve on their radical
+/// plane, and share no vertex. Normals are those of the blended field, outward.
 ///
 /// Throws Error(InvalidInput) if the case has no models, no voxel size while `cell` is 0, or a cell
 /// that is too small for it, and Error(Cancelled).
