@@ -237,19 +237,19 @@ Volume readNifti(const fs::path& path, const Progress& progress) {
   return volume;
 }
 
-void writeNifti(const Volume& volume, const fs::path& path, bool compressed) {
-  const nifti_1_header header = niftiHeader(volume.geometry, datatypeOf(volume.voxels), path);
-  GzFile file(gzopen(path.c_str(), compressed ? "wb" : "wbT"), gzclose);
-  if (!file) throw failed(path.string() + ": cannot be written");
+void writeNifti(const Volume& volume, const fs::path& file, bool compressed, const fs::path& name) {
+  const nifti_1_header header = niftiHeader(volume.geometry, datatypeOf(volume.voxels), name);
+  GzFile stream(gzopen(file.c_str(), compressed ? "wb" : "wbT"), gzclose);
+  if (!stream) throw failed(name.string() + ": cannot be written");
   constexpr std::array<char, 4> kNoExtensions{};
-  writeBytes(file.get(), &header, sizeof(header), path);
-  writeBytes(file.get(), kNoExtensions.data(), kNoExtensions.size(), path);
+  writeBytes(stream.get(), &header, sizeof(header), name);
+  writeBytes(stream.get(), kNoExtensions.data(), kNoExtensions.size(), name);
   std::visit(
       [&](const auto& voxels) {
-        writeBytes(file.get(), voxels.data(), voxels.size() * sizeof(voxels[0]), path);
+        writeBytes(stream.get(), voxels.data(), voxels.size() * sizeof(voxels[0]), name);
       },
       volume.voxels);
-  if (gzclose(file.release()) != Z_OK) throw failed(path.string() + ": cannot be written");
+  if (gzclose(stream.release()) != Z_OK) throw failed(name.string() + ": cannot be written");
 }
 
 }  // namespace lumen::convert

@@ -21,8 +21,10 @@ namespace lumen::convert {
 /// NIfTI-2 and other pixel types.
 Volume readNifti(const std::filesystem::path& path, const Progress& progress);
 
-/// Writes to `path` itself, not atomically: qform and sform, both of the scanner, in mm. Throws
-/// Error(Failed), or Error(Unsupported) for more than 32767 voxels along an axis.
-void writeNifti(const Volume& volume, const std::filesystem::path& path, bool compressed);
+/// Writes to `file` itself, not atomically, and calls it `name` in errors: qform and sform, both of
+/// the scanner, in mm. Throws Error(Failed), or Error(Unsupported) for more than 32767 voxels along
+/// an axis.
+void writeNifti(const Volume& volume, const std::filesystem::path& file, bool compressed,
+                const std::filesystem::path& name);
 
 }  // namespace lumen::convert

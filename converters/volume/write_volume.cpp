@@ -45,14 +45,14 @@ void setGeometry(itk::ImageIOBase& io, const VolumeGeometry& geometry) {
   io.SetIORegion(region);
 }
 
-void writeWithItk(const Volume& volume, const fs::path& path, VolumeFormat format,
-                  bool compressed) {
+void writeWithItk(const Volume& volume, const fs::path& file, VolumeFormat format, bool compressed,
+                  const fs::path& name) {
   const auto io = makeImageIo(format);
   setGeometry(*io, volume.geometry);
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetNumberOfComponents(1);
   io->SetUseCompression(compressed);
-  io->SetFileName(path.string());
+  io->SetFileName(file.string());
   try {
     std::visit(
         [&](const auto& voxels) {
@@ -62,7 +62,7 @@ void writeWithItk(const Volume& volume, const fs::path& path, VolumeFormat forma
         },
         volume.voxels);
   } catch (const itk::ExceptionObject& exception) {
-    throw failed(path.string() + ": cannot be written (" + oneLine(exception) + ")");
+    throw failed(name.string() + ": cannot be written (" + oneLine(exception) + ")");
   }
 }
 
@@ -73,9 +73,9 @@ void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format
   auto pending = formats::PendingFile::beside(path);
   if (!pending) throw failed(pending.error().message);
   if (format == VolumeFormat::Nifti)
-    writeNifti(volume, pending->path(), compressed);
+    writeNifti(volume, pending->path(), compressed, path);
   else
-    writeWithItk(volume, pending->path(), format, compressed);
+    writeWithItk(volume, pending->path(), format, compressed, path);
   if (const auto written = pending->commit(); !written) throw failed(written.error().message);
 }
 
