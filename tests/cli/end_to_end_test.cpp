@@ -113,7 +113,7 @@ TEST_F(TubeTest, ACaseBecomesEveryOtherFormatAndBothEncodingsHoldTheSame) {
   ASSERT_EQ(lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"}).code, 0);
   for (const auto& format : app::fileFormats()) {
     if (!app::canWrite(format)) continue;
-    const std::string name = "a" + std::string(format.endings.front());
+    const std::string name = std::string("a").append(format.endings.front());
     const Outcome made = lumen({"convert", "tube.lumen", name});
     EXPECT_EQ(made.code, 0) << name << ": " << made.err;
     EXPECT_FALSE(read(name).empty()) << name;
@@ -126,7 +126,7 @@ TEST_F(TubeTest, EveryVolumeFormatThatIsWrittenReadsBackTheSame) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
   for (const auto& format : app::fileFormats()) {
     if (!app::canWriteVolume(format)) continue;
-    const std::string name = "other" + std::string(format.endings.front());
+    const std::string name = std::string("other").append(format.endings.front());
     ASSERT_EQ(lumen({"phantom", "tube", name, "--size", "64"}).code, 0) << name;
     EXPECT_EQ(Json::parse(lumen({"info", name, "--json"}).out)["sha256"], info["sha256"]) << name;
   }
