@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the project uses of TBB, on std::thread: for ThreadSanitizer, which cannot see how TBB's library, built
+// without it, hands work from thread to thread, and reports each as a race.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <tbb/global_control.h>
+
+namespace tbb {
+
+/// body(i) for every i from `first` to before `last`, on as many threads as global_control allows, at most 4.
+/// Throws what a body threw first, after all threads have ended.
+template <class Index, class Body>
+void parallel_for(Index first, Index last, const Body& body) {
+  std::atomic<Index> next{first};
+  std::atomic<bool> stop{false};
+  std::exception_ptr thrown;
+  std::mutex mutex;
+  const auto work = [&] {
+    try {
+      for (Index i = next++; i < last && !stop; i = next++) body(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!stop.exchange(true)) thrown = std::current_exception();
+    }
+  };
+  const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
+  std::vector<std::thread> others;
+  for (std::size_t t = 1; t < std::min<std::size_t>(threads, 4); ++t) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+}  // namespace tbb
