@@ -9,6 +9,14 @@ namespace lumen::app {
 
 namespace {
 
+/// "a, b or c".
+std::string alternatives(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
+
 /// A check without its text: the help says in words what is allowed.
 CLI::Validator quietly(CLI::Validator check) {
   return check.description("");
@@ -159,7 +167,7 @@ void addFitOptions(CLI::App& app, FitArguments& fit) {
   Group group(app, "Fitting");
   const std::vector<std::string> kernels(formats::kKernelNames.begin(),
                                          formats::kKernelNames.end());
-  group.add("--kernel", fit.kernel, "NAME", "cauchy, gaussian, quartic or soft-object")
+  group.add("--kernel", fit.kernel, "NAME", alternatives(kernels))
       ->check(quietly(CLI::IsMember(kernels)));
   app.add_option("--kernel-parameter", o.kernelParameter,
                  "Cauchy's s^2 [0.2] or the Gaussian's a^2 [0.5]")

@@ -7,7 +7,7 @@
 namespace lumen {
 namespace {
 
-constexpr int kMaxSteps = 40;
+constexpr int kMaxSteps = 40;         // three to five near the wall; the rest is for long ways
 constexpr double kTolerance = 1e-4;   // of the radius
 constexpr double kLongestStep = 0.3;  // of the radius: far from the wall h is not straight
 constexpr double kVanished = 1e-12;   // of the level: below, f says nothing about the wall

@@ -18,7 +18,7 @@ struct SurfacePoint {
   std::uint32_t node = 0;                              ///< at which following the point ends
 };
 
-/// The point of the surface that Newton's method on the level transform h (docs/method.md) reaches
+/// The point of the surface that Newton's method on the level transform h (docs/method.md, section 4) reaches
 /// from `start`, mm, with a cursor that begins at `node` and follows. `radius`, mm, is the scale
 /// of the vessel: the estimated distance that is left is below 1e-4 of it. With `plane`, a unit
 /// vector, the point stays in the plane through `start` normal to it. Nothing if f or its slope

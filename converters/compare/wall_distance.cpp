@@ -23,6 +23,8 @@ using formats::CenterlineTree;
 
 constexpr int kBisections = 40;
 constexpr int kRays = 64;
+constexpr double kRayStep = 0.125;  // of the radius: no wall of a lumen is thinner
+constexpr double kRayReach = 4;     // radii: farther out is another vessel
 
 // Unit vectors spread evenly over the sphere along a golden spiral.
 std::vector<Vector3d> rayDirections() {
@@ -58,11 +60,11 @@ public:
   [[nodiscard]] std::optional<Vector3d> cast(const Vector3d& direction) const {
     const auto inside = [&](double t) { return isInside(m_centre + t * direction); };
     if (!inside(0)) return std::nullopt;
-    double low = 0, high = 0.125 * m_radius;
+    double low = 0, high = kRayStep * m_radius;
     while (inside(high)) {
       low = high;
-      high += 0.125 * m_radius;
-      if (high > 4 * m_radius) return std::nullopt;
+      high += kRayStep * m_radius;
+      if (high > kRayReach * m_radius) return std::nullopt;
     }
     for (int i = 0; i < kBisections; ++i) {
       const double middle = 0.5 * (low + high);

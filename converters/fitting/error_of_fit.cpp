@@ -28,7 +28,8 @@ struct At {
   double f = 0, slope = 0, toNode = 0;
 };
 
-/// |grad h| / (2 c) - R of docs/method.md, section 4.2, without its cancellation.
+/// |grad h| / (2 c) - R of docs/method.md, section 4.2, without its cancellation. libblob has it on
+/// lanes of floats (simd/wall_distance.h), signed, and answers with the ball where f vanishes.
 double wallDistance(formats::Kernel kernel, double level, const At& at, double radius) {
   const double farSide = at.toNode + radius;
   if (!(at.f > kVanished * level)) return farSide;

@@ -10,11 +10,9 @@
 namespace lumen::convert {
 
 enum class FitDistance {
-  /// The distance that libblob answers from one evaluation (docs/method.md, section 4.2): with a
-  /// function h of f that grows like the square of the distance from the axis, and the node's
-  /// radius R. The same as Taubin's to first order at the wall; at most R inside, and at most R and
-  /// the distance from the node outside, where a flat field would make Taubin's as large as it
-  /// likes.
+  /// The one-evaluation distance (docs/method.md, section 4.2), of the node's own model. The same
+  /// as Taubin's to first order at the wall, but bounded: by the node's radius inside, by the far
+  /// side of its ball outside, where a flat field lets Taubin's grow without limit.
   Wall,
   /// |T - f| / |grad f|, as in Yureidini's thesis; infinity where the field is flat.
   Taubin

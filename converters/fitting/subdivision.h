@@ -25,9 +25,9 @@ struct GrowingModel {
   std::vector<std::size_t> refused{};  ///< points that a subdivision did not help
 };
 
-/// One round of selection, subdivision and optimisation. The new blobs stay if they lower the
-/// energy; if the farthest point was within the accuracy already, only if they lower it by more
-/// than four more unknowns lower that of noise. False if the fit is good enough or nothing helps.
+/// One round of selection, subdivision and optimisation. The new blobs stay if they lower
+/// the energy by more than four more unknowns lower that of noise; while the farthest point is
+/// beyond the accuracy, a quarter of that is enough. False if the fit is good enough or nothing helps.
 bool subdivide(const NodeProblem& problem, GrowingModel& model, FitWorkspace& workspace);
 
 }  // namespace lumen::convert::fitting

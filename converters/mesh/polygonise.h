@@ -19,9 +19,9 @@ struct PolygoniseOptions {
 /// One mesh per branch, in the tree's order (docs/method.md, section 5). For each node with blobs,
 /// marching cubes at the iso-level on a lattice that all nodes share, of the connected component
 /// of the lumen at the node's centre. The patch is cut by the radical planes to the node's
-/// neighbours, and the node's side kept; what is left is moved onto the surface of the blended field,
-/// and dropped where there is none near by. A vessel's free end is cut flat at the end of its last
-/// node's cylinder and left open; an aneurysm's dome stays whole. See docs/method.md, section 5.
+/// neighbours, and the node's side kept; what is left is moved onto the surface of the blended
+/// field, and dropped where there is none near by. A vessel's free end is cut flat at the end of
+/// its last node's cylinder and left open; an aneurysm's dome stays whole.
 ///
 /// Within a patch vertices are shared and the surface is an oriented 2-manifold with boundary.
 /// Vertices lie within 1e-3 of the local radius of the surface of the case, but on free ends and

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The seeds that a user would click; declared in design.h.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -75,7 +75,8 @@ private:
 Eigen::Vector3d nodeCentre(const formats::CenterlineTree& tree, std::uint32_t node);
 Eigen::Vector3d nodeDirection(const formats::CenterlineTree& tree, std::uint32_t node);
 
-/// Two unit vectors that make a right-handed orthonormal frame with the unit vector `w`.
+/// Two unit vectors that make a right-handed orthonormal frame with the unit vector `w`. Not
+/// planeBasis() of vectors.h, which turns them otherwise: phantoms would change.
 std::pair<Eigen::Vector3d, Eigen::Vector3d> normalsOf(const Eigen::Vector3d& w);
 
 /// Uniform in the cube [-1, 1)^3. The coordinates are drawn one after the other: the order in which

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What is added to a grown patient; declared in patient.h.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

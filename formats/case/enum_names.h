@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "formats/case/case.h"
+#include "formats/view/model_rules.h"
 
 namespace lumen::formats {
 
@@ -16,6 +17,8 @@ inline constexpr std::array<std::string_view, 2> kBranchKindNames = {"vessel", "
 inline constexpr std::array<std::string_view, 7> kStopReasonNames = {
     "unknown",    "no-valid-cylinder", "turned-back", "left-volume",
     "met-branch", "end-of-seeds",      "step-limit"};
+static_assert(kBranchKindNames.size() == kBranchKindCount);
+static_assert(kStopReasonNames.size() == kStopReasonCount);
 using field::kKernelNames;
 /// In the order of the variant in NodeArray.
 inline constexpr std::array<std::string_view, 3> kArrayTypeNames = {"f32", "i32", "u32"};

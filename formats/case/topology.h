@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walking a centerline tree.
+// Walking a centerline tree. Edges as the format has them: field::edgesOf() drops what is stated twice.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The rules of metadata and node arrays; declared in metadata_json.h.
 #include <algorithm>
 #include <cmath>
 #include <set>

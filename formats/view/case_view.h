@@ -19,9 +19,9 @@ namespace lumen::formats {
 /// Three f32: a position (mm) or a unit direction in LPS patient coordinates.
 using ViewVector = std::array<float, 3>;
 
-/// One implicit surface per node; see Kernel and BlobbyModels in formats/case/case.h.
+/// One implicit surface per node; see BlobbyModels in formats/case/case.h.
 struct ModelView {
-  std::uint8_t kernel = 0;  ///< 0 cauchy, 1 gaussian, 2 quartic, 3 soft-object
+  std::uint8_t kernel = 0;  ///< a field::Kernel, once checked
   double kernelParameter = 0, isoLevel = 0;
   std::span<const std::uint32_t> offset;  ///< one per node, and one more
   std::span<const ViewVector> centre;     ///< mm, LPS

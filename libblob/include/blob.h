@@ -273,7 +273,7 @@ BLOB_API uint32_t blob_cursor_follow(const blob_model* model, const double point
 
 /* The cursor's node alone answers, as in the thesis. An approximation, and the fastest. Within a node's
  * power cell all is as smooth as the kernel; at the seam between two cells value and gradient jump by
- * the models' disagreement, commonly some hundredths of a millimetre in distance. */
+ * the models' disagreement (libblob/README.md, "Seams"). */
 #define BLOB_LOCAL 1u
 
 /* `distance` and `normal` are those of the nearest point of the wall, as blob_nearest() finds it, instead
@@ -305,8 +305,8 @@ typedef struct blob_sample {
    * (outside a compact kernel's support) it is the distance to the node's ball, or 0.
    *
    * BLOB_DISTANCE_EXACT: the distance to the nearest point of the wall, found as by blob_nearest() with an
-   * error of 1e-5 R; continuous, with a kink where two points of the wall are equally near. About one point
-   * in 1000, mostly near an axis, ends with BLOB_NOT_CONVERGED and the nearest point so far. */
+   * error of 1e-5 R; continuous, with a kink where two points of the wall are equally near. A few
+   * points, mostly near an axis, end with BLOB_NOT_CONVERGED and the nearest point so far. */
   double distance;
   /* Outward unit normal, -grad f / |grad f|; zero where grad f is zero; away from the node's centre where f
    * vanishes. With BLOB_DISTANCE_EXACT that of the nearest point of the wall. */
@@ -319,7 +319,7 @@ typedef struct blob_sample {
  * The caller provides flags, a point and its cursor, which is read and moved; null: the point is located,
  * which costs more than the query.
  * *sample is the answer. Cannot fail.
- * O(b), times the number of nodes that blend; some 40 times that with BLOB_DISTANCE_EXACT. */
+ * O(b), times the number of nodes that blend; with BLOB_DISTANCE_EXACT some tens of evaluations. */
 BLOB_API void blob_query(const blob_model* model, uint32_t flags, const double point[3],
                          uint32_t* cursor, blob_sample* sample) BLOB_NOEXCEPT;
 
