@@ -14,6 +14,7 @@ lumen_test(formats_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/full_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/memory_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/printable_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_tables.cpp
