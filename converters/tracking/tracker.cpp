@@ -12,6 +12,7 @@
 #include "converters/tracking/aneurysm.h"
 #include "converters/tracking/bends.h"
 #include "converters/tracking/branch_tracker.h"
+#include "converters/tracking/joining.h"
 #include "converters/tracking/point_spread.h"
 #include "converters/tracking/smoothing.h"
 #include "converters/volume/write_volume.h"
@@ -94,6 +95,40 @@ void trackWave(const TrackContext& context, const std::vector<SeedBranch>& seeds
   trimDuplicates(branches, wave);
 }
 
+/// Fills the gaps of all vessels, then leads every child to its parent.
+void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+             std::vector<TrackedBranch>& branches) {
+  const auto eachBranch = [&](const auto& action) {
+    tbb::parallel_for(std::size_t{0}, branches.size(), [&](std::size_t i) {
+      if (branches[i].nodes.empty()) return;
+      TrackWorkspace workspace(context);
+      Random random(context.options.seed, branches.size() + i);
+      action(i, random, workspace);
+    });
+  };
+  eachBranch([&](std::size_t i, Random& random, TrackWorkspace& workspace) {
+    if (seeds[i].kind == BranchKind::Vessel) fillGaps(context, branches[i], random, workspace);
+  });
+  const std::vector<TrackedBranch> parents = branches;
+  eachBranch([&](std::size_t i, Random& random, TrackWorkspace& workspace) {
+    if (branches[i].parentBranch < 0 || seeds[i].kind != BranchKind::Vessel) return;
+    joinToParent(context, parents[static_cast<std::size_t>(branches[i].parentBranch)], branches[i],
+                 random, workspace);
+  });
+  // children hang on what stands now: their parents have grown at the front
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    const int p = branches[i].parentBranch;
+    if (p < 0 || branches[i].nodes.empty()) continue;
+    const auto& parent = branches[static_cast<std::size_t>(p)];
+    const auto& before = parents[static_cast<std::size_t>(p)];
+    if (seeds[i].kind == BranchKind::Vessel)
+      branches[i].parentNode += static_cast<int>(parent.nodes.size() - before.nodes.size());
+    else
+      branches[i].parentNode =
+          static_cast<int>(closestOnChain(parent.nodes, branches[i].nodes[0].centre).node);
+  }
+}
+
 /// Appends one tracked branch to the case. `firstNode`: of each branch by position in the seeds.
 void appendBranch(const SeedBranch& seed, const TrackedBranch& branch,
                   std::vector<std::int32_t>& firstNode, formats::Case& out) {
@@ -155,6 +190,7 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   progress.begin("track", seeds.size());
   for (int depth = 0; depth <= ancestry.deepest; ++depth)
     trackWave(context, seeds, ancestry, depth, branches, progress);
+  joinAll(context, seeds, branches);
   progress.end();
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/tracking/joining.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "converters/common/vectors.h"
+#include "converters/tracking/path_rules.h"
+#include "converters/tracking/way.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Of the mean height and of the lesser radius: edges longer than both are gaps.
+constexpr double kLongEdge = 1.25, kLongStep = 1.0;
+/// Of the radius: from one node of a bridge to the next.
+constexpr double kSpacing = 0.5;
+/// Nodes at an end of a track that tell the levels of its lumen.
+constexpr std::size_t kLevelNodes = 12;
+/// Of the straight distance: a longer way is one along other vessels; and how far around the ends
+/// it is looked for, at least so many radii.
+constexpr double kLongestWay = 2.5, kReach = 1.5, kLeastReach = 6;
+/// Of a way: the share outside of the lumen up to which it is followed rather than a straight line.
+constexpr double kOutside = 0.5;
+/// Of the interpolated radius: how far a fitted node may lie beside the way, and be narrower or
+/// wider.
+constexpr double kAside = 0.7, kNarrow = 0.6, kWide = 1.5;
+/// Points around a bridged node.
+constexpr int kRing = 12;
+
+struct Station {
+  Vector3d position, direction;
+  double radius;
+};
+
+/// Places along a polyline, evenly, without its ends.
+std::vector<Station> stationsAlong(std::span<const Vector3d> line, double first, double last) {
+  std::vector<double> at(line.size(), 0.0);
+  for (std::size_t i = 1; i < line.size(); ++i)
+    at[i] = at[i - 1] + (line[i] - line[i - 1]).norm();
+  const double length = at.back();
+  const int count = static_cast<int>(std::floor(length / (kSpacing * std::min(first, last))));
+  std::vector<Station> stations;
+  const auto place = [&](double t) {
+    const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, t);
+    const auto i = static_cast<std::size_t>(above - at.begin());
+    const double share = at[i] > at[i - 1] ? (t - at[i - 1]) / (at[i] - at[i - 1]) : 0.0;
+    return Vector3d(line[i - 1] + share * (line[i] - line[i - 1]));
+  };
+  for (int n = 1; n < count; ++n) {
+    const double t = length * n / count, half = 0.5 * length / count;
+    const Vector3d tangent = place(t + half) - place(t - half);
+    if (!(tangent.norm() > 0)) continue;
+    stations.push_back({place(t), tangent.normalized(), first + (last - first) * n / count});
+  }
+  return stations;
+}
+
+bool inLumen(const TrackedBranch* other, const Vector3d& point) {
+  if (!other) return false;
+  const ChainPoint at = closestOnChain(other->nodes, point);
+  return at.distance < at.radius;
+}
+
+TrackedNode bridgedNode(const Station& station, const TrackedBranch* parent) {
+  TrackedNode node;
+  node.origin = NodeOrigin::Bridged;
+  node.centre = station.position;
+  node.direction = station.direction;
+  node.radius = station.radius;
+  node.height = 2 * kSpacing * station.radius;
+  const auto [u, v] = planeBasis(station.direction);
+  for (int i = 0; i < kRing; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kRing;
+    const Vector3d p =
+        node.centre + node.radius * (std::cos(angle) * u + std::sin(angle) * v);
+    if (!inLumen(parent, p)) node.points.push_back(toVec3f(p));
+  }
+  return node;
+}
+
+/// Nodes along a line from a node to another. `parent`: what is inside of its lumen has no wall.
+std::vector<TrackedNode> nodesAlong(const TrackContext& context, std::span<const Vector3d> line,
+                                    double first, double last, const TrackedBranch* parent,
+                                    Random& random, TrackWorkspace& workspace) {
+  std::vector<TrackedNode> nodes;
+  for (const Station& station : stationsAlong(line, first, last)) {
+    const NodeGuess guess{station.position, station.direction, station.radius, true,
+                          0.5 * kSpacing * station.radius};
+    std::optional<TrackedNode> node;
+    if (!inLumen(parent, station.position))
+      node = fitNode(context, guess, leastInlierRate(context.options), random, workspace).node;
+    if (node) {
+      const Vector3d aside = node->centre - station.position;
+      if (aside.norm() > kAside * station.radius || node->radius < kNarrow * station.radius ||
+          node->radius > kWide * station.radius ||
+          node->direction.dot(station.direction) < std::numbers::sqrt2 / 2)
+        node.reset();
+    }
+    nodes.push_back(node ? std::move(*node) : bridgedNode(station, parent));
+  }
+  return nodes;
+}
+
+/// The way from one place to the nearest of some, or the straight line to `straight`.
+std::vector<Vector3d> lineBetween(const TrackContext& context, const LumenLevels& levels,
+                                  const Vector3d& from, std::span<const Vector3d> goals,
+                                  const Vector3d& straight, double radius) {
+  const double distance = (straight - from).norm();
+  const auto way = findWay(context, levels, from, goals,
+                           std::max(kReach * distance, kLeastReach * radius));
+  if (way && way->length < kLongestWay * distance + 2 * radius &&
+      way->outside < kOutside * way->length)
+    return way->points;
+  return {from, straight};
+}
+
+bool isGap(const TrackedNode& a, const TrackedNode& b) {
+  const double distance = (b.centre - a.centre).norm();
+  return distance > kLongEdge * 0.5 * (a.height + b.height) &&
+         distance > kLongStep * std::min(a.radius, b.radius);
+}
+
+}  // namespace
+
+void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random,
+              TrackWorkspace& workspace) {
+  std::vector<TrackedNode> filled;
+  const std::vector<TrackedNode>& nodes = branch.nodes;
+  std::size_t click = branch.clickNode;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i == branch.clickNode) click = filled.size();
+    filled.push_back(nodes[i]);
+    if (i + 1 == nodes.size() || !isGap(nodes[i], nodes[i + 1])) continue;
+    const std::size_t low = i + 1 > kLevelNodes ? i + 1 - kLevelNodes : 0;
+    const std::size_t high = std::min(nodes.size(), i + 1 + kLevelNodes);
+    const LumenLevels levels =
+        levelsOf(context.volume, std::span(nodes).subspan(low, high - low));
+    const Vector3d to = nodes[i + 1].centre;
+    const auto line =
+        lineBetween(context, levels, nodes[i].centre, {&to, 1}, to, nodes[i].radius);
+    auto between = nodesAlong(context, line, nodes[i].radius, nodes[i + 1].radius, nullptr, random,
+                              workspace);
+    std::move(between.begin(), between.end(), std::back_inserter(filled));
+  }
+  branch.nodes = std::move(filled);
+  branch.clickNode = click;
+}
+
+void joinToParent(const TrackContext& context, const TrackedBranch& parent, TrackedBranch& branch,
+                  Random& random, TrackWorkspace& workspace) {
+  const TrackedNode& first = branch.nodes.front();
+  const std::size_t near = std::min(branch.nodes.size(), kLevelNodes);
+  const LumenLevels levels = levelsOf(context.volume, std::span(branch.nodes).first(near));
+  std::vector<Vector3d> goals;
+  for (const TrackedNode& node : parent.nodes) goals.push_back(node.centre);
+  const ChainPoint straight = closestOnChain(parent.nodes, first.centre);
+  const auto line = lineBetween(context, levels, first.centre, goals, straight.position, first.radius);
+  branch.parentNode = static_cast<int>(closestOnChain(parent.nodes, line.back()).node);
+  std::vector<Vector3d> outward(line.rbegin(), line.rend());
+  outward.front() = parent.nodes[static_cast<std::size_t>(branch.parentNode)].centre;
+  const double radius = std::min(first.radius, straight.radius);
+  auto way = nodesAlong(context, outward, radius, first.radius, &parent, random, workspace);
+  branch.clickNode += way.size();
+  branch.nodes.insert(branch.nodes.begin(), std::make_move_iterator(way.begin()),
+                      std::make_move_iterator(way.end()));
+}
+
+}  // namespace lumen::convert

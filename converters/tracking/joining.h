@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// From tracks to one lumen: gaps within a branch are filled, and every child is led to its parent's
+// axis (docs/method.md, section 1.7).
+#pragma once
+
+#include <cstddef>
+
+#include "converters/tracking/node_fit.h"
+
+namespace lumen::convert {
+
+/// Puts nodes between neighbouring ones that are farther apart than their cylinders reach: fitted
+/// where the volume shows the vessel, else bridged. Throws Error(Cancelled).
+void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random,
+              TrackWorkspace& workspace);
+
+/// Leads a branch back from its first node to the axis of its parent, by nodes before that one, and
+/// sets the parent's node that they hang on. Throws Error(Cancelled).
+void joinToParent(const TrackContext& context, const TrackedBranch& parent, TrackedBranch& branch,
+                  Random& random, TrackWorkspace& workspace);
+
+}  // namespace lumen::convert
