@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/fitting/local_model.h"
+#include "converters/fitting/open_edges.h"
 #include "converters/fitting/seam.h"
 #include "formats/case/topology.h"
 
@@ -195,6 +196,7 @@ void fit(formats::Case& target, const FitOptions& options, Progress& progress) {
   for (int sweep = 0; sweep < full.seamSweeps; ++sweep) models.refine(progress);
   progress.end();
   target.models = models.assemble();
+  openEdges(target);
   target.metadata.steps.push_back({"fit", "lumen " LUMEN_VERSION, full.parameters()});
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace lumen::formats {
 namespace {
@@ -34,11 +33,11 @@ bool hasArrived(const field::BlendedField& field, std::uint32_t cursor, std::uin
   return cursor == node || std::binary_search(around.begin(), around.end(), cursor);
 }
 
-/// What a push along one edge found.
+/// Where a push along one edge ended, and the places where it was outside.
 struct Push {
   std::uint32_t cursor = 0;
-  std::optional<field::Vec> blocked;  ///< where it first left the lumen
-  double closed = 0;
+  double step = 0;  ///< mm
+  std::vector<ClosedPlace> closed;
 };
 
 Push pushAlong(const CenterlineTree& tree, const field::BlendedField& field, std::uint32_t node,
@@ -50,20 +49,32 @@ Push pushAlong(const CenterlineTree& tree, const field::BlendedField& field, std
   const double count = std::clamp(std::ceil(length / (kStep * radius)), 1.0, kMostSteps);
   Push push;
   push.cursor = cursor;
+  push.step = length / count;
   for (double i = 1; i <= count; ++i) {
     const double t = i / count;
     const field::Vec p = {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
                           from.z + t * (to.z - from.z)};
     push.cursor = field.follow(p, push.cursor);
-    if (isInside(field, p, push.cursor)) continue;
-    if (!push.blocked) push.blocked = p;
-    push.closed += length / count;
+    if (!isInside(field, p, push.cursor)) push.closed.push_back({p, push.cursor});
   }
-  if (!push.blocked && !hasArrived(field, push.cursor, node)) push.blocked = to;
+  if (push.closed.empty() && !hasArrived(field, push.cursor, node))
+    push.closed.push_back({to, push.cursor});
   return push;
 }
 
 }  // namespace
+
+std::vector<ClosedPlace> closedPlaces(const CenterlineTree& tree, const field::BlendedField& field,
+                                      std::uint32_t node) {
+  if (tree.parent[node] != kNoParent) {
+    const auto parent = static_cast<std::uint32_t>(tree.parent[node]);
+    return pushAlong(tree, field, node, field.follow(centreOf(tree, parent), parent)).closed;
+  }
+  const field::Vec start = centreOf(tree, node);
+  const std::uint32_t cursor = field.follow(start, node);
+  if (isInside(field, start, cursor)) return {};
+  return {{start, cursor}};
+}
 
 Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedField& field) {
   constexpr std::uint32_t kOpen = field::kNowhere;
@@ -87,12 +98,13 @@ Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedFiel
     if (barrier[node] == kOpen) {
       const Push push = pushAlong(tree, field, node, cursor[parent]);
       cursor[node] = push.cursor;
-      if (!push.blocked) {
+      if (push.closed.empty()) {
         result.reachable += length;
         continue;
       }
       barrier[node] = static_cast<std::uint32_t>(result.barriers.size());
-      result.barriers.push_back({node, *push.blocked, push.closed, 0});
+      result.barriers.push_back({node, push.closed.front().place,
+                                 push.step * static_cast<double>(push.closed.size()), 0});
     }
     result.barriers[barrier[node]].beyond += length;
   }

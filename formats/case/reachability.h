@@ -21,6 +21,19 @@ struct Barrier {
   double beyond = 0;       ///< length of the tree that cannot be reached because of it, mm
 };
 
+/// Where a point on its way along an edge is outside of the lumen: its place, and the node that its
+/// cursor is at.
+struct ClosedPlace {
+  field::Vec place{};  ///< mm, LPS
+  std::uint32_t cursor = 0;
+};
+
+/// Pushes a point along the edge that leads to `node`, with a cursor that begins at that node's
+/// parent and follows it; every place, in steps of at most an eighth of the lesser radius, at which
+/// it is outside. Of a root: its centre.
+std::vector<ClosedPlace> closedPlaces(const CenterlineTree& tree, const field::BlendedField& field,
+                                      std::uint32_t node);
+
 /// Lengths are of the polylines through the nodes and of the edges to their parents, mm.
 struct Reachability {
   double total = 0;
