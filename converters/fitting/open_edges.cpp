@@ -7,8 +7,6 @@
 #include <map>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include "formats/case/blobby.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
@@ -70,11 +68,7 @@ std::size_t openEdges(formats::Case& target) {
   std::size_t closedEdges = 0;
   for (const double opening : kOpening) {
     const field::BlendedField field = formats::blendedFieldOf(target);
-    std::vector<std::vector<ClosedPlace>> closed(tree.nodeCount());
-    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(tree.nodeCount()),
-                      [&](std::uint32_t node) {
-                        closed[node] = formats::closedPlaces(tree, field, node);
-                      });
+    const auto closed = formats::closedPlacesOf(tree, field);
     std::map<std::uint32_t, std::vector<NewBlob>> added;
     closedEdges = 0;
     for (std::uint32_t node = 0; node < closed.size(); ++node) {

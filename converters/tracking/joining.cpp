@@ -35,6 +35,9 @@ constexpr double kAside = 0.7, kNarrow = 0.6, kWide = 1.5;
 /// Points around a bridged node.
 constexpr int kRing = 12;
 
+/// Of the parent's radius: a way that has come so near to its axis has arrived.
+constexpr double kCore = 0.5;
+
 struct Station {
   Vector3d position, direction;
   double radius;
@@ -122,6 +125,22 @@ std::vector<Vector3d> lineBetween(const TrackContext& context, const LumenLevels
   return {from, straight};
 }
 
+/// Cuts off what a branch has in its parent's core before it leaves the parent's lumen for the first
+/// time, and hangs the rest where it was cut.
+void cutInCore(const TrackedBranch& parent, TrackedBranch& branch) {
+  std::size_t cut = 0;
+  for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
+    const ChainPoint at = closestOnChain(parent.nodes, branch.nodes[i].centre);
+    if (at.distance > at.radius) break;
+    if (at.distance > kCore * at.radius) continue;
+    cut = i + 1;
+    branch.parentNode = static_cast<int>(at.node);
+  }
+  cut = std::min(cut, branch.nodes.size() - 1);
+  branch.nodes.erase(branch.nodes.begin(), branch.nodes.begin() + static_cast<std::ptrdiff_t>(cut));
+  branch.clickNode -= std::min(branch.clickNode, cut);
+}
+
 bool isGap(const TrackedNode& a, const TrackedNode& b) {
   const double distance = (b.centre - a.centre).norm();
   return distance > kLongEdge * 0.5 * (a.height + b.height) &&
@@ -163,14 +182,15 @@ void joinToParent(const TrackContext& context, const TrackedBranch& parent, Trac
   for (const TrackedNode& node : parent.nodes) goals.push_back(node.centre);
   const ChainPoint straight = closestOnChain(parent.nodes, first.centre);
   const auto line = lineBetween(context, levels, first.centre, goals, straight.position, first.radius);
-  branch.parentNode = static_cast<int>(closestOnChain(parent.nodes, line.back()).node);
   std::vector<Vector3d> outward(line.rbegin(), line.rend());
+  branch.parentNode = static_cast<int>(closestOnChain(parent.nodes, outward.front()).node);
   outward.front() = parent.nodes[static_cast<std::size_t>(branch.parentNode)].centre;
   const double radius = std::min(first.radius, straight.radius);
   auto way = nodesAlong(context, outward, radius, first.radius, &parent, random, workspace);
   branch.clickNode += way.size();
   branch.nodes.insert(branch.nodes.begin(), std::make_move_iterator(way.begin()),
                       std::make_move_iterator(way.end()));
+  cutInCore(parent, branch);
 }
 
 }  // namespace lumen::convert

@@ -95,37 +95,33 @@ void trackWave(const TrackContext& context, const std::vector<SeedBranch>& seeds
   trimDuplicates(branches, wave);
 }
 
-/// Fills the gaps of all vessels, then leads every child to its parent.
+/// Fills the gaps of all vessels, then leads children to their parents, those first that have
+/// arrived themselves.
 void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-             std::vector<TrackedBranch>& branches) {
-  const auto eachBranch = [&](const auto& action) {
+             const Ancestry& ancestry, std::vector<TrackedBranch>& branches) {
+  const auto eachVessel = [&](int depth, const auto& action) {
     tbb::parallel_for(std::size_t{0}, branches.size(), [&](std::size_t i) {
-      if (branches[i].nodes.empty()) return;
+      const bool isDue = depth < 0 || ancestry.depth[i] == depth;
+      if (!isDue || branches[i].nodes.empty() || seeds[i].kind != BranchKind::Vessel) return;
       TrackWorkspace workspace(context);
-      Random random(context.options.seed, branches.size() + i);
-      action(i, random, workspace);
+      Random random(context.options.seed, branches.size() * static_cast<std::size_t>(depth + 2) + i);
+      action(branches[i], random, workspace);
     });
   };
-  eachBranch([&](std::size_t i, Random& random, TrackWorkspace& workspace) {
-    if (seeds[i].kind == BranchKind::Vessel) fillGaps(context, branches[i], random, workspace);
+  eachVessel(-1, [&](TrackedBranch& branch, Random& random, TrackWorkspace& workspace) {
+    fillGaps(context, branch, random, workspace);
   });
-  const std::vector<TrackedBranch> parents = branches;
-  eachBranch([&](std::size_t i, Random& random, TrackWorkspace& workspace) {
-    if (branches[i].parentBranch < 0 || seeds[i].kind != BranchKind::Vessel) return;
-    joinToParent(context, parents[static_cast<std::size_t>(branches[i].parentBranch)], branches[i],
-                 random, workspace);
-  });
-  // children hang on what stands now: their parents have grown at the front
+  for (int depth = 1; depth <= ancestry.deepest; ++depth)
+    eachVessel(depth, [&](TrackedBranch& branch, Random& random, TrackWorkspace& workspace) {
+      const auto& parent = branches[static_cast<std::size_t>(branch.parentBranch)];
+      joinToParent(context, parent, branch, random, workspace);
+    });
   for (std::size_t i = 0; i < branches.size(); ++i) {
-    const int p = branches[i].parentBranch;
-    if (p < 0 || branches[i].nodes.empty()) continue;
-    const auto& parent = branches[static_cast<std::size_t>(p)];
-    const auto& before = parents[static_cast<std::size_t>(p)];
-    if (seeds[i].kind == BranchKind::Vessel)
-      branches[i].parentNode += static_cast<int>(parent.nodes.size() - before.nodes.size());
-    else
-      branches[i].parentNode =
-          static_cast<int>(closestOnChain(parent.nodes, branches[i].nodes[0].centre).node);
+    TrackedBranch& branch = branches[i];
+    if (seeds[i].kind != BranchKind::Aneurysm || branch.parentBranch < 0 || branch.nodes.empty())
+      continue;
+    const auto& parent = branches[static_cast<std::size_t>(branch.parentBranch)];
+    branch.parentNode = static_cast<int>(closestOnChain(parent.nodes, branch.nodes[0].centre).node);
   }
 }
 
@@ -190,7 +186,7 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   progress.begin("track", seeds.size());
   for (int depth = 0; depth <= ancestry.deepest; ++depth)
     trackWave(context, seeds, ancestry, depth, branches, progress);
-  joinAll(context, seeds, branches);
+  joinAll(context, seeds, ancestry, branches);
   progress.end();
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;

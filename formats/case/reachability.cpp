@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lumen::formats {
 namespace {
@@ -27,16 +28,9 @@ bool isInside(const field::BlendedField& field, const field::Vec& point, std::ui
   return field.blended<1>(point, cursor).value > field.level();
 }
 
-/// True if a cursor at `cursor` answers for `node`.
-bool hasArrived(const field::BlendedField& field, std::uint32_t cursor, std::uint32_t node) {
-  const auto around = field.neighbours(node);
-  return cursor == node || std::binary_search(around.begin(), around.end(), cursor);
-}
-
 /// Where a push along one edge ended, and the places where it was outside.
 struct Push {
   std::uint32_t cursor = 0;
-  double step = 0;  ///< mm
   std::vector<ClosedPlace> closed;
 };
 
@@ -49,7 +43,6 @@ Push pushAlong(const CenterlineTree& tree, const field::BlendedField& field, std
   const double count = std::clamp(std::ceil(length / (kStep * radius)), 1.0, kMostSteps);
   Push push;
   push.cursor = cursor;
-  push.step = length / count;
   for (double i = 1; i <= count; ++i) {
     const double t = i / count;
     const field::Vec p = {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
@@ -57,56 +50,50 @@ Push pushAlong(const CenterlineTree& tree, const field::BlendedField& field, std
     push.cursor = field.follow(p, push.cursor);
     if (!isInside(field, p, push.cursor)) push.closed.push_back({p, push.cursor});
   }
-  if (push.closed.empty() && !hasArrived(field, push.cursor, node))
-    push.closed.push_back({to, push.cursor});
   return push;
 }
 
 }  // namespace
 
-std::vector<ClosedPlace> closedPlaces(const CenterlineTree& tree, const field::BlendedField& field,
-                                      std::uint32_t node) {
-  if (tree.parent[node] != kNoParent) {
-    const auto parent = static_cast<std::uint32_t>(tree.parent[node]);
-    return pushAlong(tree, field, node, field.follow(centreOf(tree, parent), parent)).closed;
+std::vector<std::vector<ClosedPlace>> closedPlacesOf(const CenterlineTree& tree,
+                                                     const field::BlendedField& field) {
+  const auto count = static_cast<std::uint32_t>(tree.nodeCount());
+  std::vector<std::uint32_t> cursor(count);
+  std::vector<std::vector<ClosedPlace>> closed(count);
+  for (std::uint32_t node = 0; node < count; ++node) {
+    if (tree.parent[node] != kNoParent) {
+      const auto parent = static_cast<std::uint32_t>(tree.parent[node]);
+      Push push = pushAlong(tree, field, node, cursor[parent]);
+      cursor[node] = push.cursor;
+      closed[node] = std::move(push.closed);
+      if (closed[node].empty()) continue;
+    }
+    const field::Vec centre = centreOf(tree, node);
+    cursor[node] = field.follow(centre, node);
+    if (tree.parent[node] == kNoParent && !isInside(field, centre, cursor[node]))
+      closed[node] = {{centre, cursor[node]}};
   }
-  const field::Vec start = centreOf(tree, node);
-  const std::uint32_t cursor = field.follow(start, node);
-  if (isInside(field, start, cursor)) return {};
-  return {{start, cursor}};
+  return closed;
 }
 
 Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedField& field) {
   constexpr std::uint32_t kOpen = field::kNowhere;
+  const std::vector<std::vector<ClosedPlace>> closed = closedPlacesOf(tree, field);
   Reachability result;
-  const std::size_t count = tree.nodeCount();
-  std::vector<std::uint32_t> cursor(count);
-  std::vector<std::uint32_t> barrier(count, kOpen);  // the one that keeps a node from its root
-  for (std::uint32_t node = 0; node < count; ++node) {
-    if (tree.parent[node] == kNoParent) {
-      const field::Vec start = centreOf(tree, node);
-      cursor[node] = field.follow(start, node);
-      if (isInside(field, start, cursor[node])) continue;
-      barrier[node] = static_cast<std::uint32_t>(result.barriers.size());
-      result.barriers.push_back({node, start, 0, 0});
-      continue;
-    }
-    const auto parent = static_cast<std::uint32_t>(tree.parent[node]);
-    const double length = edgeLength(tree, node);
+  std::vector<std::uint32_t> barrier(closed.size(), kOpen);  // what keeps a node from its root
+  for (std::uint32_t node = 0; node < closed.size(); ++node) {
+    const bool isRoot = tree.parent[node] == kNoParent;
+    const double length = isRoot ? 0 : edgeLength(tree, node);
     result.total += length;
-    barrier[node] = barrier[parent];
-    if (barrier[node] == kOpen) {
-      const Push push = pushAlong(tree, field, node, cursor[parent]);
-      cursor[node] = push.cursor;
-      if (push.closed.empty()) {
-        result.reachable += length;
-        continue;
-      }
+    if (!isRoot) barrier[node] = barrier[static_cast<std::size_t>(tree.parent[node])];
+    if (barrier[node] == kOpen && !closed[node].empty()) {
       barrier[node] = static_cast<std::uint32_t>(result.barriers.size());
-      result.barriers.push_back({node, push.closed.front().place,
-                                 push.step * static_cast<double>(push.closed.size()), 0});
+      result.barriers.push_back({node, closed[node].front().place, 0});
     }
-    result.barriers[barrier[node]].beyond += length;
+    if (barrier[node] == kOpen)
+      result.reachable += length;
+    else
+      result.barriers[barrier[node]].beyond += length;
   }
   return result;
 }

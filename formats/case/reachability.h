@@ -17,7 +17,6 @@ namespace lumen::formats {
 struct Barrier {
   std::uint32_t node = 0;  ///< the edge's farther end; a root whose own centre is outside
   field::Vec place{};      ///< where the way first leaves the lumen, mm, LPS
-  double closed = 0;       ///< of the edge's length, mm: outside of the lumen
   double beyond = 0;       ///< length of the tree that cannot be reached because of it, mm
 };
 
@@ -28,11 +27,11 @@ struct ClosedPlace {
   std::uint32_t cursor = 0;
 };
 
-/// Pushes a point along the edge that leads to `node`, with a cursor that begins at that node's
-/// parent and follows it; every place, in steps of at most an eighth of the lesser radius, at which
-/// it is outside. Of a root: its centre.
-std::vector<ClosedPlace> closedPlaces(const CenterlineTree& tree, const field::BlendedField& field,
-                                      std::uint32_t node);
+/// For every node, the places at which a point that is pushed along its edge is outside, in steps of
+/// at most an eighth of the lesser radius; of a root, its centre. Its cursor has followed it from
+/// the root on; beyond a closed edge it is set anew at the node.
+std::vector<std::vector<ClosedPlace>> closedPlacesOf(const CenterlineTree& tree,
+                                                     const field::BlendedField& field);
 
 /// Lengths are of the polylines through the nodes and of the edges to their parents, mm.
 struct Reachability {
@@ -43,8 +42,7 @@ struct Reachability {
 
 /// Pushes a point from every root along every edge, in steps of at most an eighth of the lesser
 /// radius, with a cursor that follows it from node to node. An edge is open if the blended field
-/// exceeds T at every step and the cursor arrives at the edge's end or at one of its neighbours.
-/// The case is valid and has models. O(n).
+/// exceeds T at every step. The case is valid and has models. O(n).
 Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedField& field);
 
 }  // namespace lumen::formats
