@@ -7,6 +7,7 @@
 #include "converters/fitting/local_model.h"
 #include "converters/fitting/open_edges.h"
 #include "converters/fitting/seam.h"
+#include "converters/fitting/unmeasured.h"
 #include "formats/case/topology.h"
 
 namespace lumen::convert {
@@ -49,7 +50,8 @@ public:
         m_local(localOptions(options, m_scale)),
         m_neighbours(value.tree),
         m_models(value.tree.nodeCount()),
-        m_seam(value.tree.nodeCount()) {}
+        m_seam(value.tree.nodeCount()),
+        m_drawn(pointsOfUnmeasured(value, m_neighbours)) {}
 
   /// Fits every node for itself.
   void fit(Progress& progress) {
@@ -120,6 +122,7 @@ private:
   formats::Neighbours m_neighbours;
   std::vector<fitting::LocalModel> m_models;  ///< in the frame of their node
   std::vector<std::vector<Vec3d>> m_seam;  ///< between a node and its parent, in the node's frame
+  std::vector<std::vector<Vec3f>> m_drawn;  ///< of each node that has no measured points
   tbb::enumerable_thread_specific<Worker> m_workers;
 };
 
@@ -133,6 +136,7 @@ void Models::gatherPoints(std::uint32_t node, Worker& worker) const {
     for (std::uint32_t k = offset[near]; k < offset[near + 1]; ++k) {
       worker.points.push_back(toLocal(node, m_case.points->position[k]));
     }
+    for (const Vec3f& p : m_drawn[near]) worker.points.push_back(toLocal(node, p));
   }
 }
 

@@ -9,7 +9,6 @@
 #include <span>
 #include <utility>
 
-#include "converters/common/vectors.h"
 #include "converters/tracking/path_rules.h"
 #include "converters/tracking/way.h"
 
@@ -32,8 +31,6 @@ constexpr double kOutside = 0.5;
 /// Of the interpolated radius: how far a fitted node may lie beside the way, and be narrower or
 /// wider.
 constexpr double kAside = 0.7, kNarrow = 0.6, kWide = 1.5;
-/// Points around a bridged node.
-constexpr int kRing = 12;
 
 /// Of the parent's radius: a way that has come so near to its axis has arrived.
 constexpr double kCore = 0.5;
@@ -72,20 +69,13 @@ bool inLumen(const TrackedBranch* other, const Vector3d& point) {
   return at.distance < at.radius;
 }
 
-TrackedNode bridgedNode(const Station& station, const TrackedBranch* parent) {
+TrackedNode bridgedNode(const Station& station) {
   TrackedNode node;
-  node.origin = NodeOrigin::Bridged;
+  node.origin = formats::NodeOrigin::Bridged;
   node.centre = station.position;
   node.direction = station.direction;
   node.radius = station.radius;
   node.height = 2 * kSpacing * station.radius;
-  const auto [u, v] = planeBasis(station.direction);
-  for (int i = 0; i < kRing; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kRing;
-    const Vector3d p =
-        node.centre + node.radius * (std::cos(angle) * u + std::sin(angle) * v);
-    if (!inLumen(parent, p)) node.points.push_back(toVec3f(p));
-  }
   return node;
 }
 
@@ -107,7 +97,7 @@ std::vector<TrackedNode> nodesAlong(const TrackContext& context, std::span<const
           node->direction.dot(station.direction) < std::numbers::sqrt2 / 2)
         node.reset();
     }
-    nodes.push_back(node ? std::move(*node) : bridgedNode(station, parent));
+    nodes.push_back(node ? std::move(*node) : bridgedNode(station));
   }
   return nodes;
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,15 +10,13 @@
 #include <Eigen/Core>
 
 #include "formats/case/case.h"
+#include "formats/case/node_origin.h"
 
 namespace lumen::convert {
 
-/// Where a node comes from: fitted to the volume, or put where a way leads between nodes that were.
-enum class NodeOrigin : std::uint8_t { Measured = 0, Bridged = 1 };
-
 /// A node with its wall points (mm, LPS).
 struct TrackedNode {
-  NodeOrigin origin = NodeOrigin::Measured;
+  formats::NodeOrigin origin = formats::NodeOrigin::Measured;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
   double radius = 0, height = 0, inlierRate = 0;
   double strength = 0;         ///< median fall of intensity at the points, voxel units per mm

@@ -200,12 +200,15 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   out.result.points.emplace();
   out.result.points->offset.push_back(0);
   std::vector<std::int32_t> firstNode;
+  std::vector<formats::NodeOrigin> origins;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     appendBranch(seeds[i], branches[i], firstNode, out.result);
+    for (const TrackedNode& node : branches[i].nodes) origins.push_back(node.origin);
     if (branches[i].nodes.empty()) out.failures.push_back({seeds[i].label, branches[i].failure});
     for (const std::string& missed : branches[i].missedPoints)
       out.missedPoints.push_back({seeds[i].label, missed});
   }
+  setNodeOrigins(out.result, origins);
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
   out.result.metadata.source = describeSource(volume);
   out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});

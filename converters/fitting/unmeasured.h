@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wall points where none could be measured: on the cylinders of nodes that were bridged or given.
+#pragma once
+
+#include <vector>
+
+#include "formats/case/case.h"
+#include "formats/case/topology.h"
+
+namespace lumen::convert {
+
+/// For every node that was not measured and has no points: a ring around it at its radius, mm, LPS,
+/// without what lies in another branch's lumen near by along the tree. Empty for all others.
+std::vector<std::vector<formats::Vec3f>> pointsOfUnmeasured(const formats::Case& value,
+                                                            const formats::Neighbours& neighbours);
+
+}  // namespace lumen::convert
