@@ -35,6 +35,9 @@ constexpr double kAside = 0.7, kNarrow = 0.6, kWide = 1.5;
 /// Of the parent's radius: a way that has come so near to its axis has arrived.
 constexpr double kCore = 0.5;
 
+/// Radii of the child: so much farther may its named parent be than another branch of that tree.
+constexpr double kSurcharge = 3;
+
 struct Station {
   Vector3d position, direction;
   double radius;
@@ -102,17 +105,24 @@ std::vector<TrackedNode> nodesAlong(const TrackContext& context, std::span<const
   return nodes;
 }
 
-/// The way from one place to the nearest of some, or the straight line to `straight`.
-std::vector<Vector3d> lineBetween(const TrackContext& context, const LumenLevels& levels,
-                                  const Vector3d& from, std::span<const Vector3d> goals,
-                                  const Vector3d& straight, double radius) {
+/// A line from one place to another, and which goal it leads to.
+struct Line {
+  std::vector<Vector3d> points;
+  std::size_t goal = 0;
+};
+
+/// The way through the lumen from a place to one of some goals; straight to the first goal if there
+/// is none.
+Line lineTo(const TrackContext& context, const LumenLevels& levels, const Vector3d& from,
+            std::span<const Goal> goals, double radius) {
+  const Vector3d& straight = goals[0].position;
   const double distance = (straight - from).norm();
-  const auto way = findWay(context, levels, from, goals,
-                           std::max(kReach * distance, kLeastReach * radius));
+  auto way =
+      findWay(context, levels, from, goals, std::max(kReach * distance, kLeastReach * radius));
   if (way && way->length < kLongestWay * distance + 2 * radius &&
       way->outside < kOutside * way->length)
-    return way->points;
-  return {from, straight};
+    return {std::move(way->points), way->goal};
+  return {{from, straight}, 0};
 }
 
 /// Cuts off what a branch has in its parent's core before it leaves the parent's lumen for the first
@@ -153,9 +163,9 @@ void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random
     const LumenLevels levels =
         levelsOf(context.volume, std::span(nodes).subspan(low, high - low));
     const Vector3d to = nodes[i + 1].centre;
-    const auto line =
-        lineBetween(context, levels, nodes[i].centre, {&to, 1}, to, nodes[i].radius);
-    auto between = nodesAlong(context, line, nodes[i].radius, nodes[i + 1].radius, nullptr, random,
+    const Goal goal{to, 0};
+    const Line line = lineTo(context, levels, nodes[i].centre, {&goal, 1}, nodes[i].radius);
+    auto between = nodesAlong(context, line.points, nodes[i].radius, nodes[i + 1].radius, nullptr, random,
                               workspace);
     std::move(between.begin(), between.end(), std::back_inserter(filled));
   }
@@ -163,20 +173,35 @@ void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random
   branch.clickNode = click;
 }
 
-void joinToParent(const TrackContext& context, const TrackedBranch& parent, TrackedBranch& branch,
-                  Random& random, TrackWorkspace& workspace) {
-  const TrackedNode& first = branch.nodes.front();
+void joinToParent(const TrackContext& context, std::span<const TrackedBranch> all,
+                  std::span<const int> others, TrackedBranch& branch, Random& random,
+                  TrackWorkspace& workspace) {
+  const TrackedNode first = branch.nodes.front();
   const std::size_t near = std::min(branch.nodes.size(), kLevelNodes);
   const LumenLevels levels = levelsOf(context.volume, std::span(branch.nodes).first(near));
-  std::vector<Vector3d> goals;
-  for (const TrackedNode& node : parent.nodes) goals.push_back(node.centre);
-  const ChainPoint straight = closestOnChain(parent.nodes, first.centre);
-  const auto line = lineBetween(context, levels, first.centre, goals, straight.position, first.radius);
-  std::vector<Vector3d> outward(line.rbegin(), line.rend());
-  branch.parentNode = static_cast<int>(closestOnChain(parent.nodes, outward.front()).node);
-  outward.front() = parent.nodes[static_cast<std::size_t>(branch.parentNode)].centre;
-  const double radius = std::min(first.radius, straight.radius);
-  auto way = nodesAlong(context, outward, radius, first.radius, &parent, random, workspace);
+  const auto at = [&](int index) -> const TrackedBranch& {
+    return all[static_cast<std::size_t>(index)];
+  };
+  const ChainPoint straight = closestOnChain(at(branch.parentBranch).nodes, first.centre);
+  std::vector<Goal> goals{{straight.position, 0}};
+  std::vector<int> owner{branch.parentBranch};
+  const auto add = [&](int index, double surcharge) {
+    for (const TrackedNode& node : at(index).nodes) {
+      goals.push_back({node.centre, surcharge});
+      owner.push_back(index);
+    }
+  };
+  add(branch.parentBranch, 0);
+  for (const int index : others) add(index, kSurcharge * first.radius);
+  const Line line = lineTo(context, levels, first.centre, goals, first.radius);
+  branch.parentBranch = owner[line.goal];
+  const TrackedBranch& parent = at(branch.parentBranch);
+  std::vector<Vector3d> outward(line.points.rbegin(), line.points.rend());
+  const ChainPoint root = closestOnChain(parent.nodes, outward.front());
+  branch.parentNode = static_cast<int>(root.node);
+  outward.front() = parent.nodes[root.node].centre;
+  auto way = nodesAlong(context, outward, std::min(first.radius, root.radius), first.radius,
+                        &parent, random, workspace);
   branch.clickNode += way.size();
   branch.nodes.insert(branch.nodes.begin(), std::make_move_iterator(way.begin()),
                       std::make_move_iterator(way.end()));

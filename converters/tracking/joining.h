@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "converters/tracking/node_fit.h"
 
@@ -15,8 +16,11 @@ void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random
               TrackWorkspace& workspace);
 
 /// Leads a branch back from its first node to the axis of its parent, by nodes before that one, and
-/// sets the parent's node that they hang on. Throws Error(Cancelled).
-void joinToParent(const TrackContext& context, const TrackedBranch& parent, TrackedBranch& branch,
-                  Random& random, TrackWorkspace& workspace);
+/// sets the parent's node that they hang on. `others`: branches of the parent's tree; if the way
+/// through the lumen leads to one of these first, that is what the branch hangs on. All by position
+/// in the seeds' order; those that have no nodes are passed over. Throws Error(Cancelled).
+void joinToParent(const TrackContext& context, std::span<const TrackedBranch> all,
+                  std::span<const int> others, TrackedBranch& branch, Random& random,
+                  TrackWorkspace& workspace);
 
 }  // namespace lumen::convert

@@ -30,6 +30,11 @@ constexpr double kEdgesToVariance = 12.0;
 struct Ancestry {
   std::vector<int> parent, depth;
   int deepest = 0;
+
+  [[nodiscard]] std::size_t rootOf(std::size_t i) const {
+    while (parent[i] >= 0) i = static_cast<std::size_t>(parent[i]);
+    return i;
+  }
 };
 
 Ancestry findAncestry(const std::vector<SeedBranch>& seeds) {
@@ -113,8 +118,12 @@ void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
   });
   for (int depth = 1; depth <= ancestry.deepest; ++depth)
     eachVessel(depth, [&](TrackedBranch& branch, Random& random, TrackWorkspace& workspace) {
-      const auto& parent = branches[static_cast<std::size_t>(branch.parentBranch)];
-      joinToParent(context, parent, branch, random, workspace);
+      std::vector<int> others;
+      for (std::size_t i = 0; i < branches.size(); ++i)
+        if (ancestry.depth[i] < depth && seeds[i].kind == BranchKind::Vessel &&
+            ancestry.rootOf(i) == ancestry.rootOf(static_cast<std::size_t>(branch.parentBranch)))
+          others.push_back(static_cast<int>(i));
+      joinToParent(context, branches, others, branch, random, workspace);
     });
   for (std::size_t i = 0; i < branches.size(); ++i) {
     TrackedBranch& branch = branches[i];
@@ -125,12 +134,25 @@ void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
   }
 }
 
+/// All branches, in the seeds' order but for parents that come after a child.
+std::vector<std::size_t> parentsFirst(const std::vector<TrackedBranch>& branches) {
+  std::vector<std::size_t> order;
+  std::vector<bool> isPlaced(branches.size(), false);
+  while (order.size() < branches.size())
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+      const int parent = branches[i].parentBranch;
+      if (isPlaced[i] || (parent >= 0 && !isPlaced[static_cast<std::size_t>(parent)])) continue;
+      isPlaced[i] = true;
+      order.push_back(i);
+    }
+  return order;
+}
+
 /// Appends one tracked branch to the case. `firstNode`: of each branch by position in the seeds.
 void appendBranch(const SeedBranch& seed, const TrackedBranch& branch,
-                  std::vector<std::int32_t>& firstNode, formats::Case& out) {
+                  const std::vector<std::int32_t>& firstNode, formats::Case& out) {
   formats::CenterlineTree& tree = out.tree;
   const auto first = static_cast<std::int32_t>(tree.nodeCount());
-  firstNode.push_back(first);
   if (branch.nodes.empty()) return;
   formats::Branch record;
   record.label = seed.label;
@@ -199,9 +221,10 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   TrackResult out;
   out.result.points.emplace();
   out.result.points->offset.push_back(0);
-  std::vector<std::int32_t> firstNode;
+  std::vector<std::int32_t> firstNode(seeds.size());
   std::vector<formats::NodeOrigin> origins;
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
+  for (const std::size_t i : parentsFirst(branches)) {
+    firstNode[i] = static_cast<std::int32_t>(out.result.tree.nodeCount());
     appendBranch(seeds[i], branches[i], firstNode, out.result);
     for (const TrackedNode& node : branches[i].nodes) origins.push_back(node.origin);
     if (branches[i].nodes.empty()) out.failures.push_back({seeds[i].label, branches[i].failure});

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 #include "converters/common/statistics.h"
@@ -116,16 +117,19 @@ LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> n
 }
 
 std::optional<Way> findWay(const TrackContext& context, const LumenLevels& levels,
-                           const Vector3d& start, std::span<const Vector3d> goals, double reach) {
+                           const Vector3d& start, std::span<const Goal> goals, double reach) {
   const VolumeGeometry& geometry = context.volume.geometry();
   const Lattice lattice(geometry, start, reach);
   const auto first = lattice.nearest(start);
   if (!first || lattice.count() > kMostVoxels) return {};
-  std::vector<bool> isGoal(lattice.count(), false), done(lattice.count(), false);
-  bool any = false;
-  for (const Vector3d& goal : goals)
-    if (const auto at = lattice.nearest(goal)) any = isGoal[*at] = true;
-  if (!any) return {};
+  std::vector<bool> done(lattice.count(), false);
+  std::unordered_map<std::size_t, std::size_t> goalAt;  // the one of least surcharge in a voxel
+  for (std::size_t g = 0; g < goals.size(); ++g)
+    if (const auto at = lattice.nearest(goals[g].position)) {
+      const auto [there, isNew] = goalAt.emplace(*at, g);
+      if (!isNew && goals[g].surcharge < goals[there->second].surcharge) there->second = g;
+    }
+  if (goalAt.empty()) return {};
   constexpr float kFar = std::numeric_limits<float>::infinity();
   std::vector<float> cost(lattice.count(), kFar), price(lattice.count(), -1.0f);
   std::vector<std::uint32_t> from(lattice.count(), 0);
@@ -140,21 +144,22 @@ std::optional<Way> findWay(const TrackContext& context, const LumenLevels& level
   cost[*first] = 0;
   queue.push({0.0f, static_cast<std::uint32_t>(*first)});
   std::size_t taken = 0;
+  float best = kFar;
+  std::size_t bestPlace = 0, bestGoal = 0;
   while (!queue.empty()) {
     const auto [c, place] = queue.top();
     queue.pop();
     if (done[place]) continue;
     done[place] = true;
     if ((++taken & 1023U) == 0) context.progress.check();
-    if (isGoal[place]) {
-      std::vector<Vector3d> points;
-      for (std::size_t at = place;; at = from[at]) {
-        points.push_back(geometry.worldFromIndex(lattice.index(lattice.cell(at))));
-        if (at == *first) break;
+    if (c >= best) break;
+    if (const auto goal = goalAt.find(place); goal != goalAt.end()) {
+      const float whole = c + static_cast<float>(goals[goal->second].surcharge);
+      if (whole < best) {
+        best = whole;
+        bestPlace = place;
+        bestGoal = goal->second;
       }
-      std::reverse(points.begin(), points.end());
-      points.front() = start;
-      return smoothed(context, levels, std::move(points));
     }
     const Vector3i cell = lattice.cell(place);
     const float here = priceOf(place, cell);
@@ -172,7 +177,15 @@ std::optional<Way> findWay(const TrackContext& context, const LumenLevels& level
       queue.push({reached, static_cast<std::uint32_t>(to)});
     }
   }
-  return {};
+  if (best == kFar) return {};
+  std::vector<Vector3d> points;
+  for (std::size_t at = bestPlace; at != *first; at = from[at])
+    points.push_back(geometry.worldFromIndex(lattice.index(lattice.cell(at))));
+  points.push_back(start);
+  std::reverse(points.begin(), points.end());
+  Way way = smoothed(context, levels, std::move(points));
+  way.goal = bestGoal;
+  return way;
 }
 
 }  // namespace lumen::convert

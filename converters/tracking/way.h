@@ -25,13 +25,20 @@ struct Way {
   std::vector<Eigen::Vector3d> points;  ///< from start to goal, mm, LPS, smoothed
   double length = 0;                    ///< mm
   double outside = 0;                   ///< of the length: darker than the wall, mm
+  std::size_t goal = 0;                 ///< where it ends, as an index of the goals
 };
 
-/// The cheapest way from `start` to the nearest of `goals`, on the lattice of the voxels, where a
+/// Where a way may end.
+struct Goal {
+  Eigen::Vector3d position;  ///< mm, LPS
+  double surcharge = 0;      ///< mm: how much farther another goal may be and still be preferred
+};
+
+/// The cheapest way from `start` to one of `goals`, on the lattice of the voxels, where a
 /// millimetre that is darker than the lumen's middle costs more, and one beyond the wall's level
 /// much more. Empty if no goal is within `reach` mm of the start. Throws Error(Cancelled).
 std::optional<Way> findWay(const TrackContext& context, const LumenLevels& levels,
-                           const Eigen::Vector3d& start, std::span<const Eigen::Vector3d> goals,
+                           const Eigen::Vector3d& start, std::span<const Goal> goals,
                            double reach);
 
 }  // namespace lumen::convert
