@@ -67,7 +67,7 @@ private:
       return m_outputOptions.encoding.pointBits != 0 ? readParentCase(m_input)
                                                      : from.readCase(m_input);
     }
-    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, m_track.strict, progress);
     convert::TrackResult tracked =
         trackSeeds(volume, m_seeds, m_track.seeds, m_track.options, progress);
     m_failures = std::move(tracked.failures);

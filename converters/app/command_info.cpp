@@ -38,7 +38,7 @@ public:
     }
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind == FormatKind::Volume) {
-      const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
+      const convert::Volume volume = loadVolume(m_input, from, m_volume, false, context.progress);
       const VolumeInfo info = describeVolume(volume, context.progress);
       context.common.json ? answerJson(volumeInfoJson(info)) : answer(volumeInfoText(info));
     } else {

@@ -40,7 +40,8 @@ public:
     requireWritable(m_output);
     context.interrupts.watchOutput(m_output);
 
-    const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
+    const convert::Volume volume =
+        loadVolume(m_input, from, m_volume, m_track.strict, context.progress);
     const convert::TrackResult tracked =
         trackSeeds(volume, seeds, m_track.seeds, m_track.options, context.progress);
     to.writeCase(tracked.result, m_output, {}, context.progress);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/options.h"
 
+#include <cmath>
+#include <map>
 #include <optional>
 
+#include "converters/common/error.h"
 #include "formats/case/enum_names.h"
 
 namespace lumen::app {
@@ -25,6 +28,10 @@ CLI::Validator quietly(CLI::Validator check) {
 const CLI::Validator kShare = quietly(CLI::Range(0.0, 1.0));
 const CLI::Validator kPositive = quietly(CLI::PositiveNumber);
 const CLI::Validator kNotNegative = quietly(CLI::NonNegativeNumber);
+
+/// What --unit takes.
+const std::map<std::string, double> kMillimetresOf = {
+    {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
 
 CLI::Validator within(int low, int high) {
   return quietly(CLI::Range(low, high));
@@ -60,11 +67,32 @@ private:
   std::string m_title;
 };
 
+/// What --spacing takes: "0.3" or "0.3,0.3,0.5".
+Eigen::Vector3d spacingOf(const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    double value = 0;
+    if (!CLI::detail::lexical_cast(word, value) || !std::isfinite(value) || value <= 0)
+      throw Error(ErrorKind::Usage, "--spacing: \"" + text +
+                                        "\" is not one positive number of mm, or "
+                                        "three with commas between them");
+    values.push_back(value);
+  }
+  if (values.size() == 1) return Eigen::Vector3d::Constant(values[0]);
+  if (values.size() == 3) return {values[0], values[1], values[2]};
+  throw Error(ErrorKind::Usage, "--spacing: " + std::to_string(values.size()) +
+                                    " numbers; expected one, or three along i, j and k");
+}
+
 }  // namespace
 
 convert::ReadVolumeOptions VolumeArguments::options() const {
   convert::ReadVolumeOptions options;
   options.series = series;
+  if (!spacing.empty()) options.spacing = spacingOf(spacing);
+  if (const auto mm = kMillimetresOf.find(unit); mm != kMillimetresOf.end())
+    options.unit = mm->second;
+  options.allowedDetached.assign(allowDetached.begin(), allowDetached.end());
   if (crop.size() == 6)
     options.crop = convert::IndexBox{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
   return options;
@@ -88,6 +116,22 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->group("Volume")
       ->delimiter(',')
       ->expected(6);
+  app.add_option("--spacing", volume.spacing,
+                 "Distance of voxels along i, j and k, or of all, in mm, whatever the file says")
+      ->option_text("MM or MM,MM,MM")
+      ->group("Volume")
+      ->join(',');
+  app.add_option("--unit", volume.unit,
+                 "Unit of the lengths in the file's header: mm, cm, m or um, whatever it says")
+      ->type_name("UNIT")
+      ->group("Volume")
+      ->check(quietly(CLI::IsMember(kMillimetresOf)));
+  app.add_option("--allow-detached", volume.allowDetached,
+                 "Allow a header to take its voxels from this file, or from below this folder; "
+                 "otherwise only from its own folder. May be given several times")
+      ->type_name("PATH")
+      ->group("Volume")
+      ->allow_extra_args(false);
 }
 
 void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding) {

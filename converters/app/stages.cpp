@@ -6,11 +6,25 @@
 
 namespace lumen::app {
 
+namespace {
+
+void tellAssumptions(const std::filesystem::path& file, const std::vector<std::string>& assumptions,
+                     bool strict, Progress& progress) {
+  for (const std::string& assumption : assumptions) {
+    const std::string text = file.string() + ": " + assumption;
+    if (strict) throw invalidInput(text);
+    progress.warn(text);
+  }
+}
+
+}  // namespace
+
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
-                           const VolumeArguments& volume, Progress& progress) {
+                           const VolumeArguments& volume, bool strict, Progress& progress) {
   progress.begin("reading", 0);
   convert::Volume result = format.readVolume(file, volume.options(), progress);
   progress.end();
+  tellAssumptions(file, result.assumptions, strict, progress);
   return result;
 }
 

@@ -14,9 +14,11 @@
 
 namespace lumen::app {
 
-/// The volume in `file`, read as `format` whatever the name; shows a stage of progress.
+/// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
+/// file leaves open and the reader assumed becomes warnings; if `strict`, the first throws
+/// Error(InvalidInput).
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
-                           const VolumeArguments& volume, Progress& progress);
+                           const VolumeArguments& volume, bool strict, Progress& progress);
 
 /// The seeds of --seeds. Throws Error(Usage) without the option, and Error(InvalidInput) for a file
 /// that is missing or invalid.
