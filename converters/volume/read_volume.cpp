@@ -7,8 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/volume/itk_guards.h"
-#include "converters/volume/itk_image.h"
+#include "converters/volume/image_file.h"
 #include "converters/volume/nifti_file.h"
 #include "converters/volume/read_dicom.h"
 #include "converters/volume/stated_geometry.h"
@@ -17,25 +16,6 @@ namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
-
-Volume readWithItk(const fs::path& path, VolumeFormat format, const Progress& progress) {
-  if (format == VolumeFormat::Nrrd)
-    checkNrrdHeader(path, progress);
-  else
-    checkMetaHeader(path, progress);
-  const auto io = makeImageIo(format);
-  io->SetFileName(path.string());
-  Volume volume;
-  try {
-    io->ReadImageInformation();
-  } catch (const itk::ExceptionObject& exception) {
-    throw invalidInput(path.string() + ": its header cannot be read (" + oneLine(exception) + ")");
-  }
-  volume.geometry = checkedGeometry(*io, path);
-  progress.check();
-  volume.voxels = readVoxels(*io, path);
-  return volume;
-}
 
 Volume read(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
             const Progress& progress) {
@@ -48,7 +28,7 @@ Volume read(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& 
     case VolumeFormat::MetaImage:
       break;
   }
-  return readWithItk(path, format, progress);
+  return readImageFile(path, format, options, progress);
 }
 
 VolumeHeader readHeader(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
@@ -62,9 +42,7 @@ VolumeHeader readHeader(const fs::path& path, VolumeFormat format, const ReadVol
     case VolumeFormat::MetaImage:
       break;
   }
-  VolumeHeader header;
-  header.geometry = readWithItk(path, format, progress).geometry;
-  return header;
+  return readImageFileHeader(path, format, options, progress);
 }
 
 /// Throws unless there is a folder for DICOM, and a file for another format.
@@ -77,6 +55,8 @@ void checkPlace(const fs::path& path, VolumeFormat format, const std::string& se
                        ": this is a file; a DICOM series is read from the folder that holds it");
   if (format != VolumeFormat::Dicom && folder)
     throw invalidInput(path.string() + ": this is a folder; expected a file");
+  if (!folder && !fs::is_regular_file(path, ignored))
+    throw invalidInput(path.string() + ": this is a device or a pipe; expected a file");
   if (!folder && !series.empty())
     throw invalidInput(path.string() +
                        ": is a file; a series can be chosen in a DICOM directory only");

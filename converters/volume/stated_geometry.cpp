@@ -75,8 +75,7 @@ void cropGeometry(VolumeGeometry& geometry, const IndexBox& box, const fs::path&
                          " to " + std::to_string(box.high[a]) + " along axis " +
                          std::to_string(a + 1) + "; expected at least two voxels within 0 to " +
                          std::to_string(size[a] - 1));
-  geometry.origin =
-      geometry.worldFromIndex(Eigen::Vector3d(box.low[0], box.low[1], box.low[2]));
+  geometry.origin = geometry.worldFromIndex(Eigen::Vector3d(box.low[0], box.low[1], box.low[2]));
   for (std::size_t a = 0; a < 3; ++a) size[a] = box.high[a] - box.low[a] + 1;
 }
 

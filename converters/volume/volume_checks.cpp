@@ -64,7 +64,8 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
 void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value) {
   if (std::isfinite(value) && value > 0) return;
   throw invalidInput(path.string() + ": " + field + " states a spacing of " + numberText(value) +
-                     " along axis " + std::to_string(axis) + "; expected a positive number of mm");
+                     " along axis " + std::to_string(axis) +
+                     "; expected a positive number; state it with --spacing");
 }
 
 void checkRoom(const fs::path& path, double needed, double available, bool compressed) {
