@@ -91,7 +91,8 @@ std::vector<fs::path> detachedFiles(const fs::path& header, const DetachedNames&
                           formats::printable(stated.string()) + ", " + why);
     };
     std::error_code error;
-    fs::path file = name.find('\0') == std::string::npos ? fs::canonical(stated, error) : fs::path();
+    fs::path file =
+        name.find('\0') == std::string::npos ? fs::canonical(stated, error) : fs::path();
     if (error || file.empty())
       throw refuse("which cannot be read (" +
                    (error ? error.message() : std::string("no name of a file")) + ")");

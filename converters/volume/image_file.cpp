@@ -23,8 +23,8 @@ struct CheckedHeader {
 CheckedHeader checkedHeader(const fs::path& path, VolumeFormat format,
                             const ReadVolumeOptions& options, const Progress& progress) {
   progress.check();
-  ImageHeader header = format == VolumeFormat::Nrrd ? readNrrdHeader(path, options)
-                                                    : readMetaHeader(path, options);
+  ImageHeader header =
+      format == VolumeFormat::Nrrd ? readNrrdHeader(path, options) : readMetaHeader(path, options);
   CheckedHeader checked;
   VolumeHeader& shown = checked.shown;
   shown.assumptions = std::move(header.assumptions);

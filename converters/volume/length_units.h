@@ -14,11 +14,11 @@ namespace lumen::convert {
 /// known.
 inline std::optional<double> millimetresOf(const std::string& name) {
   static const std::map<std::string, double> known = {
-      {"mm", 1},      {"millimeter", 1},  {"millimetre", 1},  {"cm", 10},
-      {"centimeter", 10}, {"centimetre", 10}, {"dm", 100},    {"m", 1000},
-      {"meter", 1000},    {"metre", 1000},    {"um", 1e-3},   {"\xc2\xb5m", 1e-3},
-      {"\xce\xbcm", 1e-3}, {"micron", 1e-3},  {"micrometer", 1e-3}, {"micrometre", 1e-3},
-      {"nm", 1e-6},   {"nanometer", 1e-6}, {"nanometre", 1e-6}, {"in", 25.4},
+      {"mm", 1},           {"millimeter", 1},   {"millimetre", 1},    {"cm", 10},
+      {"centimeter", 10},  {"centimetre", 10},  {"dm", 100},          {"m", 1000},
+      {"meter", 1000},     {"metre", 1000},     {"um", 1e-3},         {"\xc2\xb5m", 1e-3},
+      {"\xce\xbcm", 1e-3}, {"micron", 1e-3},    {"micrometer", 1e-3}, {"micrometre", 1e-3},
+      {"nm", 1e-6},        {"nanometer", 1e-6}, {"nanometre", 1e-6},  {"in", 25.4},
       {"inch", 25.4}};
   std::string word = lowerCase(trimmed(name));
   auto found = known.find(word);

@@ -35,9 +35,8 @@ const std::string kIntercept = "ElementToIntensityFunctionOffset";
 std::string metaField(const std::string& name) {
   static const std::map<std::string, std::string> names = [] {
     std::map<std::string, std::string> all = {
-        {"rotation", kMatrix},       {"orientation", kMatrix}, {"position", kOffset},
-        {"origin", kOffset},         {"imageposition", kOffset},
-        {"binarydatabyteordermsb", kBigEndian}};
+        {"rotation", kMatrix}, {"orientation", kMatrix},   {"position", kOffset},
+        {"origin", kOffset},   {"imageposition", kOffset}, {"binarydatabyteordermsb", kBigEndian}};
     for (const std::string& field :
          {kSpacing, kPixelSize, kSizes, kMatrix, kOffset, kType, kDataFile, kBigEndian, kChannels,
           kUnits, kSlope, kIntercept, std::string("NDims"), std::string("BinaryData"),
@@ -81,11 +80,11 @@ bool flag(const TextHeader& header, const std::string& field, bool absent) {
 
 PixelType metaType(const TextHeader& header) {
   static const std::map<std::string, PixelType> types = {
-      {"MET_CHAR", PixelType::Int8},        {"MET_ASCII_CHAR", PixelType::Int8},
-      {"MET_UCHAR", PixelType::UInt8},      {"MET_SHORT", PixelType::Int16},
-      {"MET_USHORT", PixelType::UInt16},    {"MET_INT", PixelType::Int32},
-      {"MET_UINT", PixelType::UInt32},      {"MET_LONG", PixelType::Int32},
-      {"MET_ULONG", PixelType::UInt32},     {"MET_LONG_LONG", PixelType::Int64},
+      {"MET_CHAR", PixelType::Int8},         {"MET_ASCII_CHAR", PixelType::Int8},
+      {"MET_UCHAR", PixelType::UInt8},       {"MET_SHORT", PixelType::Int16},
+      {"MET_USHORT", PixelType::UInt16},     {"MET_INT", PixelType::Int32},
+      {"MET_UINT", PixelType::UInt32},       {"MET_LONG", PixelType::Int32},
+      {"MET_ULONG", PixelType::UInt32},      {"MET_LONG_LONG", PixelType::Int64},
       {"MET_ULONG_LONG", PixelType::UInt64}, {"MET_FLOAT", PixelType::Float32},
       {"MET_DOUBLE", PixelType::Float64}};
   std::string name = header.required(kType);

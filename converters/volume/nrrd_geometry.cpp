@@ -83,8 +83,8 @@ std::vector<std::optional<Vector3d>> vectorsOf(const TextHeader& header, const s
                                                std::size_t dimension) {
   const std::string& text = header.text(field);
   const auto refused = [&] {
-    return header.refusal(field, "vectors such as (1,0,0), of " + std::to_string(dimension) +
-                                     " finite numbers");
+    return header.refusal(
+        field, "vectors such as (1,0,0), of " + std::to_string(dimension) + " finite numbers");
   };
   std::vector<std::optional<Vector3d>> vectors;
   for (std::size_t at = 0; (at = text.find_first_not_of(" \t", at)) != std::string::npos;) {
@@ -118,8 +118,8 @@ std::vector<Axis> domainAxes(const TextHeader& header, const std::vector<std::in
   std::vector<Axis> axes;
   for (std::size_t a = 0; a < sizes.size(); ++a) {
     const std::string kind = kinds.empty() ? "???" : lowerCase(kinds[a]);
-    const bool domain = kind == "domain" || kind == "space" || kind == "time" || kind == "???" ||
-                        kind == "none";
+    const bool domain =
+        kind == "domain" || kind == "space" || kind == "time" || kind == "???" || kind == "none";
     if (domain) axes.push_back({a, sizes[a], {}});
     if (!domain && sizes[a] != 1)
       throw invalidInput(header.path().string() + ": each voxel has " + std::to_string(sizes[a]) +
@@ -226,7 +226,8 @@ void settleSpacings(const TextHeader& header, const std::vector<Axis>& axes, std
     double& spacing = stated.geometry.spacing[e];
     const bool has = !spacings.empty() && !std::isnan(spacings[axes[a].number]);
     if (has && axes[a].direction)
-      throw invalidInput(header.path().string() + ": its header states both spacings and space "
+      throw invalidInput(header.path().string() +
+                         ": its header states both spacings and space "
                          "directions; expected one of them");
     const bool directed = axes[a].direction.has_value();
     if (directed)
@@ -240,20 +241,25 @@ void settleSpacings(const TextHeader& header, const std::vector<Axis>& axes, std
 }
 
 void settleDirections(const TextHeader& header, const std::vector<Axis>& axes, const Space& space,
-                      StatedGeometry& stated, std::vector<std::string>& assumptions) {
-  VolumeGeometry& g = stated.geometry;
+                      VolumeGeometry& geometry) {
   for (std::size_t a = 0; a < 3; ++a) {
-    if (!axes[a].direction)
-      throw header.refusal("space directions", "vectors for three axes");
-    const auto e = static_cast<Eigen::Index>(a);
-    const double length = lengthOf(*axes[a].direction);
-    g.direction.col(e) = space.toLps.cwiseProduct(*axes[a].direction) * (1.0 / length);
+    if (!axes[a].direction) throw header.refusal("space directions", "vectors for three axes");
+    const Vector3d& v = *axes[a].direction;
+    geometry.direction.col(static_cast<Eigen::Index>(a)) =
+        space.toLps.cwiseProduct(v) * (1.0 / lengthOf(v));
   }
-  if (!header.has("space origin")) return;
+}
+
+void settleOrigin(const TextHeader& header, const Space& space, VolumeGeometry& geometry,
+                  std::vector<std::string>& assumptions) {
+  if (space.dimension == 0)
+    throw invalidInput(header.path().string() +
+                       ": its header states a space origin, but no space; expected one, such as "
+                       "left-posterior-superior");
   const auto origins = vectorsOf(header, "space origin", space.dimension);
   if (origins.size() != 1) throw header.refusal("space origin", "one vector");
   if (origins[0])
-    g.origin = space.toLps.cwiseProduct(*origins[0]);
+    geometry.origin = space.toLps.cwiseProduct(*origins[0]);
   else
     assumptions.emplace_back(
         "its space origin is not known, so the first voxel is taken to be at 0, 0, 0 mm");
@@ -272,9 +278,10 @@ StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int
   settleSpacings(header, axes, sizes.size(), options, stated);
   const bool oriented = std::any_of(axes.begin(), axes.end(),
                                     [](const Axis& axis) { return axis.direction.has_value(); });
-  if (oriented)
-    settleDirections(header, axes, space, stated, assumptions);
-  else
+  if (oriented) settleDirections(header, axes, space, stated.geometry);
+  if (header.has("space origin"))
+    settleOrigin(header, space, stated.geometry, assumptions);
+  else if (!oriented)
     originOfAxisMins(header, axes, sizes.size(), stated);
   if (!options.unit) settleUnits(header, axes, stated, assumptions);
   return stated;

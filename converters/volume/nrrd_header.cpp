@@ -25,11 +25,16 @@ constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
 
 /// Names of fields that may be written in two ways, all in lower case, as they are kept here.
 std::string fieldName(const std::string& name) {
-  static const std::map<std::string, std::string> other = {
-      {"datafile", "data file"},   {"lineskip", "line skip"}, {"byteskip", "byte skip"},
-      {"axismins", "axis mins"},   {"axismaxs", "axis maxs"}, {"centerings", "centers"},
-      {"spacedirections", "space directions"}, {"spaceorigin", "space origin"},
-      {"spaceunits", "space units"}, {"spacedimension", "space dimension"}};
+  static const std::map<std::string, std::string> other = {{"datafile", "data file"},
+                                                           {"lineskip", "line skip"},
+                                                           {"byteskip", "byte skip"},
+                                                           {"axismins", "axis mins"},
+                                                           {"axismaxs", "axis maxs"},
+                                                           {"centerings", "centers"},
+                                                           {"spacedirections", "space directions"},
+                                                           {"spaceorigin", "space origin"},
+                                                           {"spaceunits", "space units"},
+                                                           {"spacedimension", "space dimension"}};
   const auto found = other.find(name);
   return found == other.end() ? name : found->second;
 }
@@ -82,26 +87,46 @@ TextHeader readFields(const fs::path& path) {
 
 PixelType pixelType(const TextHeader& header) {
   static const std::map<std::string, PixelType> types = {
-      {"signed char", PixelType::Int8},          {"int8", PixelType::Int8},
-      {"int8_t", PixelType::Int8},               {"uchar", PixelType::UInt8},
-      {"unsigned char", PixelType::UInt8},       {"uint8", PixelType::UInt8},
-      {"uint8_t", PixelType::UInt8},             {"short", PixelType::Int16},
-      {"short int", PixelType::Int16},           {"signed short", PixelType::Int16},
-      {"signed short int", PixelType::Int16},    {"int16", PixelType::Int16},
-      {"int16_t", PixelType::Int16},             {"ushort", PixelType::UInt16},
-      {"unsigned short", PixelType::UInt16},     {"unsigned short int", PixelType::UInt16},
-      {"uint16", PixelType::UInt16},             {"uint16_t", PixelType::UInt16},
-      {"int", PixelType::Int32},                 {"signed int", PixelType::Int32},
-      {"int32", PixelType::Int32},               {"int32_t", PixelType::Int32},
-      {"uint", PixelType::UInt32},               {"unsigned int", PixelType::UInt32},
-      {"uint32", PixelType::UInt32},             {"uint32_t", PixelType::UInt32},
-      {"longlong", PixelType::Int64},            {"long long", PixelType::Int64},
-      {"long long int", PixelType::Int64},       {"signed long long", PixelType::Int64},
-      {"signed long long int", PixelType::Int64}, {"int64", PixelType::Int64},
-      {"int64_t", PixelType::Int64},             {"ulonglong", PixelType::UInt64},
-      {"unsigned long long", PixelType::UInt64}, {"unsigned long long int", PixelType::UInt64},
-      {"uint64", PixelType::UInt64},             {"uint64_t", PixelType::UInt64},
-      {"float", PixelType::Float32},             {"double", PixelType::Float64}};
+      {"signed char", PixelType::Int8},
+      {"int8", PixelType::Int8},
+      {"int8_t", PixelType::Int8},
+      {"uchar", PixelType::UInt8},
+      {"unsigned char", PixelType::UInt8},
+      {"uint8", PixelType::UInt8},
+      {"uint8_t", PixelType::UInt8},
+      {"short", PixelType::Int16},
+      {"short int", PixelType::Int16},
+      {"signed short", PixelType::Int16},
+      {"signed short int", PixelType::Int16},
+      {"int16", PixelType::Int16},
+      {"int16_t", PixelType::Int16},
+      {"ushort", PixelType::UInt16},
+      {"unsigned short", PixelType::UInt16},
+      {"unsigned short int", PixelType::UInt16},
+      {"uint16", PixelType::UInt16},
+      {"uint16_t", PixelType::UInt16},
+      {"int", PixelType::Int32},
+      {"signed int", PixelType::Int32},
+      {"int32", PixelType::Int32},
+      {"int32_t", PixelType::Int32},
+      {"uint", PixelType::UInt32},
+      {"unsigned int", PixelType::UInt32},
+      {"uint32", PixelType::UInt32},
+      {"uint32_t", PixelType::UInt32},
+      {"longlong", PixelType::Int64},
+      {"long long", PixelType::Int64},
+      {"long long int", PixelType::Int64},
+      {"signed long long", PixelType::Int64},
+      {"signed long long int", PixelType::Int64},
+      {"int64", PixelType::Int64},
+      {"int64_t", PixelType::Int64},
+      {"ulonglong", PixelType::UInt64},
+      {"unsigned long long", PixelType::UInt64},
+      {"unsigned long long int", PixelType::UInt64},
+      {"uint64", PixelType::UInt64},
+      {"uint64_t", PixelType::UInt64},
+      {"float", PixelType::Float32},
+      {"double", PixelType::Float64}};
   const auto found = types.find(lowerCase(header.required("type")));
   if (found == types.end())
     throw header.refusal("type", "integers of 8 to 64 bits, float or double");
@@ -114,8 +139,7 @@ Packing packingOf(const TextHeader& header) {
   if (encoding == "gzip" || encoding == "gz") return Packing::Deflate;
   if (encoding == "ascii" || encoding == "text" || encoding == "txt") return Packing::Text;
   if (encoding == "hex") return Packing::Hex;
-  throw unsupported(header.path().string() + ": its encoding is " +
-                    cited(header.text("encoding")) +
+  throw unsupported(header.path().string() + ": its encoding is " + cited(header.text("encoding")) +
                     "; expected raw, gzip, hex or text, as in \"unu save -f nrrd -e gzip\"");
 }
 
@@ -192,18 +216,16 @@ ImageHeader readNrrdHeader(const fs::path& path, const ReadVolumeOptions& option
   voxels.packing = packingOf(fields);
   voxels.type = pixelType(fields);
   voxels.bigEndian = isBigEndian(fields, voxels);
-  const std::int64_t dimension =
-      fields.integers("dimension", 1, 1, kMaxDimension)[0];
-  const auto sizes =
-      fields.integers("sizes", static_cast<std::size_t>(dimension), 1, kMaxInt);
+  const std::int64_t dimension = fields.integers("dimension", 1, 1, kMaxDimension)[0];
+  const auto sizes = fields.integers("sizes", static_cast<std::size_t>(dimension), 1, kMaxInt);
   header.stated = nrrdGeometry(fields, sizes, options, header.assumptions);
   voxels.count = header.stated.geometry.voxelCount();
   voxels.lineSkip = static_cast<std::uint64_t>(
       fields.integer("line skip", 0, std::numeric_limits<std::int64_t>::max(), 0));
-  // skipping from the end needs to know where that is
-  const bool raw = voxels.packing == Packing::Raw;
+  // text has no bytes to count from its end
+  const bool fromEnd = voxels.packing == Packing::Raw || voxels.packing == Packing::Deflate;
   constexpr std::int64_t kMostSkipped = std::int64_t{1} << 50;
-  voxels.byteSkip = fields.integer("byte skip", raw ? -kMostSkipped : 0, kMostSkipped, 0);
+  voxels.byteSkip = fields.integer("byte skip", fromEnd ? -kMostSkipped : 0, kMostSkipped, 0);
   setFiles(fields, sizes, options, voxels);
   return header;
 }

@@ -10,6 +10,8 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <zlib.h>
 
@@ -55,8 +57,8 @@ public:
     if (got > 0) std::memcpy(to, m_block.data() + m_at, got);
     m_at += got;
     if (got < size) {
-      const auto rest = fill(reinterpret_cast<char*>(to) + got,
-                             std::min<std::uint64_t>(size - got, m_left));
+      const auto rest =
+          fill(reinterpret_cast<char*>(to) + got, std::min<std::uint64_t>(size - got, m_left));
       m_left -= rest;
       got += rest;
     }
@@ -272,33 +274,28 @@ std::unique_ptr<PackedFile> openText(PixelType type, std::unique_ptr<Blocks> blo
   return std::make_unique<TextFile<double>>(std::move(blocks));
 }
 
-std::unique_ptr<PackedFile> unpacked(Packing packing, PixelType type,
-                                     std::unique_ptr<Blocks> blocks) {
-  switch (packing) {
-    case Packing::Raw:
-      break;
-    case Packing::Deflate:
-      return std::make_unique<DeflatedFile>(std::move(blocks));
-    case Packing::Text:
-      return openText(type, std::move(blocks));
-    case Packing::Hex:
-      return std::make_unique<HexFile>(std::move(blocks));
-  }
+/// Of what is not deflated.
+std::unique_ptr<PackedFile> unpacked(const StoredVoxels& stored, std::unique_ptr<Blocks> blocks) {
+  if (stored.packing == Packing::Text) return openText(stored.type, std::move(blocks));
+  if (stored.packing == Packing::Hex) return std::make_unique<HexFile>(std::move(blocks));
   return std::make_unique<RawFile>(std::move(blocks));
 }
 
-/// Drops `count` bytes of what `read` gives; false if it ends before.
+constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+
+/// Drops up to `count` bytes of what `read` gives; how many there were.
 template <class Read>
-bool dropBytes(std::uint64_t count, const Progress& progress, Read read) {
-  std::array<std::byte, 1 << 14> dropped{};
-  while (count > 0) {
+std::uint64_t dropBytes(std::uint64_t count, const Progress& progress, Read read) {
+  std::vector<std::byte> dropped(kBlock);
+  std::uint64_t done = 0;
+  while (done < count) {
     progress.check();
-    const std::size_t got =
-        read(dropped.data(), static_cast<std::size_t>(std::min<std::uint64_t>(count, dropped.size())));
-    if (got == 0) return false;
-    count -= got;
+    const std::size_t got = read(
+        dropped.data(), static_cast<std::size_t>(std::min<std::uint64_t>(count - done, kBlock)));
+    if (got == 0) break;
+    done += got;
   }
-  return true;
+  return done;
 }
 
 }  // namespace
@@ -309,25 +306,41 @@ std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored, const fs::pat
     return invalidInput(shown(file) + ": truncated: it ends within the " + what +
                         " to be skipped before its voxels");
   };
+  const auto behindLines = [&] {
+    auto blocks = std::make_unique<Blocks>(file, stored.offset, stored.packedSize);
+    for (std::uint64_t line = 0; line < stored.lineSkip; ++line) {
+      if (line % 4096 == 0) progress.check();
+      if (!blocks->skipLine()) throw truncated("lines");
+    }
+    return blocks;
+  };
+  // the bytes to be skipped are those of a compressed stream's contents
+  if (stored.packing == Packing::Deflate) {
+    const auto read = [](PackedFile& from) {
+      return [&from](std::byte* to, std::size_t n) { return from.read(to, n); };
+    };
+    auto skip = static_cast<std::uint64_t>(std::max<std::int64_t>(stored.byteSkip, 0));
+    if (stored.byteSkip < 0) {
+      DeflatedFile whole(behindLines());
+      const std::uint64_t all = dropBytes(kAll, progress, read(whole));
+      const std::uint64_t behind = size + static_cast<std::uint64_t>(-1 - stored.byteSkip);
+      if (all < behind) throw truncated("bytes");
+      skip = all - behind;
+    }
+    auto voxels = std::make_unique<DeflatedFile>(behindLines());
+    if (dropBytes(skip, progress, read(*voxels)) < skip) throw truncated("bytes");
+    return voxels;
+  }
   if (stored.byteSkip < 0) {
     const auto behind = size + static_cast<std::uint64_t>(-1 - stored.byteSkip);
-    return unpacked(stored.packing, stored.type,
-                    std::make_unique<Blocks>(file, fs::file_size(file) - behind, stored.packedSize));
+    return unpacked(
+        stored, std::make_unique<Blocks>(file, fs::file_size(file) - behind, stored.packedSize));
   }
-  auto blocks = std::make_unique<Blocks>(file, stored.offset, stored.packedSize);
-  for (std::uint64_t line = 0; line < stored.lineSkip; ++line) {
-    if (line % 4096 == 0) progress.check();
-    if (!blocks->skipLine()) throw truncated("lines");
-  }
-  // the bytes to be skipped are those of a compressed stream's contents
+  auto blocks = behindLines();
   const auto skip = static_cast<std::uint64_t>(stored.byteSkip);
-  const bool deflated = stored.packing == Packing::Deflate;
-  if (!deflated && !dropBytes(skip, progress, [&](auto* to, auto n) { return blocks->read(to, n); }))
-    throw truncated("bytes");
-  auto voxels = unpacked(stored.packing, stored.type, std::move(blocks));
-  if (deflated && !dropBytes(skip, progress, [&](auto* to, auto n) { return voxels->read(to, n); }))
-    throw truncated("bytes");
-  return voxels;
+  const auto read = [&](std::byte* to, std::size_t n) { return blocks->read(to, n); };
+  if (dropBytes(skip, progress, read) < skip) throw truncated("bytes");
+  return unpacked(stored, std::move(blocks));
 }
 
 }  // namespace lumen::convert

@@ -28,7 +28,8 @@ public:
 
 /// `file` of `stored`, from which `size` bytes of voxels are expected. Throws Error(InvalidInput) if
 /// it cannot be opened or ends before its voxels, and Error(Cancelled).
-std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored, const std::filesystem::path& file,
-                                       std::uint64_t size, const Progress& progress);
+std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored,
+                                       const std::filesystem::path& file, std::uint64_t size,
+                                       const Progress& progress);
 
 }  // namespace lumen::convert

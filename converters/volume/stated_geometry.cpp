@@ -57,12 +57,13 @@ VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOpt
                          ? *options.spacing
                          : settledSpacing(stated.geometry.spacing, unit, path, assumptions);
   checkSpacing(geometry.spacing, path);
-  const bool assumed = !options.spacing && !options.unit && !stated.unit;
-  if (assumed &&
-      (geometry.spacing.minCoeff() < kLeastUsual || geometry.spacing.maxCoeff() > kMostUsual))
-    assumptions.push_back("its header states no unit, so its spacing of " +
+  const bool unusual =
+      geometry.spacing.minCoeff() < kLeastUsual || geometry.spacing.maxCoeff() > kMostUsual;
+  if (unusual && !options.spacing && !options.unit)
+    assumptions.push_back((stated.unit ? "by the unit that its header states, its spacing is "
+                                       : "its header states no unit, so its spacing is taken as ") +
                           spacingText(geometry.spacing) +
-                          " is taken as mm, which is unusual; state the unit with --unit");
+                          " mm, which is unusual; state the unit with --unit");
   checkGeometry(geometry, path);
   return geometry;
 }

@@ -158,8 +158,9 @@ std::size_t sizeOf(PixelType type) {
 }
 
 std::string nameOf(PixelType type) {
-  constexpr std::array<const char*, 10> kNames = {"int8",  "uint8", "int16",  "uint16",  "int32",
-                                                  "uint32", "int64", "uint64", "float32", "float64"};
+  constexpr std::array<const char*, 10> kNames = {"int8",    "uint8",  "int16", "uint16",
+                                                  "int32",   "uint32", "int64", "uint64",
+                                                  "float32", "float64"};
   return kNames.at(static_cast<std::size_t>(type));
 }
 
@@ -171,18 +172,15 @@ std::uint64_t checkStored(const StoredVoxels& stored, std::vector<std::string>& 
     if (error) throw invalidInput(formats::printable(file.string()) + ": " + error.message());
     total += size;
     // from the header on, or from the file's end backwards
-    const double needed = leastBytes(stored) + (stored.byteSkip < 0
-                                                    ? -1 - static_cast<double>(stored.byteSkip)
-                                                    : static_cast<double>(stored.byteSkip));
+    const double needed =
+        leastBytes(stored) + (stored.byteSkip < 0 ? -1 - static_cast<double>(stored.byteSkip)
+                                                  : static_cast<double>(stored.byteSkip));
     double room = static_cast<double>(size);
     if (stored.byteSkip >= 0) room -= static_cast<double>(stored.offset);
     const auto limit = static_cast<double>(stored.packedSize.value_or(size));
-    if (stored.packedSize && limit > room)
-      throw invalidInput(formats::printable(file.string()) + ": truncated: its header announces " +
-                         numberText(limit) + " bytes of compressed voxels, but " +
-                         numberText(std::max(room, 0.0)) + " bytes of data are there");
     checkRoom(file, needed, std::min(room, limit), stored.packing == Packing::Deflate);
-    const bool exact = stored.packing == Packing::Raw && stored.lineSkip == 0 && stored.byteSkip >= 0;
+    const bool exact =
+        stored.packing == Packing::Raw && stored.lineSkip == 0 && stored.byteSkip >= 0;
     if (exact && room > needed)
       assumptions.push_back("the data in " + formats::printable(file.filename().string()) +
                             " goes on for " + numberText(room - needed) +

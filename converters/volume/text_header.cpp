@@ -35,7 +35,8 @@ std::string cited(std::string_view text) {
 
 std::vector<std::string> wordsOf(std::string_view text, std::string_view separators) {
   std::vector<std::string> words;
-  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != std::string_view::npos;) {
+  for (std::size_t at = 0;
+       (at = text.find_first_not_of(separators, at)) != std::string_view::npos;) {
     const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
     words.emplace_back(text.substr(at, end - at));
     at = end;
@@ -56,7 +57,7 @@ std::optional<std::int64_t> integerOf(std::string_view text) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size()) return value;
-  const auto real = numberOf(text);  // "48.0"
+  const auto real = numberOf(text);            // "48.0"
   constexpr double kExact = 9007199254740992;  // 2^53
   if (!real || std::abs(*real) > kExact || *real != std::floor(*real)) return {};
   return static_cast<std::int64_t>(*real);
