@@ -77,8 +77,7 @@ bool isSwapped(std::span<const std::byte, kNiftiHeaderSize> bytes, const fs::pat
   constexpr std::int32_t kSize = kNiftiHeaderSize, kSizeOfNifti2 = 540;
   for (const bool swapped : {false, true}) {
     const auto size = Fields(bytes, swapped).get<std::int32_t>(0);
-    if (size == kSizeOfNifti2)
-      throw unsupported(path.string() + ": is NIfTI-2; expected NIfTI-1");
+    if (size == kSizeOfNifti2) throw unsupported(path.string() + ": is NIfTI-2; expected NIfTI-1");
     if (size == kSize) return swapped;
   }
   refuse(path, "is not a NIfTI file: its first number, the header's size, is not 348",

@@ -25,17 +25,17 @@ struct NiftiType {
 };
 
 struct NiftiHeader {
-  bool swapped = false;             ///< the file has the other byte order than this machine
-  std::array<int, 3> size{};        ///< voxels along i, j, k; at least 1
+  bool swapped = false;       ///< the file has the other byte order than this machine
+  std::array<int, 3> size{};  ///< voxels along i, j, k; at least 1
   NiftiType type;
-  std::size_t voxelOffset = 0;      ///< bytes before the first voxel; at least 352
-  std::array<float, 3> pixdim{};    ///< spacings in the file's unit, unchecked
-  float handedness = 1;             ///< qfac, pixdim[0], unchecked
-  float slope = 0, intercept = 0;   ///< finite; a slope of 0 means no scaling
-  int unitCode = 0;                 ///< of lengths: 1 m, 2 mm, 3 um, 0 unknown; others mean nothing
-  int qformCode = 0, sformCode = 0; ///< 0: the transform is not stated
-  std::array<float, 3> quaternion{}, qOffset{};   ///< unchecked
-  std::array<std::array<float, 4>, 3> sform{};    ///< rows, unchecked
+  std::size_t voxelOffset = 0;     ///< bytes before the first voxel; at least 352
+  std::array<float, 3> pixdim{};   ///< spacings in the file's unit, unchecked
+  float handedness = 1;            ///< qfac, pixdim[0], unchecked
+  float slope = 0, intercept = 0;  ///< finite; a slope of 0 means no scaling
+  int unitCode = 0;                ///< of lengths: 1 m, 2 mm, 3 um, 0 unknown; others mean nothing
+  int qformCode = 0, sformCode = 0;              ///< 0: the transform is not stated
+  std::array<float, 3> quaternion{}, qOffset{};  ///< unchecked
+  std::array<std::array<float, 4>, 3> sform{};   ///< rows, unchecked
 
   [[nodiscard]] std::size_t voxelCount() const {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *

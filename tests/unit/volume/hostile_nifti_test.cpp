@@ -208,7 +208,8 @@ TEST_F(HostileNifti, ExtensionsMustEndBeforeTheVoxels) {
     return text + bytes<std::int32_t>({size, 6}) + std::string(24, 'x') + kEight;
   };
   for (const std::int32_t size : {0, 7, -16, 33, 48, 1 << 30, -2147483647 - 1})
-    expectRefused(readRefusal(write("v.nii", file(size))), {"3: ", "v.nii", "extension", "byte 352"});
+    expectRefused(readRefusal(write("v.nii", file(size))),
+                  {"3: ", "v.nii", "extension", "byte 352"});
   EXPECT_EQ(std::get<0>(readQuietly(write("v.nii", file(32))).voxels)[0], 'a');
 }
 
@@ -230,7 +231,7 @@ TEST_F(HostileNifti, AHeaderIsReadWithoutInflatingAVoxel) {
   EXPECT_EQ(header.storedBytes, packed.size());
   EXPECT_EQ(header.storedType, "uint8");
   EXPECT_EQ(header.encoding, "gzip");
-  expectRefused(readRefusal(path("v.nii.gz")), {"3: ", "v.nii.gz", "damaged"});
+  expectRefused(readRefusal(path("v.nii.gz")), {"3: ", "v.nii.gz", "its compressed data is"});
 }
 
 TEST_F(HostileNifti, SeveralMembersOfGzipAreOneStream) {
