@@ -82,15 +82,15 @@ std::optional<StreamHeader> jpegHeader(const StreamBytes& s) {
 /// tiles as their index counts, and an image that begins at the grid's origin.
 std::optional<StreamHeader> jpeg2000Header(const StreamBytes& s) {
   constexpr std::size_t kStartAndSizes = 0xff4fff51, kMaxTiles = 65535;
-  if (!s.has(0, 43) || s.big(0, 4) != kStartAndSizes) return std::nullopt;
+  if (!s.has(0, 45) || s.big(0, 4) != kStartAndSizes) return std::nullopt;
   const std::size_t width = s.big(8, 4), height = s.big(12, 4);
   const std::size_t tileWidth = s.big(24, 4), tileHeight = s.big(28, 4);
   const bool atOrigin = s.big(16, 8) == 0 && s.big(32, 8) == 0;
   if (!atOrigin || tileWidth == 0 || tileHeight == 0) return std::nullopt;
   const std::size_t across = (width + tileWidth - 1) / tileWidth;
   const std::size_t down = (height + tileHeight - 1) / tileHeight;
-  if (across * down > kMaxTiles || s.big(41, 2) != 0x0101) return std::nullopt;  // not subsampled
-  return StreamHeader{width, height, s.big(38, 2), (s.big(40, 1) & 0x7fU) + 1};
+  if (across * down > kMaxTiles || s.big(43, 2) != 0x0101) return std::nullopt;  // not subsampled
+  return StreamHeader{width, height, s.big(40, 2), (s.big(42, 1) & 0x7fU) + 1};
 }
 
 void checkStream(const DicomImage& image, const std::vector<std::byte>& stream) {
@@ -116,8 +116,9 @@ gdcm::DataElement pixelElement(const std::vector<std::byte>& stream) {
                         gdcm::VL(static_cast<std::uint32_t>(stream.size())));
   const gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = new gdcm::SequenceOfFragments;
   fragments->AddFragment(fragment);
-  gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010), 0, gdcm::VR::OB);
+  gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010));
   pixels.SetVLToUndefined();
+  pixels.SetVR(gdcm::VR::OB);
   pixels.SetValue(*fragments);
   return pixels;
 }

@@ -51,12 +51,12 @@ public:
   std::uint64_t walk(std::uint64_t at, std::uint64_t end, bool open, int onlyGroup = -1) {
     while (at < end) {
       if (m_hasPixels && m_path.empty() && isPadding(at)) return end;
+      if (onlyGroup >= 0 && end - at >= 2 && number<std::uint16_t>(at) != onlyGroup) return at;
       const Head head = readHead(at, end);
       if (open && head.tag == kItemEnd) {
         if (head.length != 0) refuse(at, "the end of an item has a length");
         return head.value;
       }
-      if (onlyGroup >= 0 && head.tag >> 16U != static_cast<unsigned>(onlyGroup)) return at;
       at = walkElement(head, end);
     }
     if (open) refuse(at, "an item has no end");
@@ -95,7 +95,8 @@ private:
   Head readHead(std::uint64_t at, std::uint64_t end) {
     require(at, 8, end, "a data element's head");
     Head head{.at = at, .value = at + 8};
-    head.tag = static_cast<DicomTag>(number<std::uint16_t>(at)) << 16U | number<std::uint16_t>(at + 2);
+    head.tag =
+        static_cast<DicomTag>(number<std::uint16_t>(at)) << 16U | number<std::uint16_t>(at + 2);
     if (!m_syntax.explicitVr || head.tag >> 16U == 0xfffe) {
       head.length = number<std::uint32_t>(at + 4);
       return head;
@@ -194,7 +195,8 @@ private:
       if (head.tag != kItem || head.length == kUndefined)
         refuse(at, tagText(head.tag) + " where a fragment of compressed pixels begins");
       require(head.value, head.length, end, "a fragment of compressed pixels");
-      if (!first) fragments.push_back({head.value, head.length});  // the first is a table of offsets
+      if (!first)
+        fragments.push_back({head.value, head.length});  // the first is a table of offsets
       at = head.value + head.length;
     }
     refuse(at, "compressed pixels have no end");

@@ -94,10 +94,11 @@ struct Content {
 
   /// Where the value belongs, or null if it is not needed.
   Values* place(DicomTag tag, std::span<const DicomTag> path, std::size_t item) {
-    static constexpr std::array kTop = {
-        kSeries,  kDescription, kPosition,     kOrientation,   kSamples,    kPhotometric, kFrames,
-        kRows,    kColumns,     kPixelSpacing, kBitsAllocated, kBitsStored, kHighBit,     kSigned,
-        kDistance, kIntercept,  kSlope,        kTransferSyntax, kStorageClass};
+    static constexpr std::array kTop = {kSeries,  kDescription,    kPosition,      kOrientation,
+                                        kSamples, kPhotometric,    kFrames,        kRows,
+                                        kColumns, kPixelSpacing,   kBitsAllocated, kBitsStored,
+                                        kHighBit, kSigned,         kDistance,      kIntercept,
+                                        kSlope,   kTransferSyntax, kStorageClass};
     static constexpr std::array kGroup = {kPosition, kOrientation, kPixelSpacing,
                                           kDistance, kIntercept,   kSlope};
     const auto has = [&](const auto& tags) {
@@ -321,8 +322,7 @@ void fillImage(DicomImage& image, const Content& content, const Syntax& syntax) 
   image.pixels = content.pixels;
   readFormat(reader, image);
   checkGrey(image);
-  if (syntax.how.bigEndian && image.bitsAllocated == 8 &&
-      image.pixels.vr != std::array{'O', 'B'})
+  if (syntax.how.bigEndian && image.bitsAllocated == 8 && image.pixels.vr != std::array{'O', 'B'})
     throw unsupported("its pixels of 8 bits are in big-endian words; expected bytes");
   image.plane = joined(planeOf(content.top), planeOf(content.shared));
   for (const Values& values : content.perFrame)

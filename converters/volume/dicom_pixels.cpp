@@ -60,8 +60,7 @@ Bytes decodeRuns(const DicomImage& image, const Bytes& stream) {
   Bytes pixels(image.frameBytes());
   for (std::size_t segment = 0; segment < bytes; ++segment) {
     const std::size_t begin = little32(stream, 4 + 4 * segment);
-    const std::size_t end =
-        segment + 1 < bytes ? little32(stream, 8 + 4 * segment) : stream.size();
+    const std::size_t end = segment + 1 < bytes ? little32(stream, 8 + 4 * segment) : stream.size();
     if (begin < kHeader || begin > end || end > stream.size()) throw refuse();
     const std::size_t place =
         std::endian::native == std::endian::little ? bytes - 1 - segment : segment;
