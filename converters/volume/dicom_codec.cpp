@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/volume/dicom_codec.h"
 
-#include <exception>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <gdcmDataElement.h>
@@ -12,32 +12,14 @@
 #include <gdcmTrace.h>
 
 #include "converters/common/error.h"
+#include "converters/volume/isolated_call.h"
 
 namespace lumen::convert {
 namespace {
 
-/// While one lives, GDCM does not print. Not thread-safe: the switches are global.
-class QuietGdcm {
-public:
-  QuietGdcm()
-      : m_warning(gdcm::Trace::GetWarningFlag()),
-        m_error(gdcm::Trace::GetErrorFlag()),
-        m_debug(gdcm::Trace::GetDebugFlag()) {
-    gdcm::Trace::WarningOff();
-    gdcm::Trace::ErrorOff();
-    gdcm::Trace::DebugOff();
-  }
-  ~QuietGdcm() {
-    gdcm::Trace::SetWarning(m_warning);
-    gdcm::Trace::SetError(m_error);
-    gdcm::Trace::SetDebug(m_debug);
-  }
-  QuietGdcm(const QuietGdcm&) = delete;
-  QuietGdcm& operator=(const QuietGdcm&) = delete;
-
-private:
-  bool m_warning, m_error, m_debug;
-};
+// What decoders may take: twenty times the pixels, and time at a tenth of the slowest that is usual.
+constexpr std::size_t kSpareMemory = 64 << 20, kMemoryPerByte = 20;
+constexpr std::size_t kSpareSeconds = 2, kBytesPerSecond = 1 << 20;
 
 /// What a compressed stream says of its image.
 struct StreamHeader {
@@ -123,12 +105,12 @@ gdcm::DataElement pixelElement(const std::vector<std::byte>& stream) {
   return pixels;
 }
 
-}  // namespace
-
-std::vector<std::byte> decodeDicomFrame(const DicomImage& image,
-                                        const std::vector<std::byte>& stream) {
-  checkStream(image, stream);
-  const QuietGdcm quiet;
+/// False if GDCM refuses. Only in a process of its own.
+bool decode(const DicomImage& image, const std::vector<std::byte>& stream,
+            std::span<std::byte> pixels) {
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
+  gdcm::Trace::DebugOff();
   const auto bits = static_cast<unsigned short>(image.bitsAllocated);
   const auto stored = static_cast<unsigned short>(image.bitsStored);
   gdcm::Image decoder;
@@ -140,15 +122,26 @@ std::vector<std::byte> decodeDicomFrame(const DicomImage& image,
   decoder.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
   decoder.SetTransferSyntax(gdcm::TransferSyntax::GetTSType(image.transferSyntax.c_str()));
   decoder.SetDataElement(pixelElement(stream));
+  return decoder.GetBufferLength() == pixels.size() &&
+         decoder.GetBuffer(reinterpret_cast<char*>(pixels.data()));
+}
+
+}  // namespace
+
+std::vector<std::byte> decodeDicomFrame(const DicomImage& image,
+                                        const std::vector<std::byte>& stream,
+                                        const Progress& progress) {
+  checkStream(image, stream);
   std::vector<std::byte> pixels(image.frameBytes());
-  bool whole = false;
-  try {
-    whole = decoder.GetBufferLength() == pixels.size() &&
-            decoder.GetBuffer(reinterpret_cast<char*>(pixels.data()));
-  } catch (const std::exception&) {
-    whole = false;
-  }
-  if (!whole) throw invalidInput("damaged: its compressed pixels cannot be decoded");
+  const std::size_t memory = kSpareMemory + kMemoryPerByte * (pixels.size() + stream.size());
+  const auto seconds = static_cast<unsigned>(kSpareSeconds + pixels.size() / kBytesPerSecond);
+  const IsolatedEnd end = callIsolated(
+      pixels, memory, seconds, [&](std::span<std::byte> out) { return decode(image, stream, out); },
+      progress);
+  if (end != IsolatedEnd::Done)
+    throw invalidInput(std::string("damaged: its compressed pixels ") +
+                       (end == IsolatedEnd::Refused ? "cannot be decoded" : "stop the decoder") +
+                       "; copy the file again");
   return pixels;
 }
 

@@ -148,7 +148,8 @@ Voxels voxelsOf(const Bytes& pixels, const DicomImage& image, const DicomPlane& 
   return rescaled(storedValues<T>(pixels, image.bitsStored), image, plane);
 }
 
-Bytes unpacked(DicomBytes& file, const DicomImage& image, std::size_t frame) {
+Bytes unpacked(DicomBytes& file, const DicomImage& image, std::size_t frame,
+               const Progress& progress) {
   switch (image.packing) {
     case DicomPacking::Native:
     case DicomPacking::NativeBigEndian:
@@ -156,17 +157,17 @@ Bytes unpacked(DicomBytes& file, const DicomImage& image, std::size_t frame) {
     case DicomPacking::RunLength:
       return decodeRuns(image, joinedFragments(file, image, frame));
     default:
-      return decodeDicomFrame(image, joinedFragments(file, image, frame));
+      return decodeDicomFrame(image, joinedFragments(file, image, frame), progress);
   }
 }
 
 }  // namespace
 
-Voxels readDicomFrame(const DicomImage& image, std::size_t frame) {
+Voxels readDicomFrame(const DicomImage& image, std::size_t frame, const Progress& progress) {
   const DicomPlane& plane = image.perFrame.empty() ? image.plane : image.perFrame[frame];
   try {
     DicomBytes file(image.file);
-    const Bytes pixels = unpacked(file, image, frame);
+    const Bytes pixels = unpacked(file, image, frame, progress);
     if (image.bitsAllocated == 8)
       return image.isSigned ? voxelsOf<std::int8_t>(pixels, image, plane)
                             : voxelsOf<std::uint8_t>(pixels, image, plane);

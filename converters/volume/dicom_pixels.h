@@ -4,13 +4,14 @@
 
 #include <cstddef>
 
+#include "converters/common/progress.h"
 #include "converters/volume/dicom_image.h"
 #include "converters/volume/volume.h"
 
 namespace lumen::convert {
 
 /// Frame `frame` of `image`, rescaled. Throws Error(InvalidInput), naming the file, for pixels that
-/// are damaged.
-Voxels readDicomFrame(const DicomImage& image, std::size_t frame);
+/// are damaged; Error(Cancelled).
+Voxels readDicomFrame(const DicomImage& image, std::size_t frame, const Progress& progress);
 
 }  // namespace lumen::convert

@@ -260,7 +260,7 @@ Volume readDicom(const fs::path& path, const ReadVolumeOptions& options, const P
   bool first = true;
   for (const Slice& slice : stack.slices) {
     progress.check();
-    Voxels voxels = readDicomFrame(*slice.image, slice.frame);
+    Voxels voxels = readDicomFrame(*slice.image, slice.frame, progress);
     if (std::exchange(first, false))
       volume.voxels =
           std::visit([](auto& v) -> Voxels { return std::decay_t<decltype(v)>(); }, voxels);
