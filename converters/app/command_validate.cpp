@@ -53,24 +53,29 @@ Remark remarkOf(const PrivacyFinding& finding) {
 
 struct FileReport {
   bool valid = true;
-  bool complete = true;   ///< false if it stopped at its maximum
-  bool personal = false;  ///< the privacy check found something, which is a warning
-  std::vector<Remark> remarks;
+  bool personal = false;        ///< the privacy check found something, which is a warning
+  formats::IssueCounts counts;  ///< of all that was found, listed or not
+  std::vector<Remark> remarks;  ///< what is listed, errors first
+  [[nodiscard]] std::size_t unlisted() const { return counts.total() - remarks.size(); }
 };
 
-/// At most `maxIssues` remarks, the broken rules first.
+/// Everything counts for the verdict; at most `maxIssues` remarks are listed.
 FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy) {
   const auto bytes = formats::readFileBytes(file);
-  if (!bytes) return {false, true, false, {remarkOf(bytes.error())}};
+  if (!bytes) {
+    FileReport unread{false, false, {1, 0, 0}, {}};
+    if (maxIssues > 0) unread.remarks.push_back(remarkOf(bytes.error()));
+    return unread;
+  }
   const ValidationReport report = formats::validateBytes(*bytes, maxIssues);
-  FileReport result{report.valid(), report.complete, false, {}};
+  FileReport result{report.valid(), false, report.counts, {}};
   for (const Issue& issue : report.issues) result.remarks.push_back(remarkOf(issue));
   if (!privacy) return result;
   for (const PrivacyFinding& finding : scanPrivacy(*bytes)) {
     result.personal = true;
+    ++result.counts.warnings;
     if (result.remarks.size() < maxIssues) result.remarks.push_back(remarkOf(finding));
   }
-  result.complete = result.complete && result.remarks.size() < maxIssues;
   return result;
 }
 
@@ -92,18 +97,35 @@ Json reportJson(const std::string& file, const FileReport& report) {
   Json json;
   json["file"] = file;
   json["valid"] = report.valid;
-  json["complete"] = report.complete;
+  json["complete"] = report.unlisted() == 0;
+  json["errors"] = report.counts.errors;
+  json["warnings"] = report.counts.warnings;
+  json["information"] = report.counts.information;
   json["issues"] = Json::array();
   for (const Remark& remark : report.remarks) json["issues"].push_back(remarkJson(remark));
   return json;
 }
 
+/// "2 errors, 1 warning and 150 notes", without those that there are none of.
+std::string countsText(const formats::IssueCounts& counts) {
+  std::vector<std::string> parts;
+  if (counts.errors > 0) parts.push_back(counted(counts.errors, "error", "errors"));
+  if (counts.warnings > 0) parts.push_back(counted(counts.warnings, "warning", "warnings"));
+  if (counts.information > 0) parts.push_back(counted(counts.information, "note", "notes"));
+  std::string text = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    text += (i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  return text;
+}
+
 std::string reportText(const std::string& file, const FileReport& report) {
-  std::string text;
+  Lines lines;
   for (const Remark& remark : report.remarks)
-    text.append(file).append(": ").append(remark.severity + " " + remark.text + "\n");
-  if (!report.complete) text.append(file).append(": --max-issues reached, there may be more\n");
-  return text.append(file).append(report.valid ? ": valid\n" : ": not valid\n");
+    lines.add(file + ": " + remark.severity + " " + remark.text);
+  if (report.unlisted() > 0)
+    lines.add(file + ": " + countsText(report.counts) + ", " +
+              std::to_string(report.remarks.size()) + " of them listed; --max-issues N lists more");
+  return lines.add(file + (report.valid ? ": valid" : ": not valid")).text();
 }
 
 class ValidateCommand : public Command {
@@ -120,9 +142,10 @@ public:
     app.add_option("FILE", m_files, "Cases, .lumen or .lumen.json")
         ->required()
         ->configurable(false);
-    app.add_option("--max-issues", m_maxIssues, "Stop at so many issues in a file")
+    app.add_option("--max-issues", m_maxIssues,
+                   "List so many issues of a file, errors first; all count for the verdict")
         ->type_name("N")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}).description(""))
+        ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}).description(""))
         ->capture_default_str();
     app.add_flag("--privacy", m_privacy,
                  "Also warn of texts that may tell who a patient is, such as dates and names");

@@ -30,7 +30,7 @@ json parseJson(const std::string& text, const std::filesystem::path& file) {
   formats::ArraySlots none;
   auto parsed = formats::parseJson(text, 0, "", none, issues);
   if (parsed) return *std::move(parsed);
-  const formats::Issue& issue = issues.issues().front();
+  const formats::Issue issue = *issues.firstError();
   const std::string where = issue.pointer ? ": at \"" + *issue.pointer + "\": " : ": is not JSON: ";
   throw invalidInput(file.string() + where + issue.message);
 }

@@ -24,12 +24,12 @@ bool isLegalChunk(const OtherChunk& chunk) {
   if (chunkRuleIndex(chunkType(name)) < kChunkRules.size()) return false;
   if (chunk.encoding == 0) return chunk.rawSize == chunk.bytes.size();
   const bool limited = chunk.encoding <= static_cast<std::uint8_t>(ChunkEncoding::Draco);
-  return !limited || chunk.rawSize / kMaxExpansion <= chunk.bytes.size();
+  return !limited || chunk.rawSize <= kMaxExpansion * chunk.bytes.size();
 }
 
 void checkOtherChunks(const std::vector<OtherChunk>& chunks, IssueList& issues) {
   checkLimit(chunks.size(), kMaxOtherChunks, "/otherChunks", issues);
-  for (std::size_t i = 0; i < chunks.size() && !issues.full(); ++i)
+  for (std::size_t i = 0; i < chunks.size() && !issues.done(); ++i)
     if (!isLegalChunk(chunks[i]))
       issues.add(pointerIssue(ErrorCode::JsonChunkData, "/otherChunks/" + std::to_string(i),
                               "its type is not four letters or digits or is that of a known "
@@ -41,7 +41,6 @@ void checkOtherChunks(const std::vector<OtherChunk>& chunks, IssueList& issues) 
 
 void checkCase(const Case& value, IssueList& issues) {
   checkMetadata(value.metadata, issues);
-  if (issues.full()) return;
   const CaseAsView asView(value);
   checkKernels(asView.view(), issues);
   checkModelRules(asView.view(), issues);
