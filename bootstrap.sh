@@ -145,6 +145,8 @@ install_validator() {
 
 install_test_packages() {
   have_node || packages+=(nodejs npm)
+  # the JSON answers against their schemas, and what judges the manual page
+  packages+=(python3-jsonschema groff-base mandoc)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev emscripten python3-numpy)
   install_packages "${packages[@]}" "$@"
