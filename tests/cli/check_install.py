@@ -85,6 +85,12 @@ def check_manual(prefix):
     check("\n." in text and not re.search(r"^'", text, re.M), "the manual page holds a stray request")
 
 
+def check_completion(script):
+    ask = f"source '{script}'; COMP_WORDS=(lumen valid); COMP_CWORD=1; _lumen; complete -p lumen; echo ${{COMPREPLY[*]}}"
+    told = run("bash", "-c", ask)
+    check(told.stdout.endswith(" lumen\nvalidate\n"), f"the completion: {told}")
+
+
 def check_links(documents):
     """Every link of the Markdown files leads to a file that is installed too."""
     links = 0
@@ -123,6 +129,7 @@ def main():
         check_program(prefix / "bin/lumen", work)
         check_libraries(prefix / "bin/lumen", prefix / "share/doc/lumen/THIRD_PARTY.md")
         check_manual(prefix)
+        check_completion(prefix / "share/bash-completion/completions/lumen")
         check_links(prefix / "share/doc/lumen/spec")
         check_traces(prefix, build)
     print(f"{len(installed)} files, {len(failures)} failures")
