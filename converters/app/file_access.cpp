@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <stdlib.h>
 #include <unistd.h>
 
 #include "converters/common/error.h"
@@ -82,15 +81,9 @@ void requireWritable(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored))
     throw failed(path.string() + ": the output's folder " + folder.string() + " does not exist");
-  // permission bits do not tell (read-only mounts, privileged users), so one file is made and
-  // dropped
-  std::string probe = (folder / ".lumen-probe-XXXXXX").string();
-  const int file = mkstemp(probe.data());
-  if (file < 0)
-    throw failed(path.string() + ": no file can be made in the folder " + folder.string() + ": " +
-                 std::strerror(errno));
-  close(file);
-  unlink(probe.c_str());
+  // permission bits do not tell (read-only mounts, privileged users), so a file is begun and dropped
+  const auto begun = formats::PendingFile::beside(path);
+  if (!begun) throw failed(errorText(path, begun.error()));
 }
 
 }  // namespace lumen::app

@@ -248,7 +248,9 @@ void addMeshOptions(CLI::App& app, OutputOptions& output) {
       .add("--cell", output.polygonise.cell, "MM",
            "Edge of a marching-cubes cell; 0: the voxel size")
       ->check(kNotNegative);
-  group.addFlag("--draco", output.mesh.draco, "Compress glTF with KHR_draco_mesh_compression");
+  group.addFlag("--draco", output.mesh.draco,
+                "Compress glTF with KHR_draco_mesh_compression; not for the f3d of Debian 12, "
+                "which crashes on any such file");
   group
       .add("--draco-position-bits", output.mesh.dracoPositionBits, "N",
            "Bits of a position in a branch's bounding box")
