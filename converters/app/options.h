@@ -25,7 +25,6 @@ struct VolumeArguments {
 
 struct TrackArguments {
   std::string seeds;
-  bool strict = false;
   convert::TrackOptions options;
 };
 

@@ -1,15 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/stages.h"
 
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <variant>
+
 #include "converters/app/file_access.h"
 #include "converters/common/error.h"
 
 namespace lumen::app {
 
+namespace {
+
+/// What cannot be read as a volume may be something else altogether.
+convert::Volume readVolume(const std::filesystem::path& file, const FileFormat& format,
+                           const VolumeArguments& volume, Progress& progress) {
+  try {
+    return format.readVolume(file, volume.options(), progress);
+  } catch (const Error& error) {
+    const std::string other = notA(ContentKind::Volume, file);
+    if (error.kind() == ErrorKind::Cancelled || other.empty()) throw;
+    throw invalidInput(file.string() + ": " + other);
+  }
+}
+
+/// The two values that all voxels have, if there are no more.
+std::optional<std::pair<double, double>> onlyTwoValues(const convert::Volume& volume) {
+  return std::visit(
+      [](const auto& voxels) -> std::optional<std::pair<double, double>> {
+        if (voxels.empty()) return std::nullopt;
+        const auto first = voxels.front();
+        const auto isOther = [first](auto value) { return value != first; };
+        const auto second = std::find_if(voxels.begin(), voxels.end(), isOther);
+        if (second == voxels.end()) return std::nullopt;
+        const auto isThird = [first, b = *second](auto value) {
+          return value != first && value != b;
+        };
+        if (std::find_if(second, voxels.end(), isThird) != voxels.end()) return std::nullopt;
+        return std::pair{static_cast<double>(std::min(first, *second)),
+                         static_cast<double>(std::max(first, *second))};
+      },
+      volume.voxels);
+}
+
+}  // namespace
+
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress) {
   progress.begin("reading", 0);
-  convert::Volume result = format.readVolume(file, volume.options(), progress);
+  convert::Volume result = readVolume(file, format, volume, progress);
   progress.end();
   return result;
 }
@@ -19,6 +60,8 @@ std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
     throw Error(ErrorKind::Usage,
                 "a volume needs --seeds FILE, which says where its vessels begin");
   requireInput(track.seeds, "seeds file");
+  if (const std::string other = notA(ContentKind::Seeds, track.seeds); !other.empty())
+    throw invalidInput(track.seeds + ": " + other);
   return convert::readSeeds(track.seeds);
 }
 
@@ -26,6 +69,14 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
                                 const std::vector<convert::SeedBranch>& seeds,
                                 const std::string& origin, const convert::TrackOptions& options,
                                 Progress& progress) {
+  if (const auto mask = onlyTwoValues(volume)) {
+    std::ostringstream text;
+    text
+        << "every voxel is " << mask->first << " or " << mask->second
+        << ": this is a mask, whose walls are steps between voxels; the volume that it was made of "
+           "gives exacter vessels";
+    progress.warn(text.str());
+  }
   convert::checkSeedsInside(seeds, volume.geometry, origin);
   convert::TrackResult result = convert::track(volume, seeds, options, progress);
   for (const auto& failure : result.failures)
