@@ -120,7 +120,8 @@ FileContent contentOf(const fs::path& file) {
   const std::string_view view = text;
   if (formats::hasContainerMagic(std::as_bytes(std::span(text)))) return {Case, "a case"};
   for (const Signature& signature : signatures())
-    if (view.size() > signature.offset && view.substr(signature.offset).starts_with(signature.bytes))
+    if (view.size() > signature.offset &&
+        view.substr(signature.offset).starts_with(signature.bytes))
       return {signature.kind, signature.name};
   const auto first = view.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first != view.npos && view[first] == '{') return jsonContent(view);

@@ -2,6 +2,7 @@
 #include "converters/app/options.h"
 
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "converters/app/suggestion.h"
@@ -23,6 +24,16 @@ const CLI::Validator kWeight = numberIn({0, 1e6});
 const CLI::Validator kScale = numberIn({1e-3, 1e3});
 // cases store it as a signed number
 const CLI::Validator kRandomSeed = wholeIn(0, std::numeric_limits<std::int64_t>::max());
+
+/// What --unit takes.
+const std::map<std::string, double> kMillimetresOf = {
+    {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
+
+std::vector<std::string> wordsOf(const std::map<std::string, double>& units) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : units) words.push_back(word);
+  return words;
+}
 
 CLI::Validator within(int low, int high) {
   return wholeIn(low, high);
@@ -58,11 +69,23 @@ private:
   std::string m_title;
 };
 
+/// What --spacing takes, once it is checked.
+Eigen::Vector3d spacingOf(const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& word : CLI::detail::split(text, ',')) values.push_back(std::stod(word));
+  if (values.size() == 1) return Eigen::Vector3d::Constant(values[0]);
+  return {values[0], values[1], values[2]};
+}
+
 }  // namespace
 
 convert::ReadVolumeOptions VolumeArguments::options() const {
   convert::ReadVolumeOptions options;
   options.series = series;
+  if (!spacing.empty()) options.spacing = spacingOf(spacing);
+  if (const auto mm = kMillimetresOf.find(unit); mm != kMillimetresOf.end())
+    options.unit = mm->second;
+  options.allowedDetached.assign(allowDetached.begin(), allowDetached.end());
   if (crop.size() == 6)
     options.crop = convert::IndexBox{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
   return options;
@@ -87,6 +110,24 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->delimiter(',')
       ->check(within(0, std::numeric_limits<int>::max()))
       ->expected(6);
+  app.add_option("--spacing", volume.spacing,
+                 "Distance of voxels along i, j and k, or of all, in mm, whatever the file says")
+      ->option_text("MM or MM,MM,MM")
+      ->group("Volume")
+      ->join(',')
+      ->check(oneOrThreeIn({0, kLongest, true}));
+  app.add_option("--unit", volume.unit,
+                 "Unit of the lengths in the file's header: mm, cm, m or um, whatever it says")
+      ->type_name("UNIT")
+      ->group("Volume")
+      ->check(oneOf(wordsOf(kMillimetresOf)));
+  app.add_option("--allow-detached", volume.allowDetached,
+                 "Allow a header to take its voxels from this file, or from below this folder; "
+                 "otherwise only from its own folder. May be given several times")
+      ->option_text("PATH")
+      ->group("Volume")
+      ->check(fileName())
+      ->allow_extra_args(false);
 }
 
 void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding) {

@@ -20,6 +20,9 @@ namespace lumen::app {
 struct VolumeArguments {
   std::string series;
   std::vector<int> crop;  ///< empty, or i0, i1, j0, j1, k0, k1
+  std::string spacing;    ///< empty, or mm of one or three axes, with commas between them
+  std::string unit;       ///< empty, or mm, cm, m or um
+  std::vector<std::string> allowDetached;
   [[nodiscard]] convert::ReadVolumeOptions options() const;
 };
 

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/stages.h"
 
-#include <algorithm>
-#include <optional>
-#include <sstream>
-#include <utility>
-#include <variant>
-
 #include "converters/app/file_access.h"
 #include "converters/common/error.h"
 
@@ -26,23 +20,10 @@ convert::Volume readVolume(const std::filesystem::path& file, const FileFormat& 
   }
 }
 
-/// The two values that all voxels have, if there are no more.
-std::optional<std::pair<double, double>> onlyTwoValues(const convert::Volume& volume) {
-  return std::visit(
-      [](const auto& voxels) -> std::optional<std::pair<double, double>> {
-        if (voxels.empty()) return std::nullopt;
-        const auto first = voxels.front();
-        const auto isOther = [first](auto value) { return value != first; };
-        const auto second = std::find_if(voxels.begin(), voxels.end(), isOther);
-        if (second == voxels.end()) return std::nullopt;
-        const auto isThird = [first, b = *second](auto value) {
-          return value != first && value != b;
-        };
-        if (std::find_if(second, voxels.end(), isThird) != voxels.end()) return std::nullopt;
-        return std::pair{static_cast<double>(std::min(first, *second)),
-                         static_cast<double>(std::max(first, *second))};
-      },
-      volume.voxels);
+void tellAssumptions(const std::filesystem::path& file, const std::vector<std::string>& assumptions,
+                     Progress& progress) {
+  for (const std::string& assumption : assumptions)
+    progress.warn(file.string() + ": " + assumption);
 }
 
 }  // namespace
@@ -52,6 +33,7 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
   progress.begin("reading", 0);
   convert::Volume result = readVolume(file, format, volume, progress);
   progress.end();
+  tellAssumptions(file, result.assumptions, progress);
   return result;
 }
 
@@ -69,14 +51,6 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
                                 const std::vector<convert::SeedBranch>& seeds,
                                 const std::string& origin, const convert::TrackOptions& options,
                                 Progress& progress) {
-  if (const auto mask = onlyTwoValues(volume)) {
-    std::ostringstream text;
-    text
-        << "every voxel is " << mask->first << " or " << mask->second
-        << ": this is a mask, whose walls are steps between voxels; the volume that it was made of "
-           "gives exacter vessels";
-    progress.warn(text.str());
-  }
   convert::checkSeedsInside(seeds, volume.geometry, origin);
   convert::TrackResult result = convert::track(volume, seeds, options, progress);
   for (const auto& failure : result.failures)

@@ -14,7 +14,8 @@
 
 namespace lumen::app {
 
-/// The volume in `file`, read as `format` whatever the name; shows a stage of progress.
+/// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
+/// file leaves open and the reader assumed becomes warnings.
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress);
 

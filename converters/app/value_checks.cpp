@@ -75,14 +75,22 @@ CLI::Validator numberIn(const NumberRange& range) {
   });
 }
 
+CLI::Validator oneOrThreeIn(const NumberRange& range) {
+  return quietly([range](std::string& text) -> std::string {
+    const auto words = CLI::detail::split(text, ',');
+    bool holds = words.size() == 1 || words.size() == 3;
+    for (const auto& word : words) {
+      const auto value = parsed<double>(word);
+      holds = holds && value && range.holds(*value);
+    }
+    return holds ? std::string()
+                 : found(text, range.text() + ", or three with commas between them");
+  });
+}
+
 CLI::Validator wholeIn(std::int64_t low, std::int64_t high) {
   return whole<std::int64_t>(
       low, high, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
-}
-
-CLI::Validator anyWhole() {
-  return whole<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max(),
-                              "a whole number of at least 0");
 }
 
 CLI::Validator oneOf(const std::vector<int>& numbers) {

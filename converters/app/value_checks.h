@@ -26,11 +26,11 @@ struct NumberRange {
 /// A decimal number in the range.
 CLI::Validator numberIn(const NumberRange& range);
 
+/// One such number, or three with commas between them.
+CLI::Validator oneOrThreeIn(const NumberRange& range);
+
 /// A whole number in decimal digits, ends included.
 CLI::Validator wholeIn(std::int64_t low, std::int64_t high);
-
-/// A whole number from 0 to 2^64 - 1.
-CLI::Validator anyWhole();
 
 /// One of these numbers.
 CLI::Validator oneOf(const std::vector<int>& numbers);

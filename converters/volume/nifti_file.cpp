@@ -222,7 +222,8 @@ void writeBytes(gzFile file, const void* bytes, std::size_t size, const fs::path
 
 }  // namespace
 
-Volume readNifti(const fs::path& path, const Progress& progress) {
+Volume readNifti(const fs::path& path, const ReadVolumeOptions& /*options*/,
+                 const Progress& progress) {
   const GzFile file = openFile(path);
   const Header header = readHeader(file.get(), path);
   checkType(header.fields.datatype, path);
@@ -235,6 +236,12 @@ Volume readNifti(const fs::path& path, const Progress& progress) {
   const std::size_t count = volume.geometry.voxelCount();
   volume.voxels = VoxelReader(file.get(), header, count, path, progress).read();
   return volume;
+}
+
+VolumeHeader readNiftiHeader(const fs::path& path, const ReadVolumeOptions& options,
+                             const Progress& progress) {
+  Volume volume = readNifti(path, options, progress);
+  return {.geometry = volume.geometry, .assumptions = std::move(volume.assumptions)};
 }
 
 void writeNifti(const Volume& volume, const fs::path& file, bool compressed, const fs::path& name) {

@@ -9,7 +9,9 @@
 #include <filesystem>
 
 #include "converters/common/progress.h"
+#include "converters/volume/read_volume_options.h"
 #include "converters/volume/volume.h"
+#include "converters/volume/volume_header.h"
 
 namespace lumen::convert {
 
@@ -19,7 +21,12 @@ namespace lumen::convert {
 /// or both agree; the qform otherwise. Throws Error(InvalidInput) for what is truncated or damaged,
 /// states more voxels than the file can hold, or has no sound geometry; Error(Unsupported) for
 /// NIfTI-2 and other pixel types.
-Volume readNifti(const std::filesystem::path& path, const Progress& progress);
+Volume readNifti(const std::filesystem::path& path, const ReadVolumeOptions& options,
+                 const Progress& progress);
+
+/// What readNifti() knows before it reads a voxel.
+VolumeHeader readNiftiHeader(const std::filesystem::path& path, const ReadVolumeOptions& options,
+                             const Progress& progress);
 
 /// Writes to `file` itself, not atomically, and calls it `name` in errors: qform and sform, both of
 /// the scanner, in mm. Throws Error(Failed), or Error(Unsupported) for more than 32767 voxels along

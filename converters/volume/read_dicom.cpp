@@ -275,14 +275,20 @@ Volume readFrames(const fs::path& file) {
 
 }  // namespace
 
-Volume readDicom(const fs::path& path, const std::string& series, const Progress& progress) {
+Volume readDicom(const fs::path& path, const ReadVolumeOptions& options, const Progress& progress) {
   const QuietDicom quiet;
   auto names = itk::GDCMSeriesFileNames::New();
   names->SetUseSeriesDetails(false);  // with details, the identifiers are not the series' UIDs
   names->SetDirectory(path.string());
-  const std::string uid = chooseSeries(*names, series, path);
+  const std::string uid = chooseSeries(*names, options.series, path);
   const std::vector<std::string> files = names->GetFileNames(uid);
   return files.size() == 1 ? readFrames(files[0]) : readSlices(files, path, progress);
+}
+
+VolumeHeader readDicomHeader(const fs::path& path, const ReadVolumeOptions& options,
+                             const Progress& progress) {
+  Volume volume = readDicom(path, options, progress);
+  return {.geometry = volume.geometry, .assumptions = std::move(volume.assumptions)};
 }
 
 }  // namespace lumen::convert

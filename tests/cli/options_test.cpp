@@ -40,7 +40,8 @@ bool isNumber(const Argument& argument) {
 
 bool isFile(const Argument& argument) {
   static const std::set<std::string> kWords = {"NAME", "SHELL"};
-  return argument.positional ? !kWords.contains(argument.name) : argument.type == "FILE";
+  return argument.positional ? !kWords.contains(argument.name)
+                             : argument.type == "FILE" || argument.type == "PATH";
 }
 
 /// Exit code and standard error of a run in this process.
@@ -89,7 +90,8 @@ TEST(OptionsTest, NoFileIsCalledAHyphenOrNothing) {
       const std::string word = argument.positional ? "x" : argument.name;
       const bool isSecond = argument.name.starts_with("OUT") || argument.name == "TRUTH";
       std::vector<std::string> line = {argument.command};
-      if (!argument.positional || isSecond) line.push_back(argument.command == "phantom" && isSecond ? "tube" : word);
+      if (!argument.positional || isSecond)
+        line.push_back(argument.command == "phantom" && isSecond ? "tube" : word);
       line.push_back(value);
       const auto [code, text] = runHere(line);
       EXPECT_EQ(code, 2) << argument.command << " " << argument.name;
