@@ -6,6 +6,7 @@
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
+#include "converters/app/value_checks.h"
 #include "converters/app/volume_info.h"
 
 namespace lumen::app {
@@ -23,7 +24,7 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("FILE", m_input, "Case or volume")->required()->configurable(false);
+    addFile(app, "FILE", m_input, "Case or volume");
     app.add_option("--from", m_from, "Format of FILE, whatever its name")->type_name("F");
     app.add_flag("--chunks", m_chunks, "List the chunks of a .lumen file instead");
     addVolumeOptions(app, m_volume);
@@ -38,7 +39,7 @@ public:
     }
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind == FormatKind::Volume) {
-      const convert::Volume volume = loadVolume(m_input, from, m_volume, false, context.progress);
+      const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
       const VolumeInfo info = describeVolume(volume, context.progress);
       context.common.json ? answerJson(volumeInfoJson(info)) : answer(volumeInfoText(info));
     } else {

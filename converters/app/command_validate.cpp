@@ -3,14 +3,17 @@
 #include <optional>
 
 #include "converters/app/command.h"
+#include "converters/app/file_content.h"
 #include "converters/app/privacy.h"
 #include "converters/app/report.h"
+#include "converters/app/value_checks.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::app {
 
 namespace {
 
+using formats::ErrorCode;
 using formats::Issue;
 using formats::ValidationReport;
 
@@ -59,6 +62,13 @@ struct FileReport {
   [[nodiscard]] std::size_t unlisted() const { return counts.total() - remarks.size(); }
 };
 
+/// What is no case may be known as something else.
+Issue named(Issue issue, const std::string& file) {
+  const std::string other = notA(ContentKind::Case, file);
+  if (!other.empty()) issue.message = other;
+  return issue;
+}
+
 /// Everything counts for the verdict; at most `maxIssues` remarks are listed.
 FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy) {
   const auto bytes = formats::readFileBytes(file);
@@ -69,7 +79,9 @@ FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy)
   }
   const ValidationReport report = formats::validateBytes(*bytes, maxIssues);
   FileReport result{report.valid(), false, report.counts, {}};
-  for (const Issue& issue : report.issues) result.remarks.push_back(remarkOf(issue));
+  for (const Issue& issue : report.issues)
+    result.remarks.push_back(
+        remarkOf(issue.code == ErrorCode::NotLumen ? named(issue, file) : issue));
   if (!privacy) return result;
   for (const PrivacyFinding& finding : scanPrivacy(*bytes)) {
     result.personal = true;
@@ -141,11 +153,12 @@ public:
   void bind(CLI::App& app) override {
     app.add_option("FILE", m_files, "Cases, .lumen or .lumen.json")
         ->required()
+        ->check(fileName())
         ->configurable(false);
     app.add_option("--max-issues", m_maxIssues,
                    "List so many issues of a file, errors first; all count for the verdict")
         ->type_name("N")
-        ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}).description(""))
+        ->check(wholeIn(0, 1000000))
         ->capture_default_str();
     app.add_flag("--privacy", m_privacy,
                  "Also warn of texts that may tell who a patient is, such as dates and names");

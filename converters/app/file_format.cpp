@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "converters/app/file_access.h"
+#include "converters/app/suggestion.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
 #include "converters/mesh/write_gltf.h"
@@ -121,21 +122,6 @@ const FileFormat* findByEnding(const fs::path& path) {
   return best;
 }
 
-/// `format` if it is not null and passes `test`.
-const FileFormat& require(const FileFormat* format, const fs::path& path, std::string_view override,
-                          FormatTest test, const std::string& verb, const std::string& option) {
-  if (format != nullptr && test(*format)) return *format;
-  const std::string known = "; lumen " + verb + "s " + formatNames(test);
-  if (!override.empty())
-    throw unsupported(option + " " + std::string(override) + ": lumen cannot " + verb +
-                      " this format" + known);
-  if (format != nullptr)
-    throw unsupported(path.string() + ": lumen cannot " + verb + " the format " +
-                      std::string(format->name) + known);
-  throw unsupported(path.string() + ": the name's ending is not that of a format that lumen " +
-                    verb + "s" + known + " (" + option + " chooses one whatever the name)");
-}
-
 /// `text(format)` of each format that passes `test`, each text once.
 template <class Text>
 std::vector<std::string> listed(FormatTest test, Text text) {
@@ -147,6 +133,43 @@ std::vector<std::string> listed(FormatTest test, Text text) {
       words.push_back(word);
   }
   return words;
+}
+
+std::vector<std::string> namesOf(FormatTest test) {
+  return listed(test, [](const FileFormat& format) { return format.name; });
+}
+
+std::vector<std::string> endingsOf(FormatTest test) {
+  return listed(test, [](const FileFormat& format) {
+    return format.endings.empty() ? std::string_view() : format.endings.front();
+  });
+}
+
+/// `format` if it is not null and passes `test`.
+const FileFormat& require(const FileFormat* format, const fs::path& path, std::string_view override,
+                          FormatTest test, const std::string& verb, const std::string& option) {
+  if (format != nullptr && test(*format)) return *format;
+  const std::string known = "; lumen " + verb + "s " + formatNames(test);
+  if (!override.empty())
+    throw unsupported(option + " " + std::string(override) + ": lumen cannot " + verb +
+                      " this format" + known + didYouMean(override, namesOf(test)));
+  if (format != nullptr)
+    throw unsupported(path.string() + ": lumen cannot " + verb + " the format " +
+                      std::string(format->name) + known);
+  throw unsupported(path.string() + ": the name's ending is not that of a format that lumen " +
+                    verb + "s" + known + " (" + option + " chooses one whatever the name)" +
+                    didYouMean(path.extension().string(), endingsOf(test)));
+}
+
+/// An input whose name does not tell its format, but whose content does.
+void refuseByContent(const fs::path& path) {
+  const FileContent content = contentOf(path);
+  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case)
+    throw unsupported(path.string() + ": " + content.sentence() +
+                      ", but its name does not say so; --from says it, which takes " +
+                      formatNames(canRead));
+  if (content.kind != ContentKind::Unknown)
+    throw unsupported(path.string() + ": " + notA(ContentKind::Volume, path));
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& last) {
@@ -165,6 +188,18 @@ const std::vector<FileFormat>& fileFormats() {
   return table;
 }
 
+ContentKind contentKind(const FileFormat& format) {
+  switch (format.kind) {
+    case FormatKind::Volume:
+      return ContentKind::Volume;
+    case FormatKind::Mesh:
+      return ContentKind::Mesh;
+    case FormatKind::Case:
+      break;
+  }
+  return ContentKind::Case;
+}
+
 bool canRead(const FileFormat& format) {
   return format.readCase != nullptr || format.readVolume != nullptr;
 }
@@ -181,19 +216,20 @@ bool canWriteCase(const FileFormat& format) {
   return format.kind == FormatKind::Case && canWrite(format);
 }
 
+bool canWriteMesh(const FileFormat& format) {
+  return format.kind == FormatKind::Mesh && canWrite(format);
+}
+
 bool canWriteVolume(const FileFormat& format) {
   return format.writeVolume != nullptr;
 }
 
 std::string formatNames(FormatTest test) {
-  return joined(listed(test, [](const FileFormat& format) { return format.name; }), ", ");
+  return joined(namesOf(test), ", ");
 }
 
 std::string formatEndings(FormatTest test) {
-  const auto ending = [](const FileFormat& format) {
-    return format.endings.empty() ? std::string_view() : format.endings.front();
-  };
-  return joined(listed(test, ending), " or ");
+  return joined(endingsOf(test), " or ");
 }
 
 std::string formatTitles(FormatTest test) {
@@ -205,10 +241,13 @@ const FileFormat& inputFormat(const fs::path& path, std::string_view override) {
   const FileFormat* format = !override.empty()                 ? findByName(override)
                              : fs::is_directory(path, ignored) ? findFolder()
                                                                : findByEnding(path);
+  if (override.empty() && (format == nullptr || !canRead(*format))) refuseByContent(path);
   return require(format, path, override, canRead, "read", "--from");
 }
 
 const FileFormat& outputFormat(const fs::path& path, std::string_view override) {
+  if (std::error_code ignored; fs::is_directory(path, ignored))
+    throw failed(path.string() + ": this is a folder, but the output must be a file");
   const FileFormat* format = override.empty() ? findByEnding(path) : findByName(override);
   return require(format, path, override, canWrite, "write", "--to");
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "converters/app/file_content.h"
 #include "converters/common/progress.h"
 #include "converters/mesh/polygonise.h"
 #include "converters/mesh/write_options.h"
@@ -63,12 +64,16 @@ struct FileFormat {
 
 const std::vector<FileFormat>& fileFormats();
 
+/// What a file of this format is.
+ContentKind contentKind(const FileFormat& format);
+
 /// What a list of formats is about.
 using FormatTest = bool (*)(const FileFormat&);
 bool canRead(const FileFormat& format);
 bool canReadVolume(const FileFormat& format);
 bool canWrite(const FileFormat& format);  ///< a case, in whatever form
 bool canWriteCase(const FileFormat& format);
+bool canWriteMesh(const FileFormat& format);
 bool canWriteVolume(const FileFormat& format);
 
 /// The formats that pass `test`, for a sentence: names "lumen, lumen.json, obj", endings ".lumen,

@@ -14,9 +14,8 @@ namespace lumen::app {
 /// One phrase for each part of the case that is lost, such as "3 links"; empty if nothing is.
 std::vector<std::string> lossesOf(const formats::Case& value, const FileFormat& format);
 
-/// Says on standard error what `file` will not have; with `strict`, throws Error(Unsupported)
-/// instead.
+/// Warns of what `file` will not have.
 void reportLosses(const formats::Case& value, const FileFormat& format, const std::string& file,
-                  bool strict, Progress& progress);
+                  Progress& progress);
 
 }  // namespace lumen::app

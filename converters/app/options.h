@@ -28,7 +28,6 @@ struct VolumeArguments {
 
 struct TrackArguments {
   std::string seeds;
-  bool strict = false;
   convert::TrackOptions options;
 };
 

@@ -8,23 +8,32 @@ namespace lumen::app {
 
 namespace {
 
-void tellAssumptions(const std::filesystem::path& file, const std::vector<std::string>& assumptions,
-                     bool strict, Progress& progress) {
-  for (const std::string& assumption : assumptions) {
-    const std::string text = file.string() + ": " + assumption;
-    if (strict) throw invalidInput(text);
-    progress.warn(text);
+/// What cannot be read as a volume may be something else altogether.
+convert::Volume readVolume(const std::filesystem::path& file, const FileFormat& format,
+                           const VolumeArguments& volume, Progress& progress) {
+  try {
+    return format.readVolume(file, volume.options(), progress);
+  } catch (const Error& error) {
+    const std::string other = notA(ContentKind::Volume, file);
+    if (error.kind() == ErrorKind::Cancelled || other.empty()) throw;
+    throw invalidInput(file.string() + ": " + other);
   }
+}
+
+void tellAssumptions(const std::filesystem::path& file, const std::vector<std::string>& assumptions,
+                     Progress& progress) {
+  for (const std::string& assumption : assumptions)
+    progress.warn(file.string() + ": " + assumption);
 }
 
 }  // namespace
 
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
-                           const VolumeArguments& volume, bool strict, Progress& progress) {
+                           const VolumeArguments& volume, Progress& progress) {
   progress.begin("reading", 0);
-  convert::Volume result = format.readVolume(file, volume.options(), progress);
+  convert::Volume result = readVolume(file, format, volume, progress);
   progress.end();
-  tellAssumptions(file, result.assumptions, strict, progress);
+  tellAssumptions(file, result.assumptions, progress);
   return result;
 }
 
@@ -33,6 +42,8 @@ std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
     throw Error(ErrorKind::Usage,
                 "a volume needs --seeds FILE, which says where its vessels begin");
   requireInput(track.seeds, "seeds file");
+  if (const std::string other = notA(ContentKind::Seeds, track.seeds); !other.empty())
+    throw invalidInput(track.seeds + ": " + other);
   return convert::readSeeds(track.seeds);
 }
 

@@ -15,10 +15,9 @@
 namespace lumen::app {
 
 /// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
-/// file leaves open and the reader assumed becomes warnings; if `strict`, the first throws
-/// Error(InvalidInput).
+/// file leaves open and the reader assumed becomes warnings.
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
-                           const VolumeArguments& volume, bool strict, Progress& progress);
+                           const VolumeArguments& volume, Progress& progress);
 
 /// The seeds of --seeds. Throws Error(Usage) without the option, and Error(InvalidInput) for a file
 /// that is missing or invalid.

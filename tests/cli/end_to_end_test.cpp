@@ -183,10 +183,12 @@ TEST_F(TubeTest, ASeedThatStartsNoTrackFailsOnlyWhenStrict) {
   EXPECT_EQ(lenient.code, 0) << lenient.err;
   EXPECT_NE(lenient.err.find("stray"), std::string::npos) << lenient.err;
   EXPECT_TRUE(exists("a.lumen"));
-  EXPECT_EQ(lumen({"track", "clean.nrrd", "a.lumen", "--seeds", "two.json", "--inlier-rate", "0.9",
-                   "--strict"})
-                .code,
-            1);
+  const Outcome strict = lumen({"track", "clean.nrrd", "b.lumen", "--seeds", "two.json",
+                                "--inlier-rate", "0.9", "--strict"});
+  EXPECT_EQ(strict.code, 3) << strict.err;
+  EXPECT_NE(strict.err.find("lumen: error: "), std::string::npos) << strict.err;
+  EXPECT_NE(strict.err.find("stray"), std::string::npos) << strict.err;
+  EXPECT_FALSE(exists("b.lumen"));
 
   seeds["branches"].erase(0);
   write("stray.json", seeds.dump());

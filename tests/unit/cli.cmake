@@ -7,6 +7,9 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_format_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/interrupt_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_content_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/terminal_progress_test.cpp

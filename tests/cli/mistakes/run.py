@@ -42,7 +42,7 @@ def run(command, folder, lumen):
     before = state(folder)
     environment = {"PATH": f"{lumen.parent}:/usr/bin:/bin", "HOME": str(folder), "LC_ALL": "C.UTF-8"}
     try:
-        done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+        done = subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS, preexec_fn=as_a_user)
     except subprocess.TimeoutExpired:
         return "", [f"runs longer than {SECONDS} s"]
