@@ -36,8 +36,8 @@ public:
     addEncodingOptions(app, m_outputOptions.encoding);
     app.get_option("--strict")
         ->description(
-            "Exit with 1 if any seed started no track; with 4, writing nothing, if "
-            "OUTPUT cannot hold all of a case");
+            "Exit with 3, writing nothing, if a seed cannot be placed in the volume; with 1 if one "
+            "started no track");
   }
 
   int run(Context& context) override {
@@ -68,8 +68,7 @@ private:
                                                      : from.readCase(m_input);
     }
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
-    convert::TrackResult tracked =
-        trackSeeds(volume, m_seeds, m_track.seeds, m_track.options, progress);
+    convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
     m_failures = std::move(tracked.failures);
     m_missedPoints = std::move(tracked.missedPoints);
     return std::move(tracked.result);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/options.h"
 
+#include <map>
 #include <optional>
 
 #include "formats/case/enum_names.h"
@@ -25,6 +26,13 @@ CLI::Validator quietly(CLI::Validator check) {
 const CLI::Validator kShare = quietly(CLI::Range(0.0, 1.0));
 const CLI::Validator kPositive = quietly(CLI::PositiveNumber);
 const CLI::Validator kNotNegative = quietly(CLI::NonNegativeNumber);
+
+/// What --seeds-frame and --seeds-unit take.
+const std::map<std::string, convert::SeedSystem> kSeedSystems = {
+    {"lps", convert::SeedSystem::Lps},
+    {"ras", convert::SeedSystem::Ras},
+    {"voxel", convert::SeedSystem::Voxel}};
+const std::map<std::string, double> kSeedUnits = {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
 
 CLI::Validator within(int low, int high) {
   return quietly(CLI::Range(low, high));
@@ -70,6 +78,15 @@ convert::ReadVolumeOptions VolumeArguments::options() const {
   return options;
 }
 
+convert::SeedReading TrackArguments::reading() const {
+  convert::SeedReading reading;
+  if (const auto system = kSeedSystems.find(seedsFrame); system != kSeedSystems.end())
+    reading.system = system->second;
+  if (const auto unit = kSeedUnits.find(seedsUnit); unit != kSeedUnits.end())
+    reading.unit = unit->second;
+  return reading;
+}
+
 convert::FitOptions FitArguments::options() const {
   convert::FitOptions options = values;
   if (const auto known = formats::enumFromName<formats::Kernel>(formats::kKernelNames, kernel))
@@ -108,8 +125,22 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
   volume.addFlag("--dark", o.dark, "Vessels are darker than their background");
   Group group(app, "Tracking");
   group.add("--seeds", track.seeds, "FILE",
-            "Where vessels begin: lumen's seeds JSON, or 3D Slicer Markups (.mrk.json)");
-  group.addFlag("--strict", track.strict, "Exit with 1 if any seed started no track");
+            "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv)");
+  app.add_option("--seeds-frame", track.seedsFrame,
+                 "What the seeds' coordinates are, whatever their file says: lps, ras, or voxel "
+                 "(indices; radii in the file's unit)")
+      ->type_name("FRAME")
+      ->group("Tracking")
+      ->check(quietly(CLI::IsMember(kSeedSystems)));
+  app.add_option("--seeds-unit", track.seedsUnit,
+                 "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or "
+                 "um")
+      ->type_name("UNIT")
+      ->group("Tracking")
+      ->check(quietly(CLI::IsMember(kSeedUnits)));
+  group.addFlag("--strict", track.strict,
+                "Exit with 3, tracking nothing, if a seed cannot be placed in the volume; with 1 "
+                "if one started no track");
   group.add("--inlier-rate", o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
       ->check(kShare);
   group
