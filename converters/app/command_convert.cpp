@@ -67,8 +67,7 @@ private:
                                                      : from.readCase(m_input);
     }
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
-    convert::TrackResult tracked =
-        trackSeeds(volume, m_seeds, m_track.seeds, m_track.options, progress);
+    convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
     m_failures = std::move(tracked.failures);
     m_missedPoints = std::move(tracked.missedPoints);
     return std::move(tracked.result);

@@ -44,8 +44,7 @@ public:
     context.interrupts.watchOutput(m_output);
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
-    const convert::TrackResult tracked =
-        trackSeeds(volume, seeds, m_track.seeds, m_track.options, context.progress);
+    const convert::TrackResult tracked = trackSeeds(volume, seeds, m_track, context.progress);
     to.writeCase(tracked.result, m_output, {}, context.progress);
     report(tracked, context);
     return 0;

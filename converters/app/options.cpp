@@ -25,15 +25,22 @@ const CLI::Validator kScale = numberIn({1e-3, 1e3});
 // cases store it as a signed number
 const CLI::Validator kRandomSeed = wholeIn(0, std::numeric_limits<std::int64_t>::max());
 
-/// What --unit takes.
+/// What --unit and --seeds-unit take.
 const std::map<std::string, double> kMillimetresOf = {
     {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
 
-std::vector<std::string> wordsOf(const std::map<std::string, double>& units) {
+template <class T>
+std::vector<std::string> wordsOf(const std::map<std::string, T>& named) {
   std::vector<std::string> words;
-  for (const auto& [word, value] : units) words.push_back(word);
+  for (const auto& [word, value] : named) words.push_back(word);
   return words;
 }
+
+/// What --seeds-frame takes.
+const std::map<std::string, convert::SeedSystem> kSeedSystems = {
+    {"lps", convert::SeedSystem::Lps},
+    {"ras", convert::SeedSystem::Ras},
+    {"voxel", convert::SeedSystem::Voxel}};
 
 CLI::Validator within(int low, int high) {
   return wholeIn(low, high);
@@ -89,6 +96,15 @@ convert::ReadVolumeOptions VolumeArguments::options() const {
   if (crop.size() == 6)
     options.crop = convert::IndexBox{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
   return options;
+}
+
+convert::SeedReading TrackArguments::reading() const {
+  convert::SeedReading reading;
+  if (const auto system = kSeedSystems.find(seedsFrame); system != kSeedSystems.end())
+    reading.system = system->second;
+  if (const auto unit = kMillimetresOf.find(seedsUnit); unit != kMillimetresOf.end())
+    reading.unit = unit->second;
+  return reading;
 }
 
 convert::FitOptions FitArguments::options() const {
@@ -148,8 +164,20 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
   volume.addFlag("--dark", o.dark, "Vessels are darker than their background");
   Group group(app, "Tracking");
   addFile(app, "--seeds", track.seeds,
-          "Where vessels begin: lumen's seeds JSON, or 3D Slicer Markups (.mrk.json)")
+          "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv)")
       ->group("Tracking");
+  app.add_option("--seeds-frame", track.seedsFrame,
+                 "What the seeds' coordinates are, whatever their file says: lps, ras, or voxel "
+                 "(indices; radii in the file's unit)")
+      ->type_name("FRAME")
+      ->group("Tracking")
+      ->check(oneOf(wordsOf(kSeedSystems)));
+  app.add_option("--seeds-unit", track.seedsUnit,
+                 "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or "
+                 "um")
+      ->type_name("UNIT")
+      ->group("Tracking")
+      ->check(oneOf(wordsOf(kMillimetresOf)));
   group.add("--inlier-rate", o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
       ->check(kOpenShare);
   group

@@ -11,6 +11,7 @@
 #include "converters/app/file_format.h"
 #include "converters/fitting/fit.h"
 #include "converters/phantom/phantom.h"
+#include "converters/seeds/seeds.h"
 #include "converters/tracking/tracker.h"
 #include "converters/volume/read_volume.h"
 
@@ -28,7 +29,9 @@ struct VolumeArguments {
 
 struct TrackArguments {
   std::string seeds;
+  std::string seedsFrame, seedsUnit;  ///< empty: as the seeds file says
   convert::TrackOptions options;
+  [[nodiscard]] convert::SeedReading reading() const;
 };
 
 struct FitArguments {

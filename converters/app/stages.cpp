@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/stages.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "converters/app/file_access.h"
+#include "converters/app/report.h"
 #include "converters/common/error.h"
+#include "converters/seeds/place_seeds.h"
+#include "converters/tracking/volume_doubt.h"
+#include "formats/container/printable.h"
 
 namespace lumen::app {
 
@@ -26,6 +33,18 @@ void tellAssumptions(const std::filesystem::path& file, const std::vector<std::s
     progress.warn(file.string() + ": " + assumption);
 }
 
+/// One line for each seed, as long as there are not too many to read.
+void warnOfSeeds(const std::string& file, const std::string& what,
+                 const std::vector<convert::SeedFailure>& failures, Progress& progress) {
+  constexpr std::size_t kMost = 20;
+  for (std::size_t i = 0; i < std::min(failures.size(), kMost); ++i)
+    progress.warn(file + ": seed \"" + formats::printable(failures[i].label) + "\"" + what +
+                  failures[i].reason);
+  if (failures.size() > kMost)
+    progress.warn(file + ": and so on for " + std::to_string(failures.size() - kMost) +
+                  " more seeds; --json lists all");
+}
+
 }  // namespace
 
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
@@ -34,6 +53,12 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
   convert::Volume result = readVolume(file, format, volume, progress);
   progress.end();
   tellAssumptions(file, result.assumptions, progress);
+  const std::string name = formats::printable(file.string()) + ": ";
+  try {
+    if (const auto doubt = convert::doubtAbout(result)) progress.warn(name + *doubt);
+  } catch (const Error& error) {
+    throw Error(error.kind(), name + error.what());
+  }
   return result;
 }
 
@@ -44,22 +69,27 @@ std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
   requireInput(track.seeds, "seeds file");
   if (const std::string other = notA(ContentKind::Seeds, track.seeds); !other.empty())
     throw invalidInput(track.seeds + ": " + other);
-  return convert::readSeeds(track.seeds);
+  return convert::readSeeds(track.seeds, track.reading());
 }
 
 convert::TrackResult trackSeeds(const convert::Volume& volume,
                                 const std::vector<convert::SeedBranch>& seeds,
-                                const std::string& origin, const convert::TrackOptions& options,
-                                Progress& progress) {
-  convert::checkSeedsInside(seeds, volume.geometry, origin);
-  convert::TrackResult result = convert::track(volume, seeds, options, progress);
-  for (const auto& failure : result.failures)
-    progress.warn("seed " + failure.label + " started no track: " + failure.reason);
-  for (const auto& missed : result.missedPoints)
-    progress.warn("seed " + missed.label + " does not pass through its " + missed.reason);
+                                const TrackArguments& track, Progress& progress) {
+  const std::string file = formats::printable(track.seeds);
+  convert::PlacedSeeds placed =
+      convert::placeSeeds(seeds, volume.geometry, track.seeds);
+  if (!placed.advice.empty()) progress.warn(file + ": " + placed.advice);
+  warnOfSeeds(file, " is left out: ", placed.leftOut, progress);
+  warnOfSeeds(file, " is used without one of its points: ", placed.leftPoints, progress);
+  convert::TrackResult result = convert::track(volume, placed.seeds, track.options, progress);
+  warnOfSeeds(file, " started no track: ", result.failures, progress);
+  warnOfSeeds(file, " does not pass through its ", result.missedPoints, progress);
   if (result.result.tree.nodeCount() == 0)
-    throw failed(origin + ": none of its " + std::to_string(seeds.size()) +
-                 " seeds started a track; nothing is written");
+    throw failed(file + ": none of its " + counted(seeds.size(), "seed", "seeds") +
+                 " started a track; nothing is written");
+  std::move(placed.leftOut.begin(), placed.leftOut.end(), std::back_inserter(result.failures));
+  std::move(placed.leftPoints.begin(), placed.leftPoints.end(),
+            std::back_inserter(result.missedPoints));
   return result;
 }
 

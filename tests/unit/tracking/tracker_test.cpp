@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/tracking/tracker.h"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -209,21 +213,22 @@ TEST(Tracker, NoiseAloneStartsNoTrack) {
 
 TEST(NoiseFloor, IsZeroWithoutNoiseAndGrowsInProportionToIt) {
   const Volume clean = straightTube(0.6);
-  EXPECT_EQ(noiseFloor(BsplineVolume(clean), TrackOptions{}), 0.0);
+  EXPECT_EQ(noiseFloor(BsplineVolume(clean), TrackOptions{}, Progress{}), 0.0);
   const Volume weak = noisy(clean, 20), strong = noisy(clean, 80);
-  const double ratio = noiseFloor(BsplineVolume(strong), TrackOptions{}) /
-                       noiseFloor(BsplineVolume(weak), TrackOptions{});
+  const double ratio = noiseFloor(BsplineVolume(strong), TrackOptions{}, Progress{}) /
+                       noiseFloor(BsplineVolume(weak), TrackOptions{}, Progress{});
   EXPECT_NEAR(ratio, 4.0, 0.3);
 }
 
 TEST(Smoothing, IsNoneWithoutNoiseAndGrowsWithIt) {
   const Volume clean = straightTube(0.6);
   const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
-  EXPECT_NEAR(contrastAtClicks(BsplineVolume(clean), seeds, TrackOptions{}), 1000, 20);
-  EXPECT_EQ(smoothForNoise(clean, seeds, TrackOptions{}).smoothing, 0.0);
+  EXPECT_NEAR(contrastAtClicks(BsplineVolume(clean), seeds, TrackOptions{}, Progress{}), 1000, 20);
+  EXPECT_EQ(smoothForNoise(clean, seeds, TrackOptions{}, Progress{}).smoothing, 0.0);
   double last = 0;
   for (const double noise : {80.0, 200.0, 400.0}) {
-    const double smoothing = smoothForNoise(noisy(clean, noise), seeds, TrackOptions{}).smoothing;
+    const double smoothing =
+        smoothForNoise(noisy(clean, noise), seeds, TrackOptions{}, Progress{}).smoothing;
     EXPECT_GT(smoothing, last);
     last = smoothing;
   }
@@ -311,10 +316,90 @@ TEST(Tracker, AVesselThatRunsThroughAnotherOneKeepsThePartWithItsClick) {
     EXPECT_GT(out.result.tree.centre[i].x, 6.4F);
 }
 
-TEST(Tracker, AClickInTheBackgroundFailsWithItsInlierRate) {
+/// The number after `words` in `text`.
+double numberAfter(const std::string& text, const std::string& words) {
+  const auto at = text.find(words);
+  EXPECT_NE(at, std::string::npos) << words << " is not in: " << text;
+  return at == std::string::npos ? NAN : std::stod(text.substr(at + words.size()));
+}
+
+/// A reason that gives a rate and the least one must be about a rate that is too low, and likewise
+/// for rays and for walls.
+void expectReasonHolds(const std::string& reason) {
+  const auto has = [&](const char* words) { return reason.find(words) != std::string::npos; };
+  if (has("best inlier rate")) {
+    EXPECT_LT(numberAfter(reason, "best inlier rate "), numberAfter(reason, "at least ")) << reason;
+  }
+  if (has("rays meet")) {
+    EXPECT_LT(numberAfter(reason, "at most "), numberAfter(reason, "at least ")) << reason;
+  }
+  if (has("as strong as noise")) {
+    EXPECT_LT(numberAfter(reason, "its wall is "), numberAfter(reason, "at least ")) << reason;
+  }
+}
+
+TEST(Tracker, AClickInTheBackgroundFailsWithTheRaysThatMeetAWall) {
   const TrackResult out = trackOne(straightTube(0.6), {seedAt("nothing", {2, 2, 2}, 0.6)});
   ASSERT_EQ(out.failures.size(), 1u);
-  EXPECT_NE(out.failures[0].reason.find("inlier rate"), std::string::npos);
+  EXPECT_NE(out.failures[0].reason.find("0 rays meet"), std::string::npos);
+}
+
+TEST(Tracker, NoReasonContradictsItself) {
+  // clicks of every kind of failure: in noise, beside a vessel, at a face, with a wrong radius
+  std::set<std::string> kinds;
+  for (const double noise : {0.0, 50.0, 400.0}) {
+    const Volume volume = noisy(straightTube(0.6), noise);
+    std::vector<SeedBranch> seeds;
+    for (int i = 0; i < 60; ++i)
+      seeds.push_back(seedAt(std::to_string(i),
+                             Vector3d(0.2 * i + 0.3, 6.4 - 0.1 * (i % 12), 0.21 * (60 - i)),
+                             0.1 + 0.1 * (i % 20)));
+    for (const SeedFailure& failure : trackOne(volume, seeds).failures) {
+      expectReasonHolds(failure.reason);
+      kinds.insert(failure.reason.substr(0, 32));
+    }
+  }
+  EXPECT_GE(kinds.size(), 4U);
+}
+
+TEST(Tracker, AFitThatIsNoBetterThanNoiseSaysSo) {
+  const Volume volume = noisy(drawVolume(64, 0.2, [](const Vector3d&) { return 9.0; }), 50);
+  std::vector<SeedBranch> seeds;
+  for (int i = 0; i < 20; ++i)
+    seeds.push_back(seedAt(std::to_string(i), Vector3d(2.0 + 0.4 * i, 6.4, 3.0 + 0.3 * i)));
+  const TrackResult out = trackOne(volume, seeds);
+  EXPECT_TRUE(std::any_of(out.failures.begin(), out.failures.end(), [](const SeedFailure& failure) {
+    return failure.reason.find("--noise-margin") != std::string::npos;
+  }));
+}
+
+TEST(Tracker, VoxelsThatAreTooUnevenAreRefusedAtOnce) {
+  Volume volume = straightTube(0.6);
+  volume.geometry.spacing = {0.001, 0.001, 5};
+  EXPECT_THROW(trackOne(volume, {seedAt("tube", {0.03, 0.03, 100})}), Error);
+}
+
+TEST(NoiseFloor, NeedsABoundedPartOfTheSplineHoweverUnevenVoxelsAre) {
+  Volume volume;
+  volume.geometry.size = {700, 700, 40};
+  volume.voxels = std::vector<std::uint8_t>(volume.geometry.voxelCount(), 1);
+  for (const double edge : {1.0, 30.0, 300.0, 1000.0}) {
+    volume.geometry.spacing = {1, 1, edge};
+    const BsplineVolume spline(volume);
+    (void)noiseFloor(spline, TrackOptions{}, Progress{});
+    // ten bricks for each of 64 places; a brick has 36 x 35 x 35 floats
+    EXPECT_LT(spline.coefficientBytes(), 640u * 36 * 35 * 35 * 4) << edge;
+  }
+}
+
+TEST(NoiseFloor, CanBeCancelled) {
+  const Volume volume = straightTube(0.6);
+  Progress cancelled;
+  cancelled.cancel();
+  EXPECT_THROW((void)noiseFloor(BsplineVolume(volume), TrackOptions{}, cancelled), Error);
+  EXPECT_THROW((void)contrastAtClicks(BsplineVolume(volume), {seedAt("a", {6, 6, 6})},
+                                      TrackOptions{}, cancelled),
+               Error);
 }
 
 TEST(Tracker, AChildOfAFailedParentNamesIt) {
