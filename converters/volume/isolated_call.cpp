@@ -36,8 +36,8 @@ constexpr bool kLimitsMemory = true;
 class SharedBuffer {
 public:
   explicit SharedBuffer(std::size_t size)
-      : m_size(size), m_at(mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                                -1, 0)) {
+      : m_size(size),
+        m_at(mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
     if (m_at == MAP_FAILED) throw failed("there is no memory for a frame of pixels");
   }
   ~SharedBuffer() { munmap(m_at, m_size); }

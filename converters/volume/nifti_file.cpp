@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -19,9 +20,10 @@
 #include "converters/common/error.h"
 #include "converters/volume/nifti_geometry.h"
 #include "converters/volume/nifti_header.h"
+#include "converters/volume/packed_file.h"
 #include "converters/volume/stated_geometry.h"
+#include "converters/volume/stored_voxels.h"
 #include "converters/volume/volume_checks.h"
-#include "converters/volume/voxel_stream.h"
 
 namespace lumen::convert {
 namespace {
@@ -36,36 +38,40 @@ using GzFile = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
 /// A file whose header has been accepted.
 struct OpenNifti {
   NiftiHeader header;
-  bool packed = false;
-  std::size_t fileSize = 0;
   VolumeGeometry geometry;
+  StoredVoxels voxels;
+  std::uint64_t storedBytes = 0;
   std::vector<std::string> assumptions;
-  VoxelStream stream;  ///< at the first voxel
 };
 
-/// Walks the extensions, whose sizes are in the file, up to the first voxel.
-void skipExtensions(VoxelStream& stream, const NiftiHeader& header) {
-  std::array<std::byte, 4> announced{};
-  const std::size_t got = stream.read(announced);
-  std::size_t at = kNiftiHeaderSize + got;
-  const bool hasExtensions = announced[0] != std::byte{0};
+bool isGzip(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw invalidInput(path.string() + ": cannot be opened");
+  std::array<char, 2> magic{};
+  file.read(magic.data(), magic.size());
+  return file && magic[0] == '\x1f' && magic[1] == '\x8b';
+}
+
+/// Walks the extensions, whose sizes are in the file, up to the first voxel; `file` is behind the
+/// header.
+void checkExtensions(PackedFile& file, const NiftiHeader& header, const fs::path& path) {
+  std::array<std::byte, 4> announced{}, raw{};
+  if (file.read(announced.data(), 4) < 4 || announced[0] == std::byte{0}) return;
   constexpr std::size_t kSizeAndCode = 8;
-  while (hasExtensions && at + kSizeAndCode <= header.voxelOffset) {
-    std::array<std::byte, 4> raw{};
-    if (stream.read(raw) != raw.size()) break;
+  for (std::size_t at = kNiftiFirstVoxel; at + kSizeAndCode <= header.voxelOffset;) {
+    if (file.read(raw.data(), raw.size()) < raw.size()) return;
     if (header.swapped) std::reverse(raw.begin(), raw.end());
     const auto size = std::bit_cast<std::int32_t>(raw);
-    if (size < static_cast<int>(kSizeAndCode) ||
-        static_cast<std::size_t>(size) > header.voxelOffset - at)
-      throw invalidInput(stream.path().string() + ": its header extension at byte " +
-                         std::to_string(at) + " has " + std::to_string(size) +
-                         " bytes; expected 8 to " + std::to_string(header.voxelOffset - at) +
-                         ", up to the voxels at byte " + std::to_string(header.voxelOffset) +
-                         " (vox_offset)");
+    const std::size_t room = header.voxelOffset - at;
+    if (size < static_cast<int>(kSizeAndCode) || static_cast<std::size_t>(size) > room)
+      throw invalidInput(path.string() + ": its header extension at byte " + std::to_string(at) +
+                         " has " + std::to_string(size) + " bytes; expected 8 to " +
+                         std::to_string(room) + ", up to the voxels at byte " +
+                         std::to_string(header.voxelOffset) + " (vox_offset)");
+    std::vector<std::byte> rest(static_cast<std::size_t>(size) - raw.size());
+    if (file.read(rest.data(), rest.size()) < rest.size()) return;
     at += static_cast<std::size_t>(size);
-    if (stream.skip(static_cast<std::size_t>(size) - raw.size()) != size - raw.size()) break;
   }
-  if (at < header.voxelOffset) stream.skip(header.voxelOffset - at);
 }
 
 /// Spacings that --spacing does not replace must be some.
@@ -78,24 +84,7 @@ void checkSpacings(const NiftiHeader& header, const fs::path& path) {
                          "; expected a positive number; state the spacing with --spacing");
 }
 
-void checkFileHolds(const OpenNifti& file) {
-  const double before = file.packed ? 0 : static_cast<double>(file.header.voxelOffset);
-  checkRoom(file.stream.path(), static_cast<double>(file.header.voxelBytes()),
-            static_cast<double>(file.fileSize) - before, file.packed);
-}
-
-/// A slice or more behind the last voxel: the header may say less than the file holds.
-void tellRest(OpenNifti& file, std::size_t rest, bool more) {
-  const std::size_t slice =
-      file.header.voxelBytes() / static_cast<std::size_t>(file.header.size[2]);
-  if (rest < slice) return;
-  file.assumptions.push_back(
-      (more ? "at least " : "") + std::to_string(rest) +
-      " bytes follow the voxels that its header announces, and are left out");
-}
-
-void settleGeometry(OpenNifti& file, const ReadVolumeOptions& options) {
-  const fs::path& path = file.stream.path();
+void settleGeometry(OpenNifti& file, const fs::path& path, const ReadVolumeOptions& options) {
   if (!options.spacing) checkSpacings(file.header, path);
   const StatedGeometry stated = niftiGeometry(file.header, options, path, file.assumptions);
   const std::size_t before = file.assumptions.size();
@@ -108,76 +97,41 @@ void settleGeometry(OpenNifti& file, const ReadVolumeOptions& options) {
         "), so lengths are taken as mm; state the unit with --unit");
 }
 
-OpenNifti openNifti(const fs::path& path, const ReadVolumeOptions& options,
-                    const Progress& progress) {
-  const bool packed = isGzip(path);
-  VoxelStream stream(path, 0, packed ? Packing::Deflate : Packing::None, progress);
-  std::array<std::byte, kNiftiHeaderSize> bytes{};
-  const std::size_t got = stream.read(bytes);
-  if (got != bytes.size())
-    throw invalidInput(path.string() + ": truncated: " + std::to_string(got) +
-                       " bytes can be read, but a NIfTI header has 348");
-  OpenNifti file{.header = parseNiftiHeader(bytes, path),
-                 .packed = packed,
-                 .fileSize = fs::file_size(path),
-                 .geometry = {},
-                 .assumptions = {},
-                 .stream = std::move(stream)};
-  checkFileHolds(file);
-  settleGeometry(file, options);
-  skipExtensions(file.stream, file.header);
-  return file;
-}
-
-template <class To, class From, class Function>
-std::vector<To> converted(const std::vector<From>& raw, Function function) {
-  std::vector<To> out(raw.size());
-  std::transform(raw.begin(), raw.end(), out.begin(),
-                 [&](From v) { return static_cast<To>(function(v)); });
-  return out;
-}
-
-template <class From, class To>
-Voxels readAs(OpenNifti& file) {
-  const NiftiHeader& header = file.header;
-  std::vector<From> raw = readValues<From>(file.stream, header.voxelCount());
-  if (header.swapped && sizeof(From) > 1)
-    nifti_swap_Nbytes(raw.size(), static_cast<int>(sizeof(From)), raw.data());
+StoredVoxels storedVoxels(const fs::path& path, const NiftiHeader& header, Packing packing) {
+  StoredVoxels stored;
+  stored.header = path;
+  stored.files = {path};
+  stored.count = header.voxelCount();
+  stored.type = header.type;
+  stored.bigEndian = header.swapped;
+  stored.packing = packing;
+  if (packing == Packing::Raw)
+    stored.offset = header.voxelOffset;
+  else
+    stored.byteSkip = static_cast<std::int64_t>(header.voxelOffset);
   if (header.isScaled()) {
     const auto slope = static_cast<double>(header.slope);
-    const auto intercept = static_cast<double>(header.intercept);
-    return converted<float>(raw,
-                            [=](From v) { return slope * static_cast<double>(v) + intercept; });
+    stored.scaling = {slope, static_cast<double>(header.intercept)};
   }
-  if constexpr (std::is_same_v<From, To>)
-    return raw;
-  else
-    return converted<To>(raw, [](From v) { return v; });
+  return stored;
 }
 
-Voxels readTyped(OpenNifti& file) {
-  switch (file.header.type.code) {
-    case DT_UINT8:
-      return readAs<std::uint8_t, std::uint8_t>(file);
-    case DT_INT16:
-      return readAs<std::int16_t, std::int16_t>(file);
-    case DT_INT32:
-      return readAs<std::int32_t, float>(file);
-    case DT_FLOAT32:
-      return readAs<float, float>(file);
-    case DT_FLOAT64:
-      return readAs<double, float>(file);
-    case DT_INT8:
-      return readAs<std::int8_t, std::int16_t>(file);
-    case DT_UINT16:
-      return readAs<std::uint16_t, std::uint16_t>(file);
-    case DT_UINT32:
-      return readAs<std::uint32_t, float>(file);
-    case DT_INT64:
-      return readAs<std::int64_t, float>(file);
-    default:
-      return readAs<std::uint64_t, float>(file);
-  }
+OpenNifti openNifti(const fs::path& path, const ReadVolumeOptions& options,
+                    const Progress& progress) {
+  StoredVoxels whole;
+  whole.packing = isGzip(path) ? Packing::Deflate : Packing::Raw;
+  const auto bytes = openPacked(whole, path, 0, progress);
+  std::array<std::byte, kNiftiHeaderSize> head{};
+  if (const std::size_t got = bytes->read(head.data(), head.size()); got != head.size())
+    throw invalidInput(path.string() + ": truncated: " + std::to_string(got) +
+                       " bytes can be read, but a NIfTI header has 348");
+  OpenNifti file;
+  file.header = parseNiftiHeader(head, path);
+  file.voxels = storedVoxels(path, file.header, whole.packing);
+  file.storedBytes = checkStored(file.voxels, file.assumptions);
+  settleGeometry(file, path, options);
+  checkExtensions(*bytes, file.header, path);
+  return file;
 }
 
 short datatypeOf(const Voxels& voxels) {
@@ -201,11 +155,7 @@ Volume readNifti(const fs::path& path, const ReadVolumeOptions& options, const P
   OpenNifti file = openNifti(path, options, progress);
   Volume volume;
   volume.geometry = file.geometry;
-  volume.voxels = readTyped(file);
-  // also brings the checksum of a gzip stream, which follows its last byte
-  const std::size_t most = file.header.voxelBytes() + 1;
-  const std::size_t rest = file.stream.skip(most);
-  tellRest(file, rest, rest == most);
+  volume.voxels = readStored(file.voxels, progress, file.assumptions);
   volume.assumptions = std::move(file.assumptions);
   return volume;
 }
@@ -213,13 +163,11 @@ Volume readNifti(const fs::path& path, const ReadVolumeOptions& options, const P
 VolumeHeader readNiftiHeader(const fs::path& path, const ReadVolumeOptions& options,
                              const Progress& progress) {
   OpenNifti file = openNifti(path, options, progress);
-  if (!file.packed)
-    tellRest(file, file.fileSize - file.header.voxelOffset - file.header.voxelBytes(), false);
   return {.geometry = file.geometry,
-          .storedType = file.header.type.name,
-          .encoding = file.packed ? "gzip" : "raw",
+          .storedType = nameOf(file.header.type),
+          .encoding = file.voxels.packing == Packing::Deflate ? "gzip" : "raw",
           .voxelBytes = file.header.voxelBytes(),
-          .storedBytes = file.fileSize,
+          .storedBytes = file.storedBytes,
           .assumptions = std::move(file.assumptions)};
 }
 

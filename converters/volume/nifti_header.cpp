@@ -18,16 +18,21 @@ namespace fs = std::filesystem;
 // with its extensions is as long.
 constexpr double kMaxOffset = 1 << 24;
 
-constexpr std::array<NiftiType, 10> kTypes = {{{2, "uint8", 1},
-                                               {4, "int16", 2},
-                                               {8, "int32", 4},
-                                               {16, "float32", 4},
-                                               {64, "float64", 8},
-                                               {256, "int8", 1},
-                                               {512, "uint16", 2},
-                                               {768, "uint32", 4},
-                                               {1024, "int64", 8},
-                                               {1280, "uint64", 8}}};
+/// A type of one number for each voxel.
+struct ScalarType {
+  int code;
+  PixelType type;
+};
+constexpr std::array<ScalarType, 10> kTypes = {{{2, PixelType::UInt8},
+                                                {4, PixelType::Int16},
+                                                {8, PixelType::Int32},
+                                                {16, PixelType::Float32},
+                                                {64, PixelType::Float64},
+                                                {256, PixelType::Int8},
+                                                {512, PixelType::UInt16},
+                                                {768, PixelType::UInt32},
+                                                {1024, PixelType::Int64},
+                                                {1280, PixelType::UInt64}}};
 
 /// Types of several numbers for each voxel.
 struct CompoundType {
@@ -116,22 +121,23 @@ std::array<int, 3> sizesOf(const Fields& fields, const fs::path& path) {
   return size;
 }
 
-NiftiType typeOf(const Fields& fields, const fs::path& path) {
+PixelType typeOf(const Fields& fields, const fs::path& path) {
   const int code = fields.get16(70), bits = fields.get16(72);
   for (const CompoundType& type : kCompoundTypes)
     if (type.code == code)
       refuse(path, std::string("each voxel has ") + type.components, "one number");
   const auto* const type = std::find_if(kTypes.begin(), kTypes.end(),
-                                        [&](const NiftiType& t) { return t.code == code; });
+                                        [&](const ScalarType& t) { return t.code == code; });
   if (type == kTypes.end())
     throw unsupported(path.string() + ": its NIfTI datatype is " + std::to_string(code) +
                       "; expected integers of 8 to 64 bits, floats or doubles");
-  if (bits != static_cast<int>(8 * type->bytes))
+  const std::size_t expected = 8 * sizeOf(type->type);
+  if (bits != static_cast<int>(expected))
     refuse(path,
            "bitpix is " + std::to_string(bits) + ", but datatype is " + std::to_string(code) +
-               " (" + type->name + ")",
-           std::to_string(8 * type->bytes) + " bits");
-  return *type;
+               " (" + nameOf(type->type) + ")",
+           std::to_string(expected) + " bits");
+  return type->type;
 }
 
 std::size_t offsetOf(const Fields& fields, const fs::path& path) {

@@ -11,23 +11,18 @@
 #include <span>
 #include <string>
 
+#include "converters/volume/stored_voxels.h"
+
 namespace lumen::convert {
 
 constexpr std::size_t kNiftiHeaderSize = 348;
 /// Where voxels begin at the earliest: after the header and the four bytes that announce extensions.
 constexpr std::size_t kNiftiFirstVoxel = 352;
 
-/// A type of voxels that is read.
-struct NiftiType {
-  int code = 0;
-  const char* name = "";
-  std::size_t bytes = 0;
-};
-
 struct NiftiHeader {
   bool swapped = false;       ///< the file has the other byte order than this machine
   std::array<int, 3> size{};  ///< voxels along i, j, k; at least 1
-  NiftiType type;
+  PixelType type = PixelType::UInt8;
   std::size_t voxelOffset = 0;     ///< bytes before the first voxel; at least 352
   std::array<float, 3> pixdim{};   ///< spacings in the file's unit, unchecked
   float handedness = 1;            ///< qfac, pixdim[0], unchecked
@@ -41,7 +36,7 @@ struct NiftiHeader {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
            static_cast<std::size_t>(size[2]);
   }
-  [[nodiscard]] std::size_t voxelBytes() const { return voxelCount() * type.bytes; }
+  [[nodiscard]] std::size_t voxelBytes() const { return voxelCount() * sizeOf(type); }
   [[nodiscard]] bool isScaled() const { return slope != 0 && (slope != 1 || intercept != 0); }
 };
 

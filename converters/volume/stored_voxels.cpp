@@ -78,7 +78,7 @@ private:
     const std::size_t before = m_voxels.size();
     m_voxels.resize(before + wanted);
     To* to = m_voxels.data() + before;
-    if constexpr (std::is_same_v<From, To>) {
+    if (isPlain()) {
       const std::size_t got = packed.read(reinterpret_cast<std::byte*>(to), wanted * sizeof(From));
       swapIfNeeded(reinterpret_cast<std::byte*>(to), got / sizeof(From));
       return got;
@@ -88,10 +88,19 @@ private:
       for (std::size_t i = 0; i < got / sizeof(From); ++i) {
         From value;
         std::memcpy(&value, m_block.data() + i * sizeof(From), sizeof(From));
-        to[i] = static_cast<To>(value);
+        to[i] = converted(value);
       }
       return got;
     }
+  }
+
+  /// True if the bytes of the file are those in memory.
+  [[nodiscard]] bool isPlain() const { return std::is_same_v<From, To> && !m_stored.scaling; }
+
+  [[nodiscard]] To converted(From value) const {
+    if (!m_stored.scaling) return static_cast<To>(value);
+    return static_cast<To>(m_stored.scaling->slope * static_cast<double>(value) +
+                           m_stored.scaling->intercept);
   }
 
   void swapIfNeeded(std::byte* bytes, std::size_t count) const {
@@ -120,6 +129,8 @@ private:
 template <class From, class To>
 Voxels readAs(const StoredVoxels& stored, const Progress& progress,
               std::vector<std::string>& assumptions) {
+  if (stored.scaling && !std::is_same_v<To, float>)
+    return readAs<From, float>(stored, progress, assumptions);
   return std::make_unique<VoxelReader<From, To>>(stored, progress, assumptions)->read();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voxels as the files of NRRD and MetaImage hold them, into memory: in one pass, with no more memory
+// Voxels as the files of NRRD, MetaImage and NIfTI hold them, into memory: in one pass, with no more memory
 // than the volume and what has come out of the files so far.
 #pragma once
 
@@ -39,6 +39,11 @@ struct StoredVoxels {
   /// the file does.
   std::int64_t byteSkip = 0;
   std::optional<std::uint64_t> packedSize;  ///< bytes of the packed stream, if the header says
+  /// What the stored values are multiplied by, and what is added then; the result is float.
+  struct Scaling {
+    double slope = 1, intercept = 0;
+  };
+  std::optional<Scaling> scaling;
 };
 
 /// Bytes of the files. Throws Error(InvalidInput) unless they can hold the voxels: raw ones exactly,

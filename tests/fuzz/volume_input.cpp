@@ -48,8 +48,7 @@ void checkGeometry(const convert::VolumeGeometry& g) {
     expect(std::isfinite(g.spacing[a]) && g.spacing[a] > 0, "spacings are positive");
   }
   expect(g.origin.allFinite(), "the origin is finite");
-  const Eigen::Matrix3d off =
-      g.direction.transpose() * g.direction - Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d off = g.direction.transpose() * g.direction - Eigen::Matrix3d::Identity();
   expect(off.cwiseAbs().maxCoeff() < 1e-9, "directions are orthonormal");
 }
 
@@ -75,8 +74,7 @@ void readVolumeOf(const std::uint8_t* data, std::size_t size, const std::string&
   (void)folder.write("d", data, size);
   const fs::path file = folder.write(name, data, size);
   const Progress silent;
-  const auto header =
-      accepted([&] { return convert::readVolumeHeader(file, format, {}, silent); });
+  const auto header = accepted([&] { return convert::readVolumeHeader(file, format, {}, silent); });
   if (header) checkGeometry(header->geometry);
   // voxels of 1032 times the file are legal, but too slow for many inputs
   constexpr std::uint64_t kMostBytes = 1 << 24;

@@ -89,7 +89,7 @@ TEST_F(HostileNifti, AnOffsetBeyondTheFileIsRefused) {
                 {"3: ", "v.nii", "truncated", "8 bytes"});
   const std::string packed =
       gzipped(HeaderBytes().put(108, 4000.0F).text() + kEight, path("scratch.gz"));
-  expectRefused(readRefusal(write("v.nii.gz", packed)), {"3: ", "v.nii.gz", "0 of 8 bytes"});
+  expectRefused(readRefusal(write("v.nii.gz", packed)), {"3: ", "v.nii.gz", "truncated"});
 }
 
 TEST_F(HostileNifti, BitsThatContradictTheTypeAreRefused) {
@@ -214,24 +214,25 @@ TEST_F(HostileNifti, ExtensionsMustEndBeforeTheVoxels) {
 }
 
 TEST_F(HostileNifti, DataBehindTheVoxelsIsTold) {
-  for (const auto& file : files(HeaderBytes().text() + kEight + "wxyz"))
-    expectRefused(readQuietly(file).assumptions.at(0), {"4 bytes follow", "left out"});
-  for (const auto& file : files(HeaderBytes().text() + kEight + "wxy"))  // less than a slice
-    EXPECT_TRUE(readQuietly(file).assumptions.empty());
+  for (const auto& file : files(HeaderBytes().text() + kEight + "w"))
+    expectRefused(readQuietly(file).assumptions.at(0), {"goes on", "not read"});
 }
 
 TEST_F(HostileNifti, AHeaderIsReadWithoutInflatingAVoxel) {
   NiftiHeader large;
-  large.dim = {3, 1000, 1000, 100, 1, 1, 1, 1};
-  std::string packed = gzipped(large.text() + std::string(100'000'000, 'x'), path("scratch.gz"));
-  for (std::size_t n = packed.size() / 2; n < packed.size(); ++n) packed[n] = '\xff';
+  large.dim = {3, 100, 100, 100, 1, 1, 1, 1};
+  std::string noise(1'000'000, '\0');
+  std::uint32_t state = 1;
+  for (char& c : noise) c = static_cast<char>((state = state * 1664525U + 1013904223U) >> 24U);
+  std::string packed = gzipped(large.text() + noise, path("scratch.gz"));
+  for (std::size_t n = packed.size() / 2; n < packed.size(); ++n) packed[n] = '\x55';
   const VolumeHeader header = headerOf(write("v.nii.gz", packed));
-  EXPECT_EQ(header.geometry.size, (std::array{1000, 1000, 100}));
-  EXPECT_EQ(header.voxelBytes, 100'000'000U);
+  EXPECT_EQ(header.geometry.size, (std::array{100, 100, 100}));
+  EXPECT_EQ(header.voxelBytes, noise.size());
   EXPECT_EQ(header.storedBytes, packed.size());
   EXPECT_EQ(header.storedType, "uint8");
   EXPECT_EQ(header.encoding, "gzip");
-  expectRefused(readRefusal(path("v.nii.gz")), {"3: ", "v.nii.gz", "its compressed data is"});
+  expectRefused(readRefusal(path("v.nii.gz")), {"3: ", "v.nii.gz", "damaged"});
 }
 
 TEST_F(HostileNifti, SeveralMembersOfGzipAreOneStream) {
