@@ -5,6 +5,7 @@ lumen_test(volume_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/bspline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_dicom_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_nifti_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/detached_data_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/header_geometry_test.cpp
