@@ -165,20 +165,21 @@ public:
   }
 
   int run(Context& context) override {
-    bool valid = true, personal = false;
+    bool valid = true, personal = false, warned = false;
     Json files = Json::array();
     for (const std::string& file : m_files) {
       context.progress.check();
       const FileReport report = examine(file, m_maxIssues, m_privacy);
       valid = valid && report.valid;
       personal = personal || report.personal;
+      warned = warned || report.counts.warnings > 0;
       if (context.common.json)
         files.push_back(reportJson(file, report));
       else if (!context.common.quiet || !report.valid || report.personal)
         answer(reportText(file, report));
     }
     if (context.common.json) answerJson({{"valid", valid}, {"files", std::move(files)}});
-    return valid && !personal ? 0 : kInvalid;
+    return valid && !personal && !(warned && context.common.strict) ? 0 : kInvalid;
   }
 
 private:
