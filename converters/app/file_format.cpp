@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "converters/app/file_access.h"
+#include "converters/app/loss_report.h"
 #include "converters/app/suggestion.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
@@ -55,6 +56,7 @@ void writeMeshAs(const formats::Case& value, const fs::path& file, const OutputO
                  Progress& progress) {
   const Meshes meshes = convert::polygonise(value, options.polygonise, progress);
   progress.check();
+  reportLosses(meshes, file.string(), options.polygonise.cell, progress);
   writeText(encode(meshes, options.mesh), file);
 }
 
@@ -67,9 +69,9 @@ std::vector<FileFormat> makeTable() {
   using enum FormatKind;
   return {
       // cases
-      {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"}, .holds = kEveryPart,
+      {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Binary>},
-      {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"}, .holds = kEveryPart,
+      {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
       // meshes
       {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = writeMeshAs<encodeGlb>},

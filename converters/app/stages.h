@@ -25,8 +25,7 @@ std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track);
 
 /// Tracks `seeds` through the volume. Seeds that cannot be placed in it or that start no track
 /// become warnings, and failures of the result. `track.seeds` is where they are from, for messages.
-/// Throws Error(InvalidInput) if none can be placed, or with --strict not all; and Error(Failed) if
-/// nothing was tracked.
+/// Throws Error(InvalidInput) if none can be placed, and Error(Failed) if nothing was tracked.
 convert::TrackResult trackSeeds(const convert::Volume& volume,
                                 const std::vector<convert::SeedBranch>& seeds,
                                 const TrackArguments& track, Progress& progress);

@@ -41,7 +41,7 @@ def negative(store):
 
 @fixture("future.lumen.json")
 def future(store):
-    return re.sub(r'"version": "[^"]*"', '"version": "2.0"', store.text("plain.lumen.json"), count=1).encode()
+    return re.sub(r'"(version|minimumReader)": "[^"]*"', r'"\1": "2.0"', store.text("plain.lumen.json"), count=2).encode()
 
 
 @fixture("empty.lumen")
