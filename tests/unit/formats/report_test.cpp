@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/container/bytes.h"
+#include "formats/container/printable.h"
 #include "unit/formats/allocation_meter.h"
 #include "unit/formats/sample_case.h"
 
@@ -218,6 +219,26 @@ TEST(Report, PlacesALabelInItsChunk) {
   ASSERT_FALSE(result);
   EXPECT_EQ(test::codeOf(result), "TEXT_UTF8");
   EXPECT_EQ(result.error().offset, dataOf(file, "BLAB") + 8);
+}
+
+// Every text and every key of a file in turn is one that would forge a line.
+TEST(Report, OfHostileTextsIsLinesThatNobodyForged) {
+  const std::string good = encodeJson(test::fullCase());
+  const std::string evil = "\\nx: valid\\u001b[2K\\u0085\xe2\x80\xae\xe2\x80\xa8";
+  std::size_t texts = 0;
+  for (std::size_t at = good.find('"'); at != std::string::npos; at = good.find('"', at)) {
+    const std::size_t end = good.find('"', at + 1);
+    std::string text = good;
+    text.replace(at + 1, end - at - 1, evil);
+    at = end + 1;
+    const auto report = reportOf(text);
+    for (const Issue& issue : report.issues) {
+      ++texts;
+      ASSERT_EQ(issue.text(), printable(issue.text()));
+      ASSERT_EQ(issue.place(), printable(issue.place()));
+    }
+  }
+  EXPECT_GE(texts, 80u);
 }
 
 // Whatever goes wrong, the arguments are those that the rule declares.
