@@ -54,11 +54,12 @@ def stated(schema):
 
 
 def loose(schema, place):
-    """Objects of a schema that take any key, or do without one that they have."""
+    """Objects of a schema that take any key, or do without one that they have, unless it comes with others."""
     if isinstance(schema, dict):
         if schema.get("type") == "object":
             if "properties" in schema and (schema.get("additionalProperties") is not False
-                                           or schema.get("required") != list(schema["properties"])): yield place
+                                           or set(schema.get("required", [])) | set(schema.get("dependentRequired", {}))
+                                           != set(schema["properties"])): yield place
             if "properties" not in schema and not isinstance(schema.get("additionalProperties"), dict): yield place
         for key, below in schema.items(): yield from loose(below, f"{place}/{key}")
     elif isinstance(schema, list):
@@ -118,7 +119,8 @@ def make_cases(lumen, folder):
     go("compare.schema.json", "compare", "fitted.lumen", "truth.lumen")
     go("compare.schema.json", "compare", "truth.lumen", "tracked.lumen")
     go("completion.schema.json", "completion", "bash")
-    for volume in ("a.nrrd", "a.nii.gz"): go("info-volume.schema.json", "info", volume)
+    for volume in ("a.nrrd", "a.nii.gz"):
+        for voxels in ((), ("--voxels",)): go("info-volume.schema.json", "info", volume, *voxels)
     for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
         go("info-case.schema.json", "info", case)
         if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")
