@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "converters/app/file_access.h"
-#include "converters/app/report.h"
 #include "converters/common/error.h"
 #include "converters/seeds/place_seeds.h"
 #include "converters/tracking/volume_doubt.h"
@@ -94,8 +93,10 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
   warnOfSeeds(file, " started no track: ", result.failures, progress);
   warnOfSeeds(file, " does not pass through its ", result.missedPoints, progress);
   if (result.result.tree.nodeCount() == 0)
-    throw failed(file + ": none of its " + counted(seeds.size(), "seed", "seeds") +
-                 " started a track; nothing is written");
+    throw failed(file + ": " +
+                 (seeds.size() == 1 ? std::string("its seed")
+                                    : "none of its " + std::to_string(seeds.size()) + " seeds") +
+                 " started " + (seeds.size() == 1 ? "no" : "a") + " track; nothing is written");
   std::move(placed.leftOut.begin(), placed.leftOut.end(), std::back_inserter(result.failures));
   std::move(placed.leftPoints.begin(), placed.leftPoints.end(),
             std::back_inserter(result.missedPoints));

@@ -22,6 +22,8 @@ using Eigen::Vector3d;
 constexpr double kOutermost = 0.5, kJustInside = 1e-6;
 /// Of the volume's longest side, and of its finest voxel edge: radii that a vessel in it may have.
 constexpr double kWidest = 0.5, kThinnest = 0.1;
+/// Of the points: if so many lie inside, the others are mistakes of their own.
+constexpr double kMostlyInside = 0.75;
 /// mm: a volume that is smaller may be one in metres.
 constexpr double kSmallVolume = 10.0;
 
@@ -156,6 +158,7 @@ bool allAtOrigin(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geo
 /// that is all that is asked.
 std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
                       std::size_t points, std::size_t inside, bool onlyMetres) {
+  const std::size_t asStated = inside;
   std::string advice;
   for (const OtherReading& other : kOtherReadings) {
     if (onlyMetres && other.reading.unit != kMetre) continue;
@@ -171,7 +174,7 @@ std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry
     advice = std::string("read ") + other.words + " " + insideText(count, points) + other.options;
   }
   const double side = 2 * radiusRange(geometry).most;
-  if (onlyMetres || side >= kSmallVolume) return advice;
+  if (onlyMetres || asStated > 0 || side >= kSmallVolume) return advice;
   VolumeGeometry metres = geometry;
   metres.spacing *= kMetre;
   metres.origin *= kMetre;
@@ -199,9 +202,9 @@ public:
         countInside(seeds, geometry, [&](const SeedBranch& branch, const Vector3d& position) {
           return worldOf(branch, position, geometry);
         });
-    if (inside < points)
+    if (static_cast<double>(inside) < kMostlyInside * static_cast<double>(points))
       placed.advice = adviceFor(seeds, geometry, points, inside, false);
-    else if (allAtOrigin(seeds, geometry))
+    else if (inside == points && allAtOrigin(seeds, geometry))
       placed.advice = adviceFor(seeds, geometry, points, 0, true);
   }
 

@@ -43,6 +43,27 @@ void checkVoxels(const Eigen::Vector3d& spacing) {
   throw invalidInput(text.data());
 }
 
+/// Times the contrast of the vessels as they should be: if they have so much the other way, they are
+/// the other way.
+constexpr double kOtherWay = 4.0;
+
+void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                     const TrackOptions& options, Progress& progress) {
+  const Eigen::Vector3d& spacing = volume.geometry.spacing;
+  const double most = BsplineVolume::kMostSmoothing * spacing.minCoeff();
+  const BsplineVolume spline(
+      volume, Eigen::Vector3d::Constant(std::min(volume.geometry.voxelSize(), most)));
+  TrackOptions other = options;
+  other.dark = !options.dark;
+  const double contrast = contrastAtClicks(spline, seeds, options, progress);
+  if (contrastAtClicks(spline, seeds, other, progress) <= kOtherWay * contrast) return;
+  progress.warn(
+      options.dark ? "most seeds lie where it is brighter than around them, but --dark tracks dark "
+                     "vessels: leave it out if vessels are bright"
+                   : "most seeds lie where it is darker than around them: if vessels are dark, add "
+                     "--dark");
+}
+
 /// For every seed, its parent's position in the list (-1: none) and its depth below a root.
 struct Ancestry {
   std::vector<int> parent, depth;
@@ -167,6 +188,7 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
                   const TrackOptions& options, Progress& progress) {
   options.check(volume.geometry.spacing.minCoeff());
   checkVoxels(volume.geometry.spacing);
+  warnOfOtherSign(volume, seeds, options, progress);
   const SmoothedVolume smoothed = smoothForNoise(volume, seeds, options, progress);
   const TrackContext context(*smoothed.spline, options, smoothed.noiseFloor, progress);
   const Ancestry ancestry = findAncestry(seeds);

@@ -373,6 +373,32 @@ TEST(Tracker, AFitThatIsNoBetterThanNoiseSaysSo) {
   }));
 }
 
+/// The warnings of a track.
+class Warnings : public Progress {
+public:
+  void warn(std::string_view message) override { text.append(message).append("\n"); }
+  std::string text;
+};
+
+TEST(Tracker, SeedsOnVesselsOfTheOtherSignAreWarnedOf) {
+  const Volume bright = straightTube(0.6);
+  Volume dark = bright;
+  for (auto& v : std::get<std::vector<std::int16_t>>(dark.voxels))
+    v = static_cast<std::int16_t>(1000 - v);
+  const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0}, 0.6)};
+  TrackOptions forDark;
+  forDark.dark = true;
+  const auto warned = [&](const Volume& volume, const TrackOptions& options) {
+    Warnings warnings;
+    (void)track(volume, seeds, options, warnings);
+    return warnings.text;
+  };
+  EXPECT_EQ(warned(bright, {}), "");
+  EXPECT_EQ(warned(dark, forDark), "");
+  EXPECT_NE(warned(dark, {}).find("add --dark"), std::string::npos);
+  EXPECT_NE(warned(bright, forDark).find("leave it out"), std::string::npos);
+}
+
 TEST(Tracker, VoxelsThatAreTooUnevenAreRefusedAtOnce) {
   Volume volume = straightTube(0.6);
   volume.geometry.spacing = {0.001, 0.001, 5};
