@@ -26,6 +26,12 @@ convert::Volume readVolumeAs(const fs::path& file, const convert::ReadVolumeOpti
   return convert::readVolume(file, format, options, progress);
 }
 
+template <VolumeFormat format>
+convert::VolumeHeader readHeaderAs(const fs::path& file, const convert::ReadVolumeOptions& options,
+                                   const Progress& progress) {
+  return convert::readVolumeHeader(file, format, options, progress);
+}
+
 template <VolumeFormat format, bool compressed>
 void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
   convert::writeVolume(volume, file, format, compressed);
@@ -81,19 +87,23 @@ std::vector<FileFormat> makeTable() {
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
-       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
       {.name = "nhdr", .title = "NRRD", .kind = Volume, .endings = {".nhdr"},
-       .readVolume = readVolumeAs<VolumeFormat::Nrrd>},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>},
       {.name = "nii", .title = "NIfTI", .kind = Volume, .endings = {".nii"},
-       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
       {.name = "nii.gz", .title = "NIfTI", .kind = Volume, .endings = {".nii.gz"},
-       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
       {.name = "mha", .title = "MetaImage", .kind = Volume, .endings = {".mha"},
-       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>,
+       .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
       {.name = "mhd", .title = "MetaImage", .kind = Volume, .endings = {".mhd"},
-       .readVolume = readVolumeAs<VolumeFormat::MetaImage>},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>},
       {.name = "dicom", .title = "a folder of DICOM", .kind = Volume,
-       .readVolume = readVolumeAs<VolumeFormat::Dicom>},
+       .readVolume = readVolumeAs<VolumeFormat::Dicom>, .readVolumeHeader = readHeaderAs<VolumeFormat::Dicom>},
   };
 }
 // clang-format on

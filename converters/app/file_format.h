@@ -33,6 +33,9 @@ struct FileFormat {
   using CaseReader = formats::Case (*)(const std::filesystem::path&);
   using VolumeReader = convert::Volume (*)(const std::filesystem::path&,
                                            const convert::ReadVolumeOptions&, const Progress&);
+  using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
+                                                       const convert::ReadVolumeOptions&,
+                                                       const Progress&);
   using CaseWriter = void (*)(const formats::Case&, const std::filesystem::path&,
                               const OutputOptions&, Progress&);
   using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
@@ -43,8 +46,9 @@ struct FileFormat {
   std::vector<std::string_view> endings{};  ///< of a name, lower case; empty: a folder
   CaseReader readCase = nullptr;
   VolumeReader readVolume = nullptr;
-  CaseWriter writeCase = nullptr;      ///< atomically
-  VolumeWriter writeVolume = nullptr;  ///< atomically
+  VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
+  CaseWriter writeCase = nullptr;                 ///< atomically
+  VolumeWriter writeVolume = nullptr;             ///< atomically
 };
 
 const std::vector<FileFormat>& fileFormats();

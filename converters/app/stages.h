@@ -14,6 +14,10 @@
 
 namespace lumen::app {
 
+/// What the header of the volume in `file` says; tells of what it leaves open.
+convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
+                                       const VolumeArguments& volume, Progress& progress);
+
 /// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
 /// file leaves open and the reader assumed becomes warnings.
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,

@@ -74,7 +74,8 @@ constexpr auto kRules = std::to_array<ErrorRule>({
     {EnumValue, Severity::Error, "ENUM_VALUE", "found expected",
      "a kind, stop reason, kernel or array type is none of those that the format defines"},
     {JsonChunkData, Severity::Error, "JSON_CHUNK_DATA", "chunk",
-     "the data of a chunk in JSON are not base64, its type is that of a known chunk, or its raw size "
+     "the data of a chunk in JSON are not base64, its type is that of a known chunk, or its raw "
+     "size "
      "is missing, not wanted or too large"},
     {Limit, Severity::Error, "LIMIT", "found limit", "a count exceeds its published maximum"},
     {ArrayLength, Severity::Error, "ARRAY_LENGTH", "found expected",

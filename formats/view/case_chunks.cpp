@@ -25,9 +25,9 @@ bool checkKnown(const Chunk& chunk, const ChunkRule& rule, IssueList& issues) {
     return false;
   }
   if (chunk.critical != rule.critical) {
-    issues.add(
-        chunkIssue(ErrorCode::ChunkField, chunk,
-                   rule.critical ? "must be marked critical" : "must not be marked critical", 6));
+    issues.add(chunkIssue(ErrorCode::ChunkField, chunk,
+                          rule.critical ? "must be marked critical" : "must not be marked critical",
+                          6));
     return false;
   }
   return true;

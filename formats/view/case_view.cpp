@@ -130,11 +130,11 @@ void checkLabels(const CaseView& view, const CaseChunks& chunks, IssueList& issu
     if (branch.labelOffset != next) {
       const bool agrees = b > 0 && branch.labelOffset + branch.labelSize == startOf(b + 1);
       const std::string found = std::to_string(branch.labelOffset), expected = std::to_string(next);
-      Issue issue = labelIssue(
-          ErrorCode::LabelOffset, records, agrees ? b - 1 : b,
-          agrees ? kLabelSizeAt : kLabelOffsetAt,
-          "the label of branch " + std::to_string(b) + " starts at byte " + found +
-              " of BLAB, the labels before it end at byte " + expected);
+      Issue issue =
+          labelIssue(ErrorCode::LabelOffset, records, agrees ? b - 1 : b,
+                     agrees ? kLabelSizeAt : kLabelOffsetAt,
+                     "the label of branch " + std::to_string(b) + " starts at byte " + found +
+                         " of BLAB, the labels before it end at byte " + expected);
       issue.arguments = {{"found", found}, {"expected", expected}};
       issues.add(std::move(issue));
       if (agrees) next = branch.labelOffset;

@@ -21,7 +21,11 @@ public:
   bool null() override { return put(nullptr); }
   bool boolean(bool value) override { return put(value); }
   bool string(std::string& value) override { return put(value); }
-  bool number(std::string_view text, bool) override { return put(json::parse(text)); }
+  bool number(std::string_view text, bool) override {
+    json value = json::parse(text, nullptr, false);
+    tooLarge = tooLarge || value.is_discarded();  // for the other, not for us
+    return put(std::move(value));
+  }
   bool beginObject() override { return open(json::object()); }
   bool key(std::string& name) override {
     m_keys.back() = name;
@@ -31,6 +35,7 @@ public:
   bool beginArray() override { return open(json::array()); }
   bool endArray() override { return close(); }
   json root;
+  bool tooLarge = false;
 
 private:
   bool open(json value) {
@@ -68,6 +73,7 @@ void compare(const std::string& text) {
   const json other = json::parse(text, nullptr, false);
   // the other takes a zero byte for the end, and a byte order mark
   if (text.find('\0') != std::string::npos || text.starts_with("\xef\xbb\xbf")) return;
+  if (builder.tooLarge) return;
   ASSERT_EQ(fault.has_value(), other.is_discarded()) << text;
   if (!fault) {
     ASSERT_EQ(builder.root, other) << text;
@@ -101,12 +107,31 @@ TEST(JsonText, IsTakenOrNotAsByAnotherReader) {
 
 // Up to the byte, the text can be completed to JSON; with it, it cannot.
 TEST(JsonText, IsRefusedAtItsFirstByteThatCannotBeRight) {
-  const std::pair<const char*, std::size_t> cases[] = {
-      {"{x", 1},        {"", 0},           {"[1 2]", 3},    {"{\"a\" 5}", 5}, {"{\"a\":1,}", 7},
-      {"[1,]", 3},      {"[01]", 2},       {"[1.]", 3},     {"[-]", 2},       {"[1e]", 3},
-      {"tru", 3},       {"trUe", 2},       {"[] x", 3},     {"\"a\nb\"", 2},  {"\"\xff\"", 1},
-      {"\"\\x\"", 1},   {"\"\\ud800\"", 1}, {"\"ab", 3},     {"[", 1},         {"{\"a\":", 5},
-      {"// no\n1", 0},  {"'a'", 0},        {"[NaN]", 1},    {"+1", 0},        {"\xef\xbb\xbf[]", 0}};
+  const std::pair<const char*, std::size_t> cases[] = {{"{x", 1},
+                                                       {"", 0},
+                                                       {"[1 2]", 3},
+                                                       {"{\"a\" 5}", 5},
+                                                       {"{\"a\":1,}", 7},
+                                                       {"[1,]", 3},
+                                                       {"[01]", 2},
+                                                       {"[1.]", 3},
+                                                       {"[-]", 2},
+                                                       {"[1e]", 3},
+                                                       {"tru", 3},
+                                                       {"trUe", 2},
+                                                       {"[] x", 3},
+                                                       {"\"a\nb\"", 2},
+                                                       {"\"\xff\"", 1},
+                                                       {"\"\\x\"", 1},
+                                                       {"\"\\ud800\"", 1},
+                                                       {"\"ab", 3},
+                                                       {"[", 1},
+                                                       {"{\"a\":", 5},
+                                                       {"// no\n1", 0},
+                                                       {"'a'", 0},
+                                                       {"[NaN]", 1},
+                                                       {"+1", 0},
+                                                       {"\xef\xbb\xbf[]", 0}};
   for (const auto& [text, at] : cases) {
     Builder builder;
     const auto fault = readJsonText(text, builder);

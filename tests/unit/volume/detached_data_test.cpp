@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files that headers of NRRD and MetaImage say their voxels are in.
-#include <sys/stat.h>
-
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "text_volume.h"
 
@@ -66,11 +65,11 @@ TEST_F(DetachedData, FilesInTheHeadersFolderAndBelowAreRead) {
 TEST_F(DetachedData, FilesElsewhereAreRefusedUnlessAllowed) {
   fs::create_symlink(path("out/v.raw"), path("in/link.raw"));
   fs::create_directory_symlink(path("out"), path("in/folder"));
-  for (const std::string& name : {std::string("../out/v.raw"), path("out/v.raw").string(),
-                                  std::string("link.raw"), std::string("folder/v.raw"),
-                                  std::string("sub/../../out/v.raw")}) {
-    for (const fs::path& file : {nhdr(name), mhd(name), mhd("LIST 3", {}, name + "\n"),
-                                 list("LIST 3", name + "\n")}) {
+  for (const std::string& name :
+       {std::string("../out/v.raw"), path("out/v.raw").string(), std::string("link.raw"),
+        std::string("folder/v.raw"), std::string("sub/../../out/v.raw")}) {
+    for (const fs::path& file :
+         {nhdr(name), mhd(name), mhd("LIST 3", {}, name + "\n"), list("LIST 3", name + "\n")}) {
       expectRefused(readRefusal(file), {"3: ", file.filename().string(), "outside",
                                         "--allow-detached " + fs::canonical(path("out")).string()});
       EXPECT_EQ(readRefusal(file, allowing(path("in"))).substr(0, 3), "3: ");
@@ -130,7 +129,8 @@ TEST_F(DetachedData, ListsAndPatternsOfSlices) {
 TEST_F(DetachedData, NamesMustBeAsManyAsSlices) {
   writeSlices();
   write("in/s003", "ijkl");
-  for (const char* pattern : {"s%03d 1 3 1", "s%03d 1 1 1", "s%03d 2 1 1", "s%03d 1 2000000000 1"}) {
+  for (const char* pattern :
+       {"s%03d 1 3 1", "s%03d 1 1 1", "s%03d 2 1 1", "s%03d 1 2000000000 1"}) {
     expectRefused(readRefusal(nhdr(pattern)), {"3: ", "files", "expected 2"});
     expectRefused(readRefusal(mhd(pattern)), {"3: ", "files", "expected 2"});
   }
@@ -141,9 +141,9 @@ TEST_F(DetachedData, NamesMustBeAsManyAsSlices) {
 }
 
 TEST_F(DetachedData, PatternsHoldOneNumberAndNothingElseToFormat) {
-  for (const char* bad : {"%s%s%s%s.raw 0 1 1", "s%n 0 1 1", "s%d%d 0 1 1", "s%x 0 1 1",
-                          "s%*d 0 1 1", "s%99999999999d 0 1 1", "s%ld 0 1 1", "s%-3d 0 1 1",
-                          "s%1$d 0 1 1", "s% 0 1 1"}) {
+  for (const char* bad :
+       {"%s%s%s%s.raw 0 1 1", "s%n 0 1 1", "s%d%d 0 1 1", "s%x 0 1 1", "s%*d 0 1 1",
+        "s%99999999999d 0 1 1", "s%ld 0 1 1", "s%-3d 0 1 1", "s%1$d 0 1 1", "s% 0 1 1"}) {
     expectRefused(readRefusal(nhdr(bad)), {"3: ", "expected a pattern with one number"});
     expectRefused(readRefusal(mhd(bad)), {"3: ", "expected a pattern with one number"});
   }

@@ -31,9 +31,12 @@ const std::string kAxes = "space directions: (0.5,0,0) (0,0.5,0) (0,0,2)";
 
 TEST_F(HeaderGeometry, SpacesBecomeLps) {
   const std::vector<std::pair<std::string, Vector3d>> spaces = {
-      {"left-posterior-superior", {1, 1, 1}},  {"LPS", {1, 1, 1}},
-      {"right-anterior-superior", {-1, -1, 1}}, {"RAS", {-1, -1, 1}},
-      {"right anterior superior", {-1, -1, 1}}, {"left-anterior-superior", {1, -1, 1}},
+      {"left-posterior-superior", {1, 1, 1}},
+      {"LPS", {1, 1, 1}},
+      {"right-anterior-superior", {-1, -1, 1}},
+      {"RAS", {-1, -1, 1}},
+      {"right anterior superior", {-1, -1, 1}},
+      {"left-anterior-superior", {1, -1, 1}},
       {"las", {1, -1, 1}}};
   for (const auto& [space, toLps] : spaces) {
     const Volume v = nrrd({"space: " + space, kAxes, "space origin: (10,20,30)"});
@@ -81,7 +84,8 @@ TEST_F(HeaderGeometry, SpacingsThatAreNoDistancesAreRefusedWithTheOption) {
 TEST_F(HeaderGeometry, NumbersAreWholeWords) {
   for (const char* bad : {"1 1 1x", "1 1", "1 1 1 1", "1 1 one", "1 1 0x10", "1 1 1,5", "1 1 1e400",
                           "1 1 --1", "1 1 +-1"}) {
-    expectRefused(nrrdRefusal({std::string("spacings: ") + bad}), {"3: ", "spacings is", "3 numbers"});
+    expectRefused(nrrdRefusal({std::string("spacings: ") + bad}),
+                  {"3: ", "spacings is", "3 numbers"});
     expectRefused(metaRefusal({std::string("ElementSpacing = ") + bad}), {"3: ", "3 numbers"});
   }
   EXPECT_EQ(nrrd({"spacings: +1 2e0 .5"}).geometry.spacing, Vector3d(1, 2, 0.5));
@@ -89,8 +93,8 @@ TEST_F(HeaderGeometry, NumbersAreWholeWords) {
 
 TEST_F(HeaderGeometry, UnitsAreHonoured) {
   const std::vector<std::pair<std::string, double>> units = {
-      {"mm", 1}, {"m", 1e3}, {"cm", 10}, {"um", 1e-3}, {"Millimeters", 1}, {"meter", 1e3},
-      {"\xc2\xb5m", 1e-3}};
+      {"mm", 1},          {"m", 1e3},     {"cm", 10},         {"um", 1e-3},
+      {"Millimeters", 1}, {"meter", 1e3}, {"\xc2\xb5m", 1e-3}};
   for (const auto& [name, mm] : units) {
     const std::string three = "\"" + name + "\" \"" + name + "\" \"" + name + "\"";
     const double one = 0.5 / mm;  // so that it is 0.5 mm
@@ -177,8 +181,7 @@ TEST_F(HeaderGeometry, AxesOfOneComponentOrOneTimeAreDropped) {
   const std::vector<Lines> headers = {
       {"dimension: 4", "sizes: 1 2 2 2", "kinds: list space space space", "space: LPS",
        "space directions: none (1,0,0) (0,1,0) (0,0,1)"},
-      {"dimension: 4", "sizes: 2 2 1 2", "kinds: domain domain stub domain",
-       "spacings: 1 1 nan 1"},
+      {"dimension: 4", "sizes: 2 2 1 2", "kinds: domain domain stub domain", "spacings: 1 1 nan 1"},
       {"dimension: 4", "sizes: 2 2 2 1", "spacings: 1 1 1 nan"},
       {"dimension: 4", "sizes: 1 2 2 2", "kinds: time space space space", "space: LPS",
        "space directions: none (1,0,0) (0,1,0) (0,0,1)"}};

@@ -82,9 +82,9 @@ TEST_F(StoredVoxels, LinesAndBytesAreSkipped) {
 }
 
 TEST_F(StoredVoxels, SkipsBeyondTheEndAreTruncations) {
-  for (const char* line : {"byte skip: 1", "byte skip: 1125899906842624", "byte skip: -2",
-                           "byte skip: -1125899906842624", "line skip: 1",
-                           "line skip: 9000000000000000000"})
+  for (const char* line :
+       {"byte skip: 1", "byte skip: 1125899906842624", "byte skip: -2",
+        "byte skip: -1125899906842624", "line skip: 1", "line skip: 9000000000000000000"})
     expectRefused(nrrdRefusal({kOne, line}), {"3: ", "v.nrrd", "truncated"});
   expectRefused(nrrdRefusal({kOne, "encoding: gzip", "byte skip: 9"}, packed(eightBytes())),
                 {"3: ", "truncated"});
@@ -93,13 +93,14 @@ TEST_F(StoredVoxels, SkipsBeyondTheEndAreTruncations) {
 }
 
 TEST_F(StoredVoxels, AHeaderIsNotReadAsVoxels) {
-  expectRefused(metaRefusal({"HeaderSize = 5"}), {"3: ", "HeaderSize is \"5\"", "bytes of the header"});
+  expectRefused(metaRefusal({"HeaderSize = 5"}),
+                {"3: ", "HeaderSize is \"5\"", "bytes of the header"});
   expectRefused(metaRefusal({"HeaderSize = -1"}, "abcdefg"), {"3: ", "truncated"});
   const std::string text = metaText({"HeaderSize = 500"});
-  EXPECT_EQ(textOf(readQuietly(write("v.mha", text.substr(0, text.size() - 8) +
-                                                  std::string(508 - text.size(), '\n') +
-                                                  eightBytes()))),
-            eightBytes());
+  EXPECT_EQ(
+      textOf(readQuietly(write("v.mha", text.substr(0, text.size() - 8) +
+                                            std::string(508 - text.size(), '\n') + eightBytes()))),
+      eightBytes());
 }
 
 TEST_F(StoredVoxels, CompressedSizesThatAreTooSmallAreTold) {
@@ -134,7 +135,8 @@ TEST_F(StoredVoxels, DataThatEndsIsRefused) {
   expectRefused(nrrdRefusal({kOne, "encoding: gzip"}, packed("abcdefg")), {"3: ", "7 of 8 bytes"});
   expectRefused(nrrdRefusal({kOne, "encoding: ascii"}, "97 98 99 100 101 102 103            "),
                 {"3: ", "7 of 8 bytes"});
-  expectRefused(nrrdRefusal({kOne, "encoding: hex"}, "61626364656667 6  "), {"3: ", "7 of 8 bytes"});
+  expectRefused(nrrdRefusal({kOne, "encoding: hex"}, "61626364656667 6  "),
+                {"3: ", "7 of 8 bytes"});
 }
 
 TEST_F(StoredVoxels, DamagedChecksumsAreRefused) {
@@ -191,9 +193,9 @@ TEST_F(StoredVoxels, MissingFieldsAreNamed) {
 }
 
 TEST_F(StoredVoxels, WhatAHeaderSaysIsPrintedEscaped) {
-  for (const std::string& text : {nrrdRefusal({"type: \x1b[31m\xff"}), nrrdRefusal({"x\x07y"}),
-                                  metaRefusal({"ElementType = \x1b[31m"}),
-                                  metaRefusal({"ElementDataFile = \x1b[31m"})}) {
+  for (const std::string& text :
+       {nrrdRefusal({"type: \x1b[31m\xff"}), nrrdRefusal({"x\x07y"}),
+        metaRefusal({"ElementType = \x1b[31m"}), metaRefusal({"ElementDataFile = \x1b[31m"})}) {
     expectRefused(text, {"3: ", "\\u00"});
     for (const char c : text) EXPECT_GE(static_cast<unsigned char>(c), 0x20U) << text;
   }

@@ -19,7 +19,7 @@ inline std::string eightBytes() {
 /// line such as "-endian" takes one out.
 inline std::string nrrdText(const std::vector<std::string>& lines,
                             const std::string& data = eightBytes()) {
-  std::vector<std::string> fields = {"type: uint8", "dimension: 3",   "sizes: 2 2 2",
+  std::vector<std::string> fields = {"type: uint8", "dimension: 3", "sizes: 2 2 2",
                                      "endian: little", "encoding: raw"};
   for (const std::string& line : lines) {
     const bool drop = line[0] == '-';
@@ -35,15 +35,15 @@ inline std::string nrrdText(const std::vector<std::string>& lines,
 /// The same of MetaImage, with "Key = value".
 inline std::string metaText(const std::vector<std::string>& lines,
                             const std::string& data = eightBytes()) {
-  std::vector<std::string> fields = {"ObjectType = Image", "NDims = 3", "ElementSpacing = 1 1 1",
-                                     "DimSize = 2 2 2", "ElementType = MET_UCHAR",
-                                     "ElementDataFile = LOCAL"};
+  std::vector<std::string> fields = {"ObjectType = Image",      "NDims = 3",
+                                     "ElementSpacing = 1 1 1",  "DimSize = 2 2 2",
+                                     "ElementType = MET_UCHAR", "ElementDataFile = LOCAL"};
   for (const std::string& line : lines) {
     const bool drop = line[0] == '-';
     const std::string key = drop ? line.substr(1) + " =" : line.substr(0, line.find('=') + 1);
     std::erase_if(fields, [&](const std::string& field) { return field.rfind(key, 0) == 0; });
-    if (!drop) fields.insert(line.rfind("ElementDataFile", 0) == 0 ? fields.end()
-                                                                   : fields.begin(), line);
+    if (!drop)
+      fields.insert(line.rfind("ElementDataFile", 0) == 0 ? fields.end() : fields.begin(), line);
   }
   std::string text;
   for (const std::string& field : fields) text += field + "\n";
