@@ -8,43 +8,14 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/common/random.h"
 #include "converters/common/vectors.h"
-#include "converters/tracking/smoothing.h"
-#include "tube_volume.h"
+#include "seeded_tubes.h"
 
 namespace lumen::convert {
 namespace {
 
-using Eigen::Vector3d;
 using formats::BranchKind;
 using formats::StopReason;
-
-const Vector3d kLow(6.4, 6.4, 0.4), kHigh(6.4, 6.4, 12.2);
-
-SeedBranch seedAt(std::string label, const Vector3d& point, std::optional<double> radius = {}) {
-  SeedBranch seed;
-  seed.label = std::move(label);
-  seed.points.push_back({point, radius});
-  return seed;
-}
-
-Volume straightTube(double radius) {
-  return drawVolume(64, 0.2, [=](const Vector3d& p) { return capsule(p, kLow, kHigh, radius); });
-}
-
-TrackResult trackOne(const Volume& volume, const std::vector<SeedBranch>& seeds) {
-  Progress silent;
-  return track(volume, seeds, TrackOptions{}, silent);
-}
-
-/// A T: a child of half the trunk's radius leaves its middle along x.
-Volume tee(double childRadius) {
-  return drawVolume(64, 0.2, [=](const Vector3d& p) {
-    return std::min(capsule(p, kLow, kHigh, 1.2),
-                    capsule(p, {6.4, 6.4, 6.4}, {12.2, 6.4, 6.4}, childRadius));
-  });
-}
 
 TEST(Tracker, FollowsAStraightTubeToBothEndsFromOneClickInItsMiddle) {
   const TrackResult out = trackOne(straightTube(1.0), {seedAt("tube", {6.2, 6.5, 6.0})});
@@ -122,13 +93,6 @@ TEST(Tracker, ANarrowChildStartsFromOneClickWithoutARadius) {
 }
 
 /// Adds Gaussian noise of that standard deviation (the tubes are 1000 above their background).
-Volume noisy(Volume volume, double deviation) {
-  Random random(11);
-  for (std::int16_t& voxel : std::get<std::vector<std::int16_t>>(volume.voxels))
-    voxel = static_cast<std::int16_t>(std::lround(voxel + deviation * random.normal()));
-  return volume;
-}
-
 /// A tube along z that is missing between two heights.
 Volume interruptedTube(double from, double to) {
   return drawVolume(64, 0.2, [=](const Vector3d& p) {
@@ -209,59 +173,6 @@ TEST(Tracker, NoiseAloneStartsNoTrack) {
   for (int i = 0; i < 20; ++i)
     seeds.push_back(seedAt(std::to_string(i), Vector3d(2.0 + 0.4 * i, 6.4, 3.0 + 0.3 * i)));
   EXPECT_EQ(trackOne(volume, seeds).failures.size(), seeds.size());
-}
-
-TEST(NoiseFloor, IsZeroWithoutNoiseAndGrowsInProportionToIt) {
-  const Volume clean = straightTube(0.6);
-  EXPECT_EQ(noiseFloor(BsplineVolume(clean), TrackOptions{}, Progress{}), 0.0);
-  const Volume weak = noisy(clean, 20), strong = noisy(clean, 80);
-  const double ratio = noiseFloor(BsplineVolume(strong), TrackOptions{}, Progress{}) /
-                       noiseFloor(BsplineVolume(weak), TrackOptions{}, Progress{});
-  EXPECT_NEAR(ratio, 4.0, 0.3);
-}
-
-TEST(Smoothing, IsNoneWithoutNoiseAndGrowsWithIt) {
-  const Volume clean = straightTube(0.6);
-  const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
-  EXPECT_NEAR(contrastAtClicks(BsplineVolume(clean), seeds, TrackOptions{}, Progress{}), 1000, 20);
-  EXPECT_EQ(smoothForNoise(clean, seeds, TrackOptions{}, Progress{}).smoothing, 0.0);
-  double last = 0;
-  for (const double noise : {80.0, 200.0, 400.0}) {
-    const double smoothing =
-        smoothForNoise(noisy(clean, noise), seeds, TrackOptions{}, Progress{}).smoothing;
-    EXPECT_GT(smoothing, last);
-    last = smoothing;
-  }
-  EXPECT_LE(last, 1.25 * 0.2);
-}
-
-// Half of an edge along each axis: 0.25 * 1.5^2 = 0.25 * (1.5 * 0.5)^2 + s^2.
-TEST(SmoothingAlongAxes, EvensTheBlurOfThickSlicesOnly) {
-  VolumeGeometry geometry;
-  geometry.spacing = {0.5, 0.5, 1.5};
-  const Eigen::Vector3d thick = smoothingAlongAxes(geometry, 0, true);
-  EXPECT_NEAR(thick[0], 0.6495, 1e-4);
-  EXPECT_EQ(thick[0], thick[1]);
-  EXPECT_EQ(thick[2], 0);
-  EXPECT_EQ(smoothingAlongAxes(geometry, 0, false), Eigen::Vector3d::Zero());
-  EXPECT_EQ(smoothingAlongAxes(geometry, 0.4, false), Eigen::Vector3d::Constant(0.4));
-  EXPECT_NEAR(smoothingAlongAxes(geometry, 0.4, true)[0], std::hypot(0.6495, 0.4), 1e-4);
-  geometry.spacing = {0.7, 0.7, 1.0};
-  EXPECT_EQ(smoothingAlongAxes(geometry, 0, true), Eigen::Vector3d::Zero());
-}
-
-TEST(Smoothing, FindsAThinVesselInStrongNoise) {
-  const Volume volume = noisy(straightTube(0.4), 250);  // a quarter of the contrast
-  TrackOptions rough;
-  rough.smoothing = 0.0;
-  Progress silent;
-  const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
-  EXPECT_TRUE(track(volume, seeds, rough, silent).result.tree.branches.empty());
-  const auto tracked = track(volume, seeds, TrackOptions{}, silent).result;
-  ASSERT_EQ(tracked.tree.branches.size(), 1u);
-  EXPECT_LT(tracked.tree.centre.front().z, 1.5F);
-  EXPECT_GT(tracked.tree.centre.back().z, 11.0F);
-  EXPECT_GT(std::get<double>(tracked.metadata.steps[0].parameters.at("smoothing")), 0.1);
 }
 
 TEST(Tracker, DoesNotJumpFromItsEndToAVesselThatPassesBeyond) {
@@ -403,29 +314,6 @@ TEST(Tracker, VoxelsThatAreTooUnevenAreRefusedAtOnce) {
   Volume volume = straightTube(0.6);
   volume.geometry.spacing = {0.001, 0.001, 5};
   EXPECT_THROW(trackOne(volume, {seedAt("tube", {0.03, 0.03, 100})}), Error);
-}
-
-TEST(NoiseFloor, NeedsABoundedPartOfTheSplineHoweverUnevenVoxelsAre) {
-  Volume volume;
-  volume.geometry.size = {700, 700, 40};
-  volume.voxels = std::vector<std::uint8_t>(volume.geometry.voxelCount(), 1);
-  for (const double edge : {1.0, 30.0, 300.0, 1000.0}) {
-    volume.geometry.spacing = {1, 1, edge};
-    const BsplineVolume spline(volume);
-    (void)noiseFloor(spline, TrackOptions{}, Progress{});
-    // ten bricks for each of 64 places; a brick has 36 x 35 x 35 floats
-    EXPECT_LT(spline.coefficientBytes(), 640u * 36 * 35 * 35 * 4) << edge;
-  }
-}
-
-TEST(NoiseFloor, CanBeCancelled) {
-  const Volume volume = straightTube(0.6);
-  Progress cancelled;
-  cancelled.cancel();
-  EXPECT_THROW((void)noiseFloor(BsplineVolume(volume), TrackOptions{}, cancelled), Error);
-  EXPECT_THROW((void)contrastAtClicks(BsplineVolume(volume), {seedAt("a", {6, 6, 6})},
-                                      TrackOptions{}, cancelled),
-               Error);
 }
 
 TEST(Tracker, AChildOfAFailedParentNamesIt) {
