@@ -106,7 +106,7 @@ close_demo() {
   wall distance, median and 90 %      $(json_figure $c median) mm, $(json_figure $c p90) mm
 
 == To look at it
-  Open demo/vessels.glb in any glTF viewer, such as Blender, or f3d from Debian:
+  Open demo/vessels.glb in any glTF viewer, such as Blender, or f3d from Debian (which cannot read --draco):
     apt install f3d && f3d demo/vessels.glb
   The command line is build/release/converters/app/lumen; --help lists what it can do.
 TEXT
@@ -145,6 +145,8 @@ install_validator() {
 
 install_test_packages() {
   have_node || packages+=(nodejs npm)
+  # the JSON answers against their schemas, and what judges the manual page
+  packages+=(python3-jsonschema groff-base mandoc)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev emscripten python3-numpy)
   install_packages "${packages[@]}" "$@"

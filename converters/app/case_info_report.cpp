@@ -64,37 +64,41 @@ std::string branchTable(const CaseInfo& info) {
 
 std::string stepText(const formats::Step& step) {
   std::ostringstream text;
-  text << "step          " << step.name << " (" << step.tool << ")";
+  text << step.name << " (" << step.tool << ")";
   const char* separator = ": ";
   for (const auto& [key, value] : step.parameters) {
     text << separator << key << " ";
     std::visit([&](const auto& v) { text << std::boolalpha << v; }, value);
     separator = ", ";
   }
-  text << "\n";
-  return text.str();
-}
-
-/// What few cases have.
-std::string extrasText(const CaseInfo& info) {
-  std::ostringstream text;
-  if (info.links > 0) text << "links         " << info.links << "\n";
-  if (const auto& rounded = info.metadata.pointQuantisation)
-    text << "points        rounded to " << rounded->bits << " bits, steps of " << rounded->step
-         << " mm\n";
-  for (const auto& name : info.nodeArrays) text << "node array    " << name << "\n";
-  if (!info.metadata.parentSha256.empty())
-    text << "made from     sha256 " << info.metadata.parentSha256 << "\n";
-  if (!info.metadata.note.empty()) text << "note          " << info.metadata.note << "\n";
   return text.str();
 }
 
 std::string sourceText(const formats::SourceVolume& source) {
   std::ostringstream text;
-  text << "source        " << source.size[0] << " x " << source.size[1] << " x " << source.size[2]
-       << " voxels of " << source.spacing[0] << " x " << source.spacing[1] << " x "
-       << source.spacing[2] << " mm, sha256 " << source.sha256 << "\n";
+  text << source.size[0] << " x " << source.size[1] << " x " << source.size[2] << " voxels of "
+       << source.spacing[0] << " x " << source.spacing[1] << " x " << source.spacing[2]
+       << " mm, sha256 " << source.sha256;
   return text.str();
+}
+
+/// As a stream writes it.
+std::string plain(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// What few cases have.
+void addExtras(const CaseInfo& info, Lines& lines) {
+  const formats::Metadata& metadata = info.metadata;
+  if (info.links > 0) lines.add("links", std::to_string(info.links));
+  if (const auto& rounded = metadata.pointQuantisation)
+    lines.add("points", "rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
+                            plain(rounded->step) + " mm");
+  for (const auto& name : info.nodeArrays) lines.add("node array", name);
+  if (!metadata.parentSha256.empty()) lines.add("made from", "sha256 " + metadata.parentSha256);
+  if (!metadata.note.empty()) lines.add("note", metadata.note);
 }
 
 }  // namespace
@@ -127,25 +131,24 @@ Json caseInfoJson(const CaseInfo& info) {
 }
 
 std::string caseInfoText(const CaseInfo& info) {
-  std::ostringstream text;
-  text << "branches      " << info.branches.size() << "\n"
-       << "nodes         " << info.nodes << "\n"
-       << "points        " << info.points << "\n"
-       << "blobs         " << info.blobs.value_or(0);
-  if (const auto perNode = blobsPerNode(info)) text << " (" << fixed(perNode, 1) << " per node)";
-  text << "\nlength        " << fixed(info.length, 1) << " mm\n";
+  Lines lines;
+  std::string blobs = std::to_string(info.blobs.value_or(0));
+  if (const auto perNode = blobsPerNode(info)) blobs += " (" + fixed(perNode, 1) + " per node)";
+  lines.add("branches", std::to_string(info.branches.size()))
+      .add("nodes", std::to_string(info.nodes))
+      .add("points", std::to_string(info.points))
+      .add("blobs", blobs)
+      .add("length", fixed(info.length, 1) + " mm");
   if (info.radius)
-    text << "radius        " << fixed(info.radius->min, 3) << " to " << fixed(info.radius->max, 3)
-         << " mm\n";
+    lines.add("radius", fixed(info.radius->min, 3) + " to " + fixed(info.radius->max, 3) + " mm");
   if (const auto& e = info.errorOfFit)
-    text << "error of fit  median " << fixed(e->median, 4) << ", 90th percentile "
-         << fixed(e->p90, 4) << ", greatest " << fixed(e->max, 4) << " mm\n";
-  if (info.metadata.voxelSize) text << "voxel size    " << *info.metadata.voxelSize << " mm\n";
-  if (info.metadata.source) text << sourceText(*info.metadata.source);
-  text << extrasText(info);
-  for (const auto& step : info.metadata.steps) text << stepText(step);
-  text << "\n" << branchTable(info) << "\nLengths and radii in mm.\n";
-  return text.str();
+    lines.add("error of fit", "median " + fixed(e->median, 4) + ", 90th percentile " +
+                                  fixed(e->p90, 4) + ", greatest " + fixed(e->max, 4) + " mm");
+  if (info.metadata.voxelSize) lines.add("voxel size", plain(*info.metadata.voxelSize) + " mm");
+  if (info.metadata.source) lines.add("source", sourceText(*info.metadata.source));
+  addExtras(info, lines);
+  for (const auto& step : info.metadata.steps) lines.add("step", stepText(step));
+  return lines.text() + "\n" + branchTable(info) + "\nLengths and radii in mm.\n";
 }
 
 }  // namespace lumen::app

@@ -38,9 +38,7 @@ FileInfo describeChunks(const std::filesystem::path& file) {
   if (!bytes->empty() && bytes->front() == std::byte{'{'})
     throw unsupported(file.string() + ": --chunks is for .lumen files; JSON has no chunks");
   const auto container = formats::readContainer(*bytes);
-  if (!container)
-    throw invalidInput(file.string() + ": " + formats::errorName(container.error().code) + ": " +
-                       container.error().message);
+  if (!container) throw invalidInput(file.string() + ": " + container.error().text());
   FileInfo info{container->version, bytes->size(), {}};
   for (const formats::Chunk& chunk : container->chunks) {
     ChunkInfo entry{chunk, chunk.stored.size(),

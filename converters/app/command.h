@@ -18,7 +18,8 @@ struct CommonOptions {
   int threads = 0;  ///< 0: all cores
   bool quiet = false;
   bool verbose = false;
-  bool json = false;  ///< the answer on standard output is one JSON object
+  bool strict = false;  ///< a warning is an error: Progress::warn() throws
+  bool json = false;    ///< the answer on standard output is one JSON object
 };
 
 /// What a running command may use besides its own options.

@@ -5,6 +5,7 @@
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
+#include "converters/app/value_checks.h"
 #include "converters/compare/compare.h"
 
 namespace lumen::app {
@@ -85,8 +86,8 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("CASE", m_case, "The case to judge")->required()->configurable(false);
-    app.add_option("TRUTH", m_truth, "The true case")->required()->configurable(false);
+    addFile(app, "CASE", m_case, "The case to judge");
+    addFile(app, "TRUTH", m_truth, "The true case");
   }
 
   int run(Context& context) override {

@@ -5,6 +5,7 @@
 #include "converters/app/command_line.h"
 #include "converters/app/file_format.h"
 #include "converters/app/report.h"
+#include "converters/app/value_checks.h"
 
 namespace lumen::app {
 
@@ -40,7 +41,7 @@ std::string bashScript() {
             "_lumen() {\n"
             "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} words=\n"
             "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-         << "    words=\"" << names << " --help --version\"\n"
+         << "    words=\"" << names << " help --help --version\"\n"
          << "  elif [ \"$before\" = --from ]; then\n"
          << "    words=\"" << spaced(formatNames(canRead)) << "\"\n"
          << "  elif [ \"$before\" = --to ]; then\n"
@@ -70,7 +71,7 @@ public:
     app.add_option("SHELL", m_shell, "bash")
         ->required()
         ->configurable(false)
-        ->check(CLI::IsMember({"bash"}).description(""));
+        ->check(oneOf(std::vector<std::string>{"bash"}));
   }
 
   int run(Context& context) override {

@@ -2,9 +2,9 @@
 // lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
-#include "converters/app/loss_report.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
+#include "converters/app/value_checks.h"
 #include "converters/fitting/fit.h"
 
 namespace lumen::app {
@@ -23,10 +23,10 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + ") or case")
-        ->required()
-        ->configurable(false);
-    app.add_option("OUTPUT", m_output, formatEndings(canWrite))->required()->configurable(false);
+    addFile(app, "INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + ") or case");
+    addFile(app, "OUTPUT", m_output,
+            "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of each " +
+                "branch and no more, " + formatEndings(canWriteMesh));
     app.add_option("--from", m_from, "Format of INPUT, whatever its name")->type_name("F");
     app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
     addVolumeOptions(app, m_volume);
@@ -34,28 +34,23 @@ public:
     addFitOptions(app, m_fit);
     addMeshOptions(app, m_outputOptions);
     addEncodingOptions(app, m_outputOptions.encoding);
-    app.get_option("--strict")
-        ->description(
-            "Exit with 1 if any seed started no track; with 4, writing nothing, if "
-            "OUTPUT cannot hold all of a case");
   }
 
   int run(Context& context) override {
+    requireOrder(m_input, m_output);
     const FileFormat& to = outputFormat(m_output, m_to);
     requireInput(m_input, "input");
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind == FormatKind::Volume) m_seeds = loadSeeds(m_track);
-    requireWritable(m_output);
+    requireWritable(m_output, contentKind(to));
     context.interrupts.watchOutput(m_output);
 
     formats::Case value = load(from, context.progress);
     complete(value, from, to, context.progress);
     context.progress.check();
-    if (from.kind == FormatKind::Case)
-      reportLosses(value, to, m_output, m_track.strict, context.progress);
     to.writeCase(value, m_output, m_outputOptions, context.progress);
     report(value, context);
-    return m_track.strict && !m_failures.empty() ? 1 : 0;
+    return 0;
   }
 
 private:
@@ -68,8 +63,7 @@ private:
                                                      : from.readCase(m_input);
     }
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
-    convert::TrackResult tracked =
-        trackSeeds(volume, m_seeds, m_track.seeds, m_track.options, progress);
+    convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
     m_failures = std::move(tracked.failures);
     m_missedPoints = std::move(tracked.missedPoints);
     return std::move(tracked.result);

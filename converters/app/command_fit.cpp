@@ -4,6 +4,7 @@
 #include "converters/app/file_access.h"
 #include "converters/app/options.h"
 #include "converters/app/report.h"
+#include "converters/app/value_checks.h"
 
 namespace lumen::app {
 
@@ -20,18 +21,17 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("IN", m_input, "Case with wall points")->required()->configurable(false);
-    app.add_option("OUT", m_output, "Case to write, " + formatEndings(canWriteCase) + "; may be IN")
-        ->required()
-        ->configurable(false);
+    addFile(app, "IN", m_input, "Case with wall points");
+    addFile(app, "OUT", m_output, "Case to write, " + formatEndings(canWriteCase) + "; may be IN");
     addFitOptions(app, m_fit);
     app.add_option("--to", m_to, "Format of OUT, whatever its name")->type_name("F");
   }
 
   int run(Context& context) override {
+    requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen fit makes");
     requireInput(m_input, "case file");
-    requireWritable(m_output);
+    requireWritable(m_output, ContentKind::Case);
     context.interrupts.watchOutput(m_output);
 
     formats::Case value = readParentCase(m_input);

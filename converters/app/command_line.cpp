@@ -13,7 +13,11 @@
 
 #include "converters/app/command.h"
 #include "converters/app/command_config.h"
+#include "converters/app/help_text.h"
+#include "converters/app/message_text.h"
 #include "converters/app/report.h"
+#include "converters/app/usage_error.h"
+#include "converters/app/value_checks.h"
 
 namespace lumen::app {
 
@@ -22,35 +26,14 @@ namespace {
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 failed, 2 usage, 3 invalid input, 4 unsupported, 130 interrupted.";
 
-std::vector<std::string> commandNames() {
-  std::vector<std::string> names;
-  for (const auto& command : allCommands()) names.push_back(command->name());
-  return names;
-}
+constexpr const char* kVersion = "lumen " LUMEN_VERSION "\n";
 
 void printError(const std::string& text) {
-  std::fprintf(stderr, "lumen: error: %s\n", text.c_str());
+  std::fprintf(stderr, "lumen: error: %s\n", messageText(text).c_str());
 }
 
 int exitCode(ErrorKind kind) {
   return static_cast<int>(kind);
-}
-
-/// Prints help, the version or a complaint about the arguments.
-int answerParseError(const CLI::App& app, const CLI::ParseError& error,
-                     const std::string& helpCommand) {
-  if (error.get_name() == "CallForHelp") {
-    answer(app.help());
-    return 0;
-  }
-  if (error.get_name() == "CallForVersion") {
-    answer(std::string(error.what()) + "\n");
-    return 0;
-  }
-  printError(error.what());
-  std::fprintf(stderr, "lumen: %s tells how it is used\n", helpCommand.c_str());
-  const bool missingConfig = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::FileError);
-  return exitCode(missingConfig ? ErrorKind::InvalidInput : ErrorKind::Usage);
 }
 
 void limitThreads(int threads, std::optional<tbb::global_control>& control) {
@@ -64,7 +47,9 @@ int execute(Command& command, const CommonOptions& common) {
   const Verbosity verbosity = common.quiet     ? Verbosity::Quiet
                               : common.verbose ? Verbosity::Verbose
                                                : Verbosity::Normal;
-  TerminalProgress progress(TerminalProgress::detectStyle(stderr, verbosity));
+  auto style = TerminalProgress::detectStyle(stderr, verbosity);
+  style.strict = common.strict;
+  TerminalProgress progress(style);
   InterruptGuard interrupts(progress);
   std::optional<tbb::global_control> control;
   limitThreads(common.threads, control);
@@ -76,47 +61,59 @@ int execute(Command& command, const CommonOptions& common) {
 }
 
 int runCommand(Command& command, int argc, const char* const* argv) {
-  const std::string title = "lumen " + command.name();
   CommonOptions common;
-  CLI::App app(command.summary(), title);
+  CLI::App app(command.summary(), "lumen " + command.name());
   bindOptions(app, command, common);
-  app.get_formatter()->column_width(36);
-  for (CLI::Option* option : app.get_options())
-    if (option->get_positional()) option->option_text(" ");
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer("Example:\n" + command.example() + "\n\n" + kExitCodes);
+  const auto config = std::make_shared<CommandConfig>(app, command.name());
+  app.config_formatter(config);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    answer(app.help());
+    return 0;
   } catch (const CLI::ParseError& error) {
-    return answerParseError(app, error, title + " --help");
+    throw usageError(app, error, command.name(), *config);
   }
   return execute(command, common);
 }
 
-int runTopLevel(int argc, const char* const* argv,
-                std::vector<std::unique_ptr<Command>>& commands) {
+std::string topLevelHelp() {
   CLI::App app("From an angiography volume to a simulator-ready vessel case.", "lumen");
-  app.set_version_flag("--version", std::string("lumen ") + LUMEN_VERSION, "Print the version");
-  for (const auto& command : commands) app.add_subcommand(command->name(), command->summary());
-  app.footer("lumen COMMAND --help tells more, with an example.\n" + std::string(kExitCodes));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return answerParseError(app, error, "lumen --help");
-  }
-  throw Error(ErrorKind::Usage, "a command is needed; lumen --help lists them");
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.set_version_flag("-V,--version", "", "Print the version");
+  for (const auto& command : allCommands()) app.add_subcommand(command->name(), command->summary());
+  app.footer("lumen COMMAND --help, or lumen help COMMAND, tells more, with an example.\n" +
+             std::string(kExitCodes));
+  return app.help();
+}
+
+int runNamed(const std::string& name, int argc, const char* const* argv) {
+  for (const auto& command : allCommands())
+    if (command->name() == name) return runCommand(*command, argc, argv);
+  throw unknownCommand(name);
 }
 
 int dispatch(int argc, const char* const* argv) {
-  auto commands = allCommands();
-  for (const auto& command : commands)
-    if (argc > 1 && command->name() == argv[1]) return runCommand(*command, argc - 1, argv + 1);
-  if (argc > 1 && argv[1][0] != '-') {
-    std::string known;
-    for (const auto& command : commands) known.append(" ").append(command->name());
-    throw Error(ErrorKind::Usage,
-                std::string(argv[1]) + ": there is no such command; lumen has" + known);
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (argc < 2) {
+    std::fputs(topLevelHelp().c_str(), stderr);
+    throw Error(ErrorKind::Usage, "a command is missing");
   }
-  return runTopLevel(argc, argv, commands);
+  if (first == "help" && argc > 2) {
+    const char* const question[] = {argv[2], "--help"};
+    return runNamed(argv[2], 2, question);
+  }
+  if (first == "help" || first == "--help" || first == "-h") {
+    answer(topLevelHelp());
+    return 0;
+  }
+  if (first == "version" || first == "--version" || first == "-V") {
+    answer(kVersion);
+    return 0;
+  }
+  return runNamed(first, argc - 1, argv + 1);
 }
 
 }  // namespace
@@ -125,20 +122,22 @@ void bindOptions(CLI::App& app, Command& command, CommonOptions& common) {
   command.bind(app);
   app.add_option("--threads", common.threads, "Threads to run on; 0: all cores")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024).description(""))
+      ->check(wholeIn(0, 1024))
       ->capture_default_str();
   auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors and the asked-for answer only");
   app.add_flag("--verbose", common.verbose, "Also print details")->excludes(quiet);
+  app.add_flag("--strict", common.strict,
+               "Every warning is an error: exit with 3 and write nothing");
   app.add_flag("--json", common.json, "Answer with one JSON object on standard output");
   app.set_config(
          "--config", "",
          "Options from a file of lines such as \"inlier-rate = 0.6\"; the command line wins")
-      ->type_name("FILE");
-  app.config_formatter(std::make_shared<CommandConfig>(command.name(), commandNames()));
-  app.allow_config_extras(CLI::config_extras_mode::error);
+      ->type_name("FILE")
+      ->check(fileName());
 }
 
 int runCommandLine(int argc, const char* const* argv) {
+  reportFileSizeLimit();
   try {
     return dispatch(argc, argv);
   } catch (const Error& error) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen phantom: a synthetic angiogram with its truth and its seeds.
-#include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/options.h"
 #include "converters/app/report.h"
+#include "converters/app/suggestion.h"
+#include "converters/app/value_checks.h"
 #include "converters/phantom/phantom.h"
 #include "converters/seeds/seeds.h"
 
@@ -24,15 +27,13 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    std::string names;
-    for (const auto& known : convert::phantomNames()) names += (names.empty() ? "" : ", ") + known;
-    app.add_option("NAME", m_options.name, names)->required()->configurable(false);
-    app.add_option("OUT", m_output, "Volume to write: " + formatEndings(canWriteVolume))
+    app.add_option("NAME", m_options.name, alternatives(convert::phantomNames()))
         ->required()
-        ->configurable(false);
-    app.add_option("--truth", m_truth, "Also write the true tree, as a case")->type_name("FILE");
-    app.add_option("--seeds", m_seeds, "Also write the seeds that a user would click")
-        ->type_name("FILE");
+        ->configurable(false)
+        ->check(oneOf(convert::phantomNames()));
+    addFile(app, "OUT", m_output, "Volume to write: " + formatEndings(canWriteVolume));
+    addFile(app, "--truth", m_truth, "Also write the true tree, as a case");
+    addFile(app, "--seeds", m_seeds, "Also write the seeds that a user would click");
     addPhantomOptions(app, m_options);
   }
 
@@ -57,16 +58,18 @@ private:
 
   /// Refuses what could not be written in the end.
   Outputs checkOutputs(Context& context) const {
-    const auto& known = convert::phantomNames();
-    if (std::find(known.begin(), known.end(), m_options.name) == known.end())
-      throw Error(ErrorKind::Usage, m_options.name +
-                                        ": there is no such phantom; lumen phantom "
-                                        "--help lists them");
     const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
                           m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};
-    for (const std::string& output : {m_output, m_truth, m_seeds}) {
+    const std::vector<std::pair<std::string, ContentKind>> files = {{m_output, ContentKind::Volume},
+                                                                    {m_truth, ContentKind::Case},
+                                                                    {m_seeds, ContentKind::Seeds}};
+    for (auto file = files.begin(); file != files.end(); ++file) {
+      const auto& [output, kind] = *file;
       if (output.empty()) continue;
-      requireWritable(output);
+      for (auto earlier = files.begin(); earlier != file; ++earlier)
+        if (earlier->first == output)
+          throw Error(ErrorKind::Usage, output + ": this name is given to two outputs");
+      requireWritable(output, kind);
       context.interrupts.watchOutput(output);
     }
     return outputs;

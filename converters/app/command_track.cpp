@@ -4,6 +4,7 @@
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
+#include "converters/app/value_checks.h"
 
 namespace lumen::app {
 
@@ -20,10 +21,8 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("VOLUME", m_input, formatTitles(canReadVolume))->required()->configurable(false);
-    app.add_option("OUT", m_output, "Case to write, " + formatEndings(canWriteCase))
-        ->required()
-        ->configurable(false);
+    addFile(app, "VOLUME", m_input, formatTitles(canReadVolume));
+    addFile(app, "OUT", m_output, "Case to write, " + formatEndings(canWriteCase));
     addVolumeOptions(app, m_volume);
     addTrackOptions(app, m_track);
     app.add_option("--from", m_from, "Format of VOLUME, whatever its name")->type_name("F");
@@ -31,21 +30,24 @@ public:
   }
 
   int run(Context& context) override {
+    requireOrder(m_input, m_output);
     const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen track makes");
     requireInput(m_input, "volume");
     const FileFormat& from = inputFormat(m_input, m_from);
-    if (from.kind != FormatKind::Volume)
-      throw unsupported(m_input + ": this is a case; lumen track reads a volume");
+    if (from.kind != FormatKind::Volume) {
+      const std::string other = notA(ContentKind::Volume, m_input);
+      throw unsupported(m_input + ": " +
+                        (other.empty() ? "this is not a volume, which lumen track reads" : other));
+    }
     const auto seeds = loadSeeds(m_track);
-    requireWritable(m_output);
+    requireWritable(m_output, ContentKind::Case);
     context.interrupts.watchOutput(m_output);
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
-    const convert::TrackResult tracked =
-        trackSeeds(volume, seeds, m_track.seeds, m_track.options, context.progress);
+    const convert::TrackResult tracked = trackSeeds(volume, seeds, m_track, context.progress);
     to.writeCase(tracked.result, m_output, {}, context.progress);
     report(tracked, context);
-    return m_track.strict && !tracked.failures.empty() ? 1 : 0;
+    return 0;
   }
 
 private:

@@ -3,14 +3,17 @@
 #include <optional>
 
 #include "converters/app/command.h"
+#include "converters/app/file_content.h"
 #include "converters/app/privacy.h"
 #include "converters/app/report.h"
+#include "converters/app/value_checks.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::app {
 
 namespace {
 
+using formats::ErrorCode;
 using formats::Issue;
 using formats::ValidationReport;
 
@@ -53,24 +56,39 @@ Remark remarkOf(const PrivacyFinding& finding) {
 
 struct FileReport {
   bool valid = true;
-  bool complete = true;   ///< false if it stopped at its maximum
-  bool personal = false;  ///< the privacy check found something, which is a warning
-  std::vector<Remark> remarks;
+  bool refusedByStrict = false;  ///< valid, but for a warning and --strict
+  bool personal = false;         ///< the privacy check found something, which is a warning
+  formats::IssueCounts counts;   ///< of all that was found, listed or not
+  std::vector<Remark> remarks;   ///< what is listed, errors first
+  [[nodiscard]] std::size_t unlisted() const { return counts.total() - remarks.size(); }
 };
 
-/// At most `maxIssues` remarks, the broken rules first.
+/// What is no case may be known as something else.
+Issue named(Issue issue, const std::string& file) {
+  const std::string other = notA(ContentKind::Case, file);
+  if (!other.empty()) issue.message = other;
+  return issue;
+}
+
+/// Everything counts for the verdict; at most `maxIssues` remarks are listed.
 FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy) {
   const auto bytes = formats::readFileBytes(file);
-  if (!bytes) return {false, true, false, {remarkOf(bytes.error())}};
+  if (!bytes) {
+    FileReport unread{false, false, false, {1, 0, 0}, {}};
+    if (maxIssues > 0) unread.remarks.push_back(remarkOf(bytes.error()));
+    return unread;
+  }
   const ValidationReport report = formats::validateBytes(*bytes, maxIssues);
-  FileReport result{report.valid(), report.complete, false, {}};
-  for (const Issue& issue : report.issues) result.remarks.push_back(remarkOf(issue));
+  FileReport result{report.valid(), false, false, report.counts, {}};
+  for (const Issue& issue : report.issues)
+    result.remarks.push_back(
+        remarkOf(issue.code == ErrorCode::NotLumen ? named(issue, file) : issue));
   if (!privacy) return result;
   for (const PrivacyFinding& finding : scanPrivacy(*bytes)) {
     result.personal = true;
+    ++result.counts.warnings;
     if (result.remarks.size() < maxIssues) result.remarks.push_back(remarkOf(finding));
   }
-  result.complete = result.complete && result.remarks.size() < maxIssues;
   return result;
 }
 
@@ -92,18 +110,38 @@ Json reportJson(const std::string& file, const FileReport& report) {
   Json json;
   json["file"] = file;
   json["valid"] = report.valid;
-  json["complete"] = report.complete;
+  json["complete"] = report.unlisted() == 0;
+  json["errors"] = report.counts.errors;
+  json["warnings"] = report.counts.warnings;
+  json["information"] = report.counts.information;
   json["issues"] = Json::array();
   for (const Remark& remark : report.remarks) json["issues"].push_back(remarkJson(remark));
   return json;
 }
 
+/// "2 errors, 1 warning and 150 notes", without those that there are none of.
+std::string countsText(const formats::IssueCounts& counts) {
+  std::vector<std::string> parts;
+  if (counts.errors > 0) parts.push_back(counted(counts.errors, "error", "errors"));
+  if (counts.warnings > 0) parts.push_back(counted(counts.warnings, "warning", "warnings"));
+  if (counts.information > 0) parts.push_back(counted(counts.information, "note", "notes"));
+  std::string text = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    text += (i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  return text;
+}
+
 std::string reportText(const std::string& file, const FileReport& report) {
-  std::string text;
+  Lines lines;
   for (const Remark& remark : report.remarks)
-    text.append(file).append(": ").append(remark.severity + " " + remark.text + "\n");
-  if (!report.complete) text.append(file).append(": --max-issues reached, there may be more\n");
-  return text.append(file).append(report.valid ? ": valid\n" : ": not valid\n");
+    lines.add(file + ": " + remark.severity + " " + remark.text);
+  if (report.unlisted() > 0)
+    lines.add(file + ": " + countsText(report.counts) + ", " +
+              std::to_string(report.remarks.size()) + " of them listed; --max-issues N lists more");
+  const char* verdict = report.valid             ? ": valid"
+                        : report.refusedByStrict ? ": not valid, as --strict makes warnings errors"
+                                                 : ": not valid";
+  return lines.add(file + verdict).text();
 }
 
 class ValidateCommand : public Command {
@@ -119,30 +157,35 @@ public:
   void bind(CLI::App& app) override {
     app.add_option("FILE", m_files, "Cases, .lumen or .lumen.json")
         ->required()
+        ->check(fileName())
         ->configurable(false);
-    app.add_option("--max-issues", m_maxIssues, "Stop at so many issues in a file")
+    app.add_option("--max-issues", m_maxIssues,
+                   "List so many issues of a file, errors first; all count for the verdict")
         ->type_name("N")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}).description(""))
+        ->check(wholeIn(0, 1000000))
         ->capture_default_str();
     app.add_flag("--privacy", m_privacy,
                  "Also warn of texts that may tell who a patient is, such as dates and names");
   }
 
   int run(Context& context) override {
-    bool valid = true, personal = false;
+    bool valid = true, personal = false, warned = false;
     Json files = Json::array();
     for (const std::string& file : m_files) {
       context.progress.check();
-      const FileReport report = examine(file, m_maxIssues, m_privacy);
+      FileReport report = examine(file, m_maxIssues, m_privacy);
+      report.refusedByStrict = context.common.strict && report.valid && report.counts.warnings > 0;
+      if (report.refusedByStrict) report.valid = false;
       valid = valid && report.valid;
       personal = personal || report.personal;
+      warned = warned || report.counts.warnings > 0;
       if (context.common.json)
         files.push_back(reportJson(file, report));
       else if (!context.common.quiet || !report.valid || report.personal)
         answer(reportText(file, report));
     }
     if (context.common.json) answerJson({{"valid", valid}, {"files", std::move(files)}});
-    return valid && !personal ? 0 : kInvalid;
+    return valid && !personal && !(warned && context.common.strict) ? 0 : kInvalid;
   }
 
 private:

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <stdlib.h>
 #include <unistd.h>
 
 #include "converters/common/error.h"
@@ -26,7 +25,10 @@ namespace {
 std::string errorText(const fs::path& file, formats::Issue error) {
   const std::string prefix = file.string() + ": ";
   if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
-  return prefix + error.text();
+  // nothing of a file that cannot be read or written has a place
+  if (error.offset || error.pointer) return prefix + error.text();
+  const bool isLimit = error.message.ends_with(std::generic_category().message(EFBIG));
+  return prefix + error.message + (isLimit ? " (ulimit -f tells the shell's limit)" : "");
 }
 
 /// The whole of a case file, and the case in it.
@@ -35,8 +37,16 @@ std::pair<std::vector<std::byte>, formats::Case> readBoth(const fs::path& file) 
   auto bytes = formats::readFileBytes(file);
   if (!bytes) throw invalidInput(errorText(file, bytes.error()));
   auto value = formats::decodeCase(*bytes);
-  if (!value) throw invalidInput(errorText(file, value.error()));
-  return {std::move(*bytes), std::move(*value)};
+  if (value) return {std::move(*bytes), std::move(*value)};
+  const std::string other = notA(ContentKind::Case, file);
+  if (value.error().code == formats::ErrorCode::NotLumen && !other.empty())
+    throw invalidInput(file.string() + ": " + other);
+  throw invalidInput(errorText(file, value.error()));
+}
+
+/// Files that somebody made or measured are not replaced by files of another kind.
+bool isPrecious(ContentKind kind) {
+  return kind == ContentKind::Volume || kind == ContentKind::Seeds || kind == ContentKind::Case;
 }
 
 }  // namespace
@@ -65,12 +75,31 @@ void writeText(std::string_view text, const fs::path& file) {
 
 void requireInput(const fs::path& path, std::string_view what) {
   std::error_code error;
-  if (fs::exists(path, error)) return;
-  throw invalidInput(path.string() + ": there is no such " + std::string(what));
+  if (!fs::exists(path, error))
+    throw invalidInput(path.string() + ": there is no such " + std::string(what));
+  if (access(path.c_str(), R_OK) != 0)
+    throw invalidInput(path.string() + ": this " + std::string(what) +
+                       " may not be read: " + std::strerror(errno));
 }
 
-void requireWritable(const fs::path& path) {
+void requireOrder(const fs::path& input, const fs::path& output) {
+  const FileContent content = contentOf(output);
+  const std::string swapped = "; are the two swapped?";
   std::error_code ignored;
+  if (!fs::exists(input, ignored) && isPrecious(content.kind))
+    throw invalidInput(input.string() + ": there is no such input, and the output is there (" +
+                       output.string() + ": " + content.sentence() + ")" + swapped);
+  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Seeds)
+    throw Error(ErrorKind::Usage, output.string() + ": " + content.sentence() +
+                                      ", but given as the output" + swapped);
+}
+
+void requireWritable(const fs::path& path, ContentKind written) {
+  std::error_code ignored;
+  const FileContent content = contentOf(path);
+  if (isPrecious(content.kind) && content.kind != written)
+    throw Error(ErrorKind::Usage, path.string() + ": " + content.sentence() +
+                                      ", which would be lost; another name, please");
   if (path.filename().empty() || fs::is_directory(path, ignored))
     throw failed(path.string() + ": this is a folder, but the output must be a file");
   if (fs::exists(path, ignored)) {
@@ -82,15 +111,9 @@ void requireWritable(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored))
     throw failed(path.string() + ": the output's folder " + folder.string() + " does not exist");
-  // permission bits do not tell (read-only mounts, privileged users), so one file is made and
-  // dropped
-  std::string probe = (folder / ".lumen-probe-XXXXXX").string();
-  const int file = mkstemp(probe.data());
-  if (file < 0)
-    throw failed(path.string() + ": no file can be made in the folder " + folder.string() + ": " +
-                 std::strerror(errno));
-  close(file);
-  unlink(probe.c_str());
+  // permission bits do not tell (read-only mounts, privileged users), so a file is begun and dropped
+  const auto begun = formats::PendingFile::beside(path);
+  if (!begun) throw failed(errorText(path, begun.error()));
 }
 
 }  // namespace lumen::app

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "converters/app/file_content.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::app {
@@ -24,11 +25,16 @@ void writeCase(const formats::Case& value, const std::filesystem::path& file,
 /// Writes atomically; throws Error(Failed) with the file's name.
 void writeText(std::string_view text, const std::filesystem::path& file);
 
-/// Throws Error(InvalidInput) if `path` is missing; `what` names its role, such as "seeds file".
+/// Throws Error(InvalidInput) if `path` is missing or may not be read; `what` names its role, such as "seeds file".
 void requireInput(const std::filesystem::path& path, std::string_view what);
 
+/// Throws Error(Usage) if `output` is what only an input can be, a volume or seeds, and
+/// Error(InvalidInput) if `input` is missing while `output` could be one: they look swapped.
+void requireOrder(const std::filesystem::path& input, const std::filesystem::path& output);
+
 /// Throws Error(Failed) unless `path` can be created: its folder must exist and take new files, and
-/// it must not itself be a folder. Leaves nothing behind.
-void requireWritable(const std::filesystem::path& path);
+/// it must not itself be a folder. Leaves nothing behind. Throws Error(Usage) if `path` is a volume,
+/// seeds or a case, and something else is going to be written.
+void requireWritable(const std::filesystem::path& path, ContentKind written);
 
 }  // namespace lumen::app

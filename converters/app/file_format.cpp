@@ -5,6 +5,8 @@
 #include <system_error>
 
 #include "converters/app/file_access.h"
+#include "converters/app/loss_report.h"
+#include "converters/app/suggestion.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
 #include "converters/mesh/write_gltf.h"
@@ -22,6 +24,12 @@ template <VolumeFormat format>
 convert::Volume readVolumeAs(const fs::path& file, const convert::ReadVolumeOptions& options,
                              const Progress& progress) {
   return convert::readVolume(file, format, options, progress);
+}
+
+template <VolumeFormat format>
+convert::VolumeHeader readHeaderAs(const fs::path& file, const convert::ReadVolumeOptions& options,
+                                   const Progress& progress) {
+  return convert::readVolumeHeader(file, format, options, progress);
 }
 
 template <VolumeFormat format, bool compressed>
@@ -54,6 +62,7 @@ void writeMeshAs(const formats::Case& value, const fs::path& file, const OutputO
                  Progress& progress) {
   const Meshes meshes = convert::polygonise(value, options.polygonise, progress);
   progress.check();
+  reportLosses(meshes, file.string(), options.polygonise.cell, progress);
   writeText(encode(meshes, options.mesh), file);
 }
 
@@ -66,9 +75,9 @@ std::vector<FileFormat> makeTable() {
   using enum FormatKind;
   return {
       // cases
-      {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"}, .holds = kEveryPart,
+      {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Binary>},
-      {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"}, .holds = kEveryPart,
+      {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
       // meshes
       {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = writeMeshAs<encodeGlb>},
@@ -78,19 +87,23 @@ std::vector<FileFormat> makeTable() {
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
-       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
       {.name = "nhdr", .title = "NRRD", .kind = Volume, .endings = {".nhdr"},
-       .readVolume = readVolumeAs<VolumeFormat::Nrrd>},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>},
       {.name = "nii", .title = "NIfTI", .kind = Volume, .endings = {".nii"},
-       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
       {.name = "nii.gz", .title = "NIfTI", .kind = Volume, .endings = {".nii.gz"},
-       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
       {.name = "mha", .title = "MetaImage", .kind = Volume, .endings = {".mha"},
-       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>,
+       .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
       {.name = "mhd", .title = "MetaImage", .kind = Volume, .endings = {".mhd"},
-       .readVolume = readVolumeAs<VolumeFormat::MetaImage>},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>},
       {.name = "dicom", .title = "a folder of DICOM", .kind = Volume,
-       .readVolume = readVolumeAs<VolumeFormat::Dicom>},
+       .readVolume = readVolumeAs<VolumeFormat::Dicom>, .readVolumeHeader = readHeaderAs<VolumeFormat::Dicom>},
   };
 }
 // clang-format on
@@ -121,21 +134,6 @@ const FileFormat* findByEnding(const fs::path& path) {
   return best;
 }
 
-/// `format` if it is not null and passes `test`.
-const FileFormat& require(const FileFormat* format, const fs::path& path, std::string_view override,
-                          FormatTest test, const std::string& verb, const std::string& option) {
-  if (format != nullptr && test(*format)) return *format;
-  const std::string known = "; lumen " + verb + "s " + formatNames(test);
-  if (!override.empty())
-    throw unsupported(option + " " + std::string(override) + ": lumen cannot " + verb +
-                      " this format" + known);
-  if (format != nullptr)
-    throw unsupported(path.string() + ": lumen cannot " + verb + " the format " +
-                      std::string(format->name) + known);
-  throw unsupported(path.string() + ": the name's ending is not that of a format that lumen " +
-                    verb + "s" + known + " (" + option + " chooses one whatever the name)");
-}
-
 /// `text(format)` of each format that passes `test`, each text once.
 template <class Text>
 std::vector<std::string> listed(FormatTest test, Text text) {
@@ -147,6 +145,43 @@ std::vector<std::string> listed(FormatTest test, Text text) {
       words.push_back(word);
   }
   return words;
+}
+
+std::vector<std::string> namesOf(FormatTest test) {
+  return listed(test, [](const FileFormat& format) { return format.name; });
+}
+
+std::vector<std::string> endingsOf(FormatTest test) {
+  return listed(test, [](const FileFormat& format) {
+    return format.endings.empty() ? std::string_view() : format.endings.front();
+  });
+}
+
+/// `format` if it is not null and passes `test`.
+const FileFormat& require(const FileFormat* format, const fs::path& path, std::string_view override,
+                          FormatTest test, const std::string& verb, const std::string& option) {
+  if (format != nullptr && test(*format)) return *format;
+  const std::string known = "; lumen " + verb + "s " + formatNames(test);
+  if (!override.empty())
+    throw unsupported(option + " " + std::string(override) + ": lumen cannot " + verb +
+                      " this format" + known + didYouMean(override, namesOf(test)));
+  if (format != nullptr)
+    throw unsupported(path.string() + ": lumen cannot " + verb + " the format " +
+                      std::string(format->name) + known);
+  throw unsupported(path.string() + ": the name's ending is not that of a format that lumen " +
+                    verb + "s" + known + " (" + option + " chooses one whatever the name)" +
+                    didYouMean(path.extension().string(), endingsOf(test)));
+}
+
+/// An input whose name does not tell its format, but whose content does.
+void refuseByContent(const fs::path& path) {
+  const FileContent content = contentOf(path);
+  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case)
+    throw unsupported(path.string() + ": " + content.sentence() +
+                      ", but its name does not say so; --from says it, which takes " +
+                      formatNames(canRead));
+  if (content.kind != ContentKind::Unknown)
+    throw unsupported(path.string() + ": " + notA(ContentKind::Volume, path));
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& last) {
@@ -165,6 +200,18 @@ const std::vector<FileFormat>& fileFormats() {
   return table;
 }
 
+ContentKind contentKind(const FileFormat& format) {
+  switch (format.kind) {
+    case FormatKind::Volume:
+      return ContentKind::Volume;
+    case FormatKind::Mesh:
+      return ContentKind::Mesh;
+    case FormatKind::Case:
+      break;
+  }
+  return ContentKind::Case;
+}
+
 bool canRead(const FileFormat& format) {
   return format.readCase != nullptr || format.readVolume != nullptr;
 }
@@ -181,19 +228,20 @@ bool canWriteCase(const FileFormat& format) {
   return format.kind == FormatKind::Case && canWrite(format);
 }
 
+bool canWriteMesh(const FileFormat& format) {
+  return format.kind == FormatKind::Mesh && canWrite(format);
+}
+
 bool canWriteVolume(const FileFormat& format) {
   return format.writeVolume != nullptr;
 }
 
 std::string formatNames(FormatTest test) {
-  return joined(listed(test, [](const FileFormat& format) { return format.name; }), ", ");
+  return joined(namesOf(test), ", ");
 }
 
 std::string formatEndings(FormatTest test) {
-  const auto ending = [](const FileFormat& format) {
-    return format.endings.empty() ? std::string_view() : format.endings.front();
-  };
-  return joined(listed(test, ending), " or ");
+  return joined(endingsOf(test), " or ");
 }
 
 std::string formatTitles(FormatTest test) {
@@ -205,10 +253,13 @@ const FileFormat& inputFormat(const fs::path& path, std::string_view override) {
   const FileFormat* format = !override.empty()                 ? findByName(override)
                              : fs::is_directory(path, ignored) ? findFolder()
                                                                : findByEnding(path);
+  if (override.empty() && (format == nullptr || !canRead(*format))) refuseByContent(path);
   return require(format, path, override, canRead, "read", "--from");
 }
 
 const FileFormat& outputFormat(const fs::path& path, std::string_view override) {
+  if (std::error_code ignored; fs::is_directory(path, ignored))
+    throw failed(path.string() + ": this is a folder, but the output must be a file");
   const FileFormat* format = override.empty() ? findByEnding(path) : findByName(override);
   return require(format, path, override, canWrite, "write", "--to");
 }

@@ -33,6 +33,10 @@ sigset_t awaitedSignals() {
 
 }  // namespace
 
+void reportFileSizeLimit() {
+  signal(SIGXFSZ, SIG_IGN);
+}
+
 InterruptGuard::InterruptGuard(Progress& progress) : m_progress(progress) {
   // a shell starts background jobs with SIGINT ignored, and an ignored signal never becomes pending
   signal(SIGINT, SIG_DFL);

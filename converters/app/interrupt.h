@@ -13,6 +13,10 @@
 
 namespace lumen {
 
+/// A write beyond the shell's limit on the size of a file (ulimit -f) fails like one to a full disk,
+/// instead of ending the process without a word.
+void reportFileSizeLimit();
+
 /// While it lives, the first SIGINT or SIGTERM cancels `progress`; if the process is still there
 /// 0.8 s later (inside a library call that cannot be stopped), or at a second signal, it exits with
 /// code 130 at once. Before that exit the temporary files of the registered outputs are removed;

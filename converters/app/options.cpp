@@ -1,33 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/options.h"
 
+#include <limits>
+#include <map>
 #include <optional>
 
+#include "converters/app/suggestion.h"
+#include "converters/app/value_checks.h"
+#include "converters/common/error.h"
 #include "formats/case/enum_names.h"
 
 namespace lumen::app {
 
 namespace {
 
-/// "a, b or c".
-std::string alternatives(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
-  return text;
+// a kilometre: nothing in a body is as long
+constexpr double kLongest = 1e6;
+
+const CLI::Validator kShare = numberIn({0, 1});
+const CLI::Validator kOpenShare = numberIn({0, 1, true});
+const CLI::Validator kPositive = numberIn({0, kLongest, true});
+const CLI::Validator kNotNegative = numberIn({0, kLongest});
+const CLI::Validator kWeight = numberIn({0, 1e6});
+const CLI::Validator kScale = numberIn({1e-3, 1e3});
+// cases store it as a signed number
+const CLI::Validator kRandomSeed = wholeIn(0, std::numeric_limits<std::int64_t>::max());
+
+/// What --unit and --seeds-unit take.
+const std::map<std::string, double> kMillimetresOf = {
+    {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
+
+template <class T>
+std::vector<std::string> wordsOf(const std::map<std::string, T>& named) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : named) words.push_back(word);
+  return words;
 }
 
-/// A check without its text: the help says in words what is allowed.
-CLI::Validator quietly(CLI::Validator check) {
-  return check.description("");
-}
-
-const CLI::Validator kShare = quietly(CLI::Range(0.0, 1.0));
-const CLI::Validator kPositive = quietly(CLI::PositiveNumber);
-const CLI::Validator kNotNegative = quietly(CLI::NonNegativeNumber);
+/// What --seeds-frame takes.
+const std::map<std::string, convert::SeedSystem> kSeedSystems = {
+    {"lps", convert::SeedSystem::Lps},
+    {"ras", convert::SeedSystem::Ras},
+    {"voxel", convert::SeedSystem::Voxel}};
 
 CLI::Validator within(int low, int high) {
-  return quietly(CLI::Range(low, high));
+  return wholeIn(low, high);
 }
 
 /// Adds options of one help group whose defaults are the values that the variables hold.
@@ -60,14 +77,37 @@ private:
   std::string m_title;
 };
 
+/// What --spacing takes; each number of it is checked.
+Eigen::Vector3d spacingOf(const std::string& text) {
+  std::vector<double> values;
+  for (const std::string& word : CLI::detail::split(text, ',')) values.push_back(std::stod(word));
+  if (values.size() == 1) return Eigen::Vector3d::Constant(values[0]);
+  if (values.size() == 3) return {values[0], values[1], values[2]};
+  throw Error(ErrorKind::Usage, "--spacing: " + std::to_string(values.size()) +
+                                    " numbers; expected one, or three with commas between them");
+}
+
 }  // namespace
 
 convert::ReadVolumeOptions VolumeArguments::options() const {
   convert::ReadVolumeOptions options;
   options.series = series;
+  if (!spacing.empty()) options.spacing = spacingOf(spacing);
+  if (const auto mm = kMillimetresOf.find(unit); mm != kMillimetresOf.end())
+    options.unit = mm->second;
+  options.allowedDetached.assign(allowDetached.begin(), allowDetached.end());
   if (crop.size() == 6)
     options.crop = convert::IndexBox{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
   return options;
+}
+
+convert::SeedReading TrackArguments::reading() const {
+  convert::SeedReading reading;
+  if (const auto system = kSeedSystems.find(seedsFrame); system != kSeedSystems.end())
+    reading.system = system->second;
+  if (const auto unit = kMillimetresOf.find(seedsUnit); unit != kMillimetresOf.end())
+    reading.unit = unit->second;
+  return reading;
 }
 
 convert::FitOptions FitArguments::options() const {
@@ -87,7 +127,26 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->option_text("I0,I1,J0,J1,K0,K1")
       ->group("Volume")
       ->delimiter(',')
+      ->check(within(0, std::numeric_limits<int>::max()))
       ->expected(6);
+  app.add_option("--spacing", volume.spacing,
+                 "Distance of voxels along i, j and k, or of all, in mm, whatever the file says")
+      ->option_text("MM or MM,MM,MM")
+      ->group("Volume")
+      ->join(',')
+      ->check(oneOrThreeIn({0, kLongest, true}));
+  app.add_option("--unit", volume.unit,
+                 "Unit of the lengths in the file's header: mm, cm, m or um, whatever it says")
+      ->type_name("UNIT")
+      ->group("Volume")
+      ->check(oneOf(wordsOf(kMillimetresOf)));
+  app.add_option("--allow-detached", volume.allowDetached,
+                 "Allow a header to take its voxels from this file, or from below this folder; "
+                 "otherwise only from its own folder. May be given several times")
+      ->option_text("PATH")
+      ->group("Volume")
+      ->check(fileName())
+      ->allow_extra_args(false);
 }
 
 void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding) {
@@ -107,29 +166,42 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
   Group volume(app, "Volume");
   volume.addFlag("--dark", o.dark, "Vessels are darker than their background");
   Group group(app, "Tracking");
-  group.add("--seeds", track.seeds, "FILE",
-            "Where vessels begin: lumen's seeds JSON, or 3D Slicer Markups (.mrk.json)");
-  group.addFlag("--strict", track.strict, "Exit with 1 if any seed started no track");
+  addFile(app, "--seeds", track.seeds,
+          "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv)")
+      ->group("Tracking");
+  app.add_option("--seeds-frame", track.seedsFrame,
+                 "What the seeds' coordinates are, whatever their file says: lps, ras, or voxel "
+                 "(indices; radii in the file's unit)")
+      ->type_name("FRAME")
+      ->group("Tracking")
+      ->check(oneOf(wordsOf(kSeedSystems)));
+  app.add_option("--seeds-unit", track.seedsUnit,
+                 "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or "
+                 "um")
+      ->type_name("UNIT")
+      ->group("Tracking")
+      ->check(oneOf(wordsOf(kMillimetresOf)));
   group.add("--inlier-rate", o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
-      ->check(kShare);
+      ->check(kOpenShare);
   group
       .add("--inlier-band", o.inlierBand, "SHARE",
            "Half width of the inlier band, relative to the radius")
-      ->check(kShare);
+      ->check(numberIn({0, 1, true, true}));
   group.add("--rays", o.rays, "N", "Rays of a node: 12, 42, 162 or 642")
-      ->check(quietly(CLI::IsMember({12, 42, 162, 642})));
+      ->check(oneOf({12, 42, 162, 642}));
   group.add("--axes", o.axes, "N", "Candidate axes of a node: 6, 21, 81 or 321")
-      ->check(quietly(CLI::IsMember({6, 21, 81, 321})));
+      ->check(oneOf({6, 21, 81, 321}));
   group.add("--samples", o.samples, "N", "Samples on a ray")->check(within(8, 4096));
   group.add("--min-trials", o.minTrials, "N", "Fewest random circles for each axis")
       ->check(within(1, 1000000));
   group.add("--max-trials", o.maxTrials, "N", "Most random circles for each axis")
       ->check(within(1, 1000000));
-  group.add("--step", o.step, "S", "Prediction step, in cylinder heights")->check(kPositive);
+  group.add("--step", o.step, "S", "Prediction step, in cylinder heights")
+      ->check(numberIn({0, 2, true}));
   group
       .add("--noise-margin", o.noiseMargin, "X",
            "A node below the inlier rate needs a wall this many times as strong as noise")
-      ->check(within(0, 100));
+      ->check(numberIn({0, 100}));
   group
       .add("--look-ahead", o.lookAhead, "N",
            "Steps to look beyond a place where nothing fits; 0: stop there")
@@ -137,7 +209,7 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
   group
       .add("--branch-offset", o.branchOffset, "S",
            "A child starts this many parent radii from its parent's centerline")
-      ->check(kNotNegative);
+      ->check(numberIn({0, 10, true}));
   group
       .add("--aneurysm-gradient", o.aneurysmGradient, "SHARE",
            "Aneurysm points need this share of the strongest gradient seen from their centre")
@@ -147,7 +219,7 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
                  "[measured in the volume]")
       ->type_name("MM")
       ->group("Tracking")
-      ->check(kNotNegative);
+      ->check(numberIn({0, 1000}));
   app.add_option("--smoothing", o.smoothing,
                  "Standard deviation of the Gaussian that the volume is smoothed by; 0: none "
                  "[by its noise]")
@@ -158,8 +230,9 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
                "Smooth the finer axes of a volume whose coarsest edge is over 1.5 times as long, "
                "until all are about as blurred [on]")
       ->group("Tracking");
-  group.add("--max-nodes", o.maxNodes, "N", "Bound on the nodes of one branch")->check(kPositive);
-  group.add("--random-seed", o.seed, "K", "Seed of the random numbers");
+  group.add("--max-nodes", o.maxNodes, "N", "Bound on the nodes of one branch")
+      ->check(within(2, std::numeric_limits<int>::max()));
+  group.add("--random-seed", o.seed, "K", "Seed of the random numbers")->check(kRandomSeed);
 }
 
 void addFitOptions(CLI::App& app, FitArguments& fit) {
@@ -167,29 +240,27 @@ void addFitOptions(CLI::App& app, FitArguments& fit) {
   Group group(app, "Fitting");
   const std::vector<std::string> kernels(formats::kKernelNames.begin(),
                                          formats::kKernelNames.end());
-  group.add("--kernel", fit.kernel, "NAME", alternatives(kernels))
-      ->check(quietly(CLI::IsMember(kernels)));
+  group.add("--kernel", fit.kernel, "NAME", alternatives(kernels))->check(oneOf(kernels));
   app.add_option("--kernel-parameter", o.kernelParameter,
                  "Cauchy's s^2 [0.2] or the Gaussian's a^2 [0.5]")
       ->type_name("X")
       ->group("Fitting")
-      ->check(kPositive);
+      ->check(kScale);
   group.add("--cohesion-weight", o.cohesionWeight, "W", "Weight alpha of the Lennard-Jones energy")
-      ->check(kNotNegative);
+      ->check(kWeight);
   group.add("--curvature-weight", o.curvatureWeight, "W", "Weight beta of the curvature energy")
-      ->check(kNotNegative);
+      ->check(kWeight);
   group.add("--cohesion-scale", o.cohesionScale, "S", "Scale s of the Lennard-Jones energy")
-      ->check(kPositive);
+      ->check(kScale);
   group.add("--max-subdivisions", o.maxSubdivisions, "N", "Most blob subdivisions in one node")
-      ->check(kNotNegative);
+      ->check(within(0, 1000));
   group
       .add("--neighbourhood", o.neighbourhood, "N",
            "Topological distance of the nodes whose points a node is fitted to")
       ->check(within(0, 100));
   group.add("--seam-sweeps", o.seamSweeps, "N", "Sweeps that tie adjacent models to one another")
       ->check(within(0, 100));
-  group.add("--seam-weight", o.seamWeight, "W", "Weight of a tie, in wall points")
-      ->check(kNotNegative);
+  group.add("--seam-weight", o.seamWeight, "W", "Weight of a tie, in wall points")->check(kWeight);
   group.addScaled("--iso-level", o.isoLevel, "Iso-level T", "half a voxel");
   group.addScaled("--accuracy", o.accuracy, "Subdivide until no point is farther than this",
                   "1.5 voxels");
@@ -204,7 +275,9 @@ void addMeshOptions(CLI::App& app, OutputOptions& output) {
       .add("--cell", output.polygonise.cell, "MM",
            "Edge of a marching-cubes cell; 0: the voxel size")
       ->check(kNotNegative);
-  group.addFlag("--draco", output.mesh.draco, "Compress glTF with KHR_draco_mesh_compression");
+  group.addFlag("--draco", output.mesh.draco,
+                "Compress glTF with KHR_draco_mesh_compression; not for the f3d of Debian 12, "
+                "which crashes on any such file");
   group
       .add("--draco-position-bits", output.mesh.dracoPositionBits, "N",
            "Bits of a position in a branch's bounding box")
@@ -216,21 +289,21 @@ void addMeshOptions(CLI::App& app, OutputOptions& output) {
 void addPhantomOptions(CLI::App& app, convert::PhantomOptions& phantom) {
   Group group(app, "Phantom");
   group.add("--size", phantom.size, "N", "Voxels along an edge; 0: 128, or 256 for patient")
-      ->check(within(0, 2048));
-  group.add("--voxel", phantom.voxel, "MM", "Edge of a voxel")->check(kPositive);
+      ->check(within(0, 1024));
+  group.add("--voxel", phantom.voxel, "MM", "Edge of a voxel")->check(numberIn({0.01, 10}));
   group
       .add("--noise", phantom.noise, "SHARE",
            "Standard deviation of the noise, as a share of the contrast")
-      ->check(kNotNegative);
+      ->check(numberIn({0, 2}));
   group
       .add("--bias", phantom.bias, "SHARE",
            "Amplitude of the slow bias field, as a share of the contrast")
-      ->check(kNotNegative);
+      ->check(numberIn({0, 2}));
   group
       .add("--psf", phantom.psf, "VOXELS",
            "Standard deviation of the Gaussian point-spread function")
-      ->check(kNotNegative);
-  group.add("--seed", phantom.seed, "K", "Seed of the random numbers");
+      ->check(numberIn({0, 5}));
+  group.add("--seed", phantom.seed, "K", "Seed of the random numbers")->check(kRandomSeed);
 }
 
 }  // namespace lumen::app

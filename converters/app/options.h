@@ -11,6 +11,7 @@
 #include "converters/app/file_format.h"
 #include "converters/fitting/fit.h"
 #include "converters/phantom/phantom.h"
+#include "converters/seeds/seeds.h"
 #include "converters/tracking/tracker.h"
 #include "converters/volume/read_volume.h"
 
@@ -20,13 +21,17 @@ namespace lumen::app {
 struct VolumeArguments {
   std::string series;
   std::vector<int> crop;  ///< empty, or i0, i1, j0, j1, k0, k1
+  std::string spacing;    ///< empty, or mm of one or three axes, with commas between them
+  std::string unit;       ///< empty, or mm, cm, m or um
+  std::vector<std::string> allowDetached;
   [[nodiscard]] convert::ReadVolumeOptions options() const;
 };
 
 struct TrackArguments {
   std::string seeds;
-  bool strict = false;
+  std::string seedsFrame, seedsUnit;  ///< empty: as the seeds file says
   convert::TrackOptions options;
+  [[nodiscard]] convert::SeedReading reading() const;
 };
 
 struct FitArguments {

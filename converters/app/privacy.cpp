@@ -9,6 +9,7 @@
 
 #include "formats/case/case_file.h"
 #include "formats/case/chunk_codec.h"
+#include "formats/case/json_document.h"
 #include "formats/view/case_chunks.h"
 #include "formats/view/text_rules.h"
 
@@ -100,6 +101,16 @@ void scanBytes(std::span<const std::byte> bytes, const std::string& pointer, Fin
   }
 }
 
+// Bytes that were read as JSON before.
+void scanJsonBytes(std::span<const std::byte> bytes, const std::string& pointer,
+                   Findings& findings) {
+  formats::IssueList issues(1);
+  formats::ArraySlots none;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (const auto value = formats::parseJson(text, 0, pointer, none, issues))
+    scanJson(*value, pointer, findings);
+}
+
 // The texts of a binary file are its metadata, which are JSON, and its labels.
 void scanBinary(std::span<const std::byte> file, const formats::Case& value, Findings& findings) {
   for (std::size_t b = 0; b < value.tree.branches.size(); ++b)
@@ -111,8 +122,7 @@ void scanBinary(std::span<const std::byte> file, const formats::Case& value, Fin
     formats::IssueList issues(1);
     const auto decoded = chunk.encoding == 0 ? std::nullopt : formats::decodeChunk(chunk, issues);
     const auto bytes = decoded ? std::span<const std::byte>(*decoded) : chunk.stored;
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    scanJson(json::parse(text, text + bytes.size()), "/metadata", findings);
+    scanJsonBytes(bytes, "/metadata", findings);
   }
 }
 
@@ -137,8 +147,7 @@ std::vector<PrivacyFinding> scanPrivacy(std::span<const std::byte> file) {
   if (formats::hasContainerMagic(file)) {
     scanBinary(file, *value, findings);
   } else {
-    const auto* text = reinterpret_cast<const char*>(file.data());
-    scanJson(json::parse(text, text + file.size()), "", findings);
+    scanJsonBytes(file, "", findings);
   }
   for (std::size_t i = 0; i < value->otherChunks.size(); ++i)
     scanBytes(value->otherChunks[i].bytes, "/otherChunks/" + std::to_string(i), findings);

@@ -9,6 +9,7 @@
 
 #include "converters/common/error.h"
 #include "formats/case/topology.h"
+#include "formats/container/printable.h"
 
 namespace lumen::app {
 
@@ -66,7 +67,8 @@ Json caseSummary(const formats::Case& value) {
 }
 
 std::string caseLine(const std::string& file, const formats::Case& value) {
-  return file + ": " + counted(value.tree.branches.size(), "branch", "branches") + ", " +
+  return formats::printable(file) + ": " +
+         counted(value.tree.branches.size(), "branch", "branches") + ", " +
          counted(value.tree.nodeCount(), "node", "nodes") + ", " +
          counted(pointCount(value), "point", "points") + ", " +
          counted(blobCount(value), "blob", "blobs") + ", " + fixed(totalLength(value.tree), 1) +
@@ -87,7 +89,21 @@ std::string fixed(std::optional<double> value, int digits) {
   return text.data();
 }
 
-std::string alignColumns(const std::vector<std::vector<std::string>>& rows) {
+Lines& Lines::add(std::string_view name, std::string_view value) {
+  constexpr std::size_t kColumn = 14;
+  std::string first = formats::printable(name);
+  first.resize(std::max(first.size() + 1, kColumn), ' ');
+  return add(first + std::string(value));
+}
+
+Lines& Lines::add(std::string_view line) {
+  m_text += formats::printable(line) + "\n";
+  return *this;
+}
+
+std::string alignColumns(std::vector<std::vector<std::string>> rows) {
+  for (auto& row : rows)
+    for (std::string& cell : row) cell = formats::printable(cell);
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));

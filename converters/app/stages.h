@@ -14,20 +14,24 @@
 
 namespace lumen::app {
 
-/// The volume in `file`, read as `format` whatever the name; shows a stage of progress.
+/// What the header of the volume in `file` says; tells of what it leaves open.
+convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
+                                       const VolumeArguments& volume, Progress& progress);
+
+/// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
+/// file leaves open and the reader assumed becomes warnings.
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress);
 
-/// The seeds of --seeds. Throws Error(Usage) without the option, and Error(InvalidInput) for a file
-/// that is missing or invalid.
+/// The seeds of --seeds, read as the options say. Throws Error(Usage) without the option, and
+/// Error(InvalidInput) for a file that is missing or invalid.
 std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track);
 
-/// Tracks `seeds` through the volume; failed seeds become warnings. `origin` is where the seeds are
-/// from, for messages. Throws Error(InvalidInput) for a seed outside of the volume, and
-/// Error(Failed) if nothing was tracked.
+/// Tracks `seeds` through the volume. Seeds that cannot be placed in it or that start no track
+/// become warnings, and failures of the result. `track.seeds` is where they are from, for messages.
+/// Throws Error(InvalidInput) if none can be placed, and Error(Failed) if nothing was tracked.
 convert::TrackResult trackSeeds(const convert::Volume& volume,
                                 const std::vector<convert::SeedBranch>& seeds,
-                                const std::string& origin, const convert::TrackOptions& options,
-                                Progress& progress);
+                                const TrackArguments& track, Progress& progress);
 
 }  // namespace lumen::app

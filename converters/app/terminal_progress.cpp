@@ -8,6 +8,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "converters/app/message_text.h"
+
 namespace lumen {
 
 namespace {
@@ -103,13 +105,15 @@ void TerminalProgress::end() {
 void TerminalProgress::detail(std::string_view message) {
   if (m_style.verbosity != Verbosity::Verbose) return;
   const std::lock_guard lock(m_mutex);
-  lineLocked("lumen: " + std::string(message));
+  lineLocked("lumen: " + messageText(message));
 }
 
 void TerminalProgress::warn(std::string_view message) {
+  if (m_style.strict)
+    throw invalidInput(std::string(message) + " (a warning, which --strict makes an error)");
   if (m_style.verbosity == Verbosity::Quiet) return;
   const std::lock_guard lock(m_mutex);
-  lineLocked("lumen: warning: " + std::string(message));
+  lineLocked("lumen: warning: " + messageText(message));
 }
 
 void TerminalProgress::abandon() {

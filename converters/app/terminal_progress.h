@@ -23,6 +23,7 @@ public:
     Verbosity verbosity = Verbosity::Normal;
     std::chrono::milliseconds barInterval{100};  ///< shortest time between two drawings of the bar
     std::chrono::milliseconds lineInterval{5000};  ///< shortest time between two plain lines
+    bool strict = false;                           ///< a warning is an error
   };
 
   explicit TerminalProgress(const Style& style);
@@ -35,6 +36,7 @@ public:
   void advance(std::size_t units = 1) override;
   void end() override;
   void detail(std::string_view message) override;
+  /// Throws Error(InvalidInput) if the style is strict.
   void warn(std::string_view message) override;
 
   /// Drops the running stage without its closing line, so that a message can follow on a clean

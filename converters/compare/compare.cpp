@@ -28,7 +28,10 @@ double samplingStep(const formats::Case& found, const formats::Case& truth) {
 
 Comparison compareCases(const formats::Case& found, const formats::Case& truth,
                         Progress& progress) {
-  if (truth.tree.branches.empty()) throw invalidInput("compare: the truth has no branch");
+  if (truth.tree.branches.empty())
+    throw invalidInput(
+        "the truth has no branch, so there is nothing to compare with; expected a case with a "
+        "tree");
   progress.begin("compare",
                  truth.tree.branches.size() + (found.models ? found.tree.nodeCount() : 0));
   const CenterlineComparison lines =

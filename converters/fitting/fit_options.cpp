@@ -5,6 +5,7 @@
 
 #include "converters/common/error.h"
 #include "formats/field/kernel.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
@@ -14,14 +15,14 @@ constexpr double kIsoLevel = 0.5, kAccuracy = 1.5, kMaxDistance = 100, kMinWidth
 
 void requireRange(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  throw invalidInput("fit option " + std::string(name) + ": found " + std::to_string(value) +
-                     ", expected a number from " + std::to_string(low) + " to " +
-                     std::to_string(high));
+  throw invalidInput("--" + std::string(name) + ": found " + formats::shortText(value) +
+                     ", expected a number from " + formats::shortText(low) + " to " +
+                     formats::shortText(high));
 }
 
 void requireLength(const char* name, double value) {
   if (value > 0 && std::isfinite(value)) return;
-  throw invalidInput("fit option " + std::string(name) + ": found " + std::to_string(value) +
+  throw invalidInput("--" + std::string(name) + ": found " + formats::shortText(value) +
                      ", expected a length above 0 mm");
 }
 
@@ -29,7 +30,7 @@ void scaleWithVoxel(const char* name, std::optional<double>& value, double voxel
                     double voxelSize) {
   if (!value) {
     if (!(voxelSize > 0) || !std::isfinite(voxelSize)) {
-      throw invalidInput("fit option " + std::string(name) +
+      throw invalidInput("--" + std::string(name) +
                          ": it scales with the voxel size, which the case does not state; "
                          "expected a value in mm");
     }

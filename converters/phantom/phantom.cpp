@@ -9,6 +9,8 @@
 #include "converters/phantom/design.h"
 #include "converters/phantom/render.h"
 #include "converters/volume/write_volume.h"
+#include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
@@ -25,15 +27,15 @@ std::string joined(const std::vector<std::string>& names) {
 void requireRange(const char* option, double value, double low, double high) {
   if (value >= low && value <= high) return;
   throw Error(ErrorKind::Usage, std::string("phantom: --") + option + " is " +
-                                    std::to_string(value) + ", expected " + std::to_string(low) +
-                                    " to " + std::to_string(high));
+                                    formats::shortText(value) + ", expected " +
+                                    formats::shortText(low) + " to " + formats::shortText(high));
 }
 
 void checkOptions(const PhantomOptions& options) {
   const std::vector<std::string>& names = phantomNames();
   if (std::find(names.begin(), names.end(), options.name) == names.end())
-    throw Error(ErrorKind::Usage,
-                "phantom: unknown name '" + options.name + "', expected one of " + joined(names));
+    throw Error(ErrorKind::Usage, "phantom: unknown name '" + formats::printable(options.name) +
+                                      "', expected one of " + joined(names));
   if (options.size != 0) requireRange("size", options.size, kSmallestSize, kLargestSize);
   requireRange("voxel", options.voxel, 0.01, 10);
   requireRange("noise", options.noise, 0, 2);
@@ -93,7 +95,7 @@ Phantom makePhantom(const PhantomOptions& options, Progress& progress) {
   const int size = options.size != 0 ? options.size : patient ? 256 : 128;
   const Frame frame{options.voxel, options.voxel * (size - 1)};
   if (patient && frame.extent < kSmallestPatient)
-    throw Error(ErrorKind::Usage, "phantom: the volume is " + std::to_string(frame.extent) +
+    throw Error(ErrorKind::Usage, "phantom: the volume is " + formats::shortText(frame.extent) +
                                       " mm wide, expected at least 25 mm for 'patient'");
   // drawing, two passes of the blur, and the noise each report every slice
   progress.begin("phantom", 4 * static_cast<std::size_t>(size));

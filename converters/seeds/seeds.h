@@ -2,6 +2,7 @@
 // Where the user says that vessels begin.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include "converters/volume/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -21,22 +21,53 @@ struct SeedPoint {
   std::optional<double> radius;                        ///< mm, > 0
 };
 
+/// What a file's coordinates are. Voxel: indices, (0, 0, 0) at the centre of the volume's first
+/// voxel.
+enum class SeedSystem : std::uint8_t { Lps, Ras, Voxel };
+
+/// From a file's coordinates to LPS millimetres. Positions and directions in voxels stay what they
+/// are, because only the volume tells where they lie.
+struct SeedFrame {
+  SeedSystem system = SeedSystem::Lps;
+  double unit = 1;  ///< mm; of positions (but in voxels) and radii
+
+  [[nodiscard]] Eigen::Vector3d direction(const Eigen::Vector3d& v) const {
+    return system == SeedSystem::Ras ? Eigen::Vector3d(-v.x(), -v.y(), v.z()) : v;
+  }
+  [[nodiscard]] Eigen::Vector3d position(const Eigen::Vector3d& v) const {
+    return (system == SeedSystem::Voxel ? 1.0 : unit) * direction(v);
+  }
+};
+
 struct SeedBranch {
   std::string label;  ///< unique
   formats::BranchKind kind = formats::BranchKind::Vessel;
   std::optional<std::string> parent;  ///< label of another branch
   std::vector<SeedPoint> points;      ///< at least one; a vessel's second point gives its direction
   std::optional<Eigen::Vector3d> direction;  ///< unit, LPS
+  /// what its coordinates were read as; those in voxels are so until they are placed
+  /// (place_seeds.h)
+  SeedFrame frame{};
 };
 
-/// Reads a seeds file: lumen's own JSON (spec/seeds.md), or 3D Slicer Markups (`.mrk.json`).
-/// Branches come parents first, otherwise in file order. Throws Error(InvalidInput), naming file
-/// and label.
-std::vector<SeedBranch> readSeeds(const std::filesystem::path& file);
+/// A seed that started no track, or a point of one that the track does not pass through.
+struct SeedFailure {
+  std::string label;
+  std::string reason;  ///< one sentence, with the numbers that decided
+};
 
-/// Refuses seed points outside the volume. Throws Error(InvalidInput), naming the label and `file`.
-void checkSeedsInside(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
-                      const std::filesystem::path& file);
+/// What coordinates are, whatever the file says.
+struct SeedReading {
+  std::optional<SeedSystem> system;
+  std::optional<double> unit;  ///< mm
+};
+
+/// Reads a seeds file: lumen's own JSON (spec/seeds.md), 3D Slicer Markups (`.mrk.json`), or
+/// Slicer's older `.fcsv`; told apart by what is in them. Branches come parents first, otherwise in
+/// file order; a point that lies where the one before does is merged with it. Throws
+/// Error(InvalidInput), naming file, place, what was found and what was expected.
+std::vector<SeedBranch> readSeeds(const std::filesystem::path& file,
+                                  const SeedReading& reading = {});
 
 /// Writes lumen's own JSON, atomically.
 void writeSeeds(const std::vector<SeedBranch>& seeds, const std::filesystem::path& file);

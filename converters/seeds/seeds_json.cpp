@@ -3,15 +3,25 @@
 
 #include <algorithm>
 
+#include "converters/seeds/seed_text.h"
+
 namespace lumen::convert {
 namespace {
 
 using nlohmann::json;
 
-SeedFrame parseFrame(const JsonPlace& root) {
-  const std::string system = root.at("coordinateSystem").text();
-  if (system != "LPS" && system != "RAS") root.at("coordinateSystem").refuse("\"LPS\" or \"RAS\"");
-  return {scaleOf(root.at("units")), system == "RAS"};
+/// What the file states, where `reading` does not say otherwise.
+SeedFrame parseFrame(const JsonPlace& root, const SeedReading& reading) {
+  const JsonPlace system = root.at("coordinateSystem"), units = root.at("units");
+  SeedFrame frame;
+  if (reading.system)
+    frame.system = *reading.system;
+  else if (system.text() == "RAS")
+    frame.system = SeedSystem::Ras;
+  else if (system.text() != "LPS")
+    system.refuse("\"LPS\" or \"RAS\"; --seeds-frame states another");
+  frame.unit = reading.unit ? *reading.unit : scaleOf(units);
+  return frame;
 }
 
 SeedPoint parsePoint(const JsonPlace& place, const SeedFrame& frame) {
@@ -19,7 +29,7 @@ SeedPoint parsePoint(const JsonPlace& place, const SeedFrame& frame) {
   if (!place.value().is_object()) place.refuse("[x, y, z], or an object with a position");
   place.onlyKeys({"position", "radius"});
   SeedPoint point{frame.position(place.at("position").vector()), std::nullopt};
-  if (place.has("radius")) point.radius = frame.scale * place.at("radius").number();
+  if (place.has("radius")) point.radius = frame.unit * place.at("radius").number();
   return point;
 }
 
@@ -36,23 +46,24 @@ void spreadRadius(SeedBranch& branch, double radius) {
 SeedBranch parseBranch(const JsonPlace& place, const SeedFrame& frame) {
   place.onlyKeys({"label", "kind", "parent", "points", "radius", "direction", "comment"});
   SeedBranch branch;
+  branch.frame = frame;
   branch.label = place.at("label").text();
   if (place.has("kind")) {
     const auto kind = branchKind(place.at("kind").text());
     if (!kind)
-      place.at("kind").refuse("\"vessel\" or \"aneurysm\" for branch \"" + branch.label + "\"");
+      place.at("kind").refuse("\"vessel\" or \"aneurysm\" for branch " + quotedText(branch.label));
     branch.kind = *kind;
   }
   if (place.has("parent")) branch.parent = place.at("parent").text();
   for (const auto& point : place.at("points").elements())
     branch.points.push_back(parsePoint(point, frame));
-  if (place.has("radius")) spreadRadius(branch, frame.scale * place.at("radius").number());
+  if (place.has("radius")) spreadRadius(branch, frame.unit * place.at("radius").number());
   if (place.has("direction")) branch.direction = frame.direction(place.at("direction").vector());
   if (place.has("comment")) (void)place.at("comment").text();
   return branch;
 }
 
-std::string vectorText(const Eigen::Vector3d& v) {
+std::string jsonText(const Eigen::Vector3d& v) {
   return json{v.x(), v.y(), v.z()}.dump();
 }
 
@@ -61,11 +72,11 @@ std::string branchText(const SeedBranch& branch) {
   text += branch.kind == formats::BranchKind::Aneurysm ? "      \"kind\": \"aneurysm\",\n"
                                                        : "      \"kind\": \"vessel\",\n";
   if (branch.parent) text += "      \"parent\": " + json(*branch.parent).dump() + ",\n";
-  if (branch.direction) text += "      \"direction\": " + vectorText(*branch.direction) + ",\n";
+  if (branch.direction) text += "      \"direction\": " + jsonText(*branch.direction) + ",\n";
   text += "      \"points\": [\n";
   for (std::size_t i = 0; i < branch.points.size(); ++i) {
     const SeedPoint& p = branch.points[i];
-    text += "        {\"position\": " + vectorText(p.position);
+    text += "        {\"position\": " + jsonText(p.position);
     if (p.radius) text += ", \"radius\": " + json(*p.radius).dump();
     text += i + 1 < branch.points.size() ? "},\n" : "}\n";
   }
@@ -74,14 +85,19 @@ std::string branchText(const SeedBranch& branch) {
 
 }  // namespace
 
-std::vector<SeedBranch> parseSeeds(const JsonPlace& root) {
+std::vector<SeedBranch> parseSeeds(const JsonPlace& root, const SeedReading& reading) {
+  if (!root.has("format"))
+    root.refuse(
+        "the key \"format\" with \"lumen-seeds\" (lumen's own seeds), or the key \"markups\" (3D "
+        "Slicer's)");
+  if (root.at("format").value() != "lumen-seeds")
+    root.at("format").refuse("\"lumen-seeds\": this is no file of seeds");
   root.onlyKeys(
       {"$schema", "format", "version", "comment", "coordinateSystem", "units", "branches"});
-  if (root.at("format").text() != "lumen-seeds") root.at("format").refuse("\"lumen-seeds\"");
   if (root.at("version").value() != 1) root.at("version").refuse("1");
   for (const char* key : {"$schema", "comment"})
     if (root.has(key)) (void)root.at(key).text();
-  const SeedFrame frame = parseFrame(root);
+  const SeedFrame frame = parseFrame(root, reading);
   std::vector<SeedBranch> branches;
   for (const auto& place : root.at("branches").elements())
     branches.push_back(parseBranch(place, frame));

@@ -10,7 +10,7 @@
 namespace lumen::convert {
 
 /// The branches in file order, not yet checked across branches. Throws Error(InvalidInput).
-std::vector<SeedBranch> parseSeeds(const JsonPlace& root);
+std::vector<SeedBranch> parseSeeds(const JsonPlace& root, const SeedReading& reading);
 
 /// The text of a seeds file, in LPS mm.
 std::string seedsText(const std::vector<SeedBranch>& seeds);

@@ -11,6 +11,7 @@ namespace lumen::convert {
 
 /// The branches in file order, not yet checked across branches; `stem` labels a curve without a
 /// name. Throws Error(InvalidInput).
-std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& stem);
+std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& stem,
+                                     const SeedReading& reading);
 
 }  // namespace lumen::convert

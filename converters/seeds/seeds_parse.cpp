@@ -3,24 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "converters/common/error.h"
+#include "converters/seeds/seed_text.h"
 #include "formats/case/json_document.h"
+#include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
 
+using formats::printable;
 using nlohmann::json;
 
 /// A value as a message shows it.
 std::string shown(const json& value) {
   if (value.is_array()) return "an array of " + std::to_string(value.size()) + " entries";
   if (value.is_object()) return "an object";
-  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
-  return text;
+  if (value.is_string()) return quotedText(value.get_ref<const std::string&>());
+  return value.dump();
+}
+
+/// The JSON pointer from `from` to the value at the address `to`; nothing if it is not below.
+std::optional<std::string> pointerTo(const json& from, const json* to) {
+  if (&from == to) return std::string();
+  if (!from.is_structured()) return std::nullopt;
+  for (const auto& [key, value] : from.items())
+    if (const auto rest = pointerTo(value, to)) return "/" + formats::jsonPointerToken(key) + *rest;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -30,14 +42,18 @@ json parseJson(const std::string& text, const std::filesystem::path& file) {
   formats::ArraySlots none;
   auto parsed = formats::parseJson(text, 0, "", none, issues);
   if (parsed) return *std::move(parsed);
-  const formats::Issue& issue = issues.issues().front();
+  const formats::Issue issue = *issues.firstError();
   const std::string where = issue.pointer ? ": at \"" + *issue.pointer + "\": " : ": is not JSON: ";
-  throw invalidInput(file.string() + where + issue.message);
+  throw invalidInput(printable(file.string() + where + issue.message));
+}
+
+std::string JsonPlace::where() const {
+  return printable(m_file->name) + ": at \"" +
+         printable(pointerTo(m_file->root, m_value).value_or("")) + "\"";
 }
 
 void JsonPlace::refuse(const std::string& expected) const {
-  throw invalidInput(m_file + ": at \"" + m_pointer + "\": found " + shown(*m_value) +
-                     "; expected " + expected);
+  throw invalidInput(where() + ": found " + shown(*m_value) + "; expected " + expected);
 }
 
 void JsonPlace::onlyKeys(std::initializer_list<const char*> keys) const {
@@ -46,33 +62,32 @@ void JsonPlace::onlyKeys(std::initializer_list<const char*> keys) const {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     std::string known;
     for (const char* k : keys) known += (known.empty() ? "" : ", ") + std::string(k);
-    throw invalidInput(m_file + ": at \"" + m_pointer + "/" + formats::jsonPointerToken(key) +
-                       "\": unknown key; expected one of " + known);
+    throw invalidInput(JsonPlace(value, *m_file).where() + ": unknown key; expected one of " +
+                       known);
   }
 }
 
-bool JsonPlace::has(const std::string& key) const {
+bool JsonPlace::has(const char* key) const {
   if (!m_value->is_object()) refuse("an object");
   return m_value->contains(key);
 }
 
-JsonPlace JsonPlace::at(const std::string& key) const {
-  if (!has(key))
-    throw invalidInput(m_file + ": at \"" + m_pointer + "\": the key \"" + key + "\" is missing");
-  return {m_value->at(key), m_file, m_pointer + "/" + formats::jsonPointerToken(key)};
+JsonPlace JsonPlace::at(const char* key) const {
+  if (!has(key)) throw invalidInput(where() + ": the key \"" + key + "\" is missing");
+  return {m_value->at(key), *m_file};
 }
 
 std::vector<JsonPlace> JsonPlace::elements() const {
   if (!m_value->is_array()) refuse("an array");
   std::vector<JsonPlace> all;
-  for (std::size_t i = 0; i < m_value->size(); ++i)
-    all.emplace_back((*m_value)[i], m_file, m_pointer + "/" + std::to_string(i));
+  all.reserve(m_value->size());
+  for (const json& element : *m_value) all.emplace_back(element, *m_file);
   return all;
 }
 
-std::string JsonPlace::text() const {
+const std::string& JsonPlace::text() const {
   if (!m_value->is_string()) refuse("a string");
-  return m_value->get<std::string>();
+  return m_value->get_ref<const std::string&>();
 }
 
 double JsonPlace::number() const {
@@ -84,15 +99,17 @@ double JsonPlace::number() const {
 
 Eigen::Vector3d JsonPlace::vector() const {
   if (!m_value->is_array() || m_value->size() != 3) refuse("three numbers [x, y, z]");
-  const auto xyz = elements();
-  return {xyz[0].number(), xyz[1].number(), xyz[2].number()};
+  Eigen::Vector3d out;
+  for (std::size_t a = 0; a < 3; ++a)
+    out[static_cast<Eigen::Index>(a)] = JsonPlace((*m_value)[a], *m_file).number();
+  return out;
 }
 
 double scaleOf(const JsonPlace& unit) {
-  const std::string word = unit.text();
+  const std::string& word = unit.text();
   if (word == "mm") return 1;
   if (word == "m") return 1000;
-  unit.refuse("\"mm\" or \"m\"");
+  unit.refuse("\"mm\" or \"m\"; --seeds-unit states another");
 }
 
 std::optional<formats::BranchKind> branchKind(const std::string& word) {

@@ -59,7 +59,9 @@ TrackedBranch captureAneurysm(const TrackContext& context, const SeedBranch& see
     if (std::optional<TrackedNode> node = nodeAround(context, click, workspace))
       branch.nodes.push_back(std::move(*node));
   if (branch.nodes.empty()) {
-    branch.failure = "no ray from its points met a wall";
+    branch.failure =
+        "no ray from its points meets a wall; expected points within the aneurysm, with radii of "
+        "about the distance to its wall";
     return branch;
   }
   TrackedNode& first = branch.nodes[0];

@@ -57,8 +57,11 @@ BranchStart startBeside(const TrackContext& context, const TrackedBranch& parent
       for (const double radius : radii) {
         guess.radius = radius;
         NodeFit fit = fitNode(context, guess, minRate, random, workspace);
-        start.bestRate = std::max(start.bestRate, fit.inlierRate);
-        if (!fit.node) continue;
+        if (!fit.node) {
+          // the first round asks for more than what is needed
+          if (minRate == least && isNearer(fit, start.best)) start.best = std::move(fit);
+          continue;
+        }
         const ChainPoint nearest = closestOnChain(parent.nodes, fit.node->centre);
         if (nearest.distance < kInLumen * nearest.radius) {
           start.inParent = true;
@@ -105,8 +108,10 @@ BranchStart startAtClick(const TrackContext& context, const SeedPoint& click,
   for (const double radius : radii) {
     NodeFit fit = fitNode(context, {click.position, direction, radius, smooth},
                           leastInlierRate(context.options), random, workspace);
-    start.bestRate = std::max(start.bestRate, fit.inlierRate);
-    if (!fit.node) continue;
+    if (!fit.node) {
+      if (isNearer(fit, start.best)) start.best = std::move(fit);
+      continue;
+    }
     if (!start.nodes.empty() && fit.node->inlierRate <= start.nodes[0].inlierRate) continue;
     start.nodes.assign(1, std::move(*fit.node));
     const TrackedNode& best = start.nodes[0];

@@ -16,7 +16,7 @@ namespace lumen::convert {
 struct BranchStart {
   std::vector<TrackedNode> nodes;
   int parentNode = -1;    ///< that the first of them hangs on
-  double bestRate = 0;    ///< the greatest inlier rate of what was tried
+  NodeFit best;           ///< of what was not accepted, the nearest to success
   bool inParent = false;  ///< something fitted, but in the parent's lumen
 };
 

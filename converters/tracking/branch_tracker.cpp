@@ -2,8 +2,6 @@
 #include "converters/tracking/branch_tracker.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -16,14 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What was found where nothing is accepted.
-std::string rateText(const TrackOptions& options, double bestRate) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "best inlier rate %.2f, at least %.2f is needed",
-                bestRate, leastInlierRate(options));
-  return text.data();
-}
-
 BranchStart startOf(const TrackContext& context, const SeedBranch& seed,
                     const TrackedBranch* parent, Random& random, TrackWorkspace& workspace) {
   if (parent) return startChild(context, seed, *parent, random, workspace);
@@ -33,13 +23,13 @@ BranchStart startOf(const TrackContext& context, const SeedBranch& seed,
 }
 
 /// Why a branch cannot go on from its start; empty if it can.
-std::string failureOf(const TrackOptions& options, const BranchStart& start,
+std::string failureOf(const TrackContext& context, const BranchStart& start,
                       std::span<const TrackedBranch* const> finished) {
   if (start.nodes.empty())
-    return start.inParent ? "what fits at the seed lies in its parent's lumen"
-                          : "no valid cylinder at the seed: " + rateText(options, start.bestRate);
-  if (inCore(finished, start.nodes.back().centre))
-    return "the seed leads into a vessel that another seed has tracked";
+    return start.inParent ? "what fits at the seed lies in its parent's lumen; click farther along "
+                            "the branch, and give its radius if it is thin"
+                          : "at the seed " + failureText(context, start.best);
+  if (inCore(finished, start.nodes.back().centre)) return kTrackedAlready;
   return {};
 }
 
@@ -54,7 +44,7 @@ std::string passThrough(const TrackContext& context, const SeedPoint& click, Tra
   if (closest.distance <= closest.radius) return {};
   const Vector3d away = (click.position - closest.position) / closest.distance;
   const BranchStart start = startAtClick(context, click, away, false, random, workspace);
-  if (start.nodes.empty()) return rateText(context.options, start.bestRate);
+  if (start.nodes.empty()) return failureText(context, start.best);
   std::vector<TrackedNode> way = trackBack(context, start.nodes[0], branch, random, workspace);
   nodes.resize(closestOnChain(nodes, way.front().centre).node + 1);
   std::move(way.begin(), way.end(), std::back_inserter(nodes));
@@ -71,7 +61,7 @@ TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
   TrackedBranch branch;
   BranchStart start = startOf(context, seed, parent, random, workspace);
   branch.parentNode = start.parentNode;
-  branch.failure = failureOf(context.options, start, finished);
+  branch.failure = failureOf(context, start, finished);
   if (!branch.failure.empty()) return branch;
   branch.nodes = std::move(start.nodes);
   const bool bothWays = !parent && !seed.direction && seed.points.size() == 1;
@@ -86,14 +76,15 @@ TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
     const std::string missed =
         passThrough(context, seed.points[i], branch, finished, random, workspace);
     if (missed.empty()) continue;
-    branch.missedPoints.push_back("point " + std::to_string(i + 1) +
-                                  ": no valid cylinder: " + missed);
+    branch.missedPoints.push_back("point " + std::to_string(i + 1) + ": there " + missed);
   }
   // the track may have been cut back to before its click
   branch.clickNode = std::min(branch.clickNode, branch.nodes.size() - 1);
   if (branch.nodes.size() < 2) {
     branch.nodes.clear();
-    branch.failure = "a single cylinder fits at the seed, and nothing follows it";
+    branch.failure =
+        "a single cylinder fits at the seed, and nothing follows it; give a radius, a direction or "
+        "a second point, or click where the vessel is longer";
   }
   return branch;
 }

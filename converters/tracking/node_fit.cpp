@@ -2,7 +2,9 @@
 #include "converters/tracking/node_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <utility>
 
@@ -57,10 +59,28 @@ void holdPlace(const NodeGuess& guess, Cylinder& cylinder) {
   cylinder.centre += (std::clamp(along, -guess.slack, guess.slack) - along) * cylinder.axis;
 }
 
+/// Below it, a wall is not told from noise.
+double leastStrength(const TrackContext& context) {
+  return context.options.noiseMargin * context.noiseFloor;
+}
+
 /// Noise makes a cylinder too, but neither a good one nor one with a strong wall.
 bool isNoise(const TrackContext& context, const TrackedNode& node) {
-  return node.inlierRate < context.options.inlierRate &&
-         node.strength < context.options.noiseMargin * context.noiseFloor;
+  return node.inlierRate < context.options.inlierRate && node.strength < leastStrength(context);
+}
+
+/// To two digits, so that what is too little never reads as if it were enough.
+double roundedDown(double value) {
+  return std::floor(100.0 * value + 1e-9) / 100.0;
+}
+double roundedUp(double value) {
+  return std::ceil(100.0 * value - 1e-9) / 100.0;
+}
+
+std::string formatted(const char* format, double a, double b) {
+  std::array<char, 320> text{};
+  std::snprintf(text.data(), text.size(), format, a, b);
+  return text.data();
 }
 
 }  // namespace
@@ -81,31 +101,85 @@ double leastInlierRate(const TrackOptions& options) {
   return kLeastRate * options.inlierRate;
 }
 
+bool isNearer(const NodeFit& a, const NodeFit& b) {
+  if (a.stage != b.stage) return a.stage > b.stage;
+  if (a.stage == FitStage::FewWalls) return a.walls > b.walls;
+  if (a.stage == FitStage::Noise) return a.strength > b.strength;
+  return a.inlierRate > b.inlierRate;
+}
+
+std::string failureText(const TrackContext& context, const NodeFit& best) {
+  switch (best.stage) {
+    case FitStage::OutsideVolume:
+      return "there is no volume: it lies outside";
+    case FitStage::FewWalls:
+      return formatted(
+          "at most %.0f rays meet the wall of a vessel, at least %.0f are needed: does it lie in "
+          "one, "
+          "and are vessels bright (if not: --dark)?",
+          static_cast<double>(best.walls), static_cast<double>(kFewestCandidates));
+    case FitStage::LowRate:
+      return formatted(
+          "no cylinder fits: best inlier rate %.2f, at least %.2f is needed (half of "
+          "--inlier-rate)",
+          roundedDown(best.inlierRate), roundedUp(leastInlierRate(context.options)));
+    case FitStage::LeftVolume:
+      return "a cylinder fits, but its centre lies outside of the volume: a click nearer to the "
+             "axis, or with a radius, would help";
+    case FitStage::Noise:
+      return formatted("a cylinder fits with an inlier rate of %.2f only, ",
+                       roundedDown(best.inlierRate), 0) +
+             formatted(
+                 "and its wall is %.2f times as strong as noise: expected at least %.2f times "
+                 "(--noise-margin)",
+                 roundedDown(best.strength / context.noiseFloor),
+                 roundedUp(context.options.noiseMargin));
+    case FitStage::Found:
+      break;
+  }
+  return "a cylinder fits";
+}
+
 NodeFit fitNode(const TrackContext& context, const NodeGuess& guess, double minRate, Random& random,
                 TrackWorkspace& workspace) {
   const VolumeGeometry& geometry = context.volume.geometry();
   Candidates& points = workspace.candidates;
   NodeFit fit;
+  const auto stop = [&](FitStage stage, double inlierRate) {
+    fit.stage = stage;
+    fit.inlierRate = inlierRate;
+    return std::move(fit);
+  };
+  const auto tooFew = [&](std::size_t walls) {
+    fit.walls = walls;
+    return stop(FitStage::FewWalls, 0);
+  };
   if (!geometry.containsWorld(guess.centre)) return fit;
   workspace.caster.cast(guess.centre, kRayRadii * guess.radius, points);
+  if (points.count() < kFewestCandidates) return tooFew(points.count());
   Cylinder cylinder =
       estimateCylinder(context.search, points, {guess.direction, guess.radius, guess.smooth},
                        random, workspace.cylinder);
-  fit.inlierRate = cylinder.inlierRate;
-  if (cylinder.inlierRate < minRate) return fit;
+  if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
   holdPlace(guess, cylinder);
-  if (!geometry.containsWorld(cylinder.centre)) return fit;
+  if (!geometry.containsWorld(cylinder.centre))
+    return stop(FitStage::LeftVolume, cylinder.inlierRate);
   // the first rays came from a guess: cast and fit again from the better centre
   workspace.caster.cast(cylinder.centre, kRayRadii * cylinder.radius, points);
   cylinder = refineCylinder(points, cylinder, context.search.band, workspace.cylinder);
-  if (cylinder.inlierRate < minRate || !geometry.containsWorld(cylinder.centre)) return fit;
+  if (points.count() < kFewestCandidates) return tooFew(points.count());
+  if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
+  if (!geometry.containsWorld(cylinder.centre))
+    return stop(FitStage::LeftVolume, cylinder.inlierRate);
   holdPlace(guess, cylinder);
   findInliers(points, cylinder, context.search.band, workspace.inliers);
-  if (workspace.inliers.size() < kFewestCandidates) return fit;
+  if (workspace.inliers.size() < kFewestCandidates) return tooFew(workspace.inliers.size());
   if (cylinder.axis.dot(guess.direction) < 0) cylinder.axis = -cylinder.axis;
   TrackedNode node = makeNode(cylinder, points, workspace.inliers);
-  if (!isNoise(context, node)) fit.node = std::move(node);
-  return fit;
+  fit.strength = node.strength;
+  if (isNoise(context, node)) return stop(FitStage::Noise, cylinder.inlierRate);
+  fit.node = std::move(node);
+  return stop(FitStage::Found, cylinder.inlierRate);
 }
 
 }  // namespace lumen::convert

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -52,10 +54,29 @@ struct NodeGuess {
   double slack = std::numeric_limits<double>::infinity();
 };
 
+/// How far the search for a node came; each value is nearer to success than those before.
+enum class FitStage : std::uint8_t {
+  OutsideVolume,  ///< the guess lies outside of the volume
+  FewWalls,       ///< fewer than kFewestCandidates rays met a wall, or one wall
+  LowRate,        ///< the best cylinder has too few inliers
+  LeftVolume,     ///< a cylinder fits, but its centre lies outside of the volume
+  Noise,          ///< a cylinder fits, but not well, and its wall is as weak as noise
+  Found
+};
+
 struct NodeFit {
   std::optional<TrackedNode> node;  ///< empty if nothing at the guess is accepted
-  double inlierRate = 0;            ///< of the best cylinder there, accepted or not
+  FitStage stage = FitStage::OutsideVolume;
+  double inlierRate = 0;  ///< of the cylinder that decided
+  double strength = 0;    ///< of its wall, for Noise
+  std::size_t walls = 0;  ///< rays that met it, for FewWalls
 };
+
+/// True if `a` came nearer to success than `b`.
+bool isNearer(const NodeFit& a, const NodeFit& b);
+
+/// Why nothing was accepted, with the numbers that decided and what to do; follows "at the seed ".
+std::string failureText(const TrackContext& context, const NodeFit& best);
 
 /// The least inlier rate of any node: half of the one that accepts a cylinder at once.
 double leastInlierRate(const TrackOptions& options);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "converters/common/progress.h"
 #include "converters/seeds/seeds.h"
 #include "converters/tracking/rays.h"
 #include "converters/tracking/track_options.h"
@@ -15,14 +16,16 @@ namespace lumen::convert {
 /// The strength of the wall (voxel units per mm, as Candidates::strength) that rays find where
 /// there is no vessel: the lower quartile, over places spread evenly at random over the volume, of
 /// the median over the rays from that place. Zero for a background without noise. Depends on
-/// `options.seed`.
-double noiseFloor(const BsplineVolume& volume, const TrackOptions& options);
+/// `options.seed`. However uneven the voxels are, the bricks of the spline that it needs are
+/// bounded: places are fewer where rays are long in the finest voxels. Throws Error(Cancelled).
+double noiseFloor(const BsplineVolume& volume, const TrackOptions& options,
+                  const Progress& progress);
 
 /// How much brighter (or darker, if `options.dark`) the vessels are than what is around them, voxel
-/// units: the median over the clicks of the difference between a click and the lower quartile of
+/// units: the median over the clicks (256 of them, if there are more) of the difference between a click and the lower quartile of
 /// what rays of sixteen voxels meet. Zero without clicks inside of the volume.
 double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
-                        const TrackOptions& options);
+                        const TrackOptions& options, const Progress& progress);
 
 /// Standard deviations, mm, of the Gaussian along each index axis: `smoothing`, and if `evenBlur`
 /// what the finer axes need to be about as blurred as one that is more than 1.5 times as coarse.
@@ -41,6 +44,6 @@ struct SmoothedVolume {
 /// contrast to be six times as strong as noise; not at all if that takes more, since the clicks are
 /// then on nothing that can be told from noise. The seeds are needed for their contrast only.
 SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                              const TrackOptions& options);
+                              const TrackOptions& options, const Progress& progress);
 
 }  // namespace lumen::convert

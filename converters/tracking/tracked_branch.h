@@ -34,6 +34,10 @@ struct TrackedBranch {
   int parentNode = -1;                    ///< within that branch
 };
 
+/// Why a seed on a vessel that is tracked already starts no track.
+constexpr const char* kTrackedAlready =
+    "the seed leads into a vessel that another seed has tracked; one seed is enough for each";
+
 /// The same, looking the other way.
 TrackedNode reversed(TrackedNode node);
 

@@ -2,7 +2,9 @@
 #include "converters/tracking/tracker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <unordered_map>
 
@@ -16,6 +18,7 @@
 #include "converters/tracking/point_spread.h"
 #include "converters/tracking/smoothing.h"
 #include "converters/volume/write_volume.h"
+#include "formats/container/printable.h"
 
 namespace lumen::convert {
 namespace {
@@ -25,6 +28,42 @@ using formats::StopReason;
 
 /// The variance of a box is the square of its edge over this.
 constexpr double kEdgesToVariance = 12.0;
+
+/// The most that one edge of a voxel may be of another: beyond, rays of a vessel's size cross nothing
+/// along the one axis and thousands of voxels along the other.
+constexpr double kMostUneven = 1000.0;
+
+void checkVoxels(const Eigen::Vector3d& spacing) {
+  const double uneven = spacing.maxCoeff() / spacing.minCoeff();
+  if (uneven <= kMostUneven) return;
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(),
+                "the volume's voxels are %g x %g x %g mm, one edge %.3g times another; expected at "
+                "most %g times: if the spacing is wrong, --spacing states it, else resample",
+                spacing.x(), spacing.y(), spacing.z(), uneven, kMostUneven);
+  throw invalidInput(text.data());
+}
+
+/// Times the contrast of the vessels as they should be: if they have so much the other way, they are
+/// the other way.
+constexpr double kOtherWay = 4.0;
+
+void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                     const TrackOptions& options, Progress& progress) {
+  const Eigen::Vector3d& spacing = volume.geometry.spacing;
+  const double most = BsplineVolume::kMostSmoothing * spacing.minCoeff();
+  const BsplineVolume spline(
+      volume, Eigen::Vector3d::Constant(std::min(volume.geometry.voxelSize(), most)));
+  TrackOptions other = options;
+  other.dark = !options.dark;
+  const double contrast = contrastAtClicks(spline, seeds, options, progress);
+  if (contrastAtClicks(spline, seeds, other, progress) <= kOtherWay * contrast) return;
+  progress.warn(
+      options.dark ? "most seeds lie where it is brighter than around them, but --dark tracks dark "
+                     "vessels: leave it out if vessels are bright"
+                   : "most seeds lie where it is darker than around them: if vessels are dark, add "
+                     "--dark");
+}
 
 /// For every seed, its parent's position in the list (-1: none) and its depth below a root.
 struct Ancestry {
@@ -60,8 +99,7 @@ void trimDuplicates(std::vector<TrackedBranch>& branches, const std::vector<std:
     const auto click = nodes.begin() + static_cast<std::ptrdiff_t>(branch.clickNode);
     const auto end = std::find_if(click, nodes.end(), met);
     if (end != nodes.end()) branch.stopReason = StopReason::MetBranch;
-    if (end == click && !nodes.empty())
-      branch.failure = "the seed leads into a vessel that another seed has tracked";
+    if (end == click && !nodes.empty()) branch.failure = kTrackedAlready;
     const auto begin = std::find_if(std::make_reverse_iterator(click), nodes.rend(), met).base();
     nodes.erase(end, nodes.end());
     nodes.erase(nodes.begin(), end == click ? nodes.end() : begin);
@@ -86,7 +124,8 @@ void trackWave(const TrackContext& context, const std::vector<SeedBranch>& seeds
     const int p = ancestry.parent[i];
     const TrackedBranch* parent = p < 0 ? nullptr : &branches[static_cast<std::size_t>(p)];
     if (parent && parent->nodes.empty()) {
-      branches[i].failure = "its parent \"" + *seeds[i].parent + "\" was not tracked";
+      branches[i].failure =
+          "its parent \"" + formats::printable(*seeds[i].parent) + "\" was not tracked";
     } else if (seeds[i].kind == BranchKind::Aneurysm) {
       branches[i] = captureAneurysm(context, seeds[i], parent);
     } else {
@@ -201,7 +240,9 @@ double pointSpreadOf(const SmoothedVolume& volume, const std::vector<SeedBranch>
 TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
                   const TrackOptions& options, Progress& progress) {
   options.check(volume.geometry.spacing.minCoeff());
-  const SmoothedVolume smoothed = smoothForNoise(volume, seeds, options);
+  checkVoxels(volume.geometry.spacing);
+  warnOfOtherSign(volume, seeds, options, progress);
+  const SmoothedVolume smoothed = smoothForNoise(volume, seeds, options, progress);
   const TrackContext context(*smoothed.spline, options, smoothed.noiseFloor, progress);
   const Ancestry ancestry = findAncestry(seeds);
   std::vector<TrackedBranch> branches(seeds.size());

@@ -13,12 +13,6 @@
 
 namespace lumen::convert {
 
-/// A seed that started no track, or a point of one that the track does not pass through.
-struct SeedFailure {
-  std::string label;
-  std::string reason;  ///< one sentence, with the numbers that decided
-};
-
 struct TrackResult {
   formats::Case result;  ///< tree and wall points; metadata complete but for the fit
   std::vector<SeedFailure> failures;
@@ -26,7 +20,8 @@ struct TrackResult {
 };
 
 /// Tracks every seed. The result does not depend on the number of threads. Throws
-/// Error(InvalidInput) for options out of range and Error(Cancelled).
+/// Error(InvalidInput) for options out of range and for voxels with one edge over 1000 times as long
+/// as another, and Error(Cancelled).
 TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
                   const TrackOptions& options, Progress& progress);
 

@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// NIfTI-1 files: one reader for header, geometry and voxels, and a writer. niftilib's niftiio knows
-// the header: its layout, byte order and transforms. It does not touch the file: its own readers
-// choose a file by its name's ending and take the voxels of v.nii.gz from v.nii where both exist,
-// allocate what a header announces before they look at the file, give zeros for NaN and infinities,
-// do not compare a gzip stream's checksum, and cannot be stopped. The bytes come through zlib.
+// NIfTI-1 files: one reader for header, geometry and voxels, and a writer. The header is read by
+// ours (nifti_header.h). niftilib's niftiio gives the formulas of quaternions only and does not touch
+// the file: its own readers choose a file by its name's ending and take the voxels of v.nii.gz from
+// v.nii where both exist, allocate what a header announces before they look at the file, read the
+// header as voxels where an offset says so, give zeros for NaN and infinities, do not compare a gzip
+// stream's checksum, and cannot be stopped.
 #pragma once
 
 #include <filesystem>
 
 #include "converters/common/progress.h"
+#include "converters/volume/read_volume_options.h"
 #include "converters/volume/volume.h"
+#include "converters/volume/volume_header.h"
 
 namespace lumen::convert {
 
 /// A scalar volume, plain or compressed whatever its name. Voxels are scaled by the header's slope
-/// and intercept if it has any other than 1 and 0 (then they are floats). The sform gives the place
-/// in space where it is of orthogonal axes and either the qform is absent, or it is the scanner's,
-/// or both agree; the qform otherwise. Throws Error(InvalidInput) for what is truncated or damaged,
-/// states more voxels than the file can hold, or has no sound geometry; Error(Unsupported) for
-/// NIfTI-2 and other pixel types.
-Volume readNifti(const std::filesystem::path& path, const Progress& progress);
+/// and intercept if it has any other than 1 and 0 (then they are floats); their place is that of
+/// niftiGeometry(). Throws Error(InvalidInput) for what is truncated or damaged, states more voxels
+/// than the file can hold, or has no sound header or geometry; Error(Unsupported) for NIfTI-2, pairs
+/// of files and other pixel types.
+Volume readNifti(const std::filesystem::path& path, const ReadVolumeOptions& options,
+                 const Progress& progress);
+
+/// What readNifti() knows before it reads a voxel.
+VolumeHeader readNiftiHeader(const std::filesystem::path& path, const ReadVolumeOptions& options,
+                             const Progress& progress);
 
 /// Writes to `file` itself, not atomically, and calls it `name` in errors: qform and sform, both of
 /// the scanner, in mm. Throws Error(Failed), or Error(Unsupported) for more than 32767 voxels along

@@ -3,17 +3,25 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <nifti/nifti1.h>
 
-#include "converters/volume/volume.h"
+#include "converters/volume/nifti_header.h"
+#include "converters/volume/stated_geometry.h"
 
 namespace lumen::convert {
 
-/// The geometry of a header in this machine's byte order with at least three sizes and spacings
-/// that are positive; unchecked otherwise. Throws Error(InvalidInput), naming `path`, if it states
-/// a transform, but none of orthogonal axes.
-VolumeGeometry niftiGeometry(const nifti_1_header& header, const std::filesystem::path& path);
+/// What `header` says of the voxels' place. The sform gives it where it is of orthogonal axes and
+/// either the qform is not stated, or the sform is the scanner's; the qform otherwise. A transform
+/// that is no place in space (numbers that are not finite, no rotation) gives way to the other, and
+/// none stated to the volume's own axes; this, transforms that disagree, and another spacing in the
+/// sform that the options do not settle, append a sentence each to `assumptions`. Throws
+/// Error(InvalidInput), naming `path`, if transforms are stated and none can be used.
+StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions& options,
+                             const std::filesystem::path& path,
+                             std::vector<std::string>& assumptions);
 
 /// A header for one file of voxels of NIfTI `datatype`. Throws Error(Unsupported), naming `path`,
 /// for more than 32767 voxels along an axis.

@@ -2,163 +2,98 @@
 #include "converters/volume/read_dicom.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <limits>
 #include <sstream>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <itkGDCMImageIO.h>
-#include <itkGDCMSeriesFileNames.h>
 
-#include "converters/volume/dicom_file.h"
-#include "converters/volume/itk_image.h"
+#include "converters/common/error.h"
+#include "converters/volume/dicom_folder.h"
+#include "converters/volume/dicom_pixels.h"
+#include "converters/volume/stated_geometry.h"
 #include "converters/volume/volume_checks.h"
 
 namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 
 // Slices lie on a regular grid if their distances agree within this share of their mean ...
 constexpr double kGapTolerance = 0.02;
 // ... and the stack leans by at most this share of a pixel from its first to its last slice.
 constexpr double kShearTolerance = 0.5;
+// Slices of one grid agree in pixel spacing, mm, and in the axes' directions within this.
+constexpr double kSameGrid = 1e-4;
 
+/// One frame of one file.
 struct Slice {
-  fs::path file;
+  const DicomImage* image = nullptr;
+  std::size_t frame = 0;
+  DicomPlane plane;
   double position = 0;  ///< mm along the slices' normal
-  VolumeGeometry geometry;
-  Voxels voxels;
+  [[nodiscard]] std::string name() const {
+    const std::string file = image->file.filename().string();
+    return image->frames == 1 ? file : file + " (frame " + std::to_string(frame + 1) + ")";
+  }
 };
 
-itk::GDCMImageIO::Pointer openImage(const fs::path& file) {
-  auto io = itk::GDCMImageIO::New();
-  io->SetFileName(file.string());
-  try {
-    io->ReadImageInformation();
-  } catch (const itk::ExceptionObject& exception) {
-    throw invalidInput(file.string() + ": its DICOM header cannot be read (" + oneLine(exception) +
-                       ")");
-  }
-  return io;
+/// A series that is known but for its pixels.
+struct Stack {
+  std::vector<DicomImage> images;
+  std::vector<Slice> slices;  ///< in the volume's order
+  VolumeGeometry geometry;
+  std::vector<std::string> assumptions;
+};
+
+/// Rows, columns and normal, made orthogonal as ITK's reader of DICOM does.
+Matrix3d directionOf(const std::array<double, 6>& v) {
+  const auto unit = [](const Vector3d& w) -> Vector3d { return w * (1 / w.norm()); };
+  const Vector3d row(v[0], v[1], v[2]), column(v[3], v[4], v[5]);
+  Matrix3d direction;
+  direction.col(2) = unit(row.cross(column));
+  direction.col(0) = unit(column.cross(direction.col(2)));
+  direction.col(1) = direction.col(2).cross(direction.col(0));
+  return direction;
 }
 
-std::string tagText(const itk::GDCMImageIO& io, const std::string& tag) {
-  std::string value;
-  if (!const_cast<itk::GDCMImageIO&>(io).GetValueFromTag(tag, value)) return {};
-  while (!value.empty() && (value.back() == ' ' || value.back() == '\0')) value.pop_back();
-  return value;
-}
-
-/// One line per series: number, UID, files, description, size of an image.
-std::string listing(itk::GDCMSeriesFileNames& names, const std::vector<std::string>& series) {
-  std::ostringstream text;
-  for (std::size_t n = 0; n < series.size(); ++n) {
-    const auto& files = names.GetFileNames(series[n]);
-    text << "\n  " << n + 1 << ": " << series[n] << " (" << files.size()
-         << (files.size() == 1 ? " file" : " files");
-    if (!files.empty()) {
-      const auto io = openImage(files[0]);
-      const std::string description = tagText(*io, "0008|103e");
-      if (!description.empty()) text << ", " << description;
-      text << ", " << io->GetDimensions(0) << " x " << io->GetDimensions(1);
-    }
-    text << ")";
-  }
-  return text.str();
-}
-
-std::string chooseSeries(itk::GDCMSeriesFileNames& names, const std::string& wanted,
-                         const fs::path& path) {
-  const std::vector<std::string> series = names.GetSeriesUIDs();
-  if (series.empty())
-    throw invalidInput(path.string() +
-                       ": holds no DICOM images (its subdirectories are not searched)");
-  if (wanted.empty()) {
-    if (series.size() == 1) return series[0];
+/// NaN where the image does not say; it must unless the options do.
+Vector3d pixelSpacing(const Slice& slice, const ReadVolumeOptions& options) {
+  const auto& stated = slice.plane.pixelSpacing;
+  const bool sound = stated && (*stated)[0] > 0 && (*stated)[1] > 0;
+  if (!sound && !options.spacing)
     throw invalidInput(
-        path.string() + ": holds " + std::to_string(series.size()) +
-        " DICOM series; choose one with --series, by number or UID:" + listing(names, series));
-  }
-  if (std::find(series.begin(), series.end(), wanted) != series.end()) return wanted;
-  std::size_t number = 0;
-  const auto end = wanted.data() + wanted.size();
-  const auto parsed = std::from_chars(wanted.data(), end, number);
-  if (parsed.ec == std::errc() && parsed.ptr == end && number >= 1 && number <= series.size())
-    return series[number - 1];
-  throw invalidInput(path.string() + ": has no series \"" + wanted +
-                     "\"; it holds:" + listing(names, series));
+        slice.image->file.string() + ": its pixel spacing (0028,0030) is " +
+        (stated ? numberText((*stated)[0]) + " and " + numberText((*stated)[1]) : "not stated") +
+        "; expected two positive numbers of mm; state the spacing with --spacing");
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return sound ? Vector3d((*stated)[1], (*stated)[0], none) : Vector3d(none, none, none);
 }
 
-/// The numbers of a tag such as "0.5\\0.25"; empty if it is absent.
-std::vector<double> tagNumbers(const itk::GDCMImageIO& io, const std::string& tag) {
-  std::string text = tagText(io, tag);
-  std::replace(text.begin(), text.end(), '\\', ' ');
-  std::istringstream stream(text);
-  std::vector<double> values;
-  for (double value = 0; stream >> value;) values.push_back(value);
-  return values;
-}
-
-/// Slices without a position in space cannot be stacked, whatever ITK assumes for them.
-void checkTags(const itk::GDCMImageIO& io, const fs::path& file) {
-  if (tagNumbers(io, "0020|0032").size() != 3 || tagNumbers(io, "0020|0037").size() != 6)
-    throw invalidInput(file.string() +
+/// Slices without a position in space cannot be stacked.
+void checkPlaced(const Slice& slice) {
+  if (!slice.plane.position || !slice.plane.orientation)
+    throw invalidInput(slice.image->file.string() +
                        ": has no image position and orientation; expected a slice of a volume");
-  const auto spacing = tagNumbers(io, "0028|0030");
-  if (spacing.size() != 2 || !(spacing[0] > 0) || !(spacing[1] > 0))
-    throw invalidInput(file.string() + ": its pixel spacing is \"" + tagText(io, "0028|0030") +
-                       "\"; expected two positive numbers of mm");
-}
-
-void checkWhole(const itk::GDCMImageIO& io, const fs::path& file) {
-  const std::string bits = tagText(io, "0028|0100");
-  std::size_t stored = 0;
-  std::from_chars(bits.data(), bits.data() + bits.size(), stored);
-  const std::size_t bytes =
-      static_cast<std::size_t>(io.GetImageSizeInPixels()) * io.GetNumberOfComponents() * stored / 8;
-  if (!hasWholePixelData(file, bytes))
-    throw invalidInput(file.string() + ": truncated: it does not hold the " +
-                       std::to_string(bytes) + " bytes of pixels that it announces");
-}
-
-Slice readSlice(const fs::path& file) {
-  const auto io = openImage(file);
-  checkTags(*io, file);
-  if (io->GetNumberOfComponents() != 1)
-    throw invalidInput(file.string() + ": each pixel has " +
-                       std::to_string(io->GetNumberOfComponents()) +
-                       " components; expected one number");
-  if (io->GetNumberOfDimensions() > 2 && io->GetDimensions(2) != 1)
-    throw invalidInput(
-        file.string() + ": holds " + std::to_string(io->GetDimensions(2)) +
-        " frames beside other files of its series; expected one frame for each file");
-  Slice slice;
-  slice.file = file;
-  auto& g = slice.geometry;
-  g.size = {static_cast<int>(io->GetDimensions(0)), static_cast<int>(io->GetDimensions(1)), 1};
-  for (unsigned a = 0; a < 3; ++a) {
-    const auto e = static_cast<Eigen::Index>(a);
-    g.spacing[e] = a < 2 ? io->GetSpacing(a) : 1;
-    g.origin[e] = io->GetOrigin(a);
-    const std::vector<double> column = io->GetDirection(a);
-    for (unsigned r = 0; r < 3; ++r) g.direction(static_cast<Eigen::Index>(r), e) = column[r];
-  }
-  slice.position = g.direction.col(2).dot(g.origin);
-  checkWhole(*io, file);
-  slice.voxels = readVoxels(*io, file);
-  return slice;
 }
 
 void checkSameGrid(const Slice& slice, const Slice& first, const fs::path& path) {
-  const auto& a = slice.geometry;
-  const auto& b = first.geometry;
-  if (a.size == b.size && (a.spacing - b.spacing).cwiseAbs().maxCoeff() < 1e-4 &&
-      (a.direction - b.direction).cwiseAbs().maxCoeff() < 1e-4)
+  const auto near = [](const auto& a, const auto& b) {
+    if (a.has_value() != b.has_value()) return false;
+    for (std::size_t i = 0; a && i < a->size(); ++i)
+      if (!(std::abs((*a)[i] - (*b)[i]) < kSameGrid)) return false;
+    return true;
+  };
+  if (slice.image->columns == first.image->columns && slice.image->rows == first.image->rows &&
+      near(slice.plane.pixelSpacing, first.plane.pixelSpacing) &&
+      near(slice.plane.orientation, first.plane.orientation))
     return;
-  throw invalidInput(path.string() + ": " + slice.file.filename().string() + " and " +
-                     first.file.filename().string() +
+  throw invalidInput(path.string() + ": " + slice.name() + " and " + first.name() +
                      " belong to one series, but differ in size, pixel spacing or orientation; "
                      "expected parallel slices of one grid");
 }
@@ -174,115 +109,178 @@ double sliceSpacing(const std::vector<Slice>& slices, const fs::path& path) {
   for (std::size_t n = 0; n < gaps.size(); ++n) {
     if (gaps[n] > 0 && std::abs(gaps[n] - usual) <= kGapTolerance * usual) continue;
     std::ostringstream text;
-    text << path.string() << ": slices " << slices[n].file.filename().string() << " and "
-         << slices[n + 1].file.filename().string() << " are " << gaps[n]
-         << " mm apart, where most are " << usual
+    text << path.string() << ": slices " << slices[n].name() << " and " << slices[n + 1].name()
+         << " are " << gaps[n] << " mm apart, where most are " << usual
          << " mm; expected a regular stack with one image for each position";
     throw invalidInput(text.str());
   }
   return (slices.back().position - slices.front().position) / static_cast<double>(gaps.size());
 }
 
-void checkUpright(const std::vector<Slice>& slices, const fs::path& path) {
-  const auto& g = slices.front().geometry;
-  const Eigen::Vector3d lean = slices.back().geometry.origin - g.origin;
+void checkUpright(const std::vector<Slice>& slices, const Matrix3d& direction,
+                  const Vector3d& spacing, const fs::path& path) {
+  const Vector3d lean = *slices.back().plane.position - *slices.front().plane.position;
   for (int a = 0; a < 2; ++a)
-    if (std::abs(lean.dot(g.direction.col(a))) > kShearTolerance * g.spacing[a])
+    if (std::abs(lean.dot(direction.col(a))) > kShearTolerance * spacing[a])
       throw invalidInput(path.string() +
                          ": its slices are shifted along themselves (a tilted gantry?); expected a "
                          "stack along the slices' normal");
 }
 
-template <class To>
-std::vector<To> stacked(const std::vector<Slice>& slices) {
-  std::vector<To> voxels;
-  voxels.reserve(slices.size() * slices[0].geometry.voxelCount());
-  for (const Slice& slice : slices)
-    std::visit(
-        [&](const auto& from) {
-          for (const auto v : from) voxels.push_back(static_cast<To>(v));
-        },
-        slice.voxels);
-  return voxels;
-}
-
-/// Slices may differ in type, where each has its own rescale slope; then all become float.
-Voxels stack(const std::vector<Slice>& slices) {
-  const std::size_t type = slices[0].voxels.index();
-  const bool same = std::all_of(slices.begin(), slices.end(),
-                                [&](const Slice& s) { return s.voxels.index() == type; });
-  if (!same) return stacked<float>(slices);
-  return std::visit(
-      [&](const auto& first) -> Voxels {
-        return stacked<typename std::decay_t<decltype(first)>::value_type>(slices);
-      },
-      slices[0].voxels);
-}
-
-Volume readSlices(const std::vector<std::string>& files, const fs::path& path,
-                  const Progress& progress) {
-  std::vector<Slice> slices;
-  slices.reserve(files.size());
-  for (const auto& file : files) {
-    progress.check();
-    slices.push_back(readSlice(file));
-    checkSameGrid(slices.back(), slices.front(), path);
+/// Sorts slices with positions; gives their geometry.
+VolumeGeometry stackPlaced(std::vector<Slice>& slices, const ReadVolumeOptions& options,
+                           const fs::path& path) {
+  VolumeGeometry geometry;
+  geometry.direction = directionOf(*slices[0].plane.orientation);
+  for (Slice& slice : slices) {
+    checkPlaced(slice);
+    checkSameGrid(slice, slices[0], path);
+    slice.position = geometry.direction.col(2).dot(*slice.plane.position);
   }
   std::stable_sort(slices.begin(), slices.end(),
                    [](const Slice& a, const Slice& b) { return a.position < b.position; });
-  Volume volume;
-  volume.geometry = slices.front().geometry;
-  volume.geometry.size[2] = static_cast<int>(slices.size());
-  volume.geometry.spacing[2] = sliceSpacing(slices, path);
-  checkUpright(slices, path);
-  volume.voxels = stack(slices);
-  checkGeometry(volume.geometry, path);
-  return volume;
+  geometry.spacing = pixelSpacing(slices[0], options);
+  geometry.spacing[2] = sliceSpacing(slices, path);
+  checkUpright(slices, geometry.direction, options.spacing.value_or(geometry.spacing), path);
+  geometry.origin = *slices[0].plane.position;
+  return geometry;
 }
 
-/// What a multi-frame file states outside of its functional groups. GDCM looks for it in some kinds
-/// of objects only, and takes 1 mm and the origin in the others.
-void useStatedGeometry(const itk::GDCMImageIO& io, VolumeGeometry& geometry) {
-  if (const auto v = tagNumbers(io, "0028|0030"); v.size() == 2) {
-    geometry.spacing[0] = v[1];
-    geometry.spacing[1] = v[0];
+/// Frames of one file in its order, which states their distance.
+VolumeGeometry stackFrames(const std::vector<Slice>& slices, const ReadVolumeOptions& options,
+                           std::vector<std::string>& assumptions) {
+  const Slice& first = slices[0];
+  if (!first.plane.distance && !options.spacing)
+    throw invalidInput(first.image->file.string() +
+                       ": does not say how far its frames are apart; expected a volume; state the "
+                       "spacing with --spacing");
+  VolumeGeometry geometry;
+  geometry.spacing = pixelSpacing(first, options);
+  geometry.spacing[2] = first.plane.distance.value_or(std::numeric_limits<double>::quiet_NaN());
+  if (first.plane.orientation) geometry.direction = directionOf(*first.plane.orientation);
+  if (first.plane.position) geometry.origin = *first.plane.position;
+  if (!first.plane.orientation || !first.plane.position)
+    assumptions.emplace_back(
+        "its image position or orientation is missing, so its axes are taken as left, posterior "
+        "and superior, or its origin as its first pixel");
+  return geometry;
+}
+
+std::vector<Slice> slicesOf(const std::vector<DicomImage>& images) {
+  std::vector<Slice> slices;
+  for (const DicomImage& image : images) {
+    if (image.frames > 1 && images.size() > 1)
+      throw invalidInput(image.file.string() + ": holds " + std::to_string(image.frames) +
+                         " frames beside other files of its series; expected one frame for each "
+                         "file");
+    for (std::size_t frame = 0; frame < image.frames; ++frame)
+      slices.push_back(
+          {&image, frame, image.perFrame.empty() ? image.plane : image.perFrame[frame]});
   }
-  if (const auto v = tagNumbers(io, "0018|0088"); v.size() == 1) geometry.spacing[2] = v[0];
-  if (const auto v = tagNumbers(io, "0020|0032"); v.size() == 3)
-    geometry.origin = {v[0], v[1], v[2]};
-  if (const auto v = tagNumbers(io, "0020|0037"); v.size() == 6) {
-    const Eigen::Vector3d row(v[0], v[1], v[2]), column(v[3], v[4], v[5]);
-    geometry.direction.col(0) = row;
-    geometry.direction.col(1) = column;
-    geometry.direction.col(2) = row.cross(column);
+  return slices;
+}
+
+/// Pixels behind those that are announced may be frames that are not counted.
+void tellRest(Stack& stack) {
+  for (const DicomImage& image : stack.images) {
+    const std::size_t used = image.frameBytes() * image.frames;
+    if (image.pixels.encapsulated || image.pixels.value.length < used + image.frameBytes())
+      continue;
+    stack.assumptions.push_back(image.file.filename().string() + " holds " +
+                                std::to_string(image.pixels.value.length - used) +
+                                " bytes of pixels more than it announces, which are left out");
+    return;
   }
 }
 
-/// A multi-frame file is a volume by itself.
-Volume readFrames(const fs::path& file) {
-  const auto io = openImage(file);
-  Volume volume;
-  volume.geometry = checkedGeometry(*io, file);
-  if (!hasFrameSpacing(file))
-    throw invalidInput(file.string() +
-                       ": does not say how far its frames are apart; expected a volume");
-  useStatedGeometry(*io, volume.geometry);
-  checkGeometry(volume.geometry, file);
-  checkWhole(*io, file);
-  volume.voxels = readVoxels(*io, file);
-  return volume;
+Stack openStack(const fs::path& path, const ReadVolumeOptions& options, const Progress& progress) {
+  Stack stack;
+  stack.images = findDicomSeries(path, options.series, progress);
+  stack.slices = slicesOf(stack.images);
+  if (stack.slices.size() < 2)
+    throw invalidInput(stack.images[0].file.string() +
+                       ": is the only slice of its series, so it is not 3-D; expected a series of "
+                       "slices in one folder, or a file of several frames");
+  const auto& perFrame = stack.images[0].perFrame;
+  const bool placed = stack.images.size() > 1 || (!perFrame.empty() && perFrame[1].position);
+  if (placed) checkPlaced(stack.slices[0]);
+  StatedGeometry stated;
+  stated.geometry = placed ? stackPlaced(stack.slices, options, path)
+                           : stackFrames(stack.slices, options, stack.assumptions);
+  stated.geometry.size = {static_cast<int>(stack.images[0].columns),
+                          static_cast<int>(stack.images[0].rows),
+                          static_cast<int>(stack.slices.size())};
+  stated.unit = 1;  // DICOM has no other
+  tellRest(stack);
+  stack.geometry = settledGeometry(stated, options, path, stack.assumptions);
+  return stack;
+}
+
+std::vector<float> asFloats(const Voxels& voxels) {
+  return std::visit([](const auto& v) { return std::vector<float>(v.begin(), v.end()); }, voxels);
+}
+
+/// Slices may differ in type, where each has its own rescale slope; then all become float.
+void append(Voxels& all, Voxels slice, std::size_t count) {
+  if (all.index() != slice.index()) {
+    all = asFloats(all);
+    slice = asFloats(slice);
+  }
+  std::visit(
+      [&](auto& to) {
+        to.reserve(count);
+        const auto& from = std::get<std::decay_t<decltype(to)>>(slice);
+        to.insert(to.end(), from.begin(), from.end());
+      },
+      all);
+}
+
+std::string encodingName(DicomPacking packing) {
+  switch (packing) {
+    case DicomPacking::Jpeg:
+      return "JPEG";
+    case DicomPacking::JpegLs:
+      return "JPEG-LS";
+    case DicomPacking::Jpeg2000:
+      return "JPEG 2000";
+    case DicomPacking::RunLength:
+      return "RLE";
+    default:
+      return "raw";
+  }
 }
 
 }  // namespace
 
-Volume readDicom(const fs::path& path, const std::string& series, const Progress& progress) {
-  const QuietDicom quiet;
-  auto names = itk::GDCMSeriesFileNames::New();
-  names->SetUseSeriesDetails(false);  // with details, the identifiers are not the series' UIDs
-  names->SetDirectory(path.string());
-  const std::string uid = chooseSeries(*names, series, path);
-  const std::vector<std::string> files = names->GetFileNames(uid);
-  return files.size() == 1 ? readFrames(files[0]) : readSlices(files, path, progress);
+Volume readDicom(const fs::path& path, const ReadVolumeOptions& options, const Progress& progress) {
+  Stack stack = openStack(path, options, progress);
+  Volume volume;
+  volume.geometry = stack.geometry;
+  volume.assumptions = std::move(stack.assumptions);
+  bool first = true;
+  for (const Slice& slice : stack.slices) {
+    progress.check();
+    Voxels voxels = readDicomFrame(*slice.image, slice.frame, progress);
+    if (std::exchange(first, false))
+      volume.voxels =
+          std::visit([](auto& v) -> Voxels { return std::decay_t<decltype(v)>(); }, voxels);
+    append(volume.voxels, std::move(voxels), volume.geometry.voxelCount());
+  }
+  return volume;
+}
+
+VolumeHeader readDicomHeader(const fs::path& path, const ReadVolumeOptions& options,
+                             const Progress& progress) {
+  Stack stack = openStack(path, options, progress);
+  const DicomImage& first = stack.images[0];
+  VolumeHeader header;
+  header.geometry = stack.geometry;
+  header.storedType = (first.isSigned ? "int" : "uint") + std::to_string(first.bitsAllocated);
+  header.encoding = encodingName(first.packing);
+  header.voxelBytes = first.frameBytes() * stack.slices.size();
+  for (const DicomImage& image : stack.images) header.storedBytes += fs::file_size(image.file);
+  header.assumptions = std::move(stack.assumptions);
+  return header;
 }
 
 }  // namespace lumen::convert

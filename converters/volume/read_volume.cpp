@@ -7,47 +7,42 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/volume/itk_guards.h"
-#include "converters/volume/itk_image.h"
+#include "converters/volume/image_file.h"
 #include "converters/volume/nifti_file.h"
 #include "converters/volume/read_dicom.h"
+#include "converters/volume/stated_geometry.h"
 
 namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
 
-Volume readWithItk(const fs::path& path, VolumeFormat format, const Progress& progress) {
-  if (format == VolumeFormat::Nrrd)
-    checkNrrdHeader(path, progress);
-  else
-    checkMetaHeader(path, progress);
-  const auto io = makeImageIo(format);
-  io->SetFileName(path.string());
-  Volume volume;
-  try {
-    io->ReadImageInformation();
-  } catch (const itk::ExceptionObject& exception) {
-    throw invalidInput(path.string() + ": its header cannot be read (" + oneLine(exception) + ")");
-  }
-  volume.geometry = checkedGeometry(*io, path);
-  progress.check();
-  volume.voxels = readVoxels(*io, path);
-  return volume;
-}
-
-Volume read(const fs::path& path, VolumeFormat format, const std::string& series,
+Volume read(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
             const Progress& progress) {
   switch (format) {
     case VolumeFormat::Dicom:
-      return readDicom(path, series, progress);
+      return readDicom(path, options, progress);
     case VolumeFormat::Nifti:
-      return readNifti(path, progress);
+      return readNifti(path, options, progress);
     case VolumeFormat::Nrrd:
     case VolumeFormat::MetaImage:
       break;
   }
-  return readWithItk(path, format, progress);
+  return readImageFile(path, format, options, progress);
+}
+
+VolumeHeader readHeader(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
+                        const Progress& progress) {
+  switch (format) {
+    case VolumeFormat::Dicom:
+      return readDicomHeader(path, options, progress);
+    case VolumeFormat::Nifti:
+      return readNiftiHeader(path, options, progress);
+    case VolumeFormat::Nrrd:
+    case VolumeFormat::MetaImage:
+      break;
+  }
+  return readImageFileHeader(path, format, options, progress);
 }
 
 /// Throws unless there is a folder for DICOM, and a file for another format.
@@ -60,6 +55,8 @@ void checkPlace(const fs::path& path, VolumeFormat format, const std::string& se
                        ": this is a file; a DICOM series is read from the folder that holds it");
   if (format != VolumeFormat::Dicom && folder)
     throw invalidInput(path.string() + ": this is a folder; expected a file");
+  if (!folder && !fs::is_regular_file(path, ignored))
+    throw invalidInput(path.string() + ": this is a device or a pipe; expected a file");
   if (!folder && !series.empty())
     throw invalidInput(path.string() +
                        ": is a file; a series can be chosen in a DICOM directory only");
@@ -101,26 +98,27 @@ std::vector<T> cropped(const std::vector<T>& from, const std::array<int, 3>& siz
 }
 
 void crop(Volume& volume, const IndexBox& box, const fs::path& path) {
-  auto& size = volume.geometry.size;
-  for (std::size_t a = 0; a < 3; ++a)
-    if (box.low[a] < 0 || box.high[a] >= size[a] || box.high[a] <= box.low[a])
-      throw invalidInput(path.string() + ": the crop box goes from " + std::to_string(box.low[a]) +
-                         " to " + std::to_string(box.high[a]) + " along axis " +
-                         std::to_string(a + 1) + "; expected at least two voxels within 0 to " +
-                         std::to_string(size[a] - 1));
+  const std::array<int, 3> size = volume.geometry.size;
+  cropGeometry(volume.geometry, box, path);
   std::visit([&](auto& voxels) { voxels = cropped(voxels, size, box); }, volume.voxels);
-  volume.geometry.origin =
-      volume.geometry.worldFromIndex(Eigen::Vector3d(box.low[0], box.low[1], box.low[2]));
-  for (std::size_t a = 0; a < 3; ++a) size[a] = box.high[a] - box.low[a] + 1;
 }
 
 }  // namespace
+
+VolumeHeader readVolumeHeader(const fs::path& path, VolumeFormat format,
+                              const ReadVolumeOptions& options, const Progress& progress) {
+  checkPlace(path, format, options.series);
+  progress.check();
+  VolumeHeader header = readHeader(path, format, options, progress);
+  if (options.crop) cropGeometry(header.geometry, *options.crop, path);
+  return header;
+}
 
 Volume readVolume(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
                   const Progress& progress) {
   checkPlace(path, format, options.series);
   progress.check();
-  Volume volume = read(path, format, options.series, progress);
+  Volume volume = read(path, format, options, progress);
   progress.check();
   if (options.crop) crop(volume, *options.crop, path);
   std::visit([&](const auto& voxels) { checkValues(voxels, path); }, volume.voxels);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -51,6 +52,8 @@ using Voxels = std::variant<std::vector<std::uint8_t>, std::vector<std::int16_t>
 struct Volume {
   VolumeGeometry geometry;
   Voxels voxels;
+  /// What its file left open and the reader assumed (VolumeHeader::assumptions).
+  std::vector<std::string> assumptions{};
 };
 
 }  // namespace lumen::convert

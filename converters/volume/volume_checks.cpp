@@ -47,7 +47,8 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
   auto& direction = geometry.direction;
   const double fault =
       (direction.transpose() * direction - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(fault <= kDirectionTolerance)) {
+  // Eigen's maxCoeff() may pass over NaN
+  if (!direction.allFinite() || !(fault <= kDirectionTolerance)) {
     std::ostringstream text;
     text << path.string() << ": its axes' directions are not orthogonal unit vectors (off by "
          << fault << "; expected at most " << kDirectionTolerance
@@ -64,7 +65,8 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
 void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value) {
   if (std::isfinite(value) && value > 0) return;
   throw invalidInput(path.string() + ": " + field + " states a spacing of " + numberText(value) +
-                     " along axis " + std::to_string(axis) + "; expected a positive number of mm");
+                     " along axis " + std::to_string(axis) +
+                     "; expected a positive number; state it with --spacing");
 }
 
 void checkRoom(const fs::path& path, double needed, double available, bool compressed) {

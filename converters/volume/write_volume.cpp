@@ -8,6 +8,7 @@
 #include "converters/common/sha256.h"
 #include "converters/volume/itk_image.h"
 #include "converters/volume/nifti_file.h"
+#include "converters/volume/read_volume.h"
 #include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
@@ -45,24 +46,41 @@ void setGeometry(itk::ImageIOBase& io, const VolumeGeometry& geometry) {
   io.SetIORegion(region);
 }
 
-void writeWithItk(const Volume& volume, const fs::path& file, VolumeFormat format, bool compressed,
-                  const fs::path& name) {
+void writeWithItk(const Volume& volume, const fs::path& file, VolumeFormat format,
+                  bool compressed) {
   const auto io = makeImageIo(format);
   setGeometry(*io, volume.geometry);
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetNumberOfComponents(1);
   io->SetUseCompression(compressed);
   io->SetFileName(file.string());
+  std::visit(
+      [&](const auto& voxels) {
+        io->SetComponentType(componentOf(voxels));
+        io->WriteImageInformation();
+        io->Write(voxels.data());
+      },
+      volume.voxels);
+}
+
+/// True if the file holds the volume's voxels. A library may not notice that a disk is full.
+bool readsBack(const Volume& volume, const fs::path& file, VolumeFormat format) {
+  return readVolume(file, format, {}, Progress()).voxels == volume.voxels;
+}
+
+bool writeWhole(const Volume& volume, const fs::path& file, VolumeFormat format, bool compressed,
+                const fs::path& name) {
   try {
-    std::visit(
-        [&](const auto& voxels) {
-          io->SetComponentType(componentOf(voxels));
-          io->WriteImageInformation();
-          io->Write(voxels.data());
-        },
-        volume.voxels);
-  } catch (const itk::ExceptionObject& exception) {
-    throw failed(name.string() + ": cannot be written (" + oneLine(exception) + ")");
+    if (format == VolumeFormat::Nifti)
+      writeNifti(volume, file, compressed, name);
+    else
+      writeWithItk(volume, file, format, compressed);
+    return readsBack(volume, file, format);
+  } catch (const itk::ExceptionObject&) {
+    return false;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::Unsupported) throw;
+    return false;
   }
 }
 
@@ -72,15 +90,14 @@ void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format
   if (format == VolumeFormat::Dicom) throw unsupported(path.string() + ": DICOM is not written");
   auto pending = formats::PendingFile::beside(path);
   if (!pending) throw failed(pending.error().message);
-  if (format == VolumeFormat::Nifti)
-    writeNifti(volume, pending->path(), compressed, path);
-  else
-    writeWithItk(volume, pending->path(), format, compressed, path);
+  if (!writeWhole(volume, pending->path(), format, compressed, path))
+    throw failed(
+        path.string() +
+        ": cannot be written; is the disk full, or the size of files limited (ulimit -f)?");
   if (const auto written = pending->commit(); !written) throw failed(written.error().message);
 }
 
-formats::SourceVolume describeSource(const Volume& volume) {
-  const auto& g = volume.geometry;
+formats::SourceVolume describeGeometry(const VolumeGeometry& g) {
   formats::SourceVolume source;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto e = static_cast<Eigen::Index>(a);
@@ -90,6 +107,11 @@ formats::SourceVolume describeSource(const Volume& volume) {
     for (std::size_t c = 0; c < 3; ++c)
       source.direction[3 * a + c] = g.direction(e, static_cast<Eigen::Index>(c));
   }
+  return source;
+}
+
+formats::SourceVolume describeSource(const Volume& volume) {
+  formats::SourceVolume source = describeGeometry(volume.geometry);
   source.sha256 =
       std::visit([](const auto& v) { return sha256(std::as_bytes(std::span(v))); }, volume.voxels);
   return source;

@@ -82,8 +82,12 @@ std::string ownPrefix() {
   return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-";
 }
 
-// The prefix, digits, a hyphen: what a user keeps under a similar name is not ours.
+// The prefix, digits, a hyphen: what a user keeps under a similar name is not ours. Earlier versions
+// tried folders out by files named .lumen-probe- and six letters.
 bool isTemporaryName(std::string_view name) {
+  constexpr std::string_view kProbe = ".lumen-probe-XXXXXX";
+  if (name.size() == kProbe.size() && name.starts_with(kProbe.substr(0, kProbe.size() - 6)))
+    return true;
   if (!name.starts_with(kTemporaryPrefix)) return false;
   name.remove_prefix(kTemporaryPrefix.size());
   const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
@@ -129,7 +133,28 @@ Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string&
     HiddenSibling sibling(path, descriptor);
     if (stillExists(descriptor)) return sibling;
   }
-  return writeError(target, "nothing can be created beside it", error);
+  return writeError(target, "no file can be made in the folder " + folderOf(target).string(),
+                    error);
+}
+
+// The file system does not have what was asked for, which is no failure of the disk.
+bool isUnsupported(int code) {
+  return code == EINVAL || code == ENOSYS || code == ENOTSUP || code == EOPNOTSUPP;
+}
+
+// The open file has `mode`, or permissions that grant nothing beyond it where they cannot be set.
+bool setMode(int descriptor, mode_t mode, const FileCalls& calls) {
+  if (calls.permit(descriptor, mode) == 0) return true;
+  const int error = errno;
+  struct stat info {};
+  if (!isUnsupported(error) && error != EPERM) return false;
+  if (::fstat(descriptor, &info) == 0 && (info.st_mode & kPermissionBits & ~mode) == 0) return true;
+  errno = error;
+  return false;
+}
+
+bool flushOpen(int descriptor, const FileCalls& calls) {
+  return uninterrupted([&] { return calls.flush(descriptor); }) == 0 || isUnsupported(errno);
 }
 
 // The file or folder at `path` is on the disk then, with the permissions `mode` if that is given.
@@ -138,8 +163,7 @@ bool flushPath(const fs::path& path, int flags, const FileCalls& calls,
   const int descriptor =
       uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags); });
   if (descriptor < 0) return false;
-  const bool flushed = (!mode || ::fchmod(descriptor, *mode) == 0) &&
-                       uninterrupted([&] { return calls.flush(descriptor); }) == 0;
+  const bool flushed = (!mode || setMode(descriptor, *mode, calls)) && flushOpen(descriptor, calls);
   const int error = errno;
   ::close(descriptor);
   errno = error;
@@ -176,16 +200,13 @@ int exchangeNames(const char* a, const char* b) {
 #endif
 }
 
-bool cannotExchange(int code) {
-  return code == EINVAL || code == ENOSYS || code == ENOTSUP || code == EOPNOTSUPP;
-}
-
 }  // namespace
 
 const FileCalls& systemCalls() {
-  static const FileCalls calls{[](int descriptor) { return ::fsync(descriptor); },
-                               [](const char* from, const char* to) { return ::rename(from, to); },
-                               exchangeNames};
+  static const FileCalls calls{
+      [](int descriptor) { return ::fsync(descriptor); },
+      [](int descriptor, mode_t mode) { return ::fchmod(descriptor, mode); },
+      [](const char* from, const char* to) { return ::rename(from, to); }, exchangeNames};
   return calls;
 }
 
@@ -269,7 +290,7 @@ Expected<bool> PendingFolder::replace() {
   const FileCalls& calls = m_calls;
   // the sibling is the old folder from here on, and goes with this object
   if (calls.exchange(path().c_str(), m_target.c_str()) == 0) return true;
-  if (!cannotExchange(errno)) return writeError(m_target, "cannot replace the folder", errno);
+  if (!isUnsupported(errno)) return writeError(m_target, "cannot replace the folder", errno);
   const fs::path old = m_target.string() + ".lumen-old";
   if (calls.rename(m_target.c_str(), old.c_str()) != 0)
     return writeError(m_target, "cannot be moved away", errno);

@@ -8,7 +8,13 @@
 // locked; an interrupted process, which still holds its own locks, removes what bears its id. A
 // lock rather than the id tells the dead from the living, because a folder may be shared by
 // machines and containers that do not see each other's processes. Files without a name (O_TMPFILE)
-// would leave nothing either, but neither libraries that write by name nor folders can use them.
+// would leave nothing either, but neither libraries that write by name nor folders can use them, and
+// some file systems refuse to name them (linkat).
+//
+// Of a file system no more is asked than to create, write and rename. Where it has no locks, what a
+// killed writer left stays; where it cannot flush (fsync: EINVAL, ENOSYS, ENOTSUP), that is left to
+// the system; where it has no permissions to set, a file that replaces another takes what it is
+// given, unless that would let more people at it.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +38,7 @@ inline constexpr std::string_view kTemporaryPrefix = ".lumen-";
 /// see their order or to let them fail.
 struct FileCalls {
   std::function<int(int descriptor)> flush;                     ///< fsync
+  std::function<int(int descriptor, mode_t mode)> permit;       ///< fchmod
   std::function<int(const char* from, const char* to)> rename;  ///< rename
   std::function<int(const char* a, const char* b)> exchange;    ///< renameat2, RENAME_EXCHANGE
 };

@@ -145,11 +145,11 @@ std::optional<std::uint64_t> nodeArrayOffset(const std::string& pointer, const C
 }
 
 void placeIssues(const Case& value, const CaseChunks& chunks, IssueList& issues) {
-  for (Issue& issue : issues.issues()) {
-    if (issue.offset || !issue.pointer) continue;
+  issues.forEach([&](Issue& issue) {
+    if (issue.offset || !issue.pointer) return;
     issue.offset = byteOffsetOf(*issue.pointer, chunks);
     if (!issue.offset) issue.offset = nodeArrayOffset(*issue.pointer, value, chunks);
-  }
+  });
 }
 
 std::optional<Case> decodeChunks(const Container& container, CaseChunks& chunks,
@@ -190,8 +190,7 @@ std::optional<Case> decodeBinary(std::span<const std::byte> bytes, IssueList& is
     return std::nullopt;
   }
   for (const Chunk& chunk : container->chunks)
-    if (auto verified = verifyChunk(chunk); !verified && !issues.full())
-      issues.add(verified.error());
+    if (auto verified = verifyChunk(chunk); !verified) issues.add(verified.error());
   CaseChunks chunks = sortChunks(*container, issues);
   if (issues.failed()) return std::nullopt;
   return decodeChunks(*container, chunks, issues);

@@ -133,7 +133,8 @@ Expected<bool> writeCaseFile(const Case& value, const fs::path& file) {
 ValidationReport validateBytes(std::span<const std::byte> bytes, std::size_t maxIssues) {
   IssueList issues(maxIssues);
   (void)decode(bytes, issues);
-  return {issues.issues(), issues.errorCount(), !issues.full()};
+  const IssueCounts counts = issues.counts();
+  return {issues.take(), counts};
 }
 
 }  // namespace lumen::formats

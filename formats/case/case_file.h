@@ -39,13 +39,14 @@ Expected<bool> writeCaseFile(const Case& value, const std::filesystem::path& fil
 constexpr std::size_t kDefaultMaxIssues = 100;
 
 struct ValidationReport {
-  std::vector<Issue> issues;   ///< at most as many as were asked for
-  std::size_t errorCount = 0;  ///< at least this many
-  bool complete = true;        ///< false if it stopped at its maximum: there may be more
-  [[nodiscard]] bool valid() const { return errorCount == 0; }
+  std::vector<Issue> issues;  ///< at most as many as were asked for, errors first
+  IssueCounts counts;         ///< of all, listed or not
+  [[nodiscard]] bool valid() const { return counts.errors == 0; }
+  [[nodiscard]] std::size_t unlisted() const { return counts.total() - issues.size(); }
 };
 
-/// All that is wrong, or worth a warning, in bytes of either encoding.
+/// All that is wrong, or worth a warning, in bytes of either encoding. What cannot be understood
+/// hides what depends on it: of a text that is not JSON, only the first fault is known.
 ValidationReport validateBytes(std::span<const std::byte> bytes,
                                std::size_t maxIssues = kDefaultMaxIssues);
 

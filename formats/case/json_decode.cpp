@@ -58,7 +58,7 @@ Branch readBranch(const json& value, const std::string& place, JsonReadState& st
   branch.nodeCount = fields.integer<std::uint32_t>("nodeCount");
   branch.stopReason = fields.enumeration<StopReason>("stopReason", kStopReasonNames);
   if (fields.find("meanInlierRate") != nullptr)
-    branch.meanInlierRate = floatFromParsed(fields.real("meanInlierRate"));
+    branch.meanInlierRate = fields.single("meanInlierRate");
   fields.finish();
   return branch;
 }
@@ -70,7 +70,7 @@ void readTree(const json& value, const ArraySlots& slots, CenterlineTree& tree,
   if (const json* branches = fields.require("branches")) {
     if (!branches->is_array()) state.wrongType(place, *branches, "an array");
     for (std::size_t i = 0; branches->is_array() && i < branches->size(); ++i) {
-      if (state.issues.full()) return;
+      if (state.issues.done()) return;
       tree.branches.push_back(readBranch((*branches)[i], place + "/" + std::to_string(i), state));
     }
   }
@@ -138,26 +138,38 @@ bool readVersion(JsonFields& fields, JsonReadState& state) {
 }
 
 template <class Number>
-void convertArray(const std::vector<double>& from, const std::string& place,
-                  std::vector<Number>& to, JsonReadState& state) {
-  to.reserve(from.size());
-  for (std::size_t i = 0; i < from.size() && !state.issues.full(); ++i) {
-    const double value = from[i];
-    Number number{};
-    bool fits = false;
-    if constexpr (std::is_same_v<Number, float>) {
-      number = floatFromParsed(value);
-      fits = std::isfinite(number);
-    } else {
-      fits = value >= double{std::numeric_limits<Number>::min()} &&
-             value <= double{std::numeric_limits<Number>::max()} && value == std::floor(value);
-      if (fits) number = static_cast<Number>(value);
-    }
-    if (!fits)
-      state.fail(ErrorCode::NumberRange, place + "/" + std::to_string(i),
-                 "found " + shortText(value) + ", which does not fit the type of its array",
-                 {{"found", shortText(value)}});
-    to.push_back(number);
+std::optional<Number> numberAs(double value) {
+  if constexpr (std::is_same_v<Number, float>) {
+    return floatFromDouble(value);
+  } else {
+    if (!(value >= double{std::numeric_limits<Number>::min()} &&
+          value <= double{std::numeric_limits<Number>::max()}))
+      return std::nullopt;
+    return static_cast<Number>(value);
+  }
+}
+
+Issue rangeIssue(double value, const std::string& place) {
+  const std::string found = std::isfinite(value) ? shortText(value) : "a number beyond all";
+  return pointerIssue(ErrorCode::NumberRange, place,
+                      "found " + found + ", which does not fit the type of its array",
+                      {{"found", found}});
+}
+
+template <class Number>
+void convertArray(const NumberTexts& from, const std::string& place, std::vector<Number>& to,
+                  JsonReadState& state) {
+  if (!std::is_same_v<Number, float> && from.firstReal)
+    return state.fail(ErrorCode::JsonType, at(place, *from.firstReal),
+                      "found a number with a point or an exponent, expected an integer",
+                      {{"found", "number"}, {"expected", "an integer"}});
+  to.reserve(from.values.size());
+  for (std::size_t i = 0; i < from.values.size() && !state.issues.done(); ++i) {
+    const auto number = numberAs<Number>(from.values[i]);
+    if (!number)
+      state.issues.add(ErrorCode::NumberRange,
+                       [&] { return rangeIssue(from.values[i], at(place, i)); });
+    to.push_back(number.value_or(Number{}));
   }
 }
 
@@ -189,13 +201,7 @@ OtherChunk readChunk(const json& value, const std::string& place, JsonReadState&
   chunk.independent = fields.boolean("independent");
   chunk.encoding = fields.integer<std::uint8_t>("encoding");
   const bool hasRawSize = fields.find("rawSize") != nullptr;
-  if (hasRawSize) {
-    const auto size = fields.integer<std::int64_t>("rawSize");
-    if (size < 0)
-      state.fail(ErrorCode::NumberRange, place + "/rawSize", "found a size below 0",
-                 {{"found", std::to_string(size)}});
-    chunk.rawSize = size < 0 ? 0 : static_cast<std::uint64_t>(size);
-  }
+  if (hasRawSize) chunk.rawSize = fields.integer<std::uint64_t>("rawSize");
   if (hasRawSize != (chunk.encoding != 0))
     state.fail(ErrorCode::JsonChunkData, place + "/rawSize",
                "a raw size belongs to chunks of another encoding than 0, and to those alone",
@@ -217,7 +223,7 @@ void readOtherChunks(const json& value, std::vector<OtherChunk>& chunks, JsonRea
   const std::string place = "/otherChunks";
   if (!value.is_array()) return state.wrongType(place, value, "an array");
   for (const json& chunk : value) {
-    if (state.issues.full()) return;
+    if (state.issues.done()) return;
     chunks.push_back(readChunk(chunk, place + "/" + std::to_string(chunks.size()), state));
   }
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/case/json_document.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 
+#include "formats/case/json_number.h"
+#include "formats/case/json_text.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"
 
@@ -16,73 +18,35 @@ namespace {
 using nlohmann::json;
 using PairArray = std::vector<std::array<std::uint32_t, 2>>*;
 
-// Numbers below the smallest float become zero; those above the largest have no float.
-std::optional<float> floatFromText(std::string_view text, double value) {
-  if (std::abs(value) > double{std::numeric_limits<float>::max()} * (1.0 + 0x1.0p-25))
-    return std::nullopt;
-  float result = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), result);
-  if (parsed.ec == std::errc{} && std::isfinite(result)) return result;
-  return static_cast<float>(value);
-}
-
-// Cut short, and free of control characters that the file may have put into it.
-std::string printable(std::string_view text) {
-  std::string clean;
-  for (const char c : text.substr(0, 160)) clean += c >= 0x20 && c < 0x7f ? c : '?';
-  return clean;
-}
-
-// What the library says, without its prefix.
-std::string parserMessage(std::string_view what) {
-  if (const auto at = what.find("] "); at != std::string_view::npos) what.remove_prefix(at + 2);
-  return printable(what);
-}
-
-// Receives nlohmann's parse events; a callback that returns false ends the parse, m_error says why.
-class DocumentBuilder {
+// Builds the values; where it returns false, m_error says why.
+class DocumentBuilder final : public JsonEvents {
 public:
   DocumentBuilder(std::size_t byteOffset, const std::string& root, ArraySlots& slots)
       : m_byteOffset(byteOffset), m_rootPlace(root), m_slots(slots) {}
 
-  bool null() { return scalar(nullptr); }
-  bool boolean(bool value) { return scalar(value); }
-  bool string(std::string& value) { return scalar(std::move(value)); }
-  bool binary(json::binary_t&) { return false; }  // JSON text has none
-
-  bool number_integer(std::int64_t value) {
-    if (m_array) return addInteger(value);
-    return scalar(value);
-  }
-  bool number_unsigned(std::uint64_t value) {
-    if (value <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-      return number_integer(static_cast<std::int64_t>(value));
-    if (m_array) return addReal(static_cast<double>(value), std::to_string(value));
-    return fail(ErrorCode::NumberRange,
-                "the integer " + std::to_string(value) + " does not fit into 64 bits with a sign");
-  }
-  bool number_float(double value, const std::string& text) {
-    if (m_array) return addReal(value, text);
-    if (text.find_first_of(".eE") == std::string::npos)
-      return fail(ErrorCode::NumberRange, "an integer does not fit into 64 bits with a sign");
-    return scalar(value);
+  bool null() override { return scalar(nullptr); }
+  bool boolean(bool value) override { return scalar(value); }
+  bool string(std::string& value) override { return scalar(std::move(value)); }
+  bool number(std::string_view text, bool whole) override {
+    return m_array ? addNumber(text, whole) : scalar(numberValue(text, whole));
   }
 
-  bool start_object(std::size_t) {
-    if (m_array) return fail(ErrorCode::JsonType, "found an object among numbers");
+  bool beginObject() override {
+    if (m_array) return wrongType("an object", "a number");
     return open(json::object());
   }
-  bool end_object() { return close(); }
+  bool endObject() override { return close(); }
 
-  bool key(std::string& name) {
+  bool key(std::string& name) override {
     Level& level = m_levels.back();
     level.key = name;
     if (level.keys.insert(name).second) return true;
     return fail(ErrorCode::JsonDuplicateKey,
-                "the key \"" + printable(name) + "\" occurs twice in its object");
+                "the key \"" + name.substr(0, 80) + "\" occurs twice in its object",
+                {{"key", name.substr(0, 80)}});
   }
 
-  bool start_array(std::size_t) {
+  bool beginArray() override {
     if (m_array) return startVector();
     if (ArraySlot* slot = slotHere()) {
       slot->seen = true;
@@ -93,7 +57,7 @@ public:
     return open(json::array());
   }
 
-  bool end_array() {
+  bool endArray() override {
     if (!m_array) return close();
     if (m_component < 0) {
       m_array.reset();
@@ -106,14 +70,9 @@ public:
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string&, const json::exception& error) {
-    const bool range = error.id == 406;  // a number beyond the range of a double
-    m_error = {range ? ErrorCode::NumberRange : ErrorCode::JsonSyntax, m_byteOffset + position,
-               parserMessage(error.what())};
-    return false;
-  }
-
-  [[nodiscard]] std::optional<json> result(IssueList& issues) {
+  [[nodiscard]] std::optional<json> result(std::optional<JsonFault> fault, IssueList& issues) {
+    if (fault)
+      m_error = Issue{ErrorCode::JsonSyntax, m_byteOffset + fault->at, std::move(fault->message)};
     if (!m_error) return std::move(m_root);
     issues.add(*std::move(m_error));
     return std::nullopt;
@@ -180,12 +139,8 @@ private:
   }
 
   bool scalar(json value) {
-    if (m_array)
-      return fail(ErrorCode::JsonType,
-                  std::string("found ") + value.type_name() + ", expected a number");
-    if (slotHere() != nullptr)
-      return fail(ErrorCode::JsonType,
-                  std::string("found ") + value.type_name() + ", expected an array");
+    if (m_array) return wrongType(kindOf(value), "a number");
+    if (slotHere() != nullptr) return wrongType(kindOf(value), "an array");
     attach(std::move(value));
     return true;
   }
@@ -194,8 +149,7 @@ private:
     if (m_levels.size() >= kMaxJsonDepth)
       return fail(ErrorCode::JsonDepth, "arrays and objects are nested deeper than " +
                                             std::to_string(kMaxJsonDepth) + " levels");
-    if (slotHere() != nullptr)
-      return fail(ErrorCode::JsonType, "found an object, expected an array");
+    if (slotHere() != nullptr) return wrongType("an object", "an array");
     m_levels.push_back({attach(std::move(value)), {}, {}});
     return true;
   }
@@ -206,8 +160,7 @@ private:
   }
 
   bool startVector() {
-    if (vectorSize() == 0 || m_component >= 0)
-      return fail(ErrorCode::JsonType, "found an array, expected a number");
+    if (vectorSize() == 0 || m_component >= 0) return wrongType("an array", "a number");
     if (const auto* vectors = std::get_if<std::vector<Vec3f>*>(&*m_array))
       (*vectors)->emplace_back();
     else
@@ -219,81 +172,86 @@ private:
   // A number may come next in an array of arrays.
   bool checkComponent() {
     if (m_component >= 0 && m_component < vectorSize()) return true;
-    return fail(ErrorCode::JsonType,
-                "found a number, expected arrays of " + std::to_string(vectorSize()));
+    return wrongType("a number", "arrays of " + std::to_string(vectorSize()));
   }
 
-  bool addFloat(float value) {
-    if (auto* floats = std::get_if<std::vector<float>*>(&*m_array)) {
-      (*floats)->push_back(value);
-      ++m_index;
-      return true;
-    }
+  bool addNumber(std::string_view text, bool whole) {
+    if (auto* values = std::get_if<NumberTexts*>(&*m_array)) return addTo(**values, text, whole);
+    if (auto* floats = std::get_if<std::vector<float>*>(&*m_array)) return addTo(**floats, text);
+    if (auto* vectors = std::get_if<std::vector<Vec3f>*>(&*m_array)) return addTo(**vectors, text);
+    if (!whole) return wrongType(std::string(text.substr(0, 40)), "an integer");
+    if (auto* integers = std::get_if<std::vector<std::int32_t>*>(&*m_array))
+      return addTo(**integers, text);
+    if (auto* integers = std::get_if<std::vector<std::uint32_t>*>(&*m_array))
+      return addTo(**integers, text);
+    return addToPair(text);
+  }
+
+  // What it should be is known when the metadata have been read.
+  bool addTo(NumberTexts& to, std::string_view text, bool whole) {
+    to.add(text, whole);
+    ++m_index;
+    return true;
+  }
+
+  bool addTo(std::vector<float>& to, std::string_view text) {
+    const auto value = singleOf(text);
+    if (!value) return false;
+    to.push_back(*value);
+    ++m_index;
+    return true;
+  }
+
+  bool addTo(std::vector<Vec3f>& to, std::string_view text) {
     if (!checkComponent()) return false;
-    Vec3f& vector = std::get<std::vector<Vec3f>*>(*m_array)->back();
-    (m_component == 0 ? vector.x : m_component == 1 ? vector.y : vector.z) = value;
+    const auto value = singleOf(text);
+    if (!value) return false;
+    Vec3f& vector = to.back();
+    (m_component == 0 ? vector.x : m_component == 1 ? vector.y : vector.z) = *value;
     ++m_component;
     return true;
   }
 
-  bool addDouble(double value) {
-    std::get<std::vector<double>*>(*m_array)->push_back(value);
+  template <class Integer>
+  bool addTo(std::vector<Integer>& to, std::string_view text) {
+    const auto value = whole<Integer>(text);
+    if (!value) return false;
+    to.push_back(*value);
     ++m_index;
     return true;
   }
 
-  [[nodiscard]] bool wantsDoubles() const {
-    return std::holds_alternative<std::vector<double>*>(*m_array);
-  }
-  [[nodiscard]] bool wantsIntegers() const {
-    return !wantsDoubles() && !std::holds_alternative<std::vector<float>*>(*m_array) &&
-           !std::holds_alternative<std::vector<Vec3f>*>(*m_array);
-  }
-
-  bool addReal(double value, const std::string& text) {
-    const std::string found = text.substr(0, 40);
-    if (wantsDoubles()) return addDouble(value);
-    if (wantsIntegers())
-      return fail(ErrorCode::JsonType, "found " + found + ", expected an integer",
-                  {{"found", found}, {"expected", "an integer"}});
-    if (const auto number = floatFromText(text, value)) return addFloat(*number);
-    return fail(ErrorCode::NumberRange, "found " + found + ", beyond the range of a float",
-                {{"found", found}});
-  }
-
-  template <class Integer>
-  bool checkRange(std::int64_t value) {
-    if (std::in_range<Integer>(value)) return true;
-    return fail(ErrorCode::NumberRange,
-                "found " + std::to_string(value) + ", expected an integer from " +
-                    std::to_string(std::numeric_limits<Integer>::min()) + " to " +
-                    std::to_string(std::numeric_limits<Integer>::max()),
-                {{"found", std::to_string(value)}});
-  }
-
-  template <class Integer>
-  bool addTo(std::vector<Integer>& to, std::int64_t value) {
-    if (!checkRange<Integer>(value)) return false;
-    to.push_back(static_cast<Integer>(value));
-    ++m_index;
+  bool addToPair(std::string_view text) {
+    if (!checkComponent()) return false;
+    const auto value = whole<std::uint32_t>(text);
+    if (!value) return false;
+    std::get<PairArray>(*m_array)->back()[static_cast<std::size_t>(m_component++)] = *value;
     return true;
   }
 
-  bool addToPair(std::int64_t value) {
-    if (!checkComponent() || !checkRange<std::uint32_t>(value)) return false;
-    auto& pair = std::get<PairArray>(*m_array)->back();
-    pair[static_cast<std::size_t>(m_component++)] = static_cast<std::uint32_t>(value);
-    return true;
+  std::optional<float> singleOf(std::string_view text) {
+    const auto value = floatFromText(text);
+    if (!value) outOfRange(text, "a number that rounds to an f32");
+    return value;
   }
 
-  bool addInteger(std::int64_t value) {
-    if (wantsDoubles()) return addDouble(static_cast<double>(value));
-    if (!wantsIntegers()) return addFloat(static_cast<float>(value));
-    if (auto* integers = std::get_if<std::vector<std::int32_t>*>(&*m_array))
-      return addTo(**integers, value);
-    if (auto* integers = std::get_if<std::vector<std::uint32_t>*>(&*m_array))
-      return addTo(**integers, value);
-    return addToPair(value);
+  template <class Integer>
+  std::optional<Integer> whole(std::string_view text) {
+    const auto value = integerFromText<Integer>(text);
+    if (!value)
+      outOfRange(text, "an integer from " + std::to_string(std::numeric_limits<Integer>::min()) +
+                           " to " + std::to_string(std::numeric_limits<Integer>::max()));
+    return value;
+  }
+
+  bool wrongType(const std::string& found, const std::string& expected) {
+    return fail(ErrorCode::JsonType, "found " + found + ", expected " + expected,
+                {{"found", found}, {"expected", expected}});
+  }
+
+  void outOfRange(std::string_view text, const std::string& expected) {
+    const std::string found(text.substr(0, 40));
+    fail(ErrorCode::NumberRange, "found " + found + ", expected " + expected, {{"found", found}});
   }
 
   std::size_t m_byteOffset;
@@ -308,32 +266,24 @@ private:
   std::optional<Issue> m_error;
 };
 
-std::optional<Issue> checkStart(std::string_view text, std::size_t byteOffset) {
-  if (text.starts_with("\xef\xbb\xbf"))
-    return Issue{ErrorCode::JsonSyntax, byteOffset,
-                 "the text starts with a byte order mark, which JSON does not allow"};
-  // the library takes a zero byte for the end of the text
-  if (const auto at = text.find('\0'); at != std::string_view::npos)
-    return Issue{ErrorCode::JsonSyntax, byteOffset + at, "found a zero byte"};
-  return std::nullopt;
-}
-
 }  // namespace
+
+void NumberTexts::add(std::string_view text, bool whole) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto single = floatFromText(text);
+  double value = doubleFromText(text).value_or(text.starts_with('-') ? -kInfinity : kInfinity);
+  // rounded to a double first, it would become another f32
+  if (floatFromDouble(value) != single)
+    value = single ? static_cast<double>(*single) : std::copysign(kInfinity, value);
+  if (!whole && !firstReal) firstReal = values.size();
+  values.push_back(value);
+}
 
 std::optional<json> parseJson(std::string_view text, std::size_t byteOffset,
                               const std::string& root, ArraySlots& slots, IssueList& issues) {
-  if (auto problem = checkStart(text, byteOffset)) {
-    issues.add(*std::move(problem));
-    return std::nullopt;
-  }
   DocumentBuilder builder(byteOffset, root, slots);
-  json::sax_parse(text.begin(), text.end(), &builder);
-  return builder.result(issues);
-}
-
-float floatFromParsed(double value) {
-  const std::string text = shortText(value);
-  return floatFromText(text, value).value_or(std::numeric_limits<float>::infinity());
+  auto fault = readJsonText(text, builder);
+  return builder.result(std::move(fault), issues);
 }
 
 }  // namespace lumen::formats

@@ -137,7 +137,7 @@ void writeOtherChunk(JsonWriter& json, const OtherChunk& chunk) {
   json.integer(chunk.encoding);
   if (chunk.encoding != 0) {
     json.key("rawSize");
-    json.integer(static_cast<std::int64_t>(chunk.rawSize));
+    json.size(chunk.rawSize);
   }
   json.key("data");
   json.text(base64(chunk.bytes));

@@ -26,14 +26,30 @@ const json* JsonFields::require(std::string_view key) {
 }
 
 double JsonFields::toReal(const json& value, const std::string& place) {
-  if (value.is_number()) return value.get<double>();
-  m_state.wrongType(place, value, "a number");
-  return 0.0;
+  if (!isNumber(value)) {
+    m_state.wrongType(place, value, "a number");
+    return 0.0;
+  }
+  const auto number = asDouble(value);
+  if (!number) m_state.outOfRange(place, value, "a number that rounds to an f64");
+  return number.value_or(0.0);
 }
 
 double JsonFields::real(std::string_view key) {
   const json* value = require(key);
   return value == nullptr ? 0.0 : toReal(*value, placeOf(key));
+}
+
+float JsonFields::single(std::string_view key) {
+  const json* value = require(key);
+  if (value == nullptr) return 0.0f;
+  if (!isNumber(*value)) {
+    m_state.wrongType(placeOf(key), *value, "a number");
+    return 0.0f;
+  }
+  const auto number = asFloat(*value);
+  if (!number) m_state.outOfRange(placeOf(key), *value, "a number that rounds to an f32");
+  return number.value_or(0.0f);
 }
 
 std::optional<std::string> JsonFields::readText(std::string_view key) {
@@ -73,7 +89,7 @@ const json* JsonFields::arrayOf(std::string_view key, std::size_t size) {
   if (value == nullptr) return nullptr;
   if (value->is_array() && value->size() == size) return value;
   const std::string found =
-      value->is_array() ? "an array of " + std::to_string(value->size()) : value->type_name();
+      value->is_array() ? "an array of " + std::to_string(value->size()) : kindOf(*value);
   const std::string expected = "an array of " + std::to_string(size) + " numbers";
   m_state.fail(ErrorCode::JsonType, placeOf(key), "found " + found + ", expected " + expected,
                {{"found", found}, {"expected", expected}});

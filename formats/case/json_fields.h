@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/case/enum_names.h"
+#include "formats/case/json_number.h"
 #include "formats/container/issue.h"
 #include "formats/view/text_rules.h"
 
@@ -30,9 +31,14 @@ struct JsonReadState {
     issues.add(pointerIssue(code, std::move(place), std::move(message), std::move(arguments)));
   }
   void wrongType(std::string place, const nlohmann::json& value, const std::string& expected) {
-    const std::string found = value.type_name();
+    const std::string found = kindOf(value);
     fail(ErrorCode::JsonType, std::move(place), "found " + found + ", expected " + expected,
          {{"found", found}, {"expected", expected}});
+  }
+  void outOfRange(std::string place, const nlohmann::json& number, const std::string& expected) {
+    const std::string found = numberText(number);
+    fail(ErrorCode::NumberRange, std::move(place), "found " + found + ", expected " + expected,
+         {{"found", found}});
   }
 };
 
@@ -47,6 +53,7 @@ public:
   const nlohmann::json* require(std::string_view key);
 
   double real(std::string_view key);
+  float single(std::string_view key);
   std::string text(std::string_view key) { return readText(key).value_or(std::string()); }
   bool boolean(std::string_view key);
   std::vector<std::string> texts(std::string_view key);
@@ -65,7 +72,12 @@ public:
     if (!name) return Enum{};
     if (const auto value = enumFromName<Enum>(names, *name)) return *value;
     const std::string found = name->substr(0, 80);
-    m_state.fail(ErrorCode::EnumValue, placeOf(key), "found \"" + found + "\"", {{"found", found}});
+    std::string expected;
+    for (const std::string_view known : names)
+      expected.append(expected.empty() ? "" : ", ").append(known);
+    m_state.fail(ErrorCode::EnumValue, placeOf(key),
+                 "found \"" + found + "\", expected one of " + expected,
+                 {{"found", found}, {"expected", expected}});
     return Enum{};
   }
 
@@ -83,15 +95,14 @@ private:
 
   template <class Integer>
   Integer toInteger(const nlohmann::json& value, const std::string& place) {
-    if (!value.is_number_integer()) {
-      m_state.wrongType(place, value, "an integer");
+    if (!isNumber(value) || !isWhole(value)) {
+      m_state.wrongType(place, value, "an integer, without point and exponent");
       return Integer{};
     }
-    const auto number = value.get<std::int64_t>();
-    if (std::in_range<Integer>(number)) return static_cast<Integer>(number);
-    m_state.fail(ErrorCode::NumberRange, place,
-                 "found " + std::to_string(number) + ", which does not fit its field",
-                 {{"found", std::to_string(number)}});
+    if (const auto number = asInteger<Integer>(value)) return *number;
+    m_state.outOfRange(place, value,
+                       "an integer from " + std::to_string(std::numeric_limits<Integer>::min()) +
+                           " to " + std::to_string(std::numeric_limits<Integer>::max()));
     return Integer{};
   }
 

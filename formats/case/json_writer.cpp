@@ -128,6 +128,11 @@ void JsonWriter::integer(std::int64_t value) {
   appendNumber(m_text, value);
 }
 
+void JsonWriter::size(std::uint64_t value) {
+  separate();
+  appendNumber(m_text, value);
+}
+
 void JsonWriter::real(double value) {
   separate();
   appendDouble(m_text, value);

@@ -32,6 +32,7 @@ public:
   void text(std::string_view value);
   void boolean(bool value);
   void integer(std::int64_t value);
+  void size(std::uint64_t value);
   void real(double value);
   void real(float value);
   void array(std::span<const float> values);

@@ -22,10 +22,19 @@ SourceVolume readSource(const json& value, const std::string& place, JsonReadSta
 
 ParameterValue readParameter(const json& value, const std::string& place, JsonReadState& state) {
   if (value.is_boolean()) return value.get<bool>();
-  if (value.is_number_integer()) return value.get<std::int64_t>();
-  if (value.is_number_float()) return value.get<double>();
   if (value.is_string()) return value.get<std::string>();
-  state.wrongType(place, value, "a boolean, a number or a string");
+  if (!isNumber(value)) {
+    state.wrongType(place, value, "a boolean, a number or a string");
+    return false;
+  }
+  if (isWhole(value)) {
+    if (const auto number = asInteger<std::int64_t>(value)) return *number;
+  } else if (const auto number = asDouble(value)) {
+    return *number;
+  }
+  state.outOfRange(place, value,
+                   isWhole(value) ? "an integer of 64 bits with a sign (a real has a point)"
+                                  : "a number that rounds to an f64");
   return false;
 }
 
@@ -75,7 +84,7 @@ void readList(const json& value, const std::string& place, std::vector<Item>& to
               JsonReadState& state, Read read) {
   if (!value.is_array()) return state.wrongType(place, value, "an array");
   for (const json& item : value) {
-    if (state.issues.full()) return;
+    if (state.issues.done()) return;
     to.push_back(read(item, place + "/" + std::to_string(to.size()), state));
   }
 }

@@ -84,7 +84,7 @@ void checkStep(const Step& step, const std::string& place, IssueList& issues) {
   checkName(step.tool, place + "/tool", issues);
   checkLimit(step.parameters.size(), kMaxParameters, place + "/parameters", issues);
   for (const auto& [name, value] : step.parameters) {
-    if (issues.full()) return;
+    if (issues.done()) return;
     checkParameter(name, value, place + "/parameters", issues);
   }
 }
@@ -108,11 +108,11 @@ bool isExtensionName(std::string_view name) {
          std::all_of(name.begin(), name.end(), isWord);
 }
 
-void checkExtensionList(const std::vector<std::string>& names, const std::string& place,
+bool checkExtensionList(const std::vector<std::string>& names, const std::string& place,
                         IssueList& issues) {
-  checkLimit(names.size(), kMaxExtensions, place, issues);
+  if (!checkLimit(names.size(), kMaxExtensions, place, issues)) return false;
   std::set<std::string_view> seen;
-  for (std::size_t i = 0; i < names.size() && !issues.full(); ++i) {
+  for (std::size_t i = 0; i < names.size() && !issues.done(); ++i) {
     const std::vector<Argument> found = {{"found", names[i].substr(0, 80)}};
     if (!isExtensionName(names[i]))
       issues.add(pointerIssue(ErrorCode::ExtensionName, at(place, i),
@@ -121,6 +121,7 @@ void checkExtensionList(const std::vector<std::string>& names, const std::string
       issues.add(pointerIssue(ErrorCode::ExtensionDuplicate, at(place, i),
                               "the extension is listed a second time", found));
   }
+  return true;
 }
 
 bool isListed(const std::vector<std::string>& names, std::string_view name) {
@@ -129,9 +130,9 @@ bool isListed(const std::vector<std::string>& names, std::string_view name) {
 
 void checkExtensions(const Metadata& metadata, IssueList& issues) {
   const std::string required = "/metadata/extensionsRequired";
-  checkExtensionList(metadata.extensionsUsed, "/metadata/extensionsUsed", issues);
-  checkExtensionList(metadata.extensionsRequired, required, issues);
-  for (std::size_t i = 0; i < metadata.extensionsRequired.size() && !issues.full(); ++i) {
+  const bool used = checkExtensionList(metadata.extensionsUsed, "/metadata/extensionsUsed", issues);
+  if (!checkExtensionList(metadata.extensionsRequired, required, issues) || !used) return;
+  for (std::size_t i = 0; i < metadata.extensionsRequired.size() && !issues.done(); ++i) {
     const std::string name = metadata.extensionsRequired[i].substr(0, 80);
     if (!isListed(metadata.extensionsUsed, metadata.extensionsRequired[i]))
       issues.add(pointerIssue(ErrorCode::ExtensionUnlisted, at(required, i),
@@ -178,7 +179,7 @@ void checkNodeArrays(const Case& value, IssueList& issues) {
   const std::string list = "/metadata/nodeArrays";
   if (!checkLimit(value.nodeArrays.size(), kMaxNodeArrays, list, issues)) return;
   std::set<std::string_view> names;
-  for (std::size_t i = 0; i < value.nodeArrays.size() && !issues.full(); ++i) {
+  for (std::size_t i = 0; i < value.nodeArrays.size() && !issues.done(); ++i) {
     const NodeArray& array = value.nodeArrays[i];
     const std::string place = at(list, i);
     checkArrayName(array, value.metadata, place, issues);
@@ -211,7 +212,7 @@ void checkMetadata(const Metadata& metadata, IssueList& issues) {
   checkText(metadata.note, kMaxTextBytes, "/metadata/note", issues);
   checkExtensions(metadata, issues);
   checkLimit(metadata.steps.size(), kMaxSteps, "/metadata/steps", issues);
-  for (std::size_t i = 0; i < metadata.steps.size() && !issues.full(); ++i)
+  for (std::size_t i = 0; i < metadata.steps.size() && !issues.done(); ++i)
     checkStep(metadata.steps[i], at("/metadata/steps", i), issues);
 }
 

@@ -46,6 +46,11 @@ void warnNegativeZero(std::span<const float> values, std::size_t components,
               std::move(place)});
 }
 
+template <class Number>
+Issue notFinite(Number value, const std::string& pointer) {
+  return foundIssue(ErrorCode::NotFinite, pointer, shortText(value), "a finite number");
+}
+
 bool isPositive(float value) {
   return value > 0;
 }
@@ -65,13 +70,15 @@ constexpr double kDirectionTolerance = 1e-3;
 void checkDirections(std::span<const ViewVector> directions, IssueList& issues) {
   const std::string pointer = "/tree/direction";
   checkFinite(directions, pointer, issues);
-  for (std::size_t i = 0; i < directions.size() && !issues.full(); ++i) {
+  for (std::size_t i = 0; i < directions.size() && !issues.done(); ++i) {
     const double x = directions[i][0], y = directions[i][1], z = directions[i][2];
     const double length = std::sqrt(x * x + y * y + z * z);
     if (!std::isfinite(length)) continue;  // reported above
     if (!(std::abs(length - 1.0) <= kDirectionTolerance))
-      issues.add(foundIssue(ErrorCode::DirectionLength, at(pointer, i),
-                            "length " + shortText(length), "1 within 0.001"));
+      issues.add(ErrorCode::DirectionLength, [&] {
+        return foundIssue(ErrorCode::DirectionLength, at(pointer, i), "length " + shortText(length),
+                          "1 within 0.001");
+      });
   }
 }
 
@@ -129,8 +136,7 @@ void checkKernel(const ModelView& model, IssueList& issues) {
 }  // namespace
 
 void checkFinite(double value, const std::string& pointer, IssueList& issues) {
-  if (!std::isfinite(value))
-    issues.add(foundIssue(ErrorCode::NotFinite, pointer, shortText(value), "a finite number"));
+  if (!std::isfinite(value)) issues.add(notFinite(value, pointer));
 }
 
 void checkPositive(double value, const std::string& pointer, ErrorCode code, IssueList& issues) {
@@ -146,8 +152,9 @@ void checkFinite(std::span<const ViewVector> vectors, const std::string& pointer
   for (std::size_t i = 0; i < vectors.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       if (std::isfinite(vectors[i][c])) continue;
-      if (issues.full()) return;
-      checkFinite(static_cast<double>(vectors[i][c]), at(at(pointer, i), c), issues);
+      if (issues.done()) return;
+      issues.add(ErrorCode::NotFinite,
+                 [&] { return notFinite(vectors[i][c], at(at(pointer, i), c)); });
     }
 }
 
@@ -157,10 +164,13 @@ void checkValues(std::span<const float> values, const std::string& pointer, cons
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float value = values[i];
     if (std::isfinite(value) && rule.legal(value)) continue;
-    if (issues.full()) return;
-    checkFinite(static_cast<double>(value), at(pointer, i), issues);
-    if (std::isfinite(value))
-      issues.add(foundIssue(rule.code, at(pointer, i), shortText(value), rule.expected));
+    if (issues.done()) return;
+    const ErrorCode code = std::isfinite(value) ? rule.code : ErrorCode::NotFinite;
+    issues.add(code, [&] {
+      return code == ErrorCode::NotFinite
+                 ? notFinite(value, at(pointer, i))
+                 : foundIssue(code, at(pointer, i), shortText(value), rule.expected);
+    });
   }
 }
 
@@ -185,10 +195,12 @@ void checkOffsets(std::span<const std::uint32_t> offset, std::size_t nodeCount,
   if (offset.front() != 0)
     issues.add(
         foundIssue(ErrorCode::OffsetStart, at(pointer, 0), std::to_string(offset.front()), "0"));
-  for (std::size_t i = 1; i < offset.size() && !issues.full(); ++i)
+  for (std::size_t i = 1; i < offset.size() && !issues.done(); ++i)
     if (offset[i] < offset[i - 1])
-      issues.add(foundIssue(ErrorCode::OffsetOrder, at(pointer, i), std::to_string(offset[i]),
-                            std::to_string(offset[i - 1]) + " or more"));
+      issues.add(ErrorCode::OffsetOrder, [&] {
+        return foundIssue(ErrorCode::OffsetOrder, at(pointer, i), std::to_string(offset[i]),
+                          std::to_string(offset[i - 1]) + " or more");
+      });
   if (offset.back() != elements)
     issues.add(foundIssue(ErrorCode::OffsetEnd, at(pointer, nodeCount),
                           std::to_string(offset.back()),

@@ -12,15 +12,17 @@
 namespace lumen::formats {
 namespace {
 
+Issue parentIssue(std::int32_t parent, std::size_t node) {
+  const std::string found = std::to_string(parent), limit = std::to_string(node);
+  return pointerIssue(ErrorCode::NodeParent, at("/tree/parent", node),
+                      "found " + found + ", expected -1 or a node before " + limit,
+                      {{"found", found}, {"limit", limit}});
+}
+
 void checkParents(std::span<const std::int32_t> parents, IssueList& issues) {
-  for (std::size_t i = 0; i < parents.size() && !issues.full(); ++i)
+  for (std::size_t i = 0; i < parents.size() && !issues.done(); ++i)
     if (parents[i] < -1 || parents[i] >= static_cast<std::int64_t>(i))
-      issues.add({ErrorCode::NodeParent,
-                  std::nullopt,
-                  "found " + std::to_string(parents[i]) + ", expected -1 or a node before " +
-                      std::to_string(i),
-                  {{"found", std::to_string(parents[i])}, {"limit", std::to_string(i)}},
-                  at("/tree/parent", i)});
+      issues.add(ErrorCode::NodeParent, [&] { return parentIssue(parents[i], i); });
 }
 
 void checkBranchValues(const BranchView& branch, std::string_view label, const std::string& pointer,
@@ -43,16 +45,20 @@ void checkBranchValues(const BranchView& branch, std::string_view label, const s
 
 void checkBranchNodes(const CaseView& view, std::size_t index, const BranchView& branch,
                       IssueList& issues) {
-  for (std::size_t k = 0; k < branch.nodeCount && !issues.full(); ++k) {
+  for (std::size_t k = 0; k < branch.nodeCount && !issues.done(); ++k) {
     const std::size_t node = branch.firstNode + k;
     if (view.nodeBranch[node] != index)
-      issues.add(foundIssue(ErrorCode::NodeBranch, at("/tree/branch", node),
-                            std::to_string(view.nodeBranch[node]),
-                            std::to_string(index) + ", the branch that holds the node"));
+      issues.add(ErrorCode::NodeBranch, [&] {
+        return foundIssue(ErrorCode::NodeBranch, at("/tree/branch", node),
+                          std::to_string(view.nodeBranch[node]),
+                          std::to_string(index) + ", the branch that holds the node");
+      });
     if (k > 0 && view.nodeParent[node] != static_cast<std::int64_t>(node) - 1)
-      issues.add(foundIssue(
-          ErrorCode::NodeChain, at("/tree/parent", node), std::to_string(view.nodeParent[node]),
-          std::to_string(node - 1) + ", the node before in branch " + std::to_string(index)));
+      issues.add(ErrorCode::NodeChain, [&] {
+        return foundIssue(
+            ErrorCode::NodeChain, at("/tree/parent", node), std::to_string(view.nodeParent[node]),
+            std::to_string(node - 1) + ", the node before in branch " + std::to_string(index));
+      });
   }
   if (branch.parentNode != view.nodeParent[branch.firstNode])
     issues.add(foundIssue(
@@ -65,6 +71,15 @@ bool isParent(const CaseView& view, std::uint32_t node, std::uint32_t of) {
   return view.nodeParent[of] >= 0 && static_cast<std::uint32_t>(view.nodeParent[of]) == node;
 }
 
+void addLinkIssue(ErrorCode code, const CaseView& view, std::size_t index, const char* what,
+                  IssueList& issues) {
+  issues.add(code, [&] {
+    const auto [a, b] = view.links[index];
+    return pointerIssue(code, at("/tree/links", index),
+                        "found " + std::to_string(a) + ", " + std::to_string(b) + what);
+  });
+}
+
 }  // namespace
 
 void checkBranchRules(const CaseView& view, IssueList& issues) {
@@ -72,7 +87,7 @@ void checkBranchRules(const CaseView& view, IssueList& issues) {
   const std::string array = "/tree/branches";
   std::unordered_map<std::string_view, std::size_t> labels;
   std::size_t next = 0;
-  for (std::size_t b = 0; b < view.branchCount() && !issues.full(); ++b) {
+  for (std::size_t b = 0; b < view.branchCount() && !issues.done(); ++b) {
     const BranchView branch = view.branch(b);
     const std::string pointer = at(array, b);
     const std::string_view label = view.label(branch);
@@ -87,13 +102,14 @@ void checkBranchRules(const CaseView& view, IssueList& issues) {
         branch.nodeCount > view.nodeCount() - next)
       // what follows depends on it
       return issues.add(foundIssue(
-          ErrorCode::BranchRange, pointer,
+          ErrorCode::BranchRange,
+          pointer + (branch.firstNode != next ? "/firstNode" : "/nodeCount"),
           std::to_string(branch.nodeCount) + " nodes from " + std::to_string(branch.firstNode),
           "1 to " + std::to_string(view.nodeCount() - next) + " from " + std::to_string(next)));
     checkBranchNodes(view, b, branch, issues);
     next += branch.nodeCount;
   }
-  if (next != view.nodeCount() && !issues.full())
+  if (next != view.nodeCount())
     issues.add(foundIssue(ErrorCode::BranchRange, array,
                           "branches of " + std::to_string(next) + " nodes",
                           std::to_string(view.nodeCount())));
@@ -101,26 +117,18 @@ void checkBranchRules(const CaseView& view, IssueList& issues) {
 
 void checkLinkRules(const CaseView& view, IssueList& issues) {
   if (!checkLimit(view.links.size(), kMaxLinks, "/tree/links", issues)) return;
-  for (std::size_t i = 0; i < view.links.size() && !issues.full(); ++i) {
+  for (std::size_t i = 0; i < view.links.size() && !issues.done(); ++i) {
     const auto [a, b] = view.links[i];
-    const std::string pointer = at("/tree/links", i);
-    const std::string pair = std::to_string(a) + ", " + std::to_string(b);
-    if (a >= view.nodeCount() || b >= view.nodeCount()) {
-      issues.add(limitIssue(ErrorCode::LinkNode, pointer, std::max(a, b), view.nodeCount() - 1));
-      continue;
-    }
-    if (a >= b || (i > 0 && view.links[i - 1] >= view.links[i]))
-      issues.add({ErrorCode::LinkOrder,
-                  std::nullopt,
-                  "found " + pair + ", expected a smaller node first, and links in ascending order",
-                  {},
-                  pointer});
+    if (a >= view.nodeCount() || b >= view.nodeCount())
+      issues.add(ErrorCode::LinkNode, [&, most = std::max(a, b)] {
+        return limitIssue(ErrorCode::LinkNode, at("/tree/links", i), most, view.nodeCount() - 1);
+      });
+    else if (a >= b || (i > 0 && view.links[i - 1] >= view.links[i]))
+      addLinkIssue(ErrorCode::LinkOrder, view, i,
+                   ", expected a smaller node first, and links in ascending order", issues);
     else if (isParent(view, a, b) || isParent(view, b, a))
-      issues.add({ErrorCode::LinkParent,
-                  std::nullopt,
-                  "found " + pair + ", which are a node and its parent already",
-                  {},
-                  pointer});
+      addLinkIssue(ErrorCode::LinkParent, view, i, ", which are a node and its parent already",
+                   issues);
   }
 }
 

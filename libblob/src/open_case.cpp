@@ -9,6 +9,7 @@
 
 #include "build_model.h"
 #include "check_definition.h"
+#include "formats/container/printable.h"
 #include "formats/view/case_view.h"
 #include "mapped_file.h"
 
@@ -87,7 +88,8 @@ blob_status openBytes(const void* bytes, std::size_t size, const blob_open_def& 
   }
   const auto opened =
       formats::viewCase(view, def.verify != 0 ? formats::Verify::All : formats::Verify::Structure);
-  if (!opened) return fail(def, statusOf(opened.error().code), opened.error().message);
+  if (!opened)
+    return fail(def, statusOf(opened.error().code), formats::printable(opened.error().message));
   return build(*opened, def, model);
 }
 

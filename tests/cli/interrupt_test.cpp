@@ -37,6 +37,13 @@ TEST_F(InterruptTest, TerminationCountsAsAnInterrupt) {
   EXPECT_EQ(lumenWithSignal(kEndlessTrack, SIGTERM).code, 130);
 }
 
+TEST_F(InterruptTest, AKilledRunLeavesNothingThatTheNextOneDoesNotRemove) {
+  EXPECT_EQ(lumenWithSignal(kEndlessTrack, SIGKILL).code, 1000 + SIGKILL);
+  write(".lumen-1-0.lumen", "half of what a killed run wrote");
+  ASSERT_EQ(lumen({"phantom", "tube", "tube.nrrd", "--size", "32"}).code, 0);
+  EXPECT_EQ(entries(), (Names{"seeds.json", "truth.lumen", "tube.nrrd"}));
+}
+
 TEST_F(InterruptTest, ASecondInterruptEndsTheProgramToo) {
   EXPECT_EQ(lumenWithSignal(kEndlessTrack, SIGINT, 2).code, 130);
 }

@@ -32,7 +32,8 @@ TEST_F(UsageTest, TheHelpOfEveryCommandEndsWithAnExampleAndTheExitCodes) {
 TEST_F(UsageTest, EveryCommandTakesTheCommonOptions) {
   for (const auto& command : kCommands) {
     const std::string help = lumen({command, "--help"}).out;
-    for (const char* option : {"--threads", "--quiet", "--verbose", "--config", "--json"})
+    for (const char* option :
+         {"--threads", "--quiet", "--verbose", "--strict", "--config", "--json"})
       EXPECT_TRUE(contains(help, option)) << command << " " << option;
   }
 }
@@ -53,10 +54,29 @@ TEST_F(UsageTest, TheHelpShowsTheDefaultsOfTheMethod) {
 }
 
 TEST_F(UsageTest, TheVersionIsOneLine) {
-  const Outcome version = lumen({"--version"});
-  EXPECT_EQ(version.code, 0);
-  EXPECT_TRUE(std::regex_match(version.out, std::regex("lumen [0-9]+\\.[0-9]+\\.[0-9]+\n")))
-      << version.out;
+  for (const char* word : {"--version", "-V", "version"}) {
+    const Outcome version = lumen({word});
+    EXPECT_EQ(version.code, 0);
+    EXPECT_TRUE(std::regex_match(version.out, std::regex("lumen [0-9]+\\.[0-9]+\\.[0-9]+\n")))
+        << version.out;
+  }
+}
+
+TEST_F(UsageTest, HelpIsACommandToo) {
+  EXPECT_EQ(lumen({"help"}).out, lumen({"--help"}).out);
+  EXPECT_EQ(lumen({"help", "fit"}).out, lumen({"fit", "--help"}).out);
+  EXPECT_EQ(lumen({"help", "fti"}).code, 2);
+}
+
+TEST_F(UsageTest, NoHelpTextHasTheParsersOwnMarks) {
+  std::vector<std::vector<std::string>> questions = {{"--help"}};
+  for (const auto& command : kCommands) questions.push_back({command, "--help"});
+  for (const auto& question : questions) {
+    const std::string help = lumen(question).out;
+    for (const char* mark : {"{", "}", "Excludes", "Needs", "REQUIRED", "TEXT", "INT", "FLOAT",
+                             "BOOLEAN", "[default", " ...", "\n\n\n"})
+      EXPECT_FALSE(contains(help, mark)) << question[0] << ": " << mark << "\n" << help;
+  }
 }
 
 TEST_F(UsageTest, WrongArgumentsExitWithTwoAndSayNothingOnStandardOutput) {
@@ -68,7 +88,7 @@ TEST_F(UsageTest, WrongArgumentsExitWithTwoAndSayNothingOnStandardOutput) {
       {"convert", "one.lumen", "two.lumen", "three.lumen"},
       {"info", "--nonsense", "one.lumen"},
       {"validate"},
-      {"validate", "one.lumen", "--max-issues", "0"},
+      {"validate", "one.lumen", "--max-issues", "-1"},
       {"convert", "a.lumen", "b.lumen", "--point-bits", "31"},
       {"track", "a.nrrd", "b.lumen", "--inlier-rate", "1.5"},
       {"track", "a.nrrd", "b.lumen", "--rays", "100"},

@@ -9,7 +9,9 @@
 #include <unistd.h>
 
 #include "converters/common/error.h"
+#include "converters/seeds/place_seeds.h"
 #include "converters/seeds/seeds.h"
+#include "formats/container/printable.h"
 #include "fuzz/fuzz_support.h"
 
 namespace lumen::fuzz {
@@ -38,6 +40,18 @@ void checkRules(const std::vector<convert::SeedBranch>& branches) {
   }
 }
 
+/// What is placed in a volume lies in it, with plausible radii, or is accounted for.
+void checkPlaced(const std::vector<convert::SeedBranch>& branches) {
+  convert::VolumeGeometry geometry;
+  geometry.size = {64, 32, 16};
+  geometry.spacing = {0.5, 0.5, 1.0};
+  const convert::PlacedSeeds placed = convert::placeSeeds(branches, geometry, "seeds");
+  expect(placed.seeds.size() + placed.leftOut.size() == branches.size(), "no seed is lost");
+  for (const convert::SeedBranch& branch : placed.seeds)
+    for (const convert::SeedPoint& point : branch.points)
+      expect(geometry.containsWorld(point.position), "placed points lie inside");
+}
+
 }  // namespace
 
 void readSeedsOf(const std::uint8_t* data, std::size_t size) {
@@ -45,9 +59,12 @@ void readSeedsOf(const std::uint8_t* data, std::size_t size) {
   expect(ftruncate(file, 0) == 0, "the file can be emptied");
   expect(pwrite(file, data, size, 0) == static_cast<ssize_t>(size), "the file can be written");
   try {
-    checkRules(convert::readSeeds("/proc/self/fd/" + std::to_string(file)));
+    const auto seeds = convert::readSeeds("/proc/self/fd/" + std::to_string(file));
+    checkRules(seeds);
+    checkPlaced(seeds);
   } catch (const lumen::Error& error) {
     expect(error.kind() == lumen::ErrorKind::InvalidInput, "bad seeds are invalid input");
+    expect(formats::printable(error.what()) == error.what(), "messages are fit to print");
   }
 }
 

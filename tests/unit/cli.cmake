@@ -7,6 +7,9 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_format_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/interrupt_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_content_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/terminal_progress_test.cpp
@@ -14,3 +17,18 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/validate_test.cpp)
 target_compile_definitions(cli_test PRIVATE LUMEN_EXECUTABLE="$<TARGET_FILE:lumen>")
 add_dependencies(cli_test lumen)
+
+# The program as it is installed, and its answers.
+find_program(PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(PYTHON NAMES python3)
+if(PYTHON AND NOT LUMEN_SANITIZE)
+  add_test(NAME Install.GivesAProgramThatRunsWhereverItIs
+    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_install.py ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR})
+  execute_process(COMMAND ${PYTHON} -c "import jsonschema" RESULT_VARIABLE no_jsonschema OUTPUT_QUIET ERROR_QUIET)
+  if(no_jsonschema)
+    message(STATUS "Python's jsonschema not found: the JSON answers are not tested")
+  else()
+    add_test(NAME Answers.AreWhatTheirSchemasSay
+      COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_answers.py $<TARGET_FILE:lumen>)
+  endif()
+endif()

@@ -4,7 +4,9 @@ set(conformance ${PROJECT_SOURCE_DIR}/spec/conformance)
 lumen_test(conformance_test
   LABELS memory
   LIBS lumen_case
-  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/damage_test.cpp)
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/damage_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/verdict_test.cpp)
 target_compile_definitions(conformance_test PRIVATE LUMEN_CONFORMANCE="${conformance}")
 
 add_executable(case_reader ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/case_reader.cpp)

@@ -8,4 +8,6 @@ lumen_test(tracking_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/point_spread_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/rays_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/real_volumes_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tracker_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/smoothing_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tracker_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/volume_doubt_test.cpp)

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "unit/formats/sample_case.h"
@@ -80,6 +82,7 @@ struct Journal {
                        steps.push_back(info.st_ino);
                        return systemCalls().flush(descriptor);
                      },
+                     systemCalls().permit,
                      [this](const char* from, const char* to) {
                        steps.push_back(0);
                        return systemCalls().rename(from, to);
@@ -117,6 +120,57 @@ TEST_F(AtomicOutput, LeavesTheOldFileIfTheNewOneCannotBeRenamed) {
   EXPECT_EQ(codeOf(write("a", "new", calls)), "IO_WRITE");
   EXPECT_EQ(get("a"), "old");
   EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, IsWrittenWhereTheFileSystemCannotFlush) {
+  for (const int code : {EINVAL, ENOSYS, ENOTSUP}) {
+    FileCalls calls = systemCalls();
+    calls.flush = [code](int) { return refuse(code); };
+    EXPECT_EQ(codeOf(write("a", std::to_string(code), calls)), "OK");
+    EXPECT_EQ(get("a"), std::to_string(code));
+    EXPECT_EQ(codeOf(writeFolder("b", "x", PendingFolder::Existing::Replace, calls)), "OK");
+  }
+  EXPECT_EQ(names(), (Names{"a", "b"}));
+}
+
+TEST_F(AtomicOutput, IsWrittenWhereTheFileSystemHasNoPermissionsToSet) {
+  put(path("a"), "old");
+  fs::permissions(path("a"), fs::perms(0666));
+  for (const int code : {EPERM, ENOTSUP}) {
+    FileCalls calls = systemCalls();
+    calls.permit = [code](int, mode_t) { return refuse(code); };
+    EXPECT_EQ(codeOf(write("a", std::to_string(code), calls)), "OK");
+    EXPECT_EQ(get("a"), std::to_string(code));
+  }
+}
+
+TEST_F(AtomicOutput, IsRefusedRatherThanShownToMorePeopleThanTheOldFile) {
+  put(path("a"), "old");
+  fs::permissions(path("a"), fs::perms(0600));
+  FileCalls calls = systemCalls();
+  calls.permit = [](int descriptor, mode_t) {
+    EXPECT_EQ(::fchmod(descriptor, 0644), 0);  // as the file system gives every file
+    return refuse(EPERM);
+  };
+  EXPECT_EQ(codeOf(write("a", "new", calls)), "IO_WRITE");
+  EXPECT_EQ(get("a"), "old");
+  EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, OfAKilledWriterIsRemovedByTheNextWriteIntoThatFolder) {
+  const pid_t writer = ::fork();
+  if (writer == 0) {
+    const auto file = PendingFile::beside(path("a"));
+    const auto folder = PendingFolder::beside(path("b"), PendingFolder::Existing::Refuse);
+    put(folder->path() / "f", "half");
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(writer, &status, 0), writer);
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  ASSERT_EQ(names().size(), 2u);
+  ASSERT_EQ(codeOf(write("c", "x", systemCalls())), "OK");
+  EXPECT_EQ(names(), Names{"c"});
 }
 
 TEST_F(AtomicOutput, GivesLibrariesAHiddenNameWithTheEndingOfTheTarget) {
@@ -173,6 +227,13 @@ TEST_F(AtomicOutput, AbandonedFoldersAreRemovedToo) {
   put(path(".lumen-1234-0/meshes/wall.obj"), "half");
   ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
   EXPECT_EQ(names(), Names{"a"});
+}
+
+TEST_F(AtomicOutput, LeftoversOfEarlierVersionsAreRemovedAndFilesOfSimilarNamesStay) {
+  for (const char* name : {".lumen-probe-a1B2c3", ".lumen-probe-notes.txt", ".lumen-7", ".lumenrc"})
+    put(path(name), "x");
+  ASSERT_EQ(codeOf(write("a", "x", systemCalls())), "OK");
+  EXPECT_EQ(names(), (Names{".lumen-7", ".lumen-probe-notes.txt", ".lumenrc", "a"}));
 }
 
 TEST_F(AtomicOutput, FlushesAllOfAFolderBeforeItsRename) {

@@ -204,8 +204,8 @@ INSTANTIATE_TEST_SUITE_P(
               "CHUNK_FIELD"},
         Fault{"labels_short", [](Bytes& f) { shorten(f, "BLAB", 10); }, "CHUNK_LENGTH"},
         Fault{"label_size", [](Bytes& f) { setData(f, "BREC", 16, std::uint16_t{0xffff}); },
-              "CHUNK_LENGTH"},
-        Fault{"label_offset", [](Bytes& f) { setData(f, "BREC", 24 + 12, 7u); }, "CHUNK_LENGTH"},
+              "LABEL_OFFSET"},
+        Fault{"label_offset", [](Bytes& f) { setData(f, "BREC", 24 + 12, 7u); }, "LABEL_OFFSET"},
         Fault{"label_bytes_left", [](Bytes& f) { setData(f, "BREC", 48 + 16, std::uint16_t{3}); },
               "CHUNK_LENGTH"},
         Fault{"label_utf8", [](Bytes& f) { setData(f, "BLAB", 0, std::uint8_t{0xff}); },
@@ -235,7 +235,7 @@ TEST(Binary, PlacesSyntaxErrorsOfTheMetadataByTheirByteInTheFile) {
   const Bytes file = tampered([](Bytes& f) { setData(f, "META", 1, std::uint8_t{'}'}); });
   const auto result = decodeBinary(file);
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().place(), "byte " + std::to_string(dataOf(file, "META") + 3));
+  EXPECT_EQ(result.error().place(), "byte " + std::to_string(dataOf(file, "META") + 2));
 }
 
 // spec: M43, M44

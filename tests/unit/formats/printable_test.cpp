@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/container/printable.h"
 
-#include <gtest/gtest.h>
-
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "formats/container/utf8.h"
 
@@ -12,8 +12,9 @@ namespace {
 
 TEST(Printable, LeavesOrdinaryTextAlone) {
   for (const std::string text :
-       {"", "aneurysm 3", "A. carotis interna \xe2\x80\x93 links", "\xe8\x84\x91\xe5\x8a\xa8\xe8\x84\x89",
-        "\xd8\xb4\xd8\xb1\xd9\x8a\xd8\xa7\xd9\x86", "C:\\data\\x.lumen", "\xf0\x9f\xa7\xa0"})
+       {"", "aneurysm 3", "A. carotis interna \xe2\x80\x93 links",
+        "\xe8\x84\x91\xe5\x8a\xa8\xe8\x84\x89", "\xd8\xb4\xd8\xb1\xd9\x8a\xd8\xa7\xd9\x86",
+        "C:\\data\\x.lumen", "\xf0\x9f\xa7\xa0"})
     EXPECT_EQ(printable(text), text);
 }
 
@@ -24,15 +25,23 @@ TEST(Printable, EscapesEveryControlCharacter) {
 }
 
 TEST(Printable, EscapesWhatTurnsHidesOrBreaksTheLine) {
-  EXPECT_EQ(printable("\xe2\x80\xae" "dilav"), "\\u202edilav");               // override
-  EXPECT_EQ(printable("\xe2\x81\xa6x\xe2\x81\xa9"), "\\u2066x\\u2069");       // isolate
-  EXPECT_EQ(printable("a\xe2\x80\x8b" "b\xef\xbb\xbf"), "a\\u200bb\\ufeff");  // zero width
-  EXPECT_EQ(printable("a\xe2\x80\xa8" "b\xe2\x80\xa9"), "a\\u2028b\\u2029");  // separators
-  EXPECT_EQ(printable("\xf3\xa0\x81\x81"), "\\U000e0041");                    // tag
+  EXPECT_EQ(printable("\xe2\x80\xae"
+                      "dilav"),
+            "\\u202edilav");                                             // override
+  EXPECT_EQ(printable("\xe2\x81\xa6x\xe2\x81\xa9"), "\\u2066x\\u2069");  // isolate
+  EXPECT_EQ(printable("a\xe2\x80\x8b"
+                      "b\xef\xbb\xbf"),
+            "a\\u200bb\\ufeff");  // zero width
+  EXPECT_EQ(printable("a\xe2\x80\xa8"
+                      "b\xe2\x80\xa9"),
+            "a\\u2028b\\u2029");                            // separators
+  EXPECT_EQ(printable("\xf3\xa0\x81\x81"), "\\U000e0041");  // tag
 }
 
 TEST(Printable, EscapesBytesThatAreNotUtf8OneByOne) {
-  EXPECT_EQ(printable("a\xff" "b"), "a\\xffb");
+  EXPECT_EQ(printable("a\xff"
+                      "b"),
+            "a\\xffb");
   EXPECT_EQ(printable("\xc3"), "\\xc3");
   EXPECT_EQ(printable("\xe2\x82\n"), "\\xe2\\x82\\u000a");  // what follows is not swallowed
   EXPECT_EQ(printable("\xe2\x82\xc3\xa9"), "\\xe2\\x82\xc3\xa9");
@@ -46,7 +55,8 @@ TEST(Printable, GivesOneLineOfUtf8ForAnyBytesAndTheSameWhenRepeated) {
   for (int round = 0; round < 2000; ++round) {
     std::string text;
     for (std::size_t length = random() % 24; length > 0; --length)
-      text += static_cast<char>(random() % (round % 2 == 0 ? 256 : 48) + (round % 2 == 0 ? 0 : 176));
+      text +=
+          static_cast<char>(random() % (round % 2 == 0 ? 256 : 48) + (round % 2 == 0 ? 0 : 176));
     const std::string out = printable(text);
     for (std::size_t at = 0; at < out.size();) {
       const std::uint32_t point = nextCodePoint(out, at);

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "formats/container/bytes.h"
+#include "formats/container/printable.h"
+#include "unit/formats/allocation_meter.h"
 #include "unit/formats/sample_case.h"
 
 namespace lumen::formats {
@@ -35,10 +37,26 @@ using Codes = std::vector<std::string>;
 TEST(Report, OfAValidFileTellsOnlyOfUnknownChunks) {
   const auto report = reportOf(encodeBinary(test::fullCase()));
   EXPECT_TRUE(report.valid());
-  EXPECT_TRUE(report.complete);
+  EXPECT_TRUE(report.unlisted() == 0);
   EXPECT_EQ(codes(report), (Codes{"CHUNK_IGNORED", "CHUNK_IGNORED"}));
   EXPECT_EQ(severityOf(report.issues[0].code), Severity::Information);
   EXPECT_TRUE(reportOf(encodeJson(test::richCase())).issues.empty());
+}
+
+// The file with so many chunks more, of each of which a reader notes that it does not know it.
+Bytes withNotes(const Bytes& file, std::size_t count) {
+  const auto container = readContainer(file);
+  std::vector<ChunkSource> chunks;
+  for (const Chunk& c : container->chunks)
+    chunks.push_back({c.type,
+                      c.version,
+                      c.critical,
+                      {c.stored.begin(), c.stored.end()},
+                      c.independent,
+                      c.encoding,
+                      c.rawSize});
+  chunks.insert(chunks.end(), count, ChunkSource{chunkType("abcd"), 1, false});
+  return writeContainer(chunks);
 }
 
 Bytes manyFaults() {
@@ -74,18 +92,56 @@ TEST(Report, PlacesFaultsOfABinaryFileByByteAndByPointer) {
 TEST(Report, HasTheArgumentsOfTheRule) {
   const auto report = reportOf(manyFaults());
   const std::vector<Argument> expected = {{"found", "-1"}, {"expected", "more than 0 mm"}};
-  EXPECT_EQ(report.issues[2].arguments, expected) << report.issues[2].text();
+  EXPECT_EQ(report.issues[0].arguments, expected) << report.issues[0].text();
 }
 
-TEST(Report, StopsAtItsMaximumAndSaysSo) {
-  const auto report = reportOf(manyFaults(), 3);
-  EXPECT_EQ(report.issues.size(), 3u);
+TEST(Report, ListsSoManyButCountsAll) {
+  const auto all = reportOf(manyFaults());
+  EXPECT_EQ(all.counts, (IssueCounts{6, 0, 2}));
+  EXPECT_EQ(all.unlisted(), 0u);
+  for (const std::size_t maximum : {0u, 1u, 3u, 6u, 7u}) {
+    const auto report = reportOf(manyFaults(), maximum);
+    EXPECT_FALSE(report.valid()) << maximum;
+    EXPECT_EQ(report.issues.size(), maximum);
+    EXPECT_EQ(report.counts, all.counts) << maximum;
+    EXPECT_EQ(report.unlisted(), 8 - maximum);
+    for (std::size_t i = 0; i < maximum; ++i)
+      EXPECT_EQ(report.issues[i].text(), all.issues[i].text());
+  }
+}
+
+TEST(Report, ListsErrorsBeforeNotesHoweverManyNotesCameFirst) {
+  Bytes file = withNotes(encodeBinary(test::smallestCase()), 150);
+  storeLittle(&file[dataOf(file, "NCEN")], std::numeric_limits<float>::quiet_NaN());
+  test::resign(file);
+  for (const std::size_t maximum : {1u, 100u}) {
+    const auto report = reportOf(file, maximum);
+    EXPECT_FALSE(report.valid());
+    EXPECT_EQ(report.counts, (IssueCounts{1, 0, 150}));
+    EXPECT_EQ(codes(report).front(), "NOT_FINITE");
+    EXPECT_EQ(report.issues.size(), maximum);
+  }
+}
+
+// Every node has a fault, of which few are listed: the others are counted, and not built.
+TEST(Report, OfAMillionFaultsTakesNoMemoryForThoseThatAreNotListed) {
+  constexpr std::size_t kNodes = 1 << 20;
+  Case value = test::smallestCase();
+  CenterlineTree& tree = value.tree;
+  tree.branches[0].nodeCount = kNodes;
+  tree.centre.resize(kNodes);
+  tree.direction.resize(kNodes, Vec3f{2, 0, 0});
+  tree.radius.resize(kNodes, -1.0f);
+  tree.height.resize(kNodes, -1.0f);
+  tree.branch.resize(kNodes, 7);
+  tree.parent.resize(kNodes, kNodes);
+  const Bytes file = encodeBinary(value);
+  test::startMeter();
+  const auto report = reportOf(file, 100);
   EXPECT_FALSE(report.valid());
-  EXPECT_FALSE(report.complete);
-}
-
-TEST(Report, CountsErrorsThatHadNoRoom) {
-  EXPECT_FALSE(reportOf(manyFaults(), 0).valid());
+  EXPECT_EQ(report.issues.size(), 100u);
+  EXPECT_GE(report.counts.errors, 6 * (kNodes - 1));
+  EXPECT_LE(test::peakBytes(), 2 * file.size() + (1u << 20));
 }
 
 TEST(Report, HasEveryFaultOfJson) {
@@ -163,6 +219,26 @@ TEST(Report, PlacesALabelInItsChunk) {
   ASSERT_FALSE(result);
   EXPECT_EQ(test::codeOf(result), "TEXT_UTF8");
   EXPECT_EQ(result.error().offset, dataOf(file, "BLAB") + 8);
+}
+
+// Every text and every key of a file in turn is one that would forge a line.
+TEST(Report, OfHostileTextsIsLinesThatNobodyForged) {
+  const std::string good = encodeJson(test::fullCase());
+  const std::string evil = "\\nx: valid\\u001b[2K\\u0085\xe2\x80\xae\xe2\x80\xa8";
+  std::size_t texts = 0;
+  for (std::size_t at = good.find('"'); at != std::string::npos; at = good.find('"', at)) {
+    const std::size_t end = good.find('"', at + 1);
+    std::string text = good;
+    text.replace(at + 1, end - at - 1, evil);
+    at = end + 1;
+    const auto report = reportOf(text);
+    for (const Issue& issue : report.issues) {
+      ++texts;
+      ASSERT_EQ(issue.text(), printable(issue.text()));
+      ASSERT_EQ(issue.place(), printable(issue.place()));
+    }
+  }
+  EXPECT_GE(texts, 80u);
 }
 
 // Whatever goes wrong, the arguments are those that the rule declares.

@@ -161,7 +161,7 @@ TEST_F(Markups, UnknownWordBeforeAnEqualsSignIsRefused) {
 
 TEST_F(Markups, DuplicateLabelIsRefused) {
   expectMarkupsRefused(markup("Fiducial", point("a", "[1, 2, 3]") + "," + point("a", "[4, 5, 6]")),
-                       {"\"a\"", "unique"});
+                       {"\"a\"", "number 1 and 2", "this label"});
 }
 
 TEST_F(Markups, OtherTypesAreRefused) {
@@ -181,14 +181,20 @@ TEST_F(Markups, AreKnownByTheirContentNotTheirName) {
 }
 
 TEST_F(Markups, RealCenterlinesAreRead) {
-  const std::filesystem::path file =
-      LUMEN_SHARED_DATA "/neurovascular/centerlines/Centerline curve - RCCA.mrk.json";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
-  const auto seeds = readSeeds(file);
-  ASSERT_EQ(seeds.size(), 1U);
-  EXPECT_EQ(seeds[0].label, "Centerline curve - RCCA");
-  EXPECT_GT(seeds[0].points.size(), 200U);
-  for (const auto& p : seeds[0].points) EXPECT_TRUE(p.radius && *p.radius > 0.5 && *p.radius < 20);
+  const std::filesystem::path folder = LUMEN_SHARED_DATA "/neurovascular/centerlines";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    SCOPED_TRACE(entry.path());
+    const auto seeds = readSeeds(entry.path());
+    ASSERT_EQ(seeds.size(), 1U);
+    EXPECT_EQ(seeds[0].label + ".mrk.json", entry.path().filename());
+    EXPECT_GT(seeds[0].points.size(), 5U);
+    for (const auto& p : seeds[0].points)
+      EXPECT_TRUE(p.radius && *p.radius > 0.2 && *p.radius < 20);
+    ++files;
+  }
+  EXPECT_EQ(files, 25);
 }
 
 }  // namespace

@@ -128,11 +128,12 @@ TEST_F(Seeds, CycleIsRefused) {
 }
 
 TEST_F(Seeds, DuplicateLabelIsRefused) {
-  expectBranchesRefused(one("a") + "," + one("b") + "," + one("a"), {"\"a\"", "unique"});
+  expectBranchesRefused(one("a") + "," + one("b") + "," + one("a"),
+                        {"\"a\"", "branches number 1 and 3"});
 }
 
 TEST_F(Seeds, LabelFollowsTheRulesOfACase) {
-  expectBranchesRefused(one(""), {"branch number 1", "empty label"});
+  expectBranchesRefused(one(""), {"branch number 1", "label \"\" is empty"});
   expectBranchesRefused(one("a") + "," + one("b\\u0007"), {"branch number 2", "label"});
   expectBranchesRefused(one(std::string(256, 'x')), {"branch number 1", "label"});
 }
@@ -157,9 +158,13 @@ TEST_F(Seeds, BranchWithoutPointsIsRefused) {
   expectBranchesRefused(R"({"label": "a", "points": []})", {"\"a\"", "no points"});
 }
 
-TEST_F(Seeds, PointTwiceInARowIsRefused) {
-  expectBranchesRefused(R"({"label": "a", "points": [[1, 2, 3], [1, 2, 3]]})",
-                        {"\"a\"", "point 2", "distinct"});
+TEST_F(Seeds, PointTwiceInARowIsOne) {
+  const auto seeds =
+      read(R"({"label": "a", "points": [[1, 2, 3], {"position": [1, 2, 3], "radius": 2},
+      [1, 2, 3], [1, 2, 4], [1, 2, 3]]})");
+  ASSERT_EQ(seeds[0].points.size(), 3U);
+  EXPECT_EQ(seeds[0].points[0].radius, 2);
+  EXPECT_EQ(seeds[0].points[2].position, Vector3d(1, 2, 3));
 }
 
 TEST_F(Seeds, ZeroDirectionIsRefused) {
@@ -254,32 +259,36 @@ TEST_F(Seeds, WrittenSeedsAreReadBackExactly) {
   EXPECT_EQ(seeds[1].parent, ica.label);
 }
 
-TEST_F(Seeds, InsideIsUpToTheOutermostVoxelCentres) {
-  VolumeGeometry geometry;
-  geometry.size = {11, 21, 31};
-  geometry.spacing = {0.5, 0.5, 0.5};
-  geometry.origin = {100, 0, 0};
-  const auto inside = [&](const Vector3d& p) {
-    return refusal([&] {
-      checkSeedsInside({{"a", BranchKind::Vessel, {}, {{p, {}}}, {}}}, geometry, "s.json");
-    });
-  };
-  EXPECT_EQ(inside({100, 0, 0}), "");
-  EXPECT_EQ(inside({105, 10, 15}), "");
-  expectRefused(inside({105.1, 10, 15}), {"3: ", "s.json", "\"a\"", "point 1", "(105.1, 10, 15)",
-                                          "(100, 0, 0) and (105, 10, 15)", "11 x 21 x 31"});
-  EXPECT_EQ(inside({105.1, 10, 15}).find("negated"), std::string::npos);
+TEST_F(Seeds, OptionsSayWhatCoordinatesAreWhateverTheFileSays) {
+  const auto seeds = readSeeds(file(R"({"label": "a", "points": [[1, 2, 3]], "radius": 2})"),
+                               {SeedSystem::Ras, 1000.0});
+  EXPECT_EQ(seeds[0].points[0].position, Vector3d(-1000, -2000, 3000));
+  EXPECT_EQ(seeds[0].points[0].radius, 2000);
+  const auto voxels =
+      readSeeds(file(R"({"label": "a", "points": [[1, 2, 3]], "radius": 2})", "RAS"),
+                {SeedSystem::Voxel, {}});
+  EXPECT_EQ(voxels[0].points[0].position, Vector3d(1, 2, 3));
+  EXPECT_EQ(voxels[0].points[0].radius, 2);
+  EXPECT_EQ(readSeeds(file(one("a"), "LPS", "cm"), {{}, 10.0})[0].points[0].position,
+            Vector3d(10, 20, 30));
 }
 
-TEST_F(Seeds, OutsideHintsAtAMisstatedFrame) {
-  VolumeGeometry geometry;
-  geometry.size = {11, 11, 11};
-  geometry.origin = {-20, -20, 0};
-  expectRefused(refusal([&] {
-                  checkSeedsInside({{"a", BranchKind::Vessel, {}, {{{15, 15, 5}, {}}}, {}}},
-                                   geometry, "s.json");
-                }),
-                {"\"a\"", "x and y negated"});
+TEST_F(Seeds, ACaseHoldsNoMoreBranchesThanItMay) {
+  std::string branches;
+  for (int i = 0; i < 65536; ++i) branches.append(i == 0 ? "" : ",").append(one(std::to_string(i)));
+  expectBranchesRefused(branches, {"65536 seeds", "at most 65535"});
+}
+
+TEST_F(Seeds, TextsOfTheFileAreEscaped) {
+  const std::string evil = R"(\u001b[2J\nlumen: valid\u202e)";  // as JSON writes it
+  for (const std::string& branches :
+       {one(evil), one("a", evil), one("a") + R"(, {")" + evil + R"(": 1})",
+        R"({"label": "a", "kind": ")" + evil + R"(", "points": [[1, 2, 3]]})"}) {
+    const std::string message = refusal([&] { (void)read(branches); });
+    for (const char* raw : {"\x1b", "\n", "\xe2\x80\xae"})
+      EXPECT_EQ(message.find(raw), std::string::npos) << message;
+    EXPECT_NE(message.find("\\u001b"), std::string::npos) << message;
+  }
 }
 
 }  // namespace

@@ -1,46 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/tracking/tracker.h"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/common/random.h"
 #include "converters/common/vectors.h"
-#include "converters/tracking/smoothing.h"
-#include "tube_volume.h"
+#include "seeded_tubes.h"
 
 namespace lumen::convert {
 namespace {
 
-using Eigen::Vector3d;
 using formats::BranchKind;
 using formats::StopReason;
-
-const Vector3d kLow(6.4, 6.4, 0.4), kHigh(6.4, 6.4, 12.2);
-
-SeedBranch seedAt(std::string label, const Vector3d& point, std::optional<double> radius = {}) {
-  SeedBranch seed;
-  seed.label = std::move(label);
-  seed.points.push_back({point, radius});
-  return seed;
-}
-
-Volume straightTube(double radius) {
-  return drawVolume(64, 0.2, [=](const Vector3d& p) { return capsule(p, kLow, kHigh, radius); });
-}
-
-TrackResult trackOne(const Volume& volume, const std::vector<SeedBranch>& seeds) {
-  Progress silent;
-  return track(volume, seeds, TrackOptions{}, silent);
-}
-
-/// A T: a child of half the trunk's radius leaves its middle along x.
-Volume tee(double childRadius) {
-  return drawVolume(64, 0.2, [=](const Vector3d& p) {
-    return std::min(capsule(p, kLow, kHigh, 1.2),
-                    capsule(p, {6.4, 6.4, 6.4}, {12.2, 6.4, 6.4}, childRadius));
-  });
-}
 
 TEST(Tracker, FollowsAStraightTubeToBothEndsFromOneClickInItsMiddle) {
   const TrackResult out = trackOne(straightTube(1.0), {seedAt("tube", {6.2, 6.5, 6.0})});
@@ -118,13 +93,6 @@ TEST(Tracker, ANarrowChildStartsFromOneClickWithoutARadius) {
 }
 
 /// Adds Gaussian noise of that standard deviation (the tubes are 1000 above their background).
-Volume noisy(Volume volume, double deviation) {
-  Random random(11);
-  for (std::int16_t& voxel : std::get<std::vector<std::int16_t>>(volume.voxels))
-    voxel = static_cast<std::int16_t>(std::lround(voxel + deviation * random.normal()));
-  return volume;
-}
-
 /// A tube along z that is missing between two heights.
 Volume interruptedTube(double from, double to) {
   return drawVolume(64, 0.2, [=](const Vector3d& p) {
@@ -207,58 +175,6 @@ TEST(Tracker, NoiseAloneStartsNoTrack) {
   EXPECT_EQ(trackOne(volume, seeds).failures.size(), seeds.size());
 }
 
-TEST(NoiseFloor, IsZeroWithoutNoiseAndGrowsInProportionToIt) {
-  const Volume clean = straightTube(0.6);
-  EXPECT_EQ(noiseFloor(BsplineVolume(clean), TrackOptions{}), 0.0);
-  const Volume weak = noisy(clean, 20), strong = noisy(clean, 80);
-  const double ratio = noiseFloor(BsplineVolume(strong), TrackOptions{}) /
-                       noiseFloor(BsplineVolume(weak), TrackOptions{});
-  EXPECT_NEAR(ratio, 4.0, 0.3);
-}
-
-TEST(Smoothing, IsNoneWithoutNoiseAndGrowsWithIt) {
-  const Volume clean = straightTube(0.6);
-  const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
-  EXPECT_NEAR(contrastAtClicks(BsplineVolume(clean), seeds, TrackOptions{}), 1000, 20);
-  EXPECT_EQ(smoothForNoise(clean, seeds, TrackOptions{}).smoothing, 0.0);
-  double last = 0;
-  for (const double noise : {80.0, 200.0, 400.0}) {
-    const double smoothing = smoothForNoise(noisy(clean, noise), seeds, TrackOptions{}).smoothing;
-    EXPECT_GT(smoothing, last);
-    last = smoothing;
-  }
-  EXPECT_LE(last, 1.25 * 0.2);
-}
-
-// Half of an edge along each axis: 0.25 * 1.5^2 = 0.25 * (1.5 * 0.5)^2 + s^2.
-TEST(SmoothingAlongAxes, EvensTheBlurOfThickSlicesOnly) {
-  VolumeGeometry geometry;
-  geometry.spacing = {0.5, 0.5, 1.5};
-  const Eigen::Vector3d thick = smoothingAlongAxes(geometry, 0, true);
-  EXPECT_NEAR(thick[0], 0.6495, 1e-4);
-  EXPECT_EQ(thick[0], thick[1]);
-  EXPECT_EQ(thick[2], 0);
-  EXPECT_EQ(smoothingAlongAxes(geometry, 0, false), Eigen::Vector3d::Zero());
-  EXPECT_EQ(smoothingAlongAxes(geometry, 0.4, false), Eigen::Vector3d::Constant(0.4));
-  EXPECT_NEAR(smoothingAlongAxes(geometry, 0.4, true)[0], std::hypot(0.6495, 0.4), 1e-4);
-  geometry.spacing = {0.7, 0.7, 1.0};
-  EXPECT_EQ(smoothingAlongAxes(geometry, 0, true), Eigen::Vector3d::Zero());
-}
-
-TEST(Smoothing, FindsAThinVesselInStrongNoise) {
-  const Volume volume = noisy(straightTube(0.4), 250);  // a quarter of the contrast
-  TrackOptions rough;
-  rough.smoothing = 0.0;
-  Progress silent;
-  const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
-  EXPECT_TRUE(track(volume, seeds, rough, silent).result.tree.branches.empty());
-  const auto tracked = track(volume, seeds, TrackOptions{}, silent).result;
-  ASSERT_EQ(tracked.tree.branches.size(), 1u);
-  EXPECT_LT(tracked.tree.centre.front().z, 1.5F);
-  EXPECT_GT(tracked.tree.centre.back().z, 11.0F);
-  EXPECT_GT(std::get<double>(tracked.metadata.steps[0].parameters.at("smoothing")), 0.1);
-}
-
 TEST(Tracker, DoesNotJumpFromItsEndToAVesselThatPassesBeyond) {
   const Vector3d across = Vector3d(1, 0, 0.9).normalized();
   const Vector3d beyond(6.4, 6.4, 8.0);
@@ -311,10 +227,93 @@ TEST(Tracker, AVesselThatRunsThroughAnotherOneKeepsThePartWithItsClick) {
     EXPECT_GT(out.result.tree.centre[i].x, 6.4F);
 }
 
-TEST(Tracker, AClickInTheBackgroundFailsWithItsInlierRate) {
+/// The number after `words` in `text`.
+double numberAfter(const std::string& text, const std::string& words) {
+  const auto at = text.find(words);
+  EXPECT_NE(at, std::string::npos) << words << " is not in: " << text;
+  return at == std::string::npos ? NAN : std::stod(text.substr(at + words.size()));
+}
+
+/// A reason that gives a rate and the least one must be about a rate that is too low, and likewise
+/// for rays and for walls.
+void expectReasonHolds(const std::string& reason) {
+  const auto has = [&](const char* words) { return reason.find(words) != std::string::npos; };
+  if (has("best inlier rate")) {
+    EXPECT_LT(numberAfter(reason, "best inlier rate "), numberAfter(reason, "at least ")) << reason;
+  }
+  if (has("rays meet")) {
+    EXPECT_LT(numberAfter(reason, "at most "), numberAfter(reason, "at least ")) << reason;
+  }
+  if (has("as strong as noise")) {
+    EXPECT_LT(numberAfter(reason, "its wall is "), numberAfter(reason, "at least ")) << reason;
+  }
+}
+
+TEST(Tracker, AClickInTheBackgroundFailsWithTheRaysThatMeetAWall) {
   const TrackResult out = trackOne(straightTube(0.6), {seedAt("nothing", {2, 2, 2}, 0.6)});
   ASSERT_EQ(out.failures.size(), 1u);
-  EXPECT_NE(out.failures[0].reason.find("inlier rate"), std::string::npos);
+  EXPECT_NE(out.failures[0].reason.find("0 rays meet"), std::string::npos);
+}
+
+TEST(Tracker, NoReasonContradictsItself) {
+  // clicks of every kind of failure: in noise, beside a vessel, at a face, with a wrong radius
+  std::set<std::string> kinds;
+  for (const double noise : {0.0, 50.0, 400.0}) {
+    const Volume volume = noisy(straightTube(0.6), noise);
+    std::vector<SeedBranch> seeds;
+    for (int i = 0; i < 60; ++i)
+      seeds.push_back(seedAt(std::to_string(i),
+                             Vector3d(0.2 * i + 0.3, 6.4 - 0.1 * (i % 12), 0.21 * (60 - i)),
+                             0.1 + 0.1 * (i % 20)));
+    for (const SeedFailure& failure : trackOne(volume, seeds).failures) {
+      expectReasonHolds(failure.reason);
+      kinds.insert(failure.reason.substr(0, 32));
+    }
+  }
+  EXPECT_GE(kinds.size(), 4U);
+}
+
+TEST(Tracker, AFitThatIsNoBetterThanNoiseSaysSo) {
+  const Volume volume = noisy(drawVolume(64, 0.2, [](const Vector3d&) { return 9.0; }), 50);
+  std::vector<SeedBranch> seeds;
+  for (int i = 0; i < 20; ++i)
+    seeds.push_back(seedAt(std::to_string(i), Vector3d(2.0 + 0.4 * i, 6.4, 3.0 + 0.3 * i)));
+  const TrackResult out = trackOne(volume, seeds);
+  EXPECT_TRUE(std::any_of(out.failures.begin(), out.failures.end(), [](const SeedFailure& failure) {
+    return failure.reason.find("--noise-margin") != std::string::npos;
+  }));
+}
+
+/// The warnings of a track.
+class Warnings : public Progress {
+public:
+  void warn(std::string_view message) override { text.append(message).append("\n"); }
+  std::string text;
+};
+
+TEST(Tracker, SeedsOnVesselsOfTheOtherSignAreWarnedOf) {
+  const Volume bright = straightTube(0.6);
+  Volume dark = bright;
+  for (auto& v : std::get<std::vector<std::int16_t>>(dark.voxels))
+    v = static_cast<std::int16_t>(1000 - v);
+  const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0}, 0.6)};
+  TrackOptions forDark;
+  forDark.dark = true;
+  const auto warned = [&](const Volume& volume, const TrackOptions& options) {
+    Warnings warnings;
+    (void)track(volume, seeds, options, warnings);
+    return warnings.text;
+  };
+  EXPECT_EQ(warned(bright, {}), "");
+  EXPECT_EQ(warned(dark, forDark), "");
+  EXPECT_NE(warned(dark, {}).find("add --dark"), std::string::npos);
+  EXPECT_NE(warned(bright, forDark).find("leave it out"), std::string::npos);
+}
+
+TEST(Tracker, VoxelsThatAreTooUnevenAreRefusedAtOnce) {
+  Volume volume = straightTube(0.6);
+  volume.geometry.spacing = {0.001, 0.001, 5};
+  EXPECT_THROW(trackOne(volume, {seedAt("tube", {0.03, 0.03, 100})}), Error);
 }
 
 TEST(Tracker, AChildOfAFailedParentNamesIt) {

@@ -1,0 +1,34 @@
+# What `cmake --install BUILD --component lumen` installs: the program, its manual page and completion, which are
+# made from its own options, the formats with their schemas, and the licences.
+include(GNUInstallDirs)
+
+add_executable(write_man write_man.cpp)
+target_link_libraries(write_man PRIVATE lumen_app)
+set(man_page ${CMAKE_CURRENT_BINARY_DIR}/lumen.1)
+set(completion ${CMAKE_CURRENT_BINARY_DIR}/completions/lumen)
+add_custom_command(OUTPUT ${man_page} COMMAND write_man ${man_page} DEPENDS write_man VERBATIM)
+file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/completions)
+add_custom_command(OUTPUT ${completion} COMMAND lumen completion bash > ${completion} DEPENDS lumen VERBATIM)
+# all of the component that is built: cmake --build BUILD -t lumen_program
+add_custom_target(lumen_program ALL DEPENDS lumen ${man_page} ${completion})
+
+install(TARGETS lumen COMPONENT lumen)
+install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT lumen)
+install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT lumen)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md ${PROJECT_SOURCE_DIR}/CITATION.cff
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lumen)
+
+set(spec ${PROJECT_SOURCE_DIR}/spec)
+set(schemas ${CMAKE_INSTALL_DATADIR}/lumen/schema)
+install(DIRECTORY ${spec}/schema/ DESTINATION ${schemas} COMPONENT lumen FILES_MATCHING PATTERN "*.schema.json")
+install(DIRECTORY ${spec}/answers DESTINATION ${schemas} COMPONENT lumen)
+install(FILES ${spec}/lumen.md ${spec}/seeds.md ${spec}/errors.md ${spec}/coverage.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/spec COMPONENT lumen)
+install(DIRECTORY ${spec}/figures DESTINATION ${CMAKE_INSTALL_DOCDIR}/spec COMPONENT lumen
+  FILES_MATCHING PATTERN "*.svg")
+# the pages of spec/ link to the schemas as files beside them
+file(RELATIVE_PATH up /${CMAKE_INSTALL_DOCDIR}/spec /${schemas})
+file(CREATE_LINK ${up} ${CMAKE_CURRENT_BINARY_DIR}/schema SYMBOLIC)
+file(CREATE_LINK ${up}/answers ${CMAKE_CURRENT_BINARY_DIR}/answers SYMBOLIC)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/schema ${CMAKE_CURRENT_BINARY_DIR}/answers
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/spec COMPONENT lumen)

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Labels, numbers and points in messages about seeds. Private to the sources of seeds.
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+/// A text of a file between quotes, short enough for a sentence.
+inline std::string quotedText(const std::string& text) {
+  std::size_t shown = 80;  // bytes
+  if (text.size() <= shown) return "\"" + formats::printable(text) + "\"";
+  while (shown > 0 && (static_cast<unsigned char>(text[shown]) & 0xC0U) == 0x80U) --shown;
+  return "\"" + formats::printable(text.substr(0, shown)) + "...\"";
+}
+
+/// Six significant digits, as a person reads them.
+inline std::string numberText(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+inline std::string vectorText(const Eigen::Vector3d& v) {
+  return "(" + numberText(v.x()) + ", " + numberText(v.y()) + ", " + numberText(v.z()) + ")";
+}
+
+}  // namespace lumen::convert

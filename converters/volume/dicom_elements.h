@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The structure of a DICOM file (DICOM PS3.5, PS3.10), walked strictly: every length must lie within
+// what holds it. No library sees a file before this walk has accepted it: GDCM's reader asserts,
+// allocates and guesses where a data set is damaged.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lumen::convert {
+
+/// Group in the upper half, element in the lower one.
+using DicomTag = std::uint32_t;
+
+/// Numbers and bytes of a file by their place.
+class DicomBytes {
+public:
+  /// Throws Error(InvalidInput), without the file's name, if `path` cannot be opened.
+  explicit DicomBytes(const std::filesystem::path& path);
+  [[nodiscard]] std::uint64_t size() const { return m_size; }
+  /// Fills `to`, which must lie within the file.
+  void read(std::uint64_t at, std::span<std::byte> to);
+
+private:
+  void readAt(std::uint64_t at, std::span<std::byte> to);
+
+  std::ifstream m_file;
+  std::uint64_t m_size = 0, m_windowAt = 0;
+  std::vector<std::byte> m_window;
+};
+
+struct DicomExtent {
+  std::uint64_t at = 0, length = 0;
+};
+
+struct DicomElement {
+  DicomTag tag = 0;
+  std::array<char, 2> vr{};  ///< "??" where the syntax leaves it out
+  DicomExtent value;
+  bool encapsulated = false;           ///< pixels are in `fragments`, not in `value`
+  std::vector<DicomExtent> fragments;  ///< without the table of offsets
+};
+
+/// How a data set is written.
+struct DicomSyntax {
+  bool explicitVr = true, bigEndian = false;
+};
+
+/// Called for each element that is not a sequence. `path` are the sequences around it, outermost
+/// first; `item` is the number, from 0, of the item of the outermost one.
+using DicomVisitor =
+    std::function<void(const DicomElement&, std::span<const DicomTag> path, std::size_t item)>;
+
+/// Walks the file's meta information, group 2, from byte `at`; gives where it ends. Throws what
+/// walkDicom() throws.
+std::uint64_t walkDicomMeta(DicomBytes& bytes, std::uint64_t at, const DicomVisitor& visit);
+
+/// Walks the data set from byte `at` to the end of the file. Throws Error(InvalidInput), naming a
+/// byte, for a structure that is damaged or deeper than 16 sequences; the message lacks the file.
+void walkDicom(DicomBytes& bytes, std::uint64_t at, DicomSyntax syntax, const DicomVisitor& visit);
+
+/// True if `vr` is a value representation of DICOM.
+bool isRepresentation(const std::array<char, 2>& vr);
+
+/// "(0028,0010)".
+std::string tagText(DicomTag tag);
+
+}  // namespace lumen::convert

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/case/json_number.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/view/text_rules.h"
+
+namespace lumen::formats {
+namespace {
+
+using nlohmann::json;
+
+// Halfway between the largest float and what would follow it; from here on, numbers round beyond.
+constexpr double kBeyondFloat = 0x1.ffffffp127;
+
+// Whether a number that is out of range is too large rather than too small: the power of ten of its
+// first digit that is not zero.
+bool isTooLarge(std::string_view text) {
+  const std::size_t exponentAt = std::min(text.find_first_of("eE"), text.size());
+  const std::string_view digits = text.substr(0, exponentAt);
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const std::size_t first = std::min(digits.find_first_of("123456789"), digits.size());
+  const auto power = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
+  if (exponentAt == text.size()) return power > 0;
+  const bool isNegative = text.substr(exponentAt + 1).starts_with('-');
+  std::string_view rest = text.substr(exponentAt + 1);
+  if (rest.starts_with('-') || rest.starts_with('+')) rest.remove_prefix(1);
+  // beyond this, digits in front cannot make up for it: a text is shorter
+  constexpr std::int64_t kHuge = std::int64_t{1} << 60;
+  std::int64_t exponent = 0;
+  if (std::from_chars(rest.data(), rest.data() + rest.size(), exponent).ec != std::errc{})
+    exponent = kHuge;
+  return (isNegative ? -std::min(exponent, kHuge) : std::min(exponent, kHuge)) + power > 0;
+}
+
+template <class Real>
+std::optional<Real> realFromText(std::string_view text) {
+  Real value = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ec == std::errc{} && std::isfinite(value)) return value;
+  if (isTooLarge(text)) return std::nullopt;
+  return text.starts_with('-') ? Real{-0.0f} : Real{0};
+}
+
+json kept(std::string_view text) {
+  return json::binary({text.begin(), text.end()});
+}
+
+}  // namespace
+
+std::optional<double> doubleFromText(std::string_view text) {
+  return realFromText<double>(text);
+}
+
+std::optional<float> floatFromText(std::string_view text) {
+  return realFromText<float>(text);
+}
+
+std::optional<float> floatFromDouble(double value) {
+  if (!(std::abs(value) < kBeyondFloat)) return std::nullopt;
+  return static_cast<float>(value);
+}
+
+json numberValue(std::string_view text, bool whole) {
+  if (whole) {
+    const auto integer = integerFromText<std::int64_t>(text);
+    return integer ? json(*integer) : kept(text);
+  }
+  const auto value = doubleFromText(text);
+  return value && floatFromDouble(*value) == floatFromText(text) ? json(*value) : kept(text);
+}
+
+std::optional<std::string_view> keptText(const json& value) {
+  if (!value.is_binary()) return std::nullopt;
+  const json::binary_t& bytes = value.get_binary();
+  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+bool isNumber(const json& value) {
+  return value.is_number() || value.is_binary();
+}
+
+bool isWhole(const json& value) {
+  if (const auto text = keptText(value))
+    return text->find_first_of(".eE") == std::string_view::npos;
+  return value.is_number_integer();
+}
+
+std::string kindOf(const json& value) {
+  return isNumber(value) ? "number" : value.type_name();
+}
+
+std::string numberText(const json& number) {
+  if (const auto text = keptText(number)) return std::string(text->substr(0, 40));
+  return number.is_number_integer() ? std::to_string(number.get<std::int64_t>())
+                                    : shortText(number.get<double>());
+}
+
+std::optional<double> asDouble(const json& number) {
+  const auto text = keptText(number);
+  return text ? doubleFromText(*text) : number.get<double>();
+}
+
+std::optional<float> asFloat(const json& number) {
+  if (const auto text = keptText(number)) return floatFromText(*text);
+  if (number.is_number_integer()) return static_cast<float>(number.get<std::int64_t>());
+  return floatFromDouble(number.get<double>());
+}
+
+}  // namespace lumen::formats

@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Holds every JSON answer of lumen to its schema in spec/answers.
+
+check_answers.py LUMEN
+
+Runs each command with --json on good and bad input, and validates what it prints. Then it breaks each answer in
+every place (a key more, a key less, a value of another type), which the schema must refuse, and tells which key of
+a schema no answer had. Exit status: 0 all held, 1 something did not."""
+import copy, json, pathlib, subprocess, sys, tempfile, warnings
+
+import jsonschema
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ANSWERS = ROOT / "spec/answers"
+CONFORMANCE = ROOT / "spec/conformance"
+HOSTILE = ROOT.parent / "shared/hostile"  # not in the repository
+SCHEMAS = {p.name: json.loads(p.read_text()) for p in sorted(ANSWERS.glob("*.schema.json"))}
+BAD = {"no-such-file.lumen": None, "empty.lumen": b"", "text.lumen": b"not a case", "seeds.json": b'{"format": "lumen-seeds"}',
+       "cut.nrrd": b"NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n"}
+
+failures, seen, kept = [], {}, {}
+
+
+def complain(what):
+    failures.append(what)
+    print(what)
+
+
+def validator(name):
+    with warnings.catch_warnings():  # newer versions have a registry besides, the oldest that we support does not
+        warnings.simplefilter("ignore", DeprecationWarning)
+        resolver = jsonschema.RefResolver("", SCHEMAS[name], store=SCHEMAS)
+        return jsonschema.Draft202012Validator(SCHEMAS[name], resolver=resolver)
+
+
+def keys_of(value):
+    """Every key of every object in an answer or a schema."""
+    if isinstance(value, dict):
+        for key, below in value.items():
+            yield key
+            yield from keys_of(below)
+    elif isinstance(value, list):
+        for below in value: yield from keys_of(below)
+
+
+def stated(schema):
+    """The keys that the objects of a schema have."""
+    if isinstance(schema, dict):
+        yield from schema.get("properties", {})
+        for below in schema.values(): yield from stated(below)
+    elif isinstance(schema, list):
+        for below in schema: yield from stated(below)
+
+
+def loose(schema, place):
+    """Objects of a schema that take any key, or do without one that they have, unless it comes with others."""
+    if isinstance(schema, dict):
+        if schema.get("type") == "object":
+            if "properties" in schema and (schema.get("additionalProperties") is not False
+                                           or set(schema.get("required", [])) | set(schema.get("dependentRequired", {}))
+                                           != set(schema["properties"])): yield place
+            if "properties" not in schema and not isinstance(schema.get("additionalProperties"), dict): yield place
+        for key, below in schema.items(): yield from loose(below, f"{place}/{key}")
+    elif isinstance(schema, list):
+        for i, below in enumerate(schema): yield from loose(below, f"{place}/{i}")
+
+
+def check_schemas():
+    readme = (ANSWERS / "README.md").read_text()
+    for name, schema in SCHEMAS.items():
+        jsonschema.Draft202012Validator.check_schema(schema)
+        if schema["$id"] != name: complain(f"{name}: its $id is {schema['$id']}")
+        for place in loose(schema, "#"): complain(f"{name}: {place} must list all its keys, require them and have no other")
+        if name not in readme: complain(f"{name}: spec/answers/README.md does not name it")
+
+
+def run(lumen, folder, *arguments):
+    return subprocess.run([lumen, *arguments, "--json", "--quiet"], cwd=folder, capture_output=True, timeout=300)
+
+
+def hold(name, result, what, codes=(0,)):
+    """One JSON object that the schema takes, and an exit code of those expected."""
+    if result.returncode not in codes:
+        return complain(f"{what}: exit code {result.returncode}, expected one of {codes}: {result.stderr.decode()}")
+    try:
+        answer = json.loads(result.stdout)
+    except ValueError as error:
+        return complain(f"{what}: no JSON: {error}: {result.stdout[:200]!r}")
+    for error in validator(name).iter_errors(answer): complain(f"{what}: {name}: {error.json_path}: {error.message[:300]}")
+    seen.setdefault(name, set()).update(keys_of(answer))
+    if len(result.stdout) < 20000: kept.setdefault(name, []).append(answer)
+    return answer
+
+
+def hold_or_silent(name, result, what):
+    """What fails says nothing on standard output, or says it in the form of the schema."""
+    if result.returncode == 0 or result.stdout: return hold(name, result, what, (0, 1, 3))
+    if result.returncode < 0 or not result.stderr: complain(f"{what}: {result.returncode}, {result.stderr!r}")
+
+
+def make_cases(lumen, folder):
+    go = lambda name, *arguments, **more: hold(name, run(lumen, folder, *arguments), " ".join(arguments), **more)
+    go("phantom.schema.json", "phantom", "aneurysm", "a.nrrd", "--size", "64", "--truth", "truth.lumen", "--seeds", "seeds.json")
+    go("phantom.schema.json", "phantom", "tube", "a.nii.gz", "--size", "32")
+    seeds = json.loads((folder / "seeds.json").read_text())
+    vessel = seeds["branches"][0]
+    air = dict(vessel, label="air", points=[[1.0, 1.0, 1.0]], radius=0.3)
+    air.pop("direction", None)
+    vessel["points"] = vessel["points"][:1] + [[2.0, 2.0, 2.0]]
+    (folder / "astray.json").write_text(json.dumps(dict(seeds, branches=seeds["branches"] + [air])))
+    go("track.schema.json", "track", "a.nrrd", "tracked.lumen", "--seeds", "astray.json")
+    go("fit.schema.json", "fit", "tracked.lumen", "fitted.lumen")
+    go("convert.schema.json", "convert", "a.nrrd", "made.lumen.json", "--seeds", "astray.json")
+    hold_or_silent("convert.schema.json", run(lumen, folder, "convert", "a.nrrd", "strict.lumen", "--seeds", "astray.json", "--strict"),
+                   "convert --strict")
+    go("convert.schema.json", "convert", "fitted.lumen", "mesh.ply")
+    go("convert.schema.json", "convert", "fitted.lumen", "rounded.lumen", "--point-bits", "12", "--compress")
+    go("compare.schema.json", "compare", "fitted.lumen", "truth.lumen")
+    go("compare.schema.json", "compare", "truth.lumen", "tracked.lumen")
+    go("completion.schema.json", "completion", "bash")
+    for volume in ("a.nrrd", "a.nii.gz"):
+        for voxels in ((), ("--voxels",)): go("info-volume.schema.json", "info", volume, *voxels)
+    for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
+        go("info-case.schema.json", "info", case)
+        if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")
+    secret = json.loads((folder / "made.lumen.json").read_text())
+    secret["tree"]["branches"][0]["label"] = "Doe^Jane 1999-12-31"
+    (folder / "secret.lumen.json").write_text(json.dumps(secret))
+    go("validate.schema.json", "validate", "fitted.lumen", "secret.lumen.json", "--privacy", codes=(3,))
+
+
+def bad_input(lumen, folder):
+    for name, content in BAD.items():
+        if content is not None: (folder / name).write_bytes(content)
+        say = lambda schema, *arguments: hold_or_silent(schema, run(lumen, folder, *arguments), " ".join(arguments))
+        say("info-volume.schema.json" if name.endswith("nrrd") else "info-case.schema.json", "info", name)
+        say("info-chunks.schema.json", "info", name, "--chunks")
+        say("fit.schema.json", "fit", name, "out.lumen")
+        say("compare.schema.json", "compare", name, name)
+        say("convert.schema.json", "convert", name, "out.glb", "--seeds", "astray.json")
+        say("track.schema.json", "track", name, "out.lumen", "--seeds", "astray.json")
+    hold("validate.schema.json", run(lumen, folder, "validate", *BAD), "validate of what is no case", (3,))
+
+
+def conformance_set(lumen, folder):
+    for case in sorted((CONFORMANCE / "valid").glob("*.lumen*")):
+        if case.name.endswith(".queries.json"): continue
+        hold("info-case.schema.json", run(lumen, folder, "info", str(case)), case.name)
+        if case.suffix == ".lumen": hold("info-chunks.schema.json", run(lumen, folder, "info", str(case), "--chunks"), case.name)
+    for few in ((), ("--max-issues", "0"), ("--max-issues", "1"), ("--privacy",)):
+        files = [str(p) for kind in ("valid", "hostile") for p in sorted((CONFORMANCE / kind).iterdir())]
+        hold("validate.schema.json", run(lumen, folder, "validate", *files, *few), f"validate {' '.join(few)} of the conformance set", (3,))
+    for case in sorted((CONFORMANCE / "hostile").iterdir())[::20]:
+        hold_or_silent("info-case.schema.json", run(lumen, folder, "info", str(case)), case.name)
+
+
+def hostile_files(lumen, folder):
+    files = [f for f in sorted(HOSTILE.glob("*")) if not f.name.endswith("seeds.json")]
+    if not files: return print("skipped: the hostile files, which are not in ../shared/hostile")
+    for file in files:
+        kind = "case" if file.suffix in (".lumen", ".json") else "volume"
+        hold_or_silent(f"info-{kind}.schema.json", run(lumen, folder, "info", str(file)), file.name)
+        hold_or_silent("validate.schema.json", run(lumen, folder, "validate", str(file)), f"validate {file.name}")
+
+
+def broken(value):
+    """Copies of an answer with one fault each: the first element of an array stands for all."""
+    if isinstance(value, dict):
+        if value: yield dict(value, **{"no such key": 1})
+        for key, below in value.items():
+            yield {k: v for k, v in value.items() if k != key}
+            if key in ("parameters", "arguments"): continue  # of any name
+            for other in broken(below): yield dict(value, **{key: other})
+    elif isinstance(value, list):
+        yield {"an": "object"}
+        if value and isinstance(value[0], (dict, list)):
+            for other in broken(value[0]): yield [other] + value[1:]
+        elif value: yield [{}] + value[1:]
+    else:
+        yield ["another type"]
+
+
+def check_that_faults_are_noticed():
+    for name, answers in kept.items():
+        check = validator(name)
+        for fault in broken(max(answers, key=lambda a: len(set(keys_of(a))))):
+            if check.is_valid(fault): complain(f"{name} takes a broken answer: {json.dumps(fault)[:400]}")
+
+
+def check_that_all_is_used():
+    for name, schema in SCHEMAS.items():
+        if name == "parts.schema.json": continue
+        for key in set(stated(schema)) - seen.get(name, set()): complain(f"{name}: no answer had the key {key}")
+
+
+def main():
+    if len(sys.argv) != 2: sys.exit(__doc__)
+    lumen = str(pathlib.Path(sys.argv[1]).resolve())
+    check_schemas()
+    with tempfile.TemporaryDirectory(prefix="lumen-answers-") as name:
+        folder = pathlib.Path(name)
+        make_cases(lumen, folder)
+        bad_input(lumen, folder)
+        conformance_set(lumen, folder)
+        hostile_files(lumen, folder)
+    check_that_faults_are_noticed()
+    check_that_all_is_used()
+    print(f"{len(SCHEMAS)} schemas, {sum(map(len, kept.values()))} answers, {len(failures)} failures")
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()

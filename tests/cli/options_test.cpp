@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// What holds for every option of every command, found by asking the parsers for their options.
+#include <set>
+
+#include "converters/app/command_line.h"
+#include "tests/cli/run_lumen.h"
+
+namespace lumen::test {
+
+namespace {
+
+/// An option or a positional argument of a command.
+struct Argument {
+  std::string command, name, type;
+  bool positional = false;
+};
+
+std::vector<Argument> everyArgument() {
+  std::vector<Argument> all;
+  for (const auto& command : app::allCommands()) {
+    CLI::App parser;
+    app::CommonOptions common;
+    app::bindOptions(parser, *command, common);
+    for (const CLI::Option* option : parser.get_options()) {
+      const bool takesValue = option->get_expected_max() > 0;
+      if (takesValue)
+        all.push_back({command->name(), option->get_name(option->get_positional()),
+                       option->get_option_text().empty() ? option->get_type_name()
+                                                         : option->get_option_text(),
+                       option->get_positional()});
+    }
+  }
+  return all;
+}
+
+bool isNumber(const Argument& argument) {
+  static const std::set<std::string> kWords = {"FILE", "F", "ID", "NAME", "UNIT", "FRAME", "PATH"};
+  return !argument.positional && !kWords.contains(argument.type);
+}
+
+bool isFile(const Argument& argument) {
+  static const std::set<std::string> kWords = {"NAME", "SHELL"};
+  return argument.positional ? !kWords.contains(argument.name)
+                             : argument.type == "FILE" || argument.type == "PATH";
+}
+
+/// Exit code and standard error of a run in this process.
+std::pair<int, std::string> runHere(const std::vector<std::string>& arguments) {
+  std::vector<const char*> argv = {"lumen"};
+  for (const auto& argument : arguments) argv.push_back(argument.c_str());
+  testing::internal::CaptureStderr();
+  const int code = app::runCommandLine(static_cast<int>(argv.size()), argv.data());
+  return {code, testing::internal::GetCapturedStderr()};
+}
+
+}  // namespace
+
+TEST(OptionsTest, EveryNumberIsRefusedWithWhatWasFoundAndWhatIsExpected) {
+  std::size_t numbers = 0;
+  for (const Argument& argument : everyArgument()) {
+    if (!isNumber(argument)) continue;
+    ++numbers;
+    for (const char* value : {"many", "nan", "inf", "1e999", "-1", "1 2", "0x10", ""}) {
+      const auto [code, text] = runHere({argument.command, argument.name + "=" + value});
+      const std::string found = *value == '\0' ? "nothing" : value;
+      // an empty value that is attached to its option is none at all
+      if (*value == '\0' && text.find("needs a value") != std::string::npos) continue;
+      EXPECT_EQ(code, 2) << argument.command << " " << argument.name << "=" << value;
+      EXPECT_EQ(text.find("lumen: error: " + argument.name + ": found " + found + ", expected "),
+                0U)
+          << argument.command << " " << argument.name << "=" << value << "\n"
+          << text;
+    }
+  }
+  EXPECT_GT(numbers, 50U);
+}
+
+TEST(OptionsTest, ZerosBeforeANumberDoNotMakeItOctal) {
+  EXPECT_EQ(runHere({"convert", "--rays=0162"}).second.find("found 0162, expected 12, 42"), 22U);
+  EXPECT_EQ(runHere({"info", "--threads=01025"}).second.find("found 01025, expected"), 25U);
+}
+
+TEST(OptionsTest, NoFileIsCalledAHyphenOrNothing) {
+  std::size_t files = 0;
+  for (const Argument& argument : everyArgument()) {
+    if (!isFile(argument)) continue;
+    ++files;
+    for (const std::string value : {"-", ""}) {
+      // positional arguments are filled from the first on
+      const std::string word = argument.positional ? "x" : argument.name;
+      const bool isSecond = argument.name.starts_with("OUT") || argument.name == "TRUTH";
+      std::vector<std::string> line = {argument.command};
+      if (!argument.positional || isSecond)
+        line.push_back(argument.command == "phantom" && isSecond ? "tube" : word);
+      line.push_back(value);
+      const auto [code, text] = runHere(line);
+      EXPECT_EQ(code, 2) << argument.command << " " << argument.name;
+      EXPECT_NE(text.find(argument.name + ": "), std::string::npos) << text;
+      EXPECT_NE(text.find(value.empty() ? "is empty" : "standard input"), std::string::npos)
+          << text;
+    }
+  }
+  EXPECT_GT(files, 12U);
+}
+
+TEST(OptionsTest, EveryMisspeltOptionGetsItsSuggestion) {
+  for (const Argument& argument : everyArgument()) {
+    if (argument.positional) continue;
+    const std::string typed = argument.name + "e";
+    const auto [code, text] = runHere({argument.command, typed});
+    EXPECT_EQ(code, 2);
+    EXPECT_NE(text.find(typed + ": lumen " + argument.command + " has no such option"),
+              std::string::npos)
+        << text;
+    // another name may be as near, such as --seeds
+    EXPECT_NE(text.find("did you mean --"), std::string::npos) << text;
+  }
+}
+
+}  // namespace lumen::test
