@@ -10,6 +10,7 @@ std::unique_ptr<Command> makeFitCommand();
 std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeValidateCommand();
 std::unique_ptr<Command> makeCompareCommand();
+std::unique_ptr<Command> makeCheckCommand();
 std::unique_ptr<Command> makePhantomCommand();
 std::unique_ptr<Command> makeCompletionCommand();
 
@@ -17,7 +18,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   std::vector<std::unique_ptr<Command>> commands;
   for (const auto make :
        {makeConvertCommand, makeTrackCommand, makeFitCommand, makeInfoCommand, makeValidateCommand,
-        makeCompareCommand, makePhantomCommand, makeCompletionCommand})
+        makeCompareCommand, makeCheckCommand, makePhantomCommand, makeCompletionCommand})
     commands.push_back(make());
   return commands;
 }

@@ -118,6 +118,9 @@ def make_cases(lumen, folder):
     go("convert.schema.json", "convert", "fitted.lumen", "rounded.lumen", "--point-bits", "12", "--compress")
     go("compare.schema.json", "compare", "fitted.lumen", "truth.lumen")
     go("compare.schema.json", "compare", "truth.lumen", "tracked.lumen")
+    (folder / "vessel.json").write_text(json.dumps(dict(seeds, branches=[vessel])))
+    go("convert.schema.json", "convert", "a.nrrd", "vessel.lumen", "--seeds", "vessel.json")
+    for case in ("fitted.lumen", "vessel.lumen"): go("check.schema.json", "check", "a.nrrd", case)
     go("completion.schema.json", "completion", "bash")
     for volume in ("a.nrrd", "a.nii.gz"):
         for voxels in ((), ("--voxels",)): go("info-volume.schema.json", "info", volume, *voxels)
@@ -138,6 +141,8 @@ def bad_input(lumen, folder):
         say("info-chunks.schema.json", "info", name, "--chunks")
         say("fit.schema.json", "fit", name, "out.lumen")
         say("compare.schema.json", "compare", name, name)
+        say("check.schema.json", "check", "a.nrrd", name)
+        say("check.schema.json", "check", name, "fitted.lumen")
         say("convert.schema.json", "convert", name, "out.glb", "--seeds", "astray.json")
         say("track.schema.json", "track", name, "out.lumen", "--seeds", "astray.json")
     hold("validate.schema.json", run(lumen, folder, "validate", *BAD), "validate of what is no case", (3,))

@@ -2,6 +2,7 @@
 lumen_test(cli_test
   LIBS lumen_options lumen_terminal lumen_app lumen_case nlohmann_json::nlohmann_json
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/completion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/config_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.cpp

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far the wall of a case lies from the edges of its volume (docs/method.md, section 7.1).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "converters/check/lumen_voxels.h"
+#include "converters/check/profile_edge.h"
+#include "converters/common/progress.h"
+#include "converters/volume/bspline.h"
+#include "formats/case/case.h"
+#include "formats/field/blended_field.h"
+
+namespace lumen::convert {
+
+struct EdgeOptions {
+  double pointSpread = 0;  ///< standard deviation of the volume's blur, mm; 0: edges are not moved
+  bool dark = false;       ///< vessels are darker than their background
+};
+
+enum class Verdict : std::uint8_t {
+  Edge,           ///< the volume has an edge here: `offset` holds
+  NoEdge,         ///< nothing within reach, or too little contrast
+  WrongPolarity,  ///< the volume becomes brighter outwards
+  BesideAnother,  ///< another part of the tree begins outside: not judged
+  OutsideVolume,  ///< not judged
+};
+
+/// One place of the wall.
+struct WallOffset {
+  std::uint32_t node = 0;
+  Verdict verdict = Verdict::NoEdge;
+  double offset = 0;               ///< mm, of the wall outward of where the edge says that it is
+  double displaced = 0;            ///< mm, of the edge outward of such a wall, by the blur
+  double inside = 0, outside = 0;  ///< levels on the two sides, voxel units, brighter is more
+};
+
+/// The offsets, sorted by node. Throws Error(Cancelled).
+std::vector<WallOffset> wallOffsets(const formats::CenterlineTree& tree,
+                                    const field::BlendedField& surface, const BsplineVolume& volume,
+                                    const LumenVoxels& lumen, const EdgeOptions& options,
+                                    Progress& progress);
+
+/// For each node the level halfway between lumen and background: the median over the edges of the
+/// nodes around it in its branch, of the branch where they have none, of the tree where it has none.
+/// Empty if there is no edge at all.
+std::vector<float> halfLevels(const formats::CenterlineTree& tree,
+                              const std::vector<WallOffset>& offsets);
+
+}  // namespace lumen::convert

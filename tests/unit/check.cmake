@@ -1,0 +1,9 @@
+lumen_test(check_test
+  LABELS threads
+  LIBS lumen_check lumen_fitting lumen_phantom lumen_surface lumen_tracking lumen_tube_tree
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/check_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/ideal_edge_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/picture_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/profile_edge_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/true_wall_test.cpp)
