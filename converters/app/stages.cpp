@@ -76,8 +76,7 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
                                 const std::vector<convert::SeedBranch>& seeds,
                                 const TrackArguments& track, Progress& progress) {
   const std::string file = formats::printable(track.seeds);
-  convert::PlacedSeeds placed =
-      convert::placeSeeds(seeds, volume.geometry, track.seeds);
+  convert::PlacedSeeds placed = convert::placeSeeds(seeds, volume.geometry, track.seeds);
   if (!placed.advice.empty()) progress.warn(file + ": " + placed.advice);
   warnOfSeeds(file, " is left out: ", placed.leftOut, progress);
   warnOfSeeds(file, " is used without one of its points: ", placed.leftPoints, progress);

@@ -82,7 +82,8 @@ bool isNumber(const json& value) {
 }
 
 bool isWhole(const json& value) {
-  if (const auto text = keptText(value)) return text->find_first_of(".eE") == std::string_view::npos;
+  if (const auto text = keptText(value))
+    return text->find_first_of(".eE") == std::string_view::npos;
   return value.is_number_integer();
 }
 

@@ -58,8 +58,8 @@ private:
     const std::string_view before = m_text.substr(0, m_at);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t column = m_at - (before.rfind('\n') + 1) + 1;
-    m_fault = JsonFault{
-        m_at, "line " + std::to_string(line) + ", column " + std::to_string(column) + ": " + message};
+    m_fault = JsonFault{m_at, "line " + std::to_string(line) + ", column " +
+                                  std::to_string(column) + ": " + message};
     return false;
   }
   bool expected(const std::string& what) {
@@ -156,7 +156,8 @@ private:
       std::size_t end = m_at;
       const std::uint32_t point = nextCodePoint(m_text, end);
       if (point == kIllFormed) return fail("found bytes that are not UTF-8");
-      if (point < 0x20) return fail("found a control character in a text; it is written as \\uNNNN");
+      if (point < 0x20)
+        return fail("found a control character in a text; it is written as \\uNNNN");
       m_string += m_text.substr(start, end - start);
       m_at = end;
     }
