@@ -91,7 +91,7 @@ private:
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value) ||
-        std::abs(value) > kLargestLength * 10 || digits.starts_with("+-"))
+        std::abs(value) > kLargestLength * 10 || text.starts_with("+-"))
       refuse(found(text, column) + "; expected a number");
     return value;
   }

@@ -20,8 +20,8 @@ TEST(Chains, AtAForkTheWidestChildGoesOn) {
 }
 
 TEST(Chains, OfEquallyWideChildrenTheOneThatTurnsLeastGoesOn) {
-  const CenterlineFile file = parseSwc(
-      "1 0 0 0 0 2 -1\n2 0 1 0 0 2 1\n3 0 1 1 0 1 2\n4 0 2 0.1 0 1 2\n", "t");
+  const CenterlineFile file =
+      parseSwc("1 0 0 0 0 2 -1\n2 0 1 0 0 2 1\n3 0 1 1 0 1 2\n4 0 2 0.1 0 1 2\n", "t");
   const std::vector<CenterlineChain> chains = chainsOf(file);
   ASSERT_EQ(chains.size(), 2U);
   EXPECT_EQ(chains[0].points, (Indices{0, 1, 3}));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/centerline/read_swc.h"
+
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "converters/centerline/read_swc.h"
 #include "converters/common/error.h"
 
 namespace lumen::convert {
@@ -61,8 +62,8 @@ TEST(ReadSwc, AByteOrderMarkAndIdsWrittenAsRealNumbersAreRead) {
 
 TEST(ReadSwc, ParentsComeFirstWhereverTheyStandAndWhateverTheirIds) {
   // 70 <- 5 <- 900, and a root of its own in between
-  const CenterlineFile file = parseSwc(
-      "900 0 3 0 0 1 5\n70 0 1 0 0 1 -1\n8 0 9 0 0 1 -1\n5 0 2 0 0 1 70\n", "tree.swc");
+  const CenterlineFile file =
+      parseSwc("900 0 3 0 0 1 5\n70 0 1 0 0 1 -1\n8 0 9 0 0 1 -1\n5 0 2 0 0 1 70\n", "tree.swc");
   ASSERT_EQ(file.points.size(), 4U);
   EXPECT_EQ(file.points[0].position.x(), 1);
   EXPECT_EQ(file.points[1].position.x(), 9);
@@ -128,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 3: the parents of point 3 lead back to it; expected a way to a root, whose "
                 "parent is -1"},
         Refused{"1 0 \x1b[2Jabcdefghijklmnopqrstuvwxyz 0 0 1 -1\n",
-                "line 1: x is \"\\u001B[2Jabcdefghijklmnopqrst...\"; expected a number"}));
+                "line 1: x is \"\\u001b[2Jabcdefghijklmnopqrst...\"; expected a number"}));
 
 TEST(ReadSwc, ALongChainThatRunsBackwardsTakesNoRecursion) {
   std::string text;
