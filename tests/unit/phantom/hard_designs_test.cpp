@@ -70,9 +70,9 @@ TEST(HardPhantoms, ChildrenLeaveTheWideParentAtRightAngles) {
   for (const std::size_t b : {1U, 2U}) {
     const formats::Branch& child = design.tree.branches[b];
     const auto parentNode = static_cast<std::uint32_t>(child.parentNode);
-    EXPECT_NEAR(nodeDirection(design.tree, child.firstNode)
-                    .dot(nodeDirection(design.tree, parentNode)),
-                0, 1e-6);
+    EXPECT_NEAR(
+        nodeDirection(design.tree, child.firstNode).dot(nodeDirection(design.tree, parentNode)), 0,
+        1e-6);
     EXPECT_LT(design.tree.radius[child.firstNode], 0.5F * design.tree.radius[parentNode]);
   }
 }
