@@ -122,6 +122,7 @@ def describe(folder, volume):
     for what, file in (("volume", volume), ("case", "case.lumen")):
         folder.run(f"info-{what}", "info", file)
         folder.run(f"info-{what}-json", "info", file, "--json")
+    folder.run("info-voxels-json", "info", volume, "--json", "--voxels")
     folder.run("info-chunks", "info", "case.lumen", "--chunks")
     folder.run("info-chunks-json", "info", "case.lumen", "--chunks", "--json")
     folder.run("validate", "validate", "case.lumen", "tracked.lumen", "--privacy", "--json")
@@ -154,7 +155,7 @@ def try_options(folder, name):
     for extension in ("nii", "nii.gz", "mha"):
         file = f"volume.{extension}"
         folder.run(f"phantom-{extension}", "phantom", name, file, "--size", "48")
-        folder.run(f"info-{extension}", "info", file, "--json")
+        folder.run(f"info-{extension}", "info", file, "--json", "--voxels")
     folder.run("crop", "convert", "volume.nrrd", "crop.lumen", "--seeds", "seeds.json", "--crop",
                "10,110,10,110,10,110")
 

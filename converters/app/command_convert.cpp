@@ -2,7 +2,6 @@
 // lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
-#include "converters/app/loss_report.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
 #include "converters/app/value_checks.h"
@@ -49,9 +48,6 @@ public:
     formats::Case value = load(from, context.progress);
     complete(value, from, to, context.progress);
     context.progress.check();
-    // the help says what a mesh is
-    if (from.kind == FormatKind::Case && to.kind != FormatKind::Mesh)
-      reportLosses(value, to, m_output, context.progress);
     to.writeCase(value, m_output, m_outputOptions, context.progress);
     report(value, context);
     return 0;

@@ -27,6 +27,8 @@ public:
     addFile(app, "FILE", m_input, "Case or volume");
     app.add_option("--from", m_from, "Format of FILE, whatever its name")->type_name("F");
     app.add_flag("--chunks", m_chunks, "List the chunks of a .lumen file instead");
+    app.add_flag("--voxels", m_voxels,
+                 "Read the voxels of a volume too, not its header only: range and digest");
     addVolumeOptions(app, m_volume);
   }
 
@@ -39,8 +41,7 @@ public:
     }
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind == FormatKind::Volume) {
-      const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
-      const VolumeInfo info = describeVolume(volume, context.progress);
+      const VolumeInfo info = describe(from, context.progress);
       context.common.json ? answerJson(volumeInfoJson(info)) : answer(volumeInfoText(info));
     } else {
       const formats::Case value = from.readCase(m_input);
@@ -51,8 +52,16 @@ public:
   }
 
 private:
+  [[nodiscard]] VolumeInfo describe(const FileFormat& from, Progress& progress) const {
+    if (!m_voxels) return {loadVolumeHeader(m_input, from, m_volume, progress), {}};
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
+    return describeVolume(from.readVolumeHeader(m_input, m_volume.options(), progress), volume,
+                          progress);
+  }
+
   std::string m_input, m_from;
   bool m_chunks = false;
+  bool m_voxels = false;
   VolumeArguments m_volume;
 };
 

@@ -56,9 +56,10 @@ Remark remarkOf(const PrivacyFinding& finding) {
 
 struct FileReport {
   bool valid = true;
-  bool personal = false;        ///< the privacy check found something, which is a warning
-  formats::IssueCounts counts;  ///< of all that was found, listed or not
-  std::vector<Remark> remarks;  ///< what is listed, errors first
+  bool refusedByStrict = false;  ///< valid, but for a warning and --strict
+  bool personal = false;         ///< the privacy check found something, which is a warning
+  formats::IssueCounts counts;   ///< of all that was found, listed or not
+  std::vector<Remark> remarks;   ///< what is listed, errors first
   [[nodiscard]] std::size_t unlisted() const { return counts.total() - remarks.size(); }
 };
 
@@ -73,12 +74,12 @@ Issue named(Issue issue, const std::string& file) {
 FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy) {
   const auto bytes = formats::readFileBytes(file);
   if (!bytes) {
-    FileReport unread{false, false, {1, 0, 0}, {}};
+    FileReport unread{false, false, false, {1, 0, 0}, {}};
     if (maxIssues > 0) unread.remarks.push_back(remarkOf(bytes.error()));
     return unread;
   }
   const ValidationReport report = formats::validateBytes(*bytes, maxIssues);
-  FileReport result{report.valid(), false, report.counts, {}};
+  FileReport result{report.valid(), false, false, report.counts, {}};
   for (const Issue& issue : report.issues)
     result.remarks.push_back(
         remarkOf(issue.code == ErrorCode::NotLumen ? named(issue, file) : issue));
@@ -137,7 +138,10 @@ std::string reportText(const std::string& file, const FileReport& report) {
   if (report.unlisted() > 0)
     lines.add(file + ": " + countsText(report.counts) + ", " +
               std::to_string(report.remarks.size()) + " of them listed; --max-issues N lists more");
-  return lines.add(file + (report.valid ? ": valid" : ": not valid")).text();
+  const char* verdict = report.valid             ? ": valid"
+                        : report.refusedByStrict ? ": not valid, as --strict makes warnings errors"
+                                                 : ": not valid";
+  return lines.add(file + verdict).text();
 }
 
 class ValidateCommand : public Command {
@@ -165,20 +169,23 @@ public:
   }
 
   int run(Context& context) override {
-    bool valid = true, personal = false;
+    bool valid = true, personal = false, warned = false;
     Json files = Json::array();
     for (const std::string& file : m_files) {
       context.progress.check();
-      const FileReport report = examine(file, m_maxIssues, m_privacy);
+      FileReport report = examine(file, m_maxIssues, m_privacy);
+      report.refusedByStrict = context.common.strict && report.valid && report.counts.warnings > 0;
+      if (report.refusedByStrict) report.valid = false;
       valid = valid && report.valid;
       personal = personal || report.personal;
+      warned = warned || report.counts.warnings > 0;
       if (context.common.json)
         files.push_back(reportJson(file, report));
       else if (!context.common.quiet || !report.valid || report.personal)
         answer(reportText(file, report));
     }
     if (context.common.json) answerJson({{"valid", valid}, {"files", std::move(files)}});
-    return valid && !personal ? 0 : kInvalid;
+    return valid && !personal && !(warned && context.common.strict) ? 0 : kInvalid;
   }
 
 private:

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "converters/app/file_access.h"
+#include "converters/app/loss_report.h"
 #include "converters/app/suggestion.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
@@ -23,6 +24,12 @@ template <VolumeFormat format>
 convert::Volume readVolumeAs(const fs::path& file, const convert::ReadVolumeOptions& options,
                              const Progress& progress) {
   return convert::readVolume(file, format, options, progress);
+}
+
+template <VolumeFormat format>
+convert::VolumeHeader readHeaderAs(const fs::path& file, const convert::ReadVolumeOptions& options,
+                                   const Progress& progress) {
+  return convert::readVolumeHeader(file, format, options, progress);
 }
 
 template <VolumeFormat format, bool compressed>
@@ -55,6 +62,7 @@ void writeMeshAs(const formats::Case& value, const fs::path& file, const OutputO
                  Progress& progress) {
   const Meshes meshes = convert::polygonise(value, options.polygonise, progress);
   progress.check();
+  reportLosses(meshes, file.string(), options.polygonise.cell, progress);
   writeText(encode(meshes, options.mesh), file);
 }
 
@@ -67,9 +75,9 @@ std::vector<FileFormat> makeTable() {
   using enum FormatKind;
   return {
       // cases
-      {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"}, .holds = kEveryPart,
+      {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Binary>},
-      {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"}, .holds = kEveryPart,
+      {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
       // meshes
       {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = writeMeshAs<encodeGlb>},
@@ -79,19 +87,23 @@ std::vector<FileFormat> makeTable() {
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
-       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
       {.name = "nhdr", .title = "NRRD", .kind = Volume, .endings = {".nhdr"},
-       .readVolume = readVolumeAs<VolumeFormat::Nrrd>},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>},
       {.name = "nii", .title = "NIfTI", .kind = Volume, .endings = {".nii"},
-       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
       {.name = "nii.gz", .title = "NIfTI", .kind = Volume, .endings = {".nii.gz"},
-       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
       {.name = "mha", .title = "MetaImage", .kind = Volume, .endings = {".mha"},
-       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>,
+       .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
       {.name = "mhd", .title = "MetaImage", .kind = Volume, .endings = {".mhd"},
-       .readVolume = readVolumeAs<VolumeFormat::MetaImage>},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>},
       {.name = "dicom", .title = "a folder of DICOM", .kind = Volume,
-       .readVolume = readVolumeAs<VolumeFormat::Dicom>},
+       .readVolume = readVolumeAs<VolumeFormat::Dicom>, .readVolumeHeader = readHeaderAs<VolumeFormat::Dicom>},
   };
 }
 // clang-format on

@@ -20,20 +20,6 @@ namespace lumen::app {
 
 enum class FormatKind { Volume, Case, Mesh };
 
-/// What a case may have besides its surface; the bits of FileFormat::holds.
-enum CasePart : unsigned {
-  kTree = 1u << 0,
-  kRates = 1u << 1,
-  kLinks = 1u << 2,
-  kPoints = 1u << 3,
-  kModels = 1u << 4,
-  kNodeArrays = 1u << 5,
-  kProvenance = 1u << 6,
-  kNote = 1u << 7,
-  kOtherChunks = 1u << 8,
-  kEveryPart = (1u << 9) - 1,
-};
-
 /// How a case is written; each format takes what concerns it.
 struct OutputOptions {
   formats::EncodeOptions encoding;
@@ -47,6 +33,9 @@ struct FileFormat {
   using CaseReader = formats::Case (*)(const std::filesystem::path&);
   using VolumeReader = convert::Volume (*)(const std::filesystem::path&,
                                            const convert::ReadVolumeOptions&, const Progress&);
+  using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
+                                                       const convert::ReadVolumeOptions&,
+                                                       const Progress&);
   using CaseWriter = void (*)(const formats::Case&, const std::filesystem::path&,
                               const OutputOptions&, Progress&);
   using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
@@ -55,11 +44,11 @@ struct FileFormat {
   std::string_view title;  ///< as a help text calls it; rows of one title are listed once
   FormatKind kind;
   std::vector<std::string_view> endings{};  ///< of a name, lower case; empty: a folder
-  unsigned holds = 0;                       ///< CasePart bits
   CaseReader readCase = nullptr;
   VolumeReader readVolume = nullptr;
-  CaseWriter writeCase = nullptr;      ///< atomically
-  VolumeWriter writeVolume = nullptr;  ///< atomically
+  VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
+  CaseWriter writeCase = nullptr;                 ///< atomically
+  VolumeWriter writeVolume = nullptr;             ///< atomically
 };
 
 const std::vector<FileFormat>& fileFormats();

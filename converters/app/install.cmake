@@ -6,9 +6,9 @@ add_executable(write_man write_man.cpp)
 target_link_libraries(write_man PRIVATE lumen_app)
 set(man_page ${CMAKE_CURRENT_BINARY_DIR}/lumen.1)
 set(completion ${CMAKE_CURRENT_BINARY_DIR}/completions/lumen)
-add_custom_command(OUTPUT ${man_page} COMMAND write_man ${man_page} VERBATIM)
+add_custom_command(OUTPUT ${man_page} COMMAND write_man ${man_page} DEPENDS write_man VERBATIM)
 file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/completions)
-add_custom_command(OUTPUT ${completion} COMMAND lumen completion bash > ${completion} VERBATIM)
+add_custom_command(OUTPUT ${completion} COMMAND lumen completion bash > ${completion} DEPENDS lumen VERBATIM)
 # all of the component that is built: cmake --build BUILD -t lumen_program
 add_custom_target(lumen_program ALL DEPENDS lumen ${man_page} ${completion})
 

@@ -1,94 +1,84 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/loss_report.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
 #include "converters/app/report.h"
-#include "converters/common/error.h"
+#include "converters/mesh/cell_size.h"
+#include "formats/container/printable.h"
 
 namespace lumen::app {
 
 namespace {
 
-using formats::Case;
+using convert::BranchMesh;
 
-/// Nothing for none.
-std::string some(std::size_t count, const std::string& noun, const std::string& plural) {
-  return count == 0 ? "" : counted(count, noun, plural);
+/// "branch "a" has", "branches "a", "b" and 7 more have".
+std::string subject(const std::vector<const BranchMesh*>& meshes) {
+  constexpr std::size_t kNamed = 5;
+  std::string text = meshes.size() == 1 ? "branch" : "branches";
+  for (std::size_t i = 0; i < std::min(meshes.size(), kNamed); ++i)
+    text += (i == 0 ? " \"" : ", \"") + formats::printable(meshes[i]->label) + "\"";
+  if (meshes.size() > kNamed) text += " and " + std::to_string(meshes.size() - kNamed) + " more";
+  return text + (meshes.size() == 1 ? " has" : " have");
 }
 
-std::string modelsText(const std::optional<formats::BlobbyModels>& models) {
-  if (!models) return "";
-  return "the models (" + counted(models->width.size(), "blob", "blobs") + ")";
+/// Two digits, rounded down.
+std::string atMost(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", std::floor(value / unit) * unit);
+  return text.data();
 }
 
-std::string treeText(const formats::CenterlineTree& tree) {
-  return "the tree (" + counted(tree.branches.size(), "branch", "branches") + ", " +
-         counted(tree.nodeCount(), "node", "nodes") + ")";
+std::string advice(double thinnest, double cell) {
+  const std::string cells =
+      cell > 0 ? "cells of " + atMost(cell) + " mm are" : "cells as large as the voxels are";
+  return "; " + cells + " too coarse there: --cell " + atMost(convert::coarsestCellFor(thinnest)) +
+         " or less keeps it";
 }
 
-bool hasRates(const formats::CenterlineTree& tree) {
-  if (!tree.inlierRate.empty()) return true;
-  for (const auto& branch : tree.branches)
-    if (branch.meanInlierRate || branch.stopReason != formats::StopReason::Unknown) return true;
-  return false;
-}
-
-std::string provenanceText(const formats::Metadata& metadata) {
-  if (!metadata.source && !metadata.voxelSize && metadata.steps.empty() &&
-      metadata.parentSha256.empty())
-    return "";
-  const std::string steps = some(metadata.steps.size(), "step", "steps");
-  return "the provenance" + (steps.empty() ? "" : " (" + steps + ")");
-}
-
-/// The phrase for one part; empty if the case does not have it.
-std::string partText(const Case& value, CasePart part) {
-  switch (part) {
-    case kTree:
-      return treeText(value.tree);
-    case kRates:
-      return hasRates(value.tree) ? "inlier rates and stop reasons" : "";
-    case kLinks:
-      return some(value.tree.links.size(), "link", "links");
-    case kPoints:
-      return value.points ? some(value.points->position.size(), "wall point", "wall points") : "";
-    case kModels:
-      return modelsText(value.models);
-    case kNodeArrays:
-      return some(value.nodeArrays.size(), "node array", "node arrays");
-    case kProvenance:
-      return provenanceText(value.metadata);
-    case kNote:
-      return value.metadata.note.empty() ? "" : "the note";
-    case kOtherChunks:
-      return some(value.otherChunks.size(), "chunk of another program", "chunks of other programs");
-    case kEveryPart:
-      break;
+std::string missingText(const std::vector<BranchMesh>& meshes, double cell) {
+  std::vector<const BranchMesh*> coarse, bare;
+  double thinnest = INFINITY;
+  for (const BranchMesh& mesh : meshes) {
+    if (!mesh.triangle.empty()) continue;
+    (mesh.losses.any() ? coarse : bare).push_back(&mesh);
+    if (mesh.losses.any()) thinnest = std::min(thinnest, mesh.losses.thinnest);
   }
-  return "";
+  std::string text;
+  if (!coarse.empty()) text += subject(coarse) + " no surface in it" + advice(thinnest, cell);
+  if (!bare.empty())
+    text += (text.empty() ? "" : "; ") + subject(bare) +
+            " no models, so no surface in it; lumen fit makes models";
+  return text;
+}
+
+std::string holesText(const std::vector<BranchMesh>& meshes, double cell) {
+  std::vector<const BranchMesh*> torn;
+  std::size_t nodes = 0, triangles = 0;
+  double thinnest = INFINITY;
+  for (const BranchMesh& mesh : meshes) {
+    if (mesh.triangle.empty() || !mesh.losses.any()) continue;
+    torn.push_back(&mesh);
+    nodes += mesh.losses.missedNodes;
+    triangles += mesh.losses.lostTriangles;
+    thinnest = std::min(thinnest, mesh.losses.thinnest);
+  }
+  if (torn.empty()) return "";
+  return subject(torn) + " holes (" + counted(nodes, "node", "nodes") + " without surface, " +
+         counted(triangles, "triangle", "triangles") + " dropped)" + advice(thinnest, cell);
 }
 
 }  // namespace
 
-std::vector<std::string> lossesOf(const Case& value, const FileFormat& format) {
-  std::vector<std::string> losses;
-  for (unsigned part = 1; part < kEveryPart; part <<= 1) {
-    if ((format.holds & part) != 0) continue;
-    std::string text = partText(value, static_cast<CasePart>(part));
-    if (!text.empty()) losses.push_back(std::move(text));
-  }
-  return losses;
-}
-
-void reportLosses(const Case& value, const FileFormat& format, const std::string& file,
+void reportLosses(const std::vector<BranchMesh>& meshes, const std::string& file, double cell,
                   Progress& progress) {
-  const auto losses = lossesOf(value, format);
-  if (losses.empty()) return;
-  std::string text = file + ": " + std::string(format.name) + " does not hold ";
-  for (std::size_t i = 0; i < losses.size(); ++i) {
-    if (i > 0) text += i + 1 == losses.size() ? " and " : ", ";
-    text += losses[i];
-  }
-  progress.warn(text);
+  for (const std::string& text : {missingText(meshes, cell), holesText(meshes, cell)})
+    if (!text.empty()) progress.warn(formats::printable(file) + ": " + text);
 }
 
 }  // namespace lumen::app

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a case has that the format it is written to cannot hold.
+// What a mesh lacks of the surface that it was made from.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "converters/app/file_format.h"
 #include "converters/common/progress.h"
-#include "formats/case/case.h"
+#include "converters/mesh/branch_mesh.h"
 
 namespace lumen::app {
 
-/// One phrase for each part of the case that is lost, such as "3 links"; empty if nothing is.
-std::vector<std::string> lossesOf(const formats::Case& value, const FileFormat& format);
-
-/// Warns of what `file` will not have.
-void reportLosses(const formats::Case& value, const FileFormat& format, const std::string& file,
-                  Progress& progress);
+/// Warns of branches that have no surface in `file`, and of those with holes, where cells of `cell`
+/// mm (0: the voxel size) were too coarse for them, with cells that would do. That a mesh holds the
+/// surface and nothing else is no loss.
+void reportLosses(const std::vector<convert::BranchMesh>& meshes, const std::string& file,
+                  double cell, Progress& progress);
 
 }  // namespace lumen::app

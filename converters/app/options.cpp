@@ -7,6 +7,7 @@
 
 #include "converters/app/suggestion.h"
 #include "converters/app/value_checks.h"
+#include "converters/common/error.h"
 #include "formats/case/enum_names.h"
 
 namespace lumen::app {
@@ -76,12 +77,14 @@ private:
   std::string m_title;
 };
 
-/// What --spacing takes, once it is checked.
+/// What --spacing takes; each number of it is checked.
 Eigen::Vector3d spacingOf(const std::string& text) {
   std::vector<double> values;
   for (const std::string& word : CLI::detail::split(text, ',')) values.push_back(std::stod(word));
   if (values.size() == 1) return Eigen::Vector3d::Constant(values[0]);
-  return {values[0], values[1], values[2]};
+  if (values.size() == 3) return {values[0], values[1], values[2]};
+  throw Error(ErrorKind::Usage, "--spacing: " + std::to_string(values.size()) +
+                                    " numbers; expected one, or three with commas between them");
 }
 
 }  // namespace

@@ -15,11 +15,14 @@ namespace lumen::app {
 
 namespace {
 
-/// What cannot be read as a volume may be something else altogether.
-convert::Volume readVolume(const std::filesystem::path& file, const FileFormat& format,
-                           const VolumeArguments& volume, Progress& progress) {
+/// What `read` gives; what cannot be read as a volume may be something else altogether.
+template <class Result>
+Result readAs(Result (*read)(const std::filesystem::path&, const convert::ReadVolumeOptions&,
+                             const Progress&),
+              const std::filesystem::path& file, const VolumeArguments& volume,
+              Progress& progress) {
   try {
-    return format.readVolume(file, volume.options(), progress);
+    return read(file, volume.options(), progress);
   } catch (const Error& error) {
     const std::string other = notA(ContentKind::Volume, file);
     if (error.kind() == ErrorKind::Cancelled || other.empty()) throw;
@@ -47,10 +50,17 @@ void warnOfSeeds(const std::string& file, const std::string& what,
 
 }  // namespace
 
+convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
+                                       const VolumeArguments& volume, Progress& progress) {
+  convert::VolumeHeader header = readAs(format.readVolumeHeader, file, volume, progress);
+  tellAssumptions(file, header.assumptions, progress);
+  return header;
+}
+
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress) {
   progress.begin("reading", 0);
-  convert::Volume result = readVolume(file, format, volume, progress);
+  convert::Volume result = readAs(format.readVolume, file, volume, progress);
   progress.end();
   tellAssumptions(file, result.assumptions, progress);
   const std::string name = formats::printable(file.string()) + ": ";

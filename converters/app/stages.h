@@ -14,6 +14,10 @@
 
 namespace lumen::app {
 
+/// What the header of the volume in `file` says; tells of what it leaves open.
+convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
+                                       const VolumeArguments& volume, Progress& progress);
+
 /// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
 /// file leaves open and the reader assumed becomes warnings.
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
@@ -25,8 +29,7 @@ std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track);
 
 /// Tracks `seeds` through the volume. Seeds that cannot be placed in it or that start no track
 /// become warnings, and failures of the result. `track.seeds` is where they are from, for messages.
-/// Throws Error(InvalidInput) if none can be placed, or with --strict not all; and Error(Failed) if
-/// nothing was tracked.
+/// Throws Error(InvalidInput) if none can be placed, and Error(Failed) if nothing was tracked.
 convert::TrackResult trackSeeds(const convert::Volume& volume,
                                 const std::vector<convert::SeedBranch>& seeds,
                                 const TrackArguments& track, Progress& progress);

@@ -35,21 +35,22 @@ std::string shortNumber(double value) {
 
 }  // namespace
 
-VolumeInfo describeVolume(const convert::Volume& volume, Progress& progress) {
+VolumeInfo describeVolume(const convert::VolumeHeader& header, const convert::Volume& volume,
+                          Progress& progress) {
   progress.begin("hashing", 0);
-  VolumeInfo info;
-  info.source = convert::describeSource(volume);
+  VolumeInfo::Values values;
+  values.sha256 = convert::describeSource(volume).sha256;
   progress.check();
   std::visit(
       [&](const auto& voxels) {
         const auto [low, high] = std::minmax_element(voxels.begin(), voxels.end());
-        info.pixelType = pixelTypeName<std::decay_t<decltype(*low)>>();
-        info.min = static_cast<double>(*low);
-        info.max = static_cast<double>(*high);
+        values.pixelType = pixelTypeName<std::decay_t<decltype(*low)>>();
+        values.min = static_cast<double>(*low);
+        values.max = static_cast<double>(*high);
       },
       volume.voxels);
   progress.end();
-  return info;
+  return {header, values};
 }
 
 Json sourceVolumeJson(const formats::SourceVolume& source) {
@@ -63,27 +64,41 @@ Json sourceVolumeJson(const formats::SourceVolume& source) {
 }
 
 Json volumeInfoJson(const VolumeInfo& info) {
-  Json json = sourceVolumeJson(info.source);
-  json["pixel_type"] = info.pixelType;
-  json["min"] = jsonNumber(info.min);
-  json["max"] = jsonNumber(info.max);
+  const convert::VolumeHeader& header = info.header;
+  Json json = sourceVolumeJson(convert::describeGeometry(header.geometry));
+  json.erase("sha256");
+  if (info.values) {
+    json["sha256"] = info.values->sha256;
+    json["pixel_type"] = info.values->pixelType;
+    json["min"] = jsonNumber(info.values->min);
+    json["max"] = jsonNumber(info.values->max);
+  }
+  json["stored_type"] = header.storedType;
+  json["encoding"] = header.encoding;
+  json["voxel_bytes"] = header.voxelBytes;
+  json["stored_bytes"] = header.storedBytes;
   return json;
 }
 
 std::string volumeInfoText(const VolumeInfo& info) {
-  const auto& s = info.source;
-  std::ostringstream size;
-  size << s.size[0] << " x " << s.size[1] << " x " << s.size[2] << " voxels";
+  const convert::VolumeHeader& header = info.header;
+  const auto s = convert::describeGeometry(header.geometry);
   std::ostringstream text;
-  text << "size        " << size.str() << "\n"
+  text << "size        " << s.size[0] << " x " << s.size[1] << " x " << s.size[2] << " voxels\n"
        << "spacing     " << joined(s.spacing, 0, 3) << " mm\n"
        << "origin      " << joined(s.origin, 0, 3) << " mm, LPS\n"
        << "direction   " << joined(s.direction, 0, 3) << "\n"
        << "            " << joined(s.direction, 3, 3) << "\n"
        << "            " << joined(s.direction, 6, 3) << "\n"
-       << "pixel type  " << info.pixelType << "\n"
-       << "values      " << shortNumber(info.min) << " to " << shortNumber(info.max) << "\n"
-       << "sha256      " << s.sha256 << "\n";
+       << "stored      " << header.storedType << ", " << header.encoding << ": "
+       << header.voxelBytes << " bytes of voxels in " << header.storedBytes << " bytes\n";
+  if (info.values)
+    text << "pixel type  " << info.values->pixelType << "\n"
+         << "values      " << shortNumber(info.values->min) << " to "
+         << shortNumber(info.values->max) << "\n"
+         << "sha256      " << info.values->sha256 << "\n";
+  else
+    text << "values      not read; --voxels reads them\n";
   return text.str();
 }
 

@@ -2,23 +2,31 @@
 // The facts that `lumen info` gives of a volume.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "converters/app/report.h"
 #include "converters/common/progress.h"
 #include "converters/volume/volume.h"
+#include "converters/volume/volume_header.h"
 
 namespace lumen::app {
 
 struct VolumeInfo {
-  formats::SourceVolume source;
-  std::string pixelType;  ///< in memory: uint8, int16, uint16 or float32
-  double min = 0, max = 0;
+  convert::VolumeHeader header;
+  struct Values {
+    std::string pixelType;  ///< in memory: uint8, int16, uint16 or float32
+    double min = 0, max = 0;
+    std::string sha256;
+  };
+  std::optional<Values> values;  ///< empty: the voxels were not read
 };
 
-VolumeInfo describeVolume(const convert::Volume& volume, Progress& progress);
+VolumeInfo describeVolume(const convert::VolumeHeader& header, const convert::Volume& volume,
+                          Progress& progress);
 
-/// size, spacing_mm, origin_mm, direction (row-major), pixel_type, min, max, sha256.
+/// size, spacing_mm, origin_mm, direction (row-major), stored_type, encoding, voxel_bytes,
+/// stored_bytes; if the voxels were read, sha256, pixel_type, min and max.
 Json volumeInfoJson(const VolumeInfo& info);
 std::string volumeInfoText(const VolumeInfo& info);
 

@@ -14,12 +14,23 @@ namespace lumen::convert {
 using Float3 = std::array<float, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// What the mesh of a branch lacks of its surface.
+struct BranchLosses {
+  std::size_t nodes = 0;  ///< that have a model
+  /// of those, the ones whose lumen no corner of a cell lies in: the cells are too coarse for them
+  std::size_t missedNodes = 0;
+  std::size_t lostTriangles = 0;  ///< dropped where the surface of the case is not near
+  double thinnest = 0;            ///< the least radius of nodes with such losses, mm
+  [[nodiscard]] bool any() const { return missedNodes > 0 || lostTriangles > 0; }
+};
+
 /// The wall of one branch. Each patch in it is an oriented 2-manifold with boundary.
 struct BranchMesh {
   std::string label;
   std::vector<Float3> position;    ///< mm, LPS
   std::vector<Float3> normal;      ///< unit, out of the lumen; one for each position
   std::vector<Triangle> triangle;  ///< indices of positions, counter-clockwise seen from outside
+  BranchLosses losses{};
 };
 
 /// Widens the box `low` .. `high` so that it holds `point`.

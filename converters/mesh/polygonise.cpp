@@ -11,11 +11,13 @@
 #include "converters/common/error.h"
 #include "converters/common/surface_projection.h"
 #include "converters/common/vectors.h"
+#include "converters/mesh/cell_size.h"
 #include "converters/mesh/marching_cubes.h"
 #include "converters/mesh/node_cell.h"
 #include "converters/mesh/node_field.h"
 #include "formats/case/case_field.h"
 #include "formats/case/topology.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
@@ -27,12 +29,6 @@ constexpr double kCellDiagonal = 1.74;
 constexpr double kReachRadii = 2.4, kReachHeights = 0.5;
 // A part of the cut patch that nowhere comes this near to the node, in radii, is not its lumen's.
 constexpr double kLumenRadii = 2;
-// Bounds on the lattice that keep positions within int and a node's grid within memory.
-constexpr double kMaxPosition = 1e8, kMaxAcross = 1e4;
-constexpr std::size_t kMaxSamples = std::size_t{1} << 27;
-// A vessel narrower than this many cells gets a finer lattice, halved up to kMaxHalvings times.
-constexpr double kMinRadiusCells = 2;
-constexpr int kMaxHalvings = 3;
 // Vertices this near to a plane, in cells, are on it.
 constexpr double kSnap = 1e-4;
 // How far, in radii, a vertex of a local surface may be moved onto the surface of the case.
@@ -41,6 +37,8 @@ constexpr double kMaxShift = 0.5;
 struct NodePatch {
   Patch patch;
   std::vector<Float3> normal;
+  bool hasModel = false, isMissed = false;
+  std::size_t lostTriangles = 0;
 };
 
 // What all patches are made from.
@@ -68,18 +66,13 @@ Interval lineInside(const std::vector<HalfSpace>& spaces, double y, double z, do
   return result;
 }
 
-double cellForRadius(double cell, double radius) {
-  for (int i = 0; i < kMaxHalvings && radius < kMinRadiusCells * cell; ++i) cell *= 0.5;
-  return cell;
-}
-
 int latticeFloor(double position, double cell) {
   return static_cast<int>(std::floor(position / cell));
 }
 
 Error cellTooSmall(double cell) {
-  return invalidInput("a cell of " + std::to_string(cell) +
-                      " mm is too small for this case: expected a larger --cell");
+  return invalidInput("a cell of " + formats::shortText(cell) +
+                      " mm is too small for this case; expected a larger --cell");
 }
 
 // The rows of the lattice within `low` .. `high` that may meet the surface inside the half-spaces.
@@ -137,9 +130,10 @@ const HalfSpace* planeThrough(const std::vector<HalfSpace>& spaces, const Eigen:
 // Moves vertices from the surface of the node's own model onto that of the case, where patches
 // meet. What a plane has cut stays in that plane, unless the surface is so oblique to it that it
 // lies far away there; ends always stay flat. Where there is no surface of the case near by, as
-// where a model draws a wall within the lumen of its neighbours, triangles are dropped.
-void moveOntoSurface(const Source& source, std::uint32_t node, const NodeCell& cell, double snap,
-                     Patch& patch) {
+// where a model draws a wall within the lumen of its neighbours, triangles are dropped; how many, is
+// returned.
+std::size_t moveOntoSurface(const Source& source, std::uint32_t node, const NodeCell& cell,
+                            double snap, Patch& patch) {
   const double radius = source.value.tree.radius[node];
   const auto move = [&](Eigen::Vector3d& p, const HalfSpace* plane) {
     const auto found = projectOnSurface(source.surface, p, node, radius,
@@ -158,8 +152,9 @@ void moveOntoSurface(const Source& source, std::uint32_t node, const NodeCell& c
     const HalfSpace* radical = planeThrough(cell.radical, p, snap);
     isLost[v] = !move(p, radical) && (radical == nullptr || !move(p, nullptr));
   }
-  std::erase_if(patch.triangle,
-                [&](const Triangle& t) { return isLost[t[0]] || isLost[t[1]] || isLost[t[2]]; });
+  return std::erase_if(patch.triangle, [&](const Triangle& t) {
+    return isLost[t[0]] || isLost[t[1]] || isLost[t[2]];
+  });
 }
 
 std::vector<Float3> outwardNormals(const Source& source, std::uint32_t node, const Patch& patch) {
@@ -207,13 +202,23 @@ NodePatch polygoniseNode(const Source& source, std::uint32_t node, double voxel)
   NodePatch result;
   Patch& patch = result.patch;
   patch = polygoniseModel(source.value, node, field, spaces, size);
+  result.hasModel = true;
+  result.isMissed = patch.triangle.empty();
   for (const HalfSpace& space : spaces) clip(patch, space, kSnap * size);
   dropFarParts(patch, toEigen(tree.centre[node]), kLumenRadii * radius);
-  moveOntoSurface(source, node, *cell, kSnap * size, patch);
+  result.lostTriangles = moveOntoSurface(source, node, *cell, kSnap * size, patch);
   roundToFloat(patch);
   separateFans(patch);
   result.normal = outwardNormals(source, node, patch);
   return result;
+}
+
+void count(const NodePatch& part, double radius, BranchLosses& losses) {
+  losses.nodes += part.hasModel ? 1 : 0;
+  losses.missedNodes += part.isMissed ? 1 : 0;
+  losses.lostTriangles += part.lostTriangles;
+  if (part.isMissed || part.lostTriangles > 0)
+    losses.thinnest = losses.thinnest == 0 ? radius : std::min(losses.thinnest, radius);
 }
 
 void append(const NodePatch& part, BranchMesh& mesh) {
@@ -229,11 +234,13 @@ void append(const NodePatch& part, BranchMesh& mesh) {
 
 double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
   if (!source.models)
-    throw invalidInput("the case has no models, and a mesh is made from them; fit it first");
+    throw invalidInput(
+        "the case has no models, and a mesh is made from them; lumen fit makes them");
   const double cell = options.cell > 0 ? options.cell : source.metadata.voxelSize.value_or(0);
   if (!(options.cell >= 0) || !(cell > 0) || !std::isfinite(cell))
-    throw invalidInput("the mesh needs a cell size: found cell " + std::to_string(options.cell) +
-                       " mm and no voxel size in the case, expected one above 0 mm");
+    throw invalidInput("the mesh needs a cell size: found a cell of " +
+                       formats::shortText(options.cell) +
+                       " mm and no voxel size in the case; expected --cell above 0");
   return cell;
 }
 
@@ -242,6 +249,7 @@ double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
 std::vector<BranchMesh> polygonise(const formats::Case& source, const PolygoniseOptions& options,
                                    Progress& progress) {
   const double cell = cellOf(source, options);
+  checkCell(source, cell);
   const formats::CenterlineTree& tree = source.tree;
   const formats::Neighbours edges(tree);
   const field::BlendedField surface = formats::blendedFieldOf(source);
@@ -261,6 +269,7 @@ std::vector<BranchMesh> polygonise(const formats::Case& source, const Polygonise
          ++i) {
       progress.check();
       append(parts[i], result[b]);
+      count(parts[i], tree.radius[i], result[b].losses);
       parts[i] = {};
     }
   });

@@ -28,8 +28,10 @@ struct PolygoniseOptions {
 /// where the field itself jumps; patches of adjacent nodes meet in its curve on their radical
 /// plane, and share no vertex. Normals are those of the blended field, outward.
 ///
-/// Throws Error(InvalidInput) if the case has no models, no voxel size while `cell` is 0, or a cell
-/// that is too small for it, and Error(Cancelled).
+/// What a mesh lacks, because its cells are too coarse for thin vessels, is counted with it.
+///
+/// Throws Error(InvalidInput) if the case has no models, no voxel size while `cell` is 0, or at once a
+/// cell that is too small for it, and Error(Cancelled).
 std::vector<BranchMesh> polygonise(const formats::Case& source, const PolygoniseOptions& options,
                                    Progress& progress);
 

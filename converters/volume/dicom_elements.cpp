@@ -34,13 +34,6 @@ bool hasLongLength(const std::array<char, 2>& vr) {
   return kLong.find(std::string(vr.data(), 2) + ' ') != std::string_view::npos;
 }
 
-bool isRepresentation(const std::array<char, 2>& vr) {
-  constexpr std::string_view kAll =
-      "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC UI UL UN "
-      "UR US UT UV ";
-  return kAll.find(std::string(vr.data(), 2) + ' ') != std::string_view::npos;
-}
-
 class Walker {
 public:
   Walker(DicomBytes& bytes, DicomSyntax syntax, const DicomVisitor& visit)
@@ -241,14 +234,20 @@ void DicomBytes::readAt(std::uint64_t at, std::span<std::byte> to) {
   refuse(at, "it cannot be read");
 }
 
-std::uint64_t walkDicomMeta(DicomBytes& bytes, const DicomVisitor& visit) {
-  constexpr std::uint64_t kAfterMagic = 132;
+std::uint64_t walkDicomMeta(DicomBytes& bytes, std::uint64_t at, const DicomVisitor& visit) {
   constexpr int kMetaGroup = 2;
-  return Walker(bytes, {}, visit).walk(kAfterMagic, bytes.size(), false, kMetaGroup);
+  return Walker(bytes, {}, visit).walk(at, bytes.size(), false, kMetaGroup);
 }
 
 void walkDicom(DicomBytes& bytes, std::uint64_t at, DicomSyntax syntax, const DicomVisitor& visit) {
   Walker(bytes, syntax, visit).walk(at, bytes.size(), false);
+}
+
+bool isRepresentation(const std::array<char, 2>& vr) {
+  constexpr std::string_view kAll =
+      "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC UI UL UN "
+      "UR US UT UV ";
+  return kAll.find(std::string(vr.data(), 2) + ' ') != std::string_view::npos;
 }
 
 std::string tagText(DicomTag tag) {

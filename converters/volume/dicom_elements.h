@@ -58,13 +58,16 @@ struct DicomSyntax {
 using DicomVisitor =
     std::function<void(const DicomElement&, std::span<const DicomTag> path, std::size_t item)>;
 
-/// Walks the file's meta information, group 2, which begins at byte 132; gives where it ends. Throws
-/// what walkDicom() throws.
-std::uint64_t walkDicomMeta(DicomBytes& bytes, const DicomVisitor& visit);
+/// Walks the file's meta information, group 2, from byte `at`; gives where it ends. Throws what
+/// walkDicom() throws.
+std::uint64_t walkDicomMeta(DicomBytes& bytes, std::uint64_t at, const DicomVisitor& visit);
 
 /// Walks the data set from byte `at` to the end of the file. Throws Error(InvalidInput), naming a
 /// byte, for a structure that is damaged or deeper than 16 sequences; the message lacks the file.
 void walkDicom(DicomBytes& bytes, std::uint64_t at, DicomSyntax syntax, const DicomVisitor& visit);
+
+/// True if `vr` is a value representation of DICOM.
+bool isRepresentation(const std::array<char, 2>& vr);
 
 /// "(0028,0010)".
 std::string tagText(DicomTag tag);

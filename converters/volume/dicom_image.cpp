@@ -31,8 +31,7 @@ constexpr std::uint64_t kMaxValue = 1 << 12;
 constexpr std::size_t kMaxFrames = 1 << 16;
 // Rescaled values are stored as floats; GDCM counts them in integers where it can.
 constexpr double kMaxScaling = 1e9;
-// Directions are stored with 6 digits and more.
-constexpr double kUnitTolerance = 1e-3;
+constexpr double kUnitTolerance = 1e-3;  // directions have 6 digits and more
 // Compressed pixels: what an encoder of constant images achieves, beside a floor for small images.
 constexpr double kMaxExpansion = 1032, kAlwaysAllowed = 64 << 20;
 
@@ -262,8 +261,7 @@ void checkGrey(const DicomImage& image) {
 
 /// The pixels that are there are those that the numbers announce.
 void checkPixels(const DicomImage& image) {
-  const auto announced =
-      static_cast<double>(image.frameBytes()) * static_cast<double>(image.frames);
+  const auto announced = static_cast<double>(image.frameBytes() * image.frames);
   const bool native =
       image.packing == DicomPacking::Native || image.packing == DicomPacking::NativeBigEndian;
   if (native == image.pixels.encapsulated)
@@ -289,20 +287,30 @@ void checkPixels(const DicomImage& image) {
                        " bytes of pixels, which cannot come out of " + std::to_string(stored));
 }
 
-enum class Kind { Dicom, Headless, Other };
+/// How a file begins.
+struct Beginning {
+  bool isDicom = false;
+  std::uint64_t at = 0;  ///< of the first element
+  bool hasMeta = false;  ///< group 2 comes first
+  bool hasMark = false;  ///< "DICM" at byte 128
+  bool explicitVr = true;
+};
 
-/// By the mark "DICM" at byte 128; a file that leaves it out begins with a tag of group 2 or 8.
-Kind kindOf(DicomBytes& bytes) {
-  std::array<std::byte, 8> head{};
-  if (bytes.size() < head.size()) return Kind::Other;
-  bytes.read(0, head);
-  constexpr std::size_t kMarkEnd = 132;
+/// Old writers leave the mark out, and the meta information too: such a file begins with an element
+/// of group 2 or 8, little-endian.
+Beginning beginningOf(DicomBytes& bytes) {
+  constexpr std::uint64_t kMarkEnd = 132;
   std::array<std::byte, 4> mark{};
   if (bytes.size() >= kMarkEnd) bytes.read(kMarkEnd - mark.size(), mark);
-  if (std::memcmp(mark.data(), "DICM", mark.size()) == 0) return Kind::Dicom;
+  if (std::memcmp(mark.data(), "DICM", mark.size()) == 0) return {true, kMarkEnd, true, true, true};
+  std::array<std::byte, 8> head{};
+  if (bytes.size() < head.size()) return {};
+  bytes.read(0, head);
   const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(head[i]); };
-  const bool group = (byte(0) == 2 || byte(0) == 8) && byte(1) == 0;
-  return group && byte(2) < 0x20 && byte(3) == 0 ? Kind::Headless : Kind::Other;
+  const bool isGroup = (byte(0) == 2 || byte(0) == 8) && byte(1) == 0;
+  if (!isGroup || byte(2) >= 0x20 || byte(3) != 0) return {};
+  const std::array vr = {static_cast<char>(head[4]), static_cast<char>(head[5])};
+  return {true, 0, byte(0) == 2, false, isRepresentation(vr)};
 }
 
 const Syntax& syntaxOf(const std::string& uid) {
@@ -333,21 +341,29 @@ void fillImage(DicomImage& image, const Content& content, const Syntax& syntax) 
   checkPixels(image);
 }
 
-/// Fills `scan` as far as the file is sound; throws without the file's name.
-void scanInto(DicomScan& scan, const fs::path& file) {
-  DicomBytes bytes(file);
-  const Kind kind = kindOf(bytes);
-  if (kind == Kind::Headless)
-    throw unsupported(
-        "is DICOM without the 128 bytes and \"DICM\" that a file begins with; convert it first, "
-        "for instance with gdcmconv or dcmconv");
-  if (kind == Kind::Other) return;
-  Content meta, content;
-  const std::uint64_t begin = walkDicomMeta(bytes, collectInto(meta, bytes));
-  constexpr const char* kDirectory = "1.2.840.10008.1.3.10";
+/// The meta information's transfer syntax and storage class; where the data set begins.
+std::uint64_t readMeta(DicomBytes& bytes, const Beginning& beginning, std::string& syntax,
+                       std::string& storage) {
+  if (!beginning.hasMeta) {
+    syntax = beginning.explicitVr ? "1.2.840.10008.1.2.1" : "1.2.840.10008.1.2";
+    return beginning.at;
+  }
+  Content meta;
+  const std::uint64_t end = walkDicomMeta(bytes, beginning.at, collectInto(meta, bytes));
   const Reader reader(meta.top, false);
-  if (reader.text(kStorageClass) == kDirectory) return;
-  const Syntax& syntax = syntaxOf(reader.text(kTransferSyntax));
+  syntax = reader.text(kTransferSyntax);
+  storage = reader.text(kStorageClass);
+  return end;
+}
+
+/// Fills `scan` as far as the file is sound; throws without the file's name.
+void scanInto(DicomScan& scan, DicomBytes& bytes, const Beginning& beginning) {
+  std::string uid, storage;
+  const std::uint64_t begin = readMeta(bytes, beginning, uid, storage);
+  constexpr const char* kDirectory = "1.2.840.10008.1.3.10";
+  if (storage == kDirectory) return;
+  const Syntax& syntax = syntaxOf(uid);
+  Content content;
   const DicomVisitor collect = collectInto(content, bytes);
   walkDicom(bytes, begin, syntax.how,
             [&](const DicomElement& element, std::span<const DicomTag> path, std::size_t item) {
@@ -356,21 +372,27 @@ void scanInto(DicomScan& scan, const fs::path& file) {
                 scan.series = Reader(content.top, false).text(kSeries);
             });
   if (content.pixels.tag == 0) return;
-  DicomImage image;
-  image.file = file;
+  DicomImage& image = scan.image.emplace();
   image.series = scan.series;
   fillImage(image, content, syntax);
-  scan.image = std::move(image);
 }
 
 }  // namespace
 
 DicomScan scanDicom(const fs::path& file) {
   DicomScan scan;
+  Beginning beginning{.hasMark = true};
   try {
-    scanInto(scan, file);
+    DicomBytes bytes(file);
+    beginning = beginningOf(bytes);
+    if (!beginning.isDicom) return scan;
+    scanInto(scan, bytes, beginning);
+    if (scan.image) scan.image->file = file;
   } catch (const Error& error) {
-    scan.fault = Error(error.kind(), file.string() + ": " + error.what());
+    scan.image.reset();
+    // without the mark it was a guess
+    if (beginning.hasMark || !scan.series.empty())
+      scan.fault = Error(error.kind(), file.string() + ": " + error.what());
   }
   return scan;
 }

@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -78,7 +79,7 @@ private:
 void limit(int what, std::size_t value) {
   rlimit bound{};
   getrlimit(static_cast<__rlimit_resource>(what), &bound);
-  bound.rlim_cur = std::min<rlim_t>(value, bound.rlim_max);
+  bound.rlim_cur = bound.rlim_max = std::min<rlim_t>(value, bound.rlim_max);
   setrlimit(static_cast<__rlimit_resource>(what), &bound);
 }
 
@@ -90,8 +91,11 @@ std::size_t addressSpace() {
 
 [[noreturn]] void runChild(std::span<std::byte> out, std::size_t addresses, unsigned seconds,
                            const std::function<bool(std::span<std::byte>)>& fill) {
-  for (const int signal : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
     std::signal(signal, SIG_DFL);
+  // Ctrl-C goes to both; the parent ends this one, and its own end does too
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, seconds);
   if (kLimitsMemory && addresses > 0) limit(RLIMIT_AS, addresses);

@@ -267,6 +267,9 @@ ImageHeader readMetaHeader(const fs::path& path, const ReadVolumeOptions& option
   setPacking(fields, header);
   const std::uint64_t stated = header.voxels.offset;
   setMetaFiles(fields, sizes, options, header.voxels);
+  if (stated > 0 && stated < header.voxels.offset)
+    throw fields.refusal("HeaderSize", "at least the " + std::to_string(header.voxels.offset) +
+                                           " bytes of the header");
   if (stated > 0) header.voxels.offset = stated;
   if (header.voxels.files.size() > 1) header.voxels.packedSize.reset();  // of all that were one
   return header;

@@ -175,7 +175,7 @@ std::vector<double> unitsOf(const TextHeader& header, const std::string& field,
   }
   const bool known = std::none_of(units.begin(), units.end(), [](double u) { return u != u; });
   if (known && (units.empty() || units.size() == numbers.size())) return units;
-  assumptions.push_back("its " + field + " are " + cited(text) +
+  assumptions.push_back("its " + field + " are " + formats::printable(text) +
                         ", which are not all known as lengths, so they are taken to be mm; state "
                         "the unit with --unit");
   return {};

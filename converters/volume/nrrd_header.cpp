@@ -152,8 +152,9 @@ bool isBigEndian(const TextHeader& header, const StoredVoxels& voxels) {
 }
 
 /// The files of a field "data file": a name; LIST and then names; or a pattern of names and the
-/// numbers that it runs through. The last two may end with how many axes each file holds.
-DetachedNames detachedNames(const TextHeader& header, std::int64_t& axes) {
+/// numbers that it runs through. The last two may end with how many `axes` each file holds, of
+/// `most`; a single file holds them all.
+DetachedNames detachedNames(const TextHeader& header, std::int64_t most, std::int64_t& axes) {
   const std::string& text = header.text("data file");
   std::vector<std::string> words = wordsOf(text);
   const auto integer = [&](const std::string& word) {
@@ -169,7 +170,10 @@ DetachedNames detachedNames(const TextHeader& header, std::int64_t& axes) {
   }
   // a name may hold spaces, and a per cent sign if no numbers follow it
   const bool pattern = words.size() >= 4 && text.find('%') != std::string::npos;
-  if (!pattern) return namesOfList({text});
+  if (!pattern) {
+    axes = most;
+    return namesOfList({text});
+  }
   if (words.size() == 5) axes = integer(words[4]);
   if (words.size() > 5)
     throw header.refusal("data file", "a pattern without spaces and three or four whole numbers");
@@ -186,22 +190,19 @@ void setFiles(const TextHeader& header, const std::vector<std::int64_t>& sizes,
     return;
   }
   const auto dimension = static_cast<std::int64_t>(sizes.size());
-  std::int64_t axes = -1;
-  const DetachedNames names = detachedNames(header, axes);
-  if (names.count != 1 || axes != -1) {
-    if (axes == -1) axes = dimension - 1;
-    if (axes < 1 || axes > dimension)
-      throw header.refusal("data file", "files of 1 to " + std::to_string(dimension) + " axes");
-    std::uint64_t needed = 1;
-    for (std::int64_t a = axes; a < dimension; ++a)
-      needed *= static_cast<std::uint64_t>(sizes[static_cast<std::size_t>(a)]);
-    const bool slabs = axes == dimension && names.count > 0 &&
-                       static_cast<std::uint64_t>(sizes.back()) % names.count == 0;
-    if (names.count != needed && !slabs)
-      throw invalidInput(header.path().string() + ": its data file names " +
-                         std::to_string(names.count) + " files; expected " +
-                         std::to_string(needed) + " for its sizes " + cited(header.text("sizes")));
-  }
+  std::int64_t axes = dimension - 1;
+  const DetachedNames names = detachedNames(header, dimension, axes);
+  if (axes < 1 || axes > dimension)
+    throw header.refusal("data file", "files of 1 to " + std::to_string(dimension) + " axes");
+  std::uint64_t needed = 1;
+  for (std::int64_t a = axes; a < dimension; ++a)
+    needed *= static_cast<std::uint64_t>(sizes[static_cast<std::size_t>(a)]);
+  const bool slabs = axes == dimension && names.count > 0 &&
+                     static_cast<std::uint64_t>(sizes.back()) % names.count == 0;
+  if (names.count != needed && !slabs)
+    throw invalidInput(header.path().string() + ": its data file names " +
+                       std::to_string(names.count) + " files; expected " + std::to_string(needed) +
+                       " for its sizes " + cited(header.text("sizes")));
   voxels.files = detachedFiles(header.path(), names, options.allowedDetached);
 }
 

@@ -182,12 +182,11 @@ std::uint64_t checkStored(const StoredVoxels& stored, std::vector<std::string>& 
     const std::uint64_t size = fs::file_size(file, error);
     if (error) throw invalidInput(formats::printable(file.string()) + ": " + error.message());
     total += size;
-    // from the header on, or from the file's end backwards
+    // from the header on, and if from the file's end backwards, not into the header
     const double needed =
         leastBytes(stored) + (stored.byteSkip < 0 ? -1 - static_cast<double>(stored.byteSkip)
                                                   : static_cast<double>(stored.byteSkip));
-    double room = static_cast<double>(size);
-    if (stored.byteSkip >= 0) room -= static_cast<double>(stored.offset);
+    const double room = static_cast<double>(size) - static_cast<double>(stored.offset);
     const auto limit = static_cast<double>(stored.packedSize.value_or(size));
     checkRoom(file, needed, std::min(room, limit), stored.packing == Packing::Deflate);
     const bool exact =

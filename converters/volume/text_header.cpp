@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <system_error>
 
 #include "converters/common/text.h"
 #include "formats/container/printable.h"
@@ -67,8 +68,10 @@ HeaderLines::HeaderLines(const std::filesystem::path& path) {
   constexpr std::size_t kMaxHeader = 1 << 22;  // names of 50 000 files
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw invalidInput(path.string() + ": cannot be opened");
-  m_text.resize(kMaxHeader);
-  stream.read(m_text.data(), static_cast<std::streamsize>(kMaxHeader));
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  m_text.resize(static_cast<std::size_t>(std::min<std::uintmax_t>(size, kMaxHeader)));
+  stream.read(m_text.data(), static_cast<std::streamsize>(m_text.size()));
   m_text.resize(static_cast<std::size_t>(stream.gcount()));
 }
 

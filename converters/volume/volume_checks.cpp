@@ -47,7 +47,8 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
   auto& direction = geometry.direction;
   const double fault =
       (direction.transpose() * direction - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(fault <= kDirectionTolerance)) {
+  // Eigen's maxCoeff() may pass over NaN
+  if (!direction.allFinite() || !(fault <= kDirectionTolerance)) {
     std::ostringstream text;
     text << path.string() << ": its axes' directions are not orthogonal unit vectors (off by "
          << fault << "; expected at most " << kDirectionTolerance

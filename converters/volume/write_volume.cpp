@@ -97,8 +97,7 @@ void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format
   if (const auto written = pending->commit(); !written) throw failed(written.error().message);
 }
 
-formats::SourceVolume describeSource(const Volume& volume) {
-  const auto& g = volume.geometry;
+formats::SourceVolume describeGeometry(const VolumeGeometry& g) {
   formats::SourceVolume source;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto e = static_cast<Eigen::Index>(a);
@@ -108,6 +107,11 @@ formats::SourceVolume describeSource(const Volume& volume) {
     for (std::size_t c = 0; c < 3; ++c)
       source.direction[3 * a + c] = g.direction(e, static_cast<Eigen::Index>(c));
   }
+  return source;
+}
+
+formats::SourceVolume describeSource(const Volume& volume) {
+  formats::SourceVolume source = describeGeometry(volume.geometry);
   source.sha256 =
       std::visit([](const auto& v) { return sha256(std::as_bytes(std::span(v))); }, volume.voxels);
   return source;

@@ -15,6 +15,9 @@ namespace lumen::convert {
 void writeVolume(const Volume& volume, const std::filesystem::path& path, VolumeFormat format,
                  bool compressed);
 
+/// The part of the next that needs no voxels.
+formats::SourceVolume describeGeometry(const VolumeGeometry& geometry);
+
 /// The record of `volume` that a case keeps. The digest is SHA-256 over the voxels, x fastest, in
 /// the in-memory pixel type, little-endian.
 formats::SourceVolume describeSource(const Volume& volume);

@@ -133,7 +133,8 @@ Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string&
     HiddenSibling sibling(path, descriptor);
     if (stillExists(descriptor)) return sibling;
   }
-  return writeError(target, "nothing can be made in its folder", error);
+  return writeError(target, "no file can be made in the folder " + folderOf(target).string(),
+                    error);
 }
 
 // The file system does not have what was asked for, which is no failure of the disk.

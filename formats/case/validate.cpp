@@ -2,6 +2,8 @@
 #include "formats/case/validate.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "formats/case/case_as_view.h"
@@ -37,10 +39,24 @@ void checkOtherChunks(const std::vector<OtherChunk>& chunks, IssueList& issues) 
                               {{"chunk", chunks[i].type.substr(0, 4)}}));
 }
 
+// A record holds sizes up to 65535; a label beyond has no record, and its true size is told here.
+bool checkLabelSizes(const std::vector<Branch>& branches, IssueList& issues) {
+  bool right = true;
+  for (std::size_t b = 0; b < branches.size() && !issues.done(); ++b)
+    if (const std::size_t size = branches[b].label.size();
+        size > std::numeric_limits<std::uint16_t>::max()) {
+      issues.add(limitIssue(ErrorCode::TextLength, at("/tree/branches", b) + "/label", size,
+                            kMaxNameBytes));
+      right = false;
+    }
+  return right;
+}
+
 }  // namespace
 
 void checkCase(const Case& value, IssueList& issues) {
   checkMetadata(value.metadata, issues);
+  if (!checkLabelSizes(value.tree.branches, issues)) return;
   const CaseAsView asView(value);
   checkKernels(asView.view(), issues);
   checkModelRules(asView.view(), issues);

@@ -18,6 +18,7 @@ using Bytes = std::span<const std::byte>;
 constexpr std::array<unsigned char, 10> kMagic = {0x8c, 'L',  'U',  'M',  'E',
                                                   'N',  0x0d, 0x0a, 0x1a, 0x0a};
 constexpr std::size_t kHeaderChecksumAt = 60;
+constexpr std::size_t kFlagsAt = 6;  // in an entry of the table
 constexpr std::uint8_t kCriticalFlag = 1;
 constexpr std::uint8_t kIndependentFlag = 2;
 
@@ -91,7 +92,7 @@ Expected<bool> checkVersion(const Header& header) {
   if (header.version.major == 0 || header.minimumReader.major == 0 ||
       header.minimumReader > header.version)
     return Issue{ErrorCode::Version,
-                 10,
+                 header.version.major == 0 ? std::uint64_t{10} : std::uint64_t{12},
                  "version " + versionText(header.version) + " with minimum reader version " +
                      versionText(header.minimumReader) + " does not exist",
                  {{"found", versionText(header.version)}}};
@@ -189,14 +190,17 @@ Expected<bool> checkEntry(const Entry& entry, std::uint64_t entryAt, bool strict
                    entryAt,
                    "chunk type " + hex(entry.chunk.type) + " is not four ASCII letters or digits",
                    {{"found", hex(entry.chunk.type)}}};
-  const bool reservedUsed = (entry.flags & ~(kCriticalFlag | kIndependentFlag)) != 0 ||
-                            firstNonZero(entry.reserved) < entry.reserved.size();
-  if (strict && reservedUsed)
-    return Issue{
-        ErrorCode::ChunkField,
-        entryAt,
-        "chunk " + chunkName(entry.chunk.type) + " has a reserved flag or byte that is not zero",
-        {{"chunk", chunkName(entry.chunk.type)}}};
+  const auto refuse = [&](std::size_t at, const char* what) {
+    const std::string name = chunkName(entry.chunk.type);
+    return Issue{ErrorCode::ChunkField,
+                 entryAt + at,
+                 "chunk " + name + " has a reserved " + what + " that is not zero",
+                 {{"chunk", name}}};
+  };
+  if (!strict) return true;
+  if ((entry.flags & ~(kCriticalFlag | kIndependentFlag)) != 0) return refuse(kFlagsAt, "flag");
+  if (const std::size_t at = firstNonZero(entry.reserved); at < entry.reserved.size())
+    return refuse(kTableEntrySize - entry.reserved.size() + at, "byte");
   return true;
 }
 
@@ -214,10 +218,10 @@ Expected<Chunk> locateChunk(Bytes bytes, const Entry& entry, std::uint64_t entry
                  {{"chunk", chunkName(chunk.type)},
                   {"found", std::to_string(chunk.offset)},
                   {"expected", std::to_string(end)}}};
-  if (end > bytes.size() || entry.storedSize > bytes.size() - end ||
-      (chunk.encoding == 0 && chunk.rawSize != entry.storedSize))
+  const bool fits = end <= bytes.size() && entry.storedSize <= bytes.size() - end;
+  if (!fits || (chunk.encoding == 0 && chunk.rawSize != entry.storedSize))
     return Issue{ErrorCode::ChunkSize,
-                 entryAt + 16,
+                 entryAt + (fits ? 24 : 16),
                  name + " states " + std::to_string(entry.storedSize) + " stored and " +
                      std::to_string(chunk.rawSize) + " raw bytes at byte " + std::to_string(end) +
                      " of " + std::to_string(bytes.size()),

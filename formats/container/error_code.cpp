@@ -74,8 +74,9 @@ constexpr auto kRules = std::to_array<ErrorRule>({
     {EnumValue, Severity::Error, "ENUM_VALUE", "found expected",
      "a kind, stop reason, kernel or array type is none of those that the format defines"},
     {JsonChunkData, Severity::Error, "JSON_CHUNK_DATA", "chunk",
-     "the data of a chunk in JSON are not base64 of a legal size, or its type is that of a known "
-     "chunk"},
+     "the data of a chunk in JSON are not base64, its type is that of a known chunk, or its raw "
+     "size "
+     "is missing, not wanted or too large"},
     {Limit, Severity::Error, "LIMIT", "found limit", "a count exceeds its published maximum"},
     {ArrayLength, Severity::Error, "ARRAY_LENGTH", "found expected",
      "an array has another length than the number of nodes or blobs asks for"},
@@ -121,6 +122,8 @@ constexpr auto kRules = std::to_array<ErrorRule>({
     {IsoLevel, Severity::Error, "ISO_LEVEL", "found expected", "the iso-level is not positive"},
     {WidthRange, Severity::Error, "WIDTH_RANGE", "found expected",
      "a blob's width is not positive"},
+    {LabelOffset, Severity::Error, "LABEL_OFFSET", "found expected",
+     "a label does not start where the one before it ends"},
     {VoxelSize, Severity::Error, "VOXEL_SIZE", "found expected", "the voxel size is not positive"},
     {SourceSize, Severity::Error, "SOURCE_SIZE", "",
      "the source volume has no voxel along an axis"},

@@ -78,6 +78,7 @@ enum class ErrorCode : std::uint16_t {
   KernelParameter = 426,
   IsoLevel = 427,
   WidthRange = 428,
+  LabelOffset = 431,
   // provenance and extensions
   VoxelSize = 501,
   SourceSize = 502,

@@ -8,24 +8,26 @@ namespace {
 
 constexpr std::uint16_t kChunkVersion = 1;
 
-Issue chunkIssue(ErrorCode code, const Chunk& chunk, const std::string& message) {
+// At a byte of the chunk's entry in the table.
+Issue chunkIssue(ErrorCode code, const Chunk& chunk, const std::string& message,
+                 std::uint64_t at = 0) {
   const std::string name = chunkName(chunk.type);
-  return {code, chunk.entryOffset, "chunk " + name + " " + message, {{"chunk", name}}};
+  return {code, chunk.entryOffset + at, "chunk " + name + " " + message, {{"chunk", name}}};
 }
 
 bool checkKnown(const Chunk& chunk, const ChunkRule& rule, IssueList& issues) {
   if (chunk.version != kChunkVersion) {
     Issue issue =
         chunkIssue(ErrorCode::ChunkVersion, chunk,
-                   "has version " + std::to_string(chunk.version) + ", this reader knows 1");
+                   "has version " + std::to_string(chunk.version) + ", this reader knows 1", 4);
     issue.arguments.push_back({"found", std::to_string(chunk.version)});
     issues.add(std::move(issue));
     return false;
   }
   if (chunk.critical != rule.critical) {
-    issues.add(
-        chunkIssue(ErrorCode::ChunkField, chunk,
-                   rule.critical ? "must be marked critical" : "must not be marked critical"));
+    issues.add(chunkIssue(ErrorCode::ChunkField, chunk,
+                          rule.critical ? "must be marked critical" : "must not be marked critical",
+                          6));
     return false;
   }
   return true;

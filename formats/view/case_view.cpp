@@ -72,10 +72,11 @@ public:
     const Chunk& record = m_chunks.at(type);
     if (!require(record, record.stored.size(), kKernelRecordSize)) return;
     const auto reserved = record.stored.subspan(1, 7);
-    if (std::any_of(reserved.begin(), reserved.end(),
-                    [](std::byte b) { return b != std::byte{0}; }))
+    const auto used = std::find_if(reserved.begin(), reserved.end(),
+                                   [](std::byte b) { return b != std::byte{0}; });
+    if (used != reserved.end())
       m_issues.add({ErrorCode::ChunkField,
-                    record.offset + 1,
+                    record.offset + 1 + static_cast<std::uint64_t>(used - reserved.begin()),
                     "chunk " + chunkName(type) + " has a reserved byte that is not zero",
                     {{"chunk", chunkName(type)}}});
     readKernelRecord(record.stored, model);
@@ -105,17 +106,51 @@ std::string_view textOf(const Chunk& chunk) {
   return {reinterpret_cast<const char*>(chunk.stored.data()), chunk.stored.size()};
 }
 
-// The labels must follow each other from the chunk's first byte to its last.
+constexpr std::uint64_t kLabelOffsetAt = 12, kLabelSizeAt = 16;  // in a record
+
+// A fault of a field of a branch's record that describes its label.
+Issue labelIssue(ErrorCode code, const Chunk& records, std::size_t branch, std::uint64_t field,
+                 std::string message) {
+  std::optional<std::uint64_t> at = records.offset;
+  if (records.encoding == 0) *at += branch * kBranchRecordSize + field;
+  return {code, at, std::move(message), {}, "/tree/branches/" + std::to_string(branch) + "/label"};
+}
+
+// The labels must follow each other from the chunk's first byte to its last. Where one does not
+// start at the end of the one before, the size of that one is at fault if what follows agrees.
 void checkLabels(const CaseView& view, const CaseChunks& chunks, IssueList& issues) {
-  const Chunk& labels = chunks.at(chunk::kBranchLabels);
+  const Chunk& records = chunks.at(chunk::kBranchRecords);
+  const std::uint64_t count = view.branchCount(), size = view.branchLabels.size();
+  const auto startOf = [&](std::uint64_t b) {
+    return b < count ? std::uint64_t{view.branch(b).labelOffset} : size;
+  };
   std::uint64_t next = 0;
-  for (std::size_t b = 0; b < view.branchCount(); ++b) {
+  for (std::size_t b = 0; b < count; ++b) {
     const BranchView branch = view.branch(b);
-    if (branch.labelOffset != next || branch.labelSize > view.branchLabels.size() - next)
-      return issues.add(sizeIssue(labels, next + branch.labelSize));
+    if (branch.labelOffset != next) {
+      const bool agrees = b > 0 && branch.labelOffset + branch.labelSize == startOf(b + 1);
+      const std::string found = std::to_string(branch.labelOffset), expected = std::to_string(next);
+      Issue issue =
+          labelIssue(ErrorCode::LabelOffset, records, agrees ? b - 1 : b,
+                     agrees ? kLabelSizeAt : kLabelOffsetAt,
+                     "the label of branch " + std::to_string(b) + " starts at byte " + found +
+                         " of BLAB, the labels before it end at byte " + expected);
+      issue.arguments = {{"found", found}, {"expected", expected}};
+      issues.add(std::move(issue));
+      if (agrees) next = branch.labelOffset;
+    }
     next += branch.labelSize;
   }
-  if (next != view.branchLabels.size()) issues.add(sizeIssue(labels, next));
+  if (next == size) return;
+  Issue issue = sizeIssue(chunks.at(chunk::kBranchLabels), next);
+  if (count > 0) {
+    const std::string message = "the labels of all branches have " + std::to_string(next) +
+                                " bytes, chunk BLAB has " + std::to_string(size);
+    auto arguments = std::move(issue.arguments);
+    issue = labelIssue(issue.code, records, count - 1, kLabelSizeAt, message);
+    issue.arguments = std::move(arguments);
+  }
+  issues.add(std::move(issue));
 }
 
 std::optional<Issue> checkChunks(const Container& container, Verify verify) {

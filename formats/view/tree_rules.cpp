@@ -102,7 +102,8 @@ void checkBranchRules(const CaseView& view, IssueList& issues) {
         branch.nodeCount > view.nodeCount() - next)
       // what follows depends on it
       return issues.add(foundIssue(
-          ErrorCode::BranchRange, pointer,
+          ErrorCode::BranchRange,
+          pointer + (branch.firstNode != next ? "/firstNode" : "/nodeCount"),
           std::to_string(branch.nodeCount) + " nodes from " + std::to_string(branch.firstNode),
           "1 to " + std::to_string(view.nodeCount() - next) + " from " + std::to_string(next)));
     checkBranchNodes(view, b, branch, issues);

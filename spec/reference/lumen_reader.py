@@ -74,7 +74,7 @@ def conform(v, s, at, newer, key=""):  # v, of which the schema s must be true, 
     elif kind != "boolean" and not at.startswith("/nodeArrays"):  # of those, the type is known later
         whole, low, high = type(v) is int and s.get("type") != "number", s.get("minimum", -INF), s.get("maximum", INF)
         if not whole: v = real(v, not at.startswith("/metadata") and key not in ("kernelParameter", "isoLevel"), at)
-        need(at, NUMBER_RANGE=not whole or -2**63 <= v < 2**63 and (v >= 0 or low < 0 or code[:3] in ("RAN", "POI")))
+        need(at, NUMBER_RANGE=not whole or -2**63 <= v < (2**64 if key == "rawSize" else 2**63) and (v >= 0 or low < 0 or code[:3] in ("RAN", "POI")))
         need(at, **{"NUMBER_RANGE" if high == 65535 else code: low <= v <= high and v > s.get("exclusiveMinimum", -INF)})
     return v
 def check_case(m, lacking=()):
@@ -108,7 +108,8 @@ def check_case(m, lacking=()):
     for name, a in arrays.items():
         low, high, array = *((-2**31, 2**31 - 1) if a["type"] == "i32" else (0, 2**32 - 1)), values.get(name, [0] * n * a["components"])
         need(f"/nodeArrays/{name}", ARRAY_LENGTH=len(array) == n * a["components"],
-             NUMBER_RANGE=all(a["type"] == "f32" or type(x) is int and low <= x <= high for x in array))
+             JSON_TYPE=a["type"] == "f32" or all(type(x) is int for x in array))
+        need(f"/nodeArrays/{name}", NUMBER_RANGE=a["type"] == "f32" or all(low <= x <= high for x in array))
         if a["type"] == "f32": array[:] = [real(x, True, f"/nodeArrays/{name}/{i}") for i, x in enumerate(array)]
     for part, items in (("points", "position"), ("models", "centre")):
         offset, count = (g := m.get(part, {"offset": [0] * (n + 1), items: ()}))["offset"], len(g[items])
@@ -117,7 +118,8 @@ def check_case(m, lacking=()):
         for i in range(n): need(f"/{part}/offset/{i + 1}", OFFSET_START=offset[0] == 0, OFFSET_ORDER=offset[i] <= offset[i + 1])
         need(f"/{part}/offset", OFFSET_END=offset[n] == count)
     return need("/otherChunks", JSON_CHUNK_DATA=all(
-        o["type"] not in KNOWN and ("rawSize" in o) == (o["encoding"] > 0) for o in m.get("otherChunks", ()))) or m
+        o["type"] not in KNOWN and ("rawSize" in o) == (o["encoding"] > 0) and (
+            o["encoding"] not in (1, 2) or o["rawSize"] <= 256 * len(base64.b64decode(o["data"]))) for o in m.get("otherChunks", ()))) or m
 
 def read_binary(data):
     need(0, MAGIC=data[:10] == b"\x8cLUMEN\r\n\x1a\n"[:len(data)], TRUNCATED=len(data) >= 64)
@@ -135,7 +137,7 @@ def read_binary(data):
         need(at, CHUNK_CHECKSUM=crc32c(body) == crc, CHUNK_UNKNOWN=(known := name in KNOWN) or not critical)
         need(at, CHUNK_FIELD=not known or critical == (name in CRITICAL), CHUNK_VERSION=not known or version == 1,
              CHUNK_DUPLICATE=name == "NARR" or name not in chunks, CHUNK_ENCODING=not known or encoding < 3 - critical - (name != "PPOS"),
-             CHUNK_EXPANSION=not known or not encoding or raw <= 256 * stored)
+             CHUNK_EXPANSION=encoding not in (1, 2) or raw <= 256 * stored)
         if known: chunks.setdefault(name, []).append((offset, body))
         else: others.append({"type": name, "version": version, "independent": flags & 2 > 0, "encoding": encoding,
                              "data": base64.b64encode(body).decode(), **({"rawSize": raw} if encoding else {})})
@@ -155,7 +157,7 @@ def read_binary(data):
         m["models"] |= zip(("kernel", "kernelParameter", "isoLevel"), (KERNELS[body[0]], *struct.unpack("<dd", body[8:])))
     need(records_at, CHUNK_LENGTH=len(records) % 24 == 0)
     for first, count, parent, start, size, kind, stop, rate in struct.iter_unpack("<IIiIHBBf", records):
-        need(records_at, CHUNK_LENGTH=start == end and end + size <= len(labels), ENUM_VALUE=kind < 2 and stop < 7)
+        need(records_at, LABEL_OFFSET=start == end, CHUNK_LENGTH=end + size <= len(labels), ENUM_VALUE=kind < 2 and stop < 7)
         label, end = labels[end:end + size].decode(errors="surrogateescape"), end + size
         m["tree"]["branches"].append(dict(label=label, kind=KINDS[kind], parentNode=parent, firstNode=first, nodeCount=count,
                                           stopReason=STOPS[stop], **({"meanInlierRate": rate} if rate != -1 else {})))

@@ -14,6 +14,7 @@ import jsonschema
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ANSWERS = ROOT / "spec/answers"
 CONFORMANCE = ROOT / "spec/conformance"
+HOSTILE = ROOT.parent / "shared/hostile"  # not in the repository
 SCHEMAS = {p.name: json.loads(p.read_text()) for p in sorted(ANSWERS.glob("*.schema.json"))}
 BAD = {"no-such-file.lumen": None, "empty.lumen": b"", "text.lumen": b"not a case", "seeds.json": b'{"format": "lumen-seeds"}',
        "cut.nrrd": b"NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n"}
@@ -145,11 +146,20 @@ def conformance_set(lumen, folder):
         if case.name.endswith(".queries.json"): continue
         hold("info-case.schema.json", run(lumen, folder, "info", str(case)), case.name)
         if case.suffix == ".lumen": hold("info-chunks.schema.json", run(lumen, folder, "info", str(case), "--chunks"), case.name)
-    for few in ((), ("--max-issues", "1"), ("--privacy",)):
+    for few in ((), ("--max-issues", "0"), ("--max-issues", "1"), ("--privacy",)):
         files = [str(p) for kind in ("valid", "hostile") for p in sorted((CONFORMANCE / kind).iterdir())]
         hold("validate.schema.json", run(lumen, folder, "validate", *files, *few), f"validate {' '.join(few)} of the conformance set", (3,))
     for case in sorted((CONFORMANCE / "hostile").iterdir())[::20]:
         hold_or_silent("info-case.schema.json", run(lumen, folder, "info", str(case)), case.name)
+
+
+def hostile_files(lumen, folder):
+    files = [f for f in sorted(HOSTILE.glob("*")) if not f.name.endswith("seeds.json")]
+    if not files: return print("skipped: the hostile files, which are not in ../shared/hostile")
+    for file in files:
+        kind = "case" if file.suffix in (".lumen", ".json") else "volume"
+        hold_or_silent(f"info-{kind}.schema.json", run(lumen, folder, "info", str(file)), file.name)
+        hold_or_silent("validate.schema.json", run(lumen, folder, "validate", str(file)), f"validate {file.name}")
 
 
 def broken(value):
@@ -191,6 +201,7 @@ def main():
         make_cases(lumen, folder)
         bad_input(lumen, folder)
         conformance_set(lumen, folder)
+        hostile_files(lumen, folder)
     check_that_faults_are_noticed()
     check_that_all_is_used()
     print(f"{len(SCHEMAS)} schemas, {sum(map(len, kept.values()))} answers, {len(failures)} failures")

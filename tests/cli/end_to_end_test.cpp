@@ -77,10 +77,29 @@ TEST_F(TubeTest, WhatACaseDoesNotHaveIsNull) {
   EXPECT_TRUE(info["error_of_fit_mm"].is_null());
 }
 
-TEST_F(TubeTest, InfoOfAVolumeGivesItsGeometryAndDigest) {
+TEST_F(TubeTest, InfoOfAVolumeGivesItsHeader) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
-  EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "sha256",
-                               "pixel_type", "min", "max"}));
+  EXPECT_EQ(keys(info), (Names{"size", "spacing_mm", "origin_mm", "direction", "stored_type",
+                               "encoding", "voxel_bytes", "stored_bytes"}));
+  EXPECT_EQ(info["stored_type"], "int16");
+  EXPECT_EQ(info["encoding"], "gzip");
+  EXPECT_EQ(info["voxel_bytes"], 64 * 64 * 64 * 2);
+  EXPECT_EQ(info["stored_bytes"], read("tube.nrrd").size());
+}
+
+TEST_F(TubeTest, InfoDoesNotReadVoxelsUnlessAsked) {
+  write("cut.nrrd", read("tube.nrrd").substr(0, 20000));
+  const Outcome header = lumen({"info", "cut.nrrd"});
+  EXPECT_EQ(header.code, 0) << header.err;
+  EXPECT_NE(header.out.find("not read; --voxels"), std::string::npos) << header.out;
+  EXPECT_EQ(lumen({"info", "cut.nrrd", "--voxels"}).code, 3);
+}
+
+TEST_F(TubeTest, InfoOfAVolumeGivesItsGeometryAndDigest) {
+  const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json", "--voxels"}).out);
+  EXPECT_EQ(keys(info),
+            (Names{"size", "spacing_mm", "origin_mm", "direction", "sha256", "pixel_type", "min",
+                   "max", "stored_type", "encoding", "voxel_bytes", "stored_bytes"}));
   EXPECT_EQ(info["size"], Json::array({64, 64, 64}));
   EXPECT_EQ(info["pixel_type"], "int16");
   EXPECT_EQ(info["sha256"].get<std::string>().size(), 64U);
@@ -123,12 +142,14 @@ TEST_F(TubeTest, ACaseBecomesEveryOtherFormatAndBothEncodingsHoldTheSame) {
 }
 
 TEST_F(TubeTest, EveryVolumeFormatThatIsWrittenReadsBackTheSame) {
-  const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
+  const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json", "--voxels"}).out);
   for (const auto& format : app::fileFormats()) {
     if (!app::canWriteVolume(format)) continue;
     const std::string name = std::string("other").append(format.endings.front());
     ASSERT_EQ(lumen({"phantom", "tube", name, "--size", "64"}).code, 0) << name;
-    EXPECT_EQ(Json::parse(lumen({"info", name, "--json"}).out)["sha256"], info["sha256"]) << name;
+    EXPECT_EQ(Json::parse(lumen({"info", name, "--json", "--voxels"}).out)["sha256"],
+              info["sha256"])
+        << name;
   }
 }
 

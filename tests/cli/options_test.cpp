@@ -34,7 +34,7 @@ std::vector<Argument> everyArgument() {
 }
 
 bool isNumber(const Argument& argument) {
-  static const std::set<std::string> kWords = {"FILE", "F", "ID", "NAME", "UNIT", "PATH"};
+  static const std::set<std::string> kWords = {"FILE", "F", "ID", "NAME", "UNIT", "FRAME", "PATH"};
   return !argument.positional && !kWords.contains(argument.type);
 }
 

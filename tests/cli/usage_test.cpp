@@ -88,7 +88,7 @@ TEST_F(UsageTest, WrongArgumentsExitWithTwoAndSayNothingOnStandardOutput) {
       {"convert", "one.lumen", "two.lumen", "three.lumen"},
       {"info", "--nonsense", "one.lumen"},
       {"validate"},
-      {"validate", "one.lumen", "--max-issues", "0"},
+      {"validate", "one.lumen", "--max-issues", "-1"},
       {"convert", "a.lumen", "b.lumen", "--point-bits", "31"},
       {"track", "a.nrrd", "b.lumen", "--inlier-rate", "1.5"},
       {"track", "a.nrrd", "b.lumen", "--rays", "100"},

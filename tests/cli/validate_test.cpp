@@ -99,6 +99,18 @@ TEST_F(ValidateTest, MaxIssuesStopsAndSaysThatThereMayBeMore) {
   EXPECT_EQ(one["files"][0]["complete"], false);
 }
 
+TEST_F(ValidateTest, AWarningFailsOnlyWhenStrict) {
+  std::string text = formats::encodeJson(sample());
+  const std::size_t number = text.find('0', text.find("\"centre\""));
+  text.replace(number, 1, "-0.0");
+  write("a.lumen.json", text);
+  const Outcome lenient = lumen({"validate", "a.lumen.json"});
+  EXPECT_EQ(lenient.code, 0) << lenient.out;
+  EXPECT_TRUE(contains(lenient.out, "warning NEGATIVE_ZERO")) << lenient.out;
+  EXPECT_EQ(lumen({"validate", "a.lumen.json", "--strict"}).code, 3);
+  EXPECT_EQ(lumen({"validate", "good.lumen", "--strict"}).code, 0);
+}
+
 TEST_F(ValidateTest, PrivacyLooksAtTextsOnlyWhenAskedTo) {
   formats::Case value = sample();
   value.metadata.note = "scanned on 2014-03-21";
@@ -177,6 +189,16 @@ TEST_F(ValidateTest, WhatNoMeshHoldsIsSaidInTheHelpAndIsNoWarning) {
     EXPECT_EQ(converted.code, 0) << converted.err;
     EXPECT_FALSE(contains(converted.err, "lumen: ")) << converted.err;
   }
+}
+
+TEST_F(ValidateTest, BranchesThatAMeshLacksAreNamedWithACellThatKeepsThem) {
+  const Outcome converted = lumen({"convert", "good.lumen", "a.stl", "--cell", "50"});
+  EXPECT_EQ(converted.code, 0);
+  for (const char* part : {"a.stl", "\"tube\" has no surface", "50 mm", "--cell"})
+    EXPECT_TRUE(contains(converted.err, part)) << converted.err;
+  const Outcome refused = lumen({"convert", "good.lumen", "b.stl", "--cell", "50", "--strict"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_FALSE(exists("b.stl"));
 }
 
 TEST_F(ValidateTest, ChunksOfOthersSurviveAConversion) {

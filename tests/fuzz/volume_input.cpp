@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -60,10 +61,27 @@ auto accepted(Read read) -> std::optional<decltype(read())> {
     expect(error.kind() == ErrorKind::InvalidInput || error.kind() == ErrorKind::Unsupported,
            "a bad volume is invalid input or unsupported");
     const std::string text = error.what();
-    for (const char c : text)
-      expect(static_cast<unsigned char>(c) >= ' ', "a message has no control characters");
+    for (const char c : text)  // a list of series has lines
+      expect(static_cast<unsigned char>(c) >= ' ' || c == '\n',
+             "a message has no control characters");
     return {};
   }
+}
+
+void readBoth(const fs::path& path, convert::VolumeFormat format) {
+  const Progress silent;
+  const auto header = accepted([&] { return convert::readVolumeHeader(path, format, {}, silent); });
+  if (header) checkGeometry(header->geometry);
+  // voxels of 1032 times the file are legal, but too slow for many inputs
+  constexpr std::uint64_t kMostBytes = 1 << 24;
+  if (header && header->voxelBytes > kMostBytes) return;
+  const auto volume = accepted([&] { return convert::readVolume(path, format, {}, silent); });
+  if (!volume) return;
+  expect(header.has_value(), "a volume that is read has a header");
+  expect(header->geometry.size == volume->geometry.size, "both say the same size");
+  checkGeometry(volume->geometry);
+  const std::size_t count = std::visit([](const auto& v) { return v.size(); }, volume->voxels);
+  expect(count == volume->geometry.voxelCount(), "there are as many voxels as the size says");
 }
 
 }  // namespace
@@ -72,20 +90,23 @@ void readVolumeOf(const std::uint8_t* data, std::size_t size, const std::string&
                   convert::VolumeFormat format) {
   static const Folder folder;
   (void)folder.write("d", data, size);
-  const fs::path file = folder.write(name, data, size);
-  const Progress silent;
-  const auto header = accepted([&] { return convert::readVolumeHeader(file, format, {}, silent); });
-  if (header) checkGeometry(header->geometry);
-  // voxels of 1032 times the file are legal, but too slow for many inputs
-  constexpr std::uint64_t kMostBytes = 1 << 24;
-  if (header && header->voxelBytes > kMostBytes) return;
-  const auto volume = accepted([&] { return convert::readVolume(file, format, {}, silent); });
-  if (!volume) return;
-  expect(header.has_value(), "a volume that is read has a header");
-  expect(header->geometry.size == volume->geometry.size, "both say the same size");
-  checkGeometry(volume->geometry);
-  const std::size_t count = std::visit([](const auto& v) { return v.size(); }, volume->voxels);
-  expect(count == volume->geometry.voxelCount(), "there are as many voxels as the size says");
+  readBoth(folder.write(name, data, size), format);
+}
+
+void readSeriesOf(const std::uint8_t* data, std::size_t size) {
+  constexpr std::string_view kNext = "#next-file#";
+  constexpr std::size_t kMostFiles = 4;
+  static const Folder folder;
+  std::string_view rest(reinterpret_cast<const char*>(data), size);
+  fs::path file;
+  for (std::size_t n = 0; n < kMostFiles; ++n) {
+    const std::size_t end = rest.find(kNext);
+    const std::string_view part = rest.substr(0, end);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + kNext.size());
+    file = folder.write(std::to_string(n), reinterpret_cast<const std::uint8_t*>(part.data()),
+                        part.size());
+  }
+  readBoth(file.parent_path(), convert::VolumeFormat::Dicom);
 }
 
 }  // namespace lumen::fuzz

@@ -13,6 +13,8 @@ lumen_test(formats_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/file_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/full_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_text_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/places_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/memory_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/printable_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/report_test.cpp

@@ -5,11 +5,16 @@ lumen_test(volume_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/bspline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/dicom_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_dicom_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_nifti_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/detached_data_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/header_geometry_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_volume_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/leaks.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/nifti_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/shared_volumes_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/stored_voxels_test.cpp)
 target_include_directories(volume_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume)
 target_link_libraries(volume_test PRIVATE ZLIB::ZLIB)
 

@@ -56,7 +56,7 @@ def run(command, folder, lumen):
         faults.append("fails, but changes " + ", ".join(n for n in after.keys() | before.keys() if after.get(n) != before.get(n)))
     if any(pathlib.Path(name).name.startswith(".") for name in after):
         faults.append("leaves a temporary file behind")
-    if re.search(r"0x[0-9a-f]{6,}", text):
+    if re.search(r"0x[0-9a-f]{9,}", text):
         faults.append("prints an address")
     if str(folder.parent) in text:
         faults.append("prints the path of a file that was named without one")

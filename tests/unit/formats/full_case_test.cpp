@@ -87,7 +87,7 @@ struct JsonChange {
 
 class FullJson : public testing::TestWithParam<JsonChange> {};
 
-// spec: M25, M33
+// spec: M25, M33, M47
 TEST_P(FullJson, IsRefused) {
   const auto result = decodeJson(replaced(GetParam().from, GetParam().to));
   ASSERT_FALSE(result);

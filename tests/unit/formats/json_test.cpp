@@ -260,6 +260,23 @@ TEST(JsonSyntax, IsStrict) {
   }
 }
 
+// spec: M46
+TEST(JsonSyntax, TakesNoIntegerWithAPointOrAnExponent) {
+  for (const char* one : {"1.0", "1e0", "10e-1"}) {
+    EXPECT_EQ(
+        codeOf(decodeJson(replaced("\"firstNode\": 0", std::string("\"firstNode\": ") + one))),
+        "JSON_TYPE");
+    EXPECT_EQ(codeOf(decodeJson(replaced("\"parent\": [-1", std::string("\"parent\": [") + one))),
+              "JSON_TYPE");
+  }
+}
+
+TEST(JsonSyntax, TakesNumbersOfAnySizeInComments) {
+  for (const char* number : {"1e400", "-1e99999999999999999999", "123456789012345678901234567890"})
+    EXPECT_TRUE(decodeJson(
+        replaced("\"format\"", std::string("\"x-a\": [{\"b\": ") + number + "}], \"format\"")));
+}
+
 TEST(JsonSyntax, RefusesANumberBeyondADouble) {
   EXPECT_EQ(codeOf(decodeJson(replaced("\"isoLevel\": 0.1", "\"isoLevel\": 1e999"))),
             "NUMBER_RANGE");

@@ -78,13 +78,13 @@ const Breach kTreeBreaches[] = {
     {"branch_parent_differs", [](Case& c) { c.tree.branches[1].parentNode = 0; }, "BRANCH_PARENT",
      "/tree/branches/1/parentNode"},
     {"range_gap", [](Case& c) { c.tree.branches[1].firstNode = 4; }, "BRANCH_RANGE",
-     "/tree/branches/1"},
+     "/tree/branches/1/firstNode"},
     {"range_empty", [](Case& c) { c.tree.branches[1].nodeCount = 0; }, "BRANCH_RANGE",
-     "/tree/branches/1"},
+     "/tree/branches/1/nodeCount"},
     {"range_too_long", [](Case& c) { c.tree.branches[2].nodeCount = 2; }, "BRANCH_RANGE",
-     "/tree/branches/2"},
+     "/tree/branches/2/nodeCount"},
     {"range_overflow", [](Case& c) { c.tree.branches[2].nodeCount = 0xffffffff; }, "BRANCH_RANGE",
-     "/tree/branches/2"},
+     "/tree/branches/2/nodeCount"},
     {"nodes_without_branch", [](Case& c) { c.tree.branches.pop_back(); }, "BRANCH_RANGE",
      "/tree/branches"},
     {"no_branch", [](Case& c) { c.tree.branches.clear(); }, "BRANCH_RANGE", "/tree/branches"},
@@ -316,6 +316,7 @@ TEST(ValidateRules, OfTheModelAllHaveABreachAbove) {
   for (const Breach& breach : kFullBreaches) covered.insert(breach.code);
   for (const ErrorRule& rule : errorRules())
     if (rule.code >= ErrorCode::Limit && rule.code < ErrorCode::IoMissing &&
+        rule.code != ErrorCode::LabelOffset &&  // of the binary encoding alone
         rule.severity == Severity::Error) {
       EXPECT_TRUE(covered.contains(rule.name)) << rule.name;
     }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "converters/mesh/cell_size.h"
 #include "converters/mesh/write_gltf.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case_field.h"
@@ -238,6 +239,50 @@ TEST(Polygonise, RefusesACaseWithoutModelsOrWithoutACellSize) {
   EXPECT_EQ(errorOf(source, 0.2), ErrorKind{0});
   source.models.reset();
   EXPECT_EQ(errorOf(source, 0.2), ErrorKind::InvalidInput);
+}
+
+/// A tube of 1 mm, and a side branch of 0.1 mm.
+formats::Case wideAndThin() {
+  formats::Case source;
+  source.metadata.voxelSize = 0.1;
+  test::addVessel(source, "wide", test::straightPath({0, 0, 0}, {0.5, 0, 0}, 12), 1.0, 1.0);
+  test::addVessel(source, "thin", test::straightPath({0, 9, 0}, {0.05, 0, 0}, 12), 0.1, 0.1);
+  test::addModels(source);
+  return source;
+}
+
+TEST(Polygonise, CountsWhatCellsThatAreTooCoarseMiss) {
+  for (const double cell : {0.0, 0.4})
+    for (const BranchMesh& mesh : meshesOf(wideAndThin(), cell)) {
+      EXPECT_FALSE(mesh.losses.any()) << mesh.label << cell;
+      EXPECT_EQ(mesh.losses.nodes, 12U);
+    }
+  const auto meshes = meshesOf(wideAndThin(), 4.0);
+  EXPECT_FALSE(meshes[0].losses.any());
+  EXPECT_TRUE(meshes[1].losses.any());
+  EXPECT_NEAR(meshes[1].losses.thinnest, 0.1, 1e-6);
+  // a cell that the counts lead to keeps all
+  for (const BranchMesh& mesh : meshesOf(wideAndThin(), coarsestCellFor(0.1)))
+    EXPECT_FALSE(mesh.losses.any()) << mesh.label;
+}
+
+TEST(Polygonise, CellThatIsTooSmallIsRefusedWithOneThatWillDo) {
+  for (const double cell : {1e-9, 1e-6, 1e-4}) {
+    std::string message;
+    try {
+      meshesOf(test::tubeCase(3), cell);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
+      message = error.what();
+    }
+    const std::string words = "--cell ";
+    const auto at = message.find(words);
+    ASSERT_NE(at, std::string::npos) << cell << message;
+    const double enough = std::stod(message.substr(at + words.size()));
+    EXPECT_GT(enough, cell);
+    EXPECT_LT(enough, 0.01);
+    EXPECT_NO_THROW(checkCell(test::tubeCase(3), enough));
+  }
 }
 
 TEST(Polygonise, StopsWhenCancelled) {

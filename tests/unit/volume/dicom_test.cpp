@@ -2,6 +2,7 @@
 // DICOM series that the tests write themselves: synthetic voxels, explicit little-endian.
 #include <gtest/gtest.h>
 
+#include "dicom_fixture.h"
 #include "fixtures.h"
 
 namespace lumen::convert {
@@ -9,83 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// One slice of 4 x 3 pixels; pixel (i, j) holds first + i + 4 j.
-struct Slice {
-  std::string series = "1.2.3.1", description = "Angio", photometric = "MONOCHROME2";
-  std::string position = "0\\0\\0", orientation = "1\\0\\0\\0\\1\\0", spacing = "0.5\\0.25";
-  std::string slope = "1", intercept = "0";
-  int number = 1, first = 0, columns = 4, rows = 3, samples = 1, frames = 1;
-  std::string frameSpacing{};
-
-  [[nodiscard]] std::string bytes() const {
-    const std::string instance = series + ".9." + std::to_string(number);
-    // a CT image, or a multi-frame secondary capture of 16-bit words
-    const std::string storage =
-        frames == 1 ? "1.2.840.10008.5.1.4.1.1.2" : "1.2.840.10008.5.1.4.1.1.7.3";
-    const std::string meta = uid(2, 2, storage) + uid(2, 3, instance) +
-                             uid(2, 0x10, "1.2.840.10008.1.2.1") + uid(2, 0x12, "1.2.3");
-    std::string data = uid(8, 0x16, storage) + uid(8, 0x18, instance) + text(8, 0x60, "CS", "CT") +
-                       text(8, 0x103e, "LO", description) +
-                       (frameSpacing.empty() ? "" : text(0x18, 0x88, "DS", frameSpacing)) +
-                       uid(0x20, 0xd, "1.2.3") + uid(0x20, 0xe, series) +
-                       text(0x20, 0x13, "IS", std::to_string(number));
-    if (!position.empty()) data += text(0x20, 0x32, "DS", position);
-    data += text(0x20, 0x37, "DS", orientation) + number16(0x28, 2, samples) +
-            text(0x28, 4, "CS", photometric);
-    if (samples > 1) data += number16(0x28, 6, 0);
-    if (frames > 1) data += text(0x28, 8, "IS", std::to_string(frames));
-    data += number16(0x28, 0x10, rows) + number16(0x28, 0x11, columns) +
-            text(0x28, 0x30, "DS", spacing) + number16(0x28, 0x100, samples > 1 ? 8 : 16) +
-            number16(0x28, 0x101, samples > 1 ? 8 : 16) +
-            number16(0x28, 0x102, samples > 1 ? 7 : 15) + number16(0x28, 0x103, 0) +
-            text(0x28, 0x1052, "DS", intercept) + text(0x28, 0x1053, "DS", slope) + pixels();
-    return std::string(128, '\0') + "DICM" + tag(2, 0) + "UL" + raw<std::uint16_t>(4) +
-           raw(static_cast<std::uint32_t>(meta.size())) + meta + data;
-  }
-
-private:
-  template <class T>
-  static std::string raw(T value) {
-    return convert::bytes<T>({value});
-  }
-  static std::string tag(int group, int element) {
-    return raw(static_cast<std::uint16_t>(group)) + raw(static_cast<std::uint16_t>(element));
-  }
-  static std::string text(int group, int element, const char* type, std::string value,
-                          char pad = ' ') {
-    if (value.size() % 2 != 0) value += pad;
-    return tag(group, element) + type + raw(static_cast<std::uint16_t>(value.size())) + value;
-  }
-  static std::string uid(int group, int element, const std::string& value) {
-    return text(group, element, "UI", value, '\0');
-  }
-  static std::string number16(int group, int element, int value) {
-    return tag(group, element) + "US" + raw<std::uint16_t>(2) +
-           raw(static_cast<std::uint16_t>(value));
-  }
-  [[nodiscard]] std::string pixels() const {
-    std::string values;
-    for (int n = 0; n < rows * columns * frames; ++n)
-      values += samples > 1 ? std::string(static_cast<std::size_t>(samples), static_cast<char>(n))
-                            : raw(static_cast<std::uint16_t>(first + n));
-    return tag(0x7fe0, 0x10) + "OW" + raw<std::uint16_t>(0) +
-           raw(static_cast<std::uint32_t>(values.size())) + values;
-  }
-};
-
-class Dicom : public FileTest {
-protected:
-  /// `count` slices 2 mm apart along z, from z = 10; the file names run against the positions.
-  void writeSeries(const std::string& prefix, Slice slice, int count) const {
-    for (int n = 0; n < count; ++n) {
-      slice.number = n + 1;
-      slice.first = 100 * n;
-      slice.position = "-5\\7\\" + std::to_string(10 + 2 * n);
-      write(prefix + std::to_string(90 - n) + ".dcm", slice.bytes());
-    }
-  }
-  [[nodiscard]] std::filesystem::path directory() const { return path("").parent_path(); }
-};
+class Dicom : public DicomTest {};
 
 TEST_F(Dicom, SeriesIsStackedByPosition) {
   writeSeries("a", {}, 4);
@@ -101,7 +26,7 @@ TEST_F(Dicom, SeriesIsStackedByPosition) {
 }
 
 TEST_F(Dicom, CoronalSlicesKeepTheirAxes) {
-  Slice slice;
+  DicomSlice slice;
   slice.orientation =
       "1\\0\\0\\0\\0\\-1";  // rows to the left, columns to the feet: the normal is +y
   for (int n = 0; n < 3; ++n) {
@@ -118,7 +43,7 @@ TEST_F(Dicom, CoronalSlicesKeepTheirAxes) {
 }
 
 TEST_F(Dicom, RescaleIsApplied) {
-  Slice slice;
+  DicomSlice slice;
   slice.intercept = "-1024";
   writeSeries("a", slice, 3);
   const Volume v = readQuietly(directory());
@@ -127,7 +52,7 @@ TEST_F(Dicom, RescaleIsApplied) {
 
 TEST_F(Dicom, SeveralSeriesAreListed) {
   writeSeries("a", {}, 3);
-  Slice other;
+  DicomSlice other;
   other.series = "1.2.3.2";
   other.description = "Mask";
   other.columns = 5;
@@ -141,7 +66,7 @@ TEST_F(Dicom, SeveralSeriesAreListed) {
 
 TEST_F(Dicom, SeriesIsChosenByNumberOrUid) {
   writeSeries("a", {}, 3);
-  Slice other;
+  DicomSlice other;
   other.series = "1.2.3.2";
   other.columns = 5;
   writeSeries("b", other, 4);
@@ -190,7 +115,7 @@ TEST_F(Dicom, SingleSliceIsRefused) {
 
 TEST_F(Dicom, SlicesOfDifferentSizeAreRefused) {
   writeSeries("a", {}, 3);
-  Slice other;
+  DicomSlice other;
   other.columns = 5;
   other.number = 9;
   other.position = "-5\\7\\16";
@@ -199,7 +124,7 @@ TEST_F(Dicom, SlicesOfDifferentSizeAreRefused) {
 }
 
 TEST_F(Dicom, TiltedStackIsRefused) {
-  Slice slice;
+  DicomSlice slice;
   for (int n = 0; n < 4; ++n) {
     slice.number = n + 1;
     slice.position = "0\\" + std::to_string(n) + "\\" + std::to_string(2 * n);
@@ -210,7 +135,7 @@ TEST_F(Dicom, TiltedStackIsRefused) {
 
 TEST_F(Dicom, SpacingThatIsNotPositiveIsRefused) {
   for (const char* bad : {"0\\0", "-0.5\\0.5", ""}) {
-    Slice slice;
+    DicomSlice slice;
     slice.spacing = bad;
     writeSeries("a", slice, 3);
     expectRefused(readRefusal(directory()), {"3: ", "pixel spacing", "positive"});
@@ -218,7 +143,7 @@ TEST_F(Dicom, SpacingThatIsNotPositiveIsRefused) {
 }
 
 TEST_F(Dicom, ImageWithoutAPositionIsRefused) {
-  Slice slice;
+  DicomSlice slice;
   slice.position = "";
   for (int n = 0; n < 3; ++n) {
     slice.number = n + 1;
@@ -228,7 +153,7 @@ TEST_F(Dicom, ImageWithoutAPositionIsRefused) {
 }
 
 TEST_F(Dicom, ColourIsRefused) {
-  Slice slice;
+  DicomSlice slice;
   slice.samples = 3;
   slice.photometric = "RGB";
   writeSeries("a", slice, 3);
@@ -236,7 +161,7 @@ TEST_F(Dicom, ColourIsRefused) {
 }
 
 TEST_F(Dicom, MultiFrameFileIsAVolume) {
-  Slice slice;
+  DicomSlice slice;
   slice.frames = 5;
   slice.frameSpacing = "0.75";
   write("a.dcm", slice.bytes());
@@ -246,7 +171,7 @@ TEST_F(Dicom, MultiFrameFileIsAVolume) {
 }
 
 TEST_F(Dicom, FramesWithoutADistanceAreRefused) {
-  Slice slice;
+  DicomSlice slice;
   slice.frames = 5;
   write("a.dcm", slice.bytes());
   expectRefused(readRefusal(directory()), {"3: ", "a.dcm", "how far its frames are apart"});

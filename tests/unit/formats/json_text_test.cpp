@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Our reader of JSON text against another: what it takes, and the byte at which it stops.
+#include "formats/case/json_text.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "formats/case/json_number.h"
+#include "unit/formats/sample_case.h"
+
+namespace lumen::formats {
+namespace {
+
+using nlohmann::json;
+
+// Puts the events together again.
+class Builder final : public JsonEvents {
+public:
+  bool null() override { return put(nullptr); }
+  bool boolean(bool value) override { return put(value); }
+  bool string(std::string& value) override { return put(value); }
+  bool number(std::string_view text, bool) override {
+    json value = json::parse(text, nullptr, false);
+    tooLarge = tooLarge || value.is_discarded();  // for the other, not for us
+    return put(std::move(value));
+  }
+  bool beginObject() override { return open(json::object()); }
+  bool key(std::string& name) override {
+    m_keys.back() = name;
+    return true;
+  }
+  bool endObject() override { return close(); }
+  bool beginArray() override { return open(json::array()); }
+  bool endArray() override { return close(); }
+  json root;
+  bool tooLarge = false;
+
+private:
+  bool open(json value) {
+    m_open.push_back(std::move(value));
+    m_keys.emplace_back();
+    return true;
+  }
+  bool close() {
+    json value = std::move(m_open.back());
+    m_open.pop_back();
+    m_keys.pop_back();
+    return put(std::move(value));
+  }
+  bool put(json value) {
+    if (m_open.empty())
+      root = std::move(value);
+    else if (m_open.back().is_object())
+      m_open.back()[m_keys.back()] = std::move(value);
+    else
+      m_open.back().push_back(std::move(value));
+    return true;
+  }
+  std::vector<json> m_open;
+  std::vector<std::string> m_keys;
+};
+
+const char* const kTexts[] = {
+    R"({"a": [1, -2.5e-3, 0, -0, 1E+2], "b": {"c": null, "d": [true, false, {}]}, "e": []})",
+    "[\"\\\"\\\\\\/\\b\\f\\n\\r\\t\\u00e9\\ud83d\\ude00\", \"\xc3\xa9 \xf0\x9f\x98\x80\", \"\"]",
+    " \r\n\t[ 0.5 , [ ] , { \"\" : \"x\" } ] "};
+
+void compare(const std::string& text) {
+  Builder builder;
+  const auto fault = readJsonText(text, builder);
+  const json other = json::parse(text, nullptr, false);
+  // the other takes a zero byte for the end, and a byte order mark
+  if (text.find('\0') != std::string::npos || text.starts_with("\xef\xbb\xbf")) return;
+  if (builder.tooLarge) return;
+  ASSERT_EQ(fault.has_value(), other.is_discarded()) << text;
+  if (!fault) {
+    ASSERT_EQ(builder.root, other) << text;
+  }
+}
+
+TEST(JsonText, IsTakenOrNotAsByAnotherReader) {
+  std::mt19937 random(3);
+  const std::string alphabet("\"\\{}[]:, \n0123456789+-.eEutfnr\x01\x80\xc3\xe2\xff", 43);
+  for (const std::string text : kTexts) {
+    compare(text);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      compare(text.substr(0, i));
+      for (const char c : alphabet) {
+        std::string changed = text;
+        changed[i] = c;
+        compare(changed);
+        changed = text;
+        compare(changed.insert(i, 1, c));
+      }
+      std::string changed = text;
+      compare(changed.erase(i, 1));
+    }
+  }
+  for (int round = 0; round < 50000; ++round) {
+    std::string text;
+    for (std::size_t n = random() % 10; n > 0; --n) text += alphabet[random() % alphabet.size()];
+    compare(text);
+  }
+}
+
+// Up to the byte, the text can be completed to JSON; with it, it cannot.
+TEST(JsonText, IsRefusedAtItsFirstByteThatCannotBeRight) {
+  const std::pair<const char*, std::size_t> cases[] = {{"{x", 1},
+                                                       {"", 0},
+                                                       {"[1 2]", 3},
+                                                       {"{\"a\" 5}", 5},
+                                                       {"{\"a\":1,}", 7},
+                                                       {"[1,]", 3},
+                                                       {"[01]", 2},
+                                                       {"[1.]", 3},
+                                                       {"[-]", 2},
+                                                       {"[1e]", 3},
+                                                       {"tru", 3},
+                                                       {"trUe", 2},
+                                                       {"[] x", 3},
+                                                       {"\"a\nb\"", 2},
+                                                       {"\"\xff\"", 1},
+                                                       {"\"\\x\"", 1},
+                                                       {"\"\\ud800\"", 1},
+                                                       {"\"ab", 3},
+                                                       {"[", 1},
+                                                       {"{\"a\":", 5},
+                                                       {"// no\n1", 0},
+                                                       {"'a'", 0},
+                                                       {"[NaN]", 1},
+                                                       {"+1", 0},
+                                                       {"\xef\xbb\xbf[]", 0}};
+  for (const auto& [text, at] : cases) {
+    Builder builder;
+    const auto fault = readJsonText(text, builder);
+    ASSERT_TRUE(fault) << text;
+    EXPECT_EQ(fault->at, at) << text << ": " << fault->message;
+  }
+  Builder builder;
+  EXPECT_EQ(readJsonText("{\n  \"a\": }", builder)->message,
+            "line 2, column 8: found \"}\", expected a value");
+}
+
+// spec: M34
+TEST(JsonNumber, IsRoundedOnceToTheTypeOfItsField) {
+  EXPECT_EQ(floatFromText("1.000000059604644775390625"), 1.0f);  // a tie: to even
+  EXPECT_EQ(floatFromText("1.000000059604644775390626"), 0x1.000002p0f);
+  const json value = numberValue("1.0000000596046447753906250000001", false);
+  EXPECT_EQ(asFloat(value), 0x1.000002p0f);  // a double would have made it the tie
+  EXPECT_EQ(asDouble(value), 0x1.000001p0);
+  EXPECT_EQ(floatFromText("3.4028235677973366e38"), std::numeric_limits<float>::max());
+  EXPECT_FALSE(floatFromText("3.4028235677973367e38"));
+  EXPECT_FALSE(floatFromText("-1e39"));
+  EXPECT_EQ(floatFromText("1e-999999999999999999999"), 0.0f);
+  EXPECT_TRUE(std::signbit(*floatFromText("-1e-60")));
+  EXPECT_EQ(doubleFromText("0.0000001e310"), 1e303);
+  EXPECT_FALSE(doubleFromText("1e99999999999999999999"));
+  EXPECT_FALSE(doubleFromText("1" + std::string(400, '0')));
+  EXPECT_EQ(doubleFromText("0." + std::string(400, '0') + "1e401"), 1.0);
+  EXPECT_EQ(doubleFromText("0e999"), 0.0);
+}
+
+TEST(JsonNumber, OfAnySizeIsARealAndFitsAnIntegerOrNot) {
+  const json large = numberValue("9223372036854775808", true);
+  EXPECT_EQ(asDouble(large), 0x1p63);
+  EXPECT_FALSE(asInteger<std::int64_t>(large));
+  EXPECT_EQ(asInteger<std::uint64_t>(large), std::uint64_t{1} << 63);
+  EXPECT_FALSE(asInteger<std::uint64_t>(numberValue("18446744073709551616", true)));
+  EXPECT_FALSE(asInteger<std::uint64_t>(numberValue("-1", true)));
+  EXPECT_EQ(asInteger<std::uint32_t>(numberValue("-0", true)), 0u);
+  EXPECT_FALSE(isWhole(numberValue("1e400", false)));
+  EXPECT_EQ(numberText(numberValue("1e400", false)), "1e400");
+}
+
+}  // namespace
+}  // namespace lumen::formats
