@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen phantom: a synthetic angiogram with its truth and its seeds.
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -23,21 +24,28 @@ public:
     return "Make a synthetic angiogram with a known truth";
   }
   [[nodiscard]] std::string example() const override {
-    return "  lumen phantom bifurcation fork.nrrd --truth fork-truth.lumen --seeds fork-seeds.json";
+    return "  lumen phantom bifurcation fork.nrrd --truth fork-truth.lumen --seeds "
+           "fork-seeds.json\n"
+           "  lumen phantom --tree arteries.swc arteries.nrrd --voxel 0.3 --seeds "
+           "arteries-seeds.json";
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("NAME", m_options.name, alternatives(convert::phantomNames()))
-        ->required()
-        ->configurable(false)
-        ->check(oneOf(convert::phantomNames()));
-    addFile(app, "OUT", m_output, "Volume to write: " + formatEndings(canWriteVolume));
+    // with --tree the first name is that of the output: sortArguments() says which is which
+    addFile(app, "NAME", m_options.name,
+            alternatives(convert::phantomNames()) + "; left out with --tree")
+        ->required(false);
+    addFile(app, "OUT", m_output, "Volume to write: " + formatEndings(canWriteVolume))
+        ->required(false);
+    addFile(app, "--tree", m_tree,
+            "Draw the arteries of this SWC file, lengths in mm, instead of a named phantom");
     addFile(app, "--truth", m_truth, "Also write the true tree, as a case");
     addFile(app, "--seeds", m_seeds, "Also write the seeds that a user would click");
     addPhantomOptions(app, m_options);
   }
 
   int run(Context& context) override {
+    sortArguments();
     const Outputs outputs = checkOutputs(context);
     const convert::Phantom phantom = convert::makePhantom(m_options, context.progress);
     context.progress.begin("writing", 0);
@@ -55,6 +63,25 @@ private:
     const FileFormat& volume;
     const FileFormat* truth;  ///< null without --truth
   };
+
+  void sortArguments() {
+    const char* const usage = "; usage: lumen phantom NAME OUT, or lumen phantom --tree FILE OUT";
+    if (!m_tree.empty()) {
+      if (!m_output.empty())
+        throw Error(ErrorKind::Usage,
+                    m_options.name + " and --tree are two phantoms, expected one" + usage);
+      m_options.tree = m_tree;
+      m_output = std::exchange(m_options.name, {});
+    } else if (m_options.name.empty()) {
+      throw Error(ErrorKind::Usage, std::string("NAME is missing") + usage);
+    } else {
+      const std::vector<std::string>& known = convert::phantomNames();
+      if (std::find(known.begin(), known.end(), m_options.name) == known.end())
+        throw Error(ErrorKind::Usage, "NAME: found " + m_options.name + ", expected " +
+                                          alternatives(known) + didYouMean(m_options.name, known));
+    }
+    if (m_output.empty()) throw Error(ErrorKind::Usage, std::string("OUT is missing") + usage);
+  }
 
   /// Refuses what could not be written in the end.
   Outputs checkOutputs(Context& context) const {
@@ -93,7 +120,7 @@ private:
   }
 
   convert::PhantomOptions m_options;
-  std::string m_output, m_truth, m_seeds;
+  std::string m_tree, m_output, m_truth, m_seeds;
 };
 
 }  // namespace

@@ -288,9 +288,20 @@ void addMeshOptions(CLI::App& app, OutputOptions& output) {
 
 void addPhantomOptions(CLI::App& app, convert::PhantomOptions& phantom) {
   Group group(app, "Phantom");
-  group.add("--size", phantom.size, "N", "Voxels along an edge; 0: 128, or 256 for patient")
+  group
+      .add("--size", phantom.size, "N",
+           "Voxels along an edge; 0: 128, or 256 for patient; not with --tree")
       ->check(within(0, 1024));
   group.add("--voxel", phantom.voxel, "MM", "Edge of a voxel")->check(numberIn({0.01, 10}));
+  group
+      .add("--slice-thickness", phantom.sliceThickness, "MM",
+           "Thickness of a slice along z, which is the mean over it; 0: a voxel, or five for "
+           "thick-slices")
+      ->check(kNotNegative);
+  group
+      .add("--fade", phantom.fade, "SHARE",
+           "Share of the contrast that is lost at the end farthest from the root")
+      ->check(kShare);
   group
       .add("--noise", phantom.noise, "SHARE",
            "Standard deviation of the noise, as a share of the contrast")

@@ -17,6 +17,15 @@ formats::Vec3f asFloat(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
+// Unit. Where a path turns back on itself, the way on; where it stands still, the z axis.
+Eigen::Vector3d directionAt(const Path& path, std::size_t i) {
+  const Eigen::Vector3d& before = path[i == 0 ? 0 : i - 1].position;
+  const Eigen::Vector3d& after = path[std::min(i + 1, path.size() - 1)].position;
+  if (after != before) return (after - before).normalized();
+  if (after != path[i].position) return (after - path[i].position).normalized();
+  return Eigen::Vector3d::UnitZ();
+}
+
 }  // namespace
 
 double Frame::radiusScale() const {
@@ -91,10 +100,8 @@ std::uint32_t TreeBuilder::add(const std::string& label, std::int32_t parent, co
   tree.branches.push_back(branch);
   const double height = pathLength(even) / static_cast<double>(even.size() - 1);
   for (std::size_t i = 0; i < even.size(); ++i) {
-    const Eigen::Vector3d& before = even[i == 0 ? 0 : i - 1].position;
-    const Eigen::Vector3d& after = even[std::min(i + 1, even.size() - 1)].position;
     tree.centre.push_back(asFloat(even[i].position));
-    tree.direction.push_back(asFloat((after - before).normalized()));
+    tree.direction.push_back(asFloat(directionAt(even, i)));
     tree.radius.push_back(static_cast<float>(even[i].radius));
     tree.height.push_back(static_cast<float>(height));
     tree.parent.push_back(i == 0 ? branch.parentNode : static_cast<std::int32_t>(first + i) - 1);
@@ -102,6 +109,22 @@ std::uint32_t TreeBuilder::add(const std::string& label, std::int32_t parent, co
     m_design.contrast.push_back(1.0F);
   }
   return index;
+}
+
+void fadeContrast(Design& design, double share) {
+  const formats::CenterlineTree& tree = design.tree;
+  std::vector<double> way;
+  double farthest = 0;
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
+    const auto parent = static_cast<std::uint32_t>(tree.parent[n]);
+    way.push_back(tree.parent[n] == formats::kNoParent
+                      ? 0
+                      : way[parent] + (nodeCentre(tree, n) - nodeCentre(tree, parent)).norm());
+    farthest = std::max(farthest, way.back());
+  }
+  if (share == 0 || farthest == 0) return;
+  for (std::size_t n = 0; n < way.size(); ++n)
+    design.contrast[n] *= static_cast<float>(1 - share * way[n] / farthest);
 }
 
 Eigen::Vector3d nodeCentre(const formats::CenterlineTree& tree, std::uint32_t node) {

@@ -93,6 +93,19 @@ Eigen::Vector3d randomInCube(Random& random);
 ///   distance to the wall (within 10 %).
 std::vector<SeedBranch> clickSeeds(const formats::CenterlineTree& tree, Random& random);
 
+/// The clicks on a tree that came from a file, parents first: one for each vessel that is longer
+/// than 5 mm and has a median radius of at least 1.5 voxels. Each lies a fifth of the radius off
+/// the axis: of a root half a radius past its start, of a child where its axis is 1.5 to 1.75
+/// parent radii away from its parent's, or four along the vessel. A child of a vessel that has no
+/// click hangs on the nearest one upstream that has one, or is a root. Radii and directions are
+/// given where clickSeeds() gives them.
+std::vector<SeedBranch> clickLargeVessels(const formats::CenterlineTree& tree, double voxel,
+                                          Random& random);
+
+/// Lowers the contrast in proportion to the way from the root, by `share` of it at the end that is
+/// farthest.
+void fadeContrast(Design& design, double share);
+
 Design designTube(const Frame& frame);
 Design designHelix(const Frame& frame);
 Design designBifurcation(const Frame& frame);
@@ -100,6 +113,12 @@ Design designKissing(const Frame& frame);
 Design designAneurysm(const Frame& frame);
 Design designStenosis(const Frame& frame);
 Design designDropout(const Frame& frame);
+Design designSacLobes(const Frame& frame);
+Design designCompanion(const Frame& frame);
+Design designHairpin(const Frame& frame);
+Design designRightAngle(const Frame& frame);
+Design designFading(const Frame& frame);
+Design designThickSlices(const Frame& frame);
 Design designPatient(const Frame& frame, std::uint64_t seed, Progress& progress);
 
 }  // namespace lumen::convert

@@ -24,6 +24,10 @@ constexpr int kSubvoxels = 3;             // along each edge
 constexpr double kHalfDiagonal = 0.8661;  // of a unit cube
 constexpr int kColumns = 64;              // adjacent lines that one pass across rows takes together
 
+Vector3d centreOf(const Grid& grid, int x, int y, int z) {
+  return grid.origin + grid.voxel * Vector3d(x, y, z);
+}
+
 struct Segment {
   RoundCone cone;
   Vector3d low, high;  // mm: the box of the cone and of the voxels that it may share
@@ -43,21 +47,23 @@ std::vector<Segment> segmentsOf(const formats::CenterlineTree& tree, double marg
   return segments;
 }
 
-// Lowers the signed distances, in mm, of one slab of the cube to those of a segment.
-void drawSegment(const Segment& segment, double voxel, int zFirst, int zLast, Cube& cube) {
+// Lowers the signed distances, in mm, of one slab of the image to those of a segment.
+void drawSegment(const Segment& segment, const Grid& grid, int zFirst, int zLast, Image& image) {
   const auto lowest = [&](int axis, int limit) {
-    return std::max(limit, static_cast<int>(std::ceil(segment.low[axis] / voxel)));
+    return std::max(
+        limit, static_cast<int>(std::ceil((segment.low[axis] - grid.origin[axis]) / grid.voxel)));
   };
   const auto highest = [&](int axis, int limit) {
-    return std::min(limit, static_cast<int>(std::floor(segment.high[axis] / voxel)));
+    return std::min(
+        limit, static_cast<int>(std::floor((segment.high[axis] - grid.origin[axis]) / grid.voxel)));
   };
-  const int x0 = lowest(0, 0), x1 = highest(0, cube.n - 1);
+  const int x0 = lowest(0, 0), x1 = highest(0, grid.size[0] - 1);
   for (int z = lowest(2, zFirst); z <= highest(2, zLast); ++z)
-    for (int y = lowest(1, 0); y <= highest(1, cube.n - 1); ++y) {
-      float* row = cube.row(y, z);
+    for (int y = lowest(1, 0); y <= highest(1, grid.size[1] - 1); ++y) {
+      float* row = image.row(y, z);
       for (int x = x0; x <= x1; ++x)
         row[x] =
-            std::min(row[x], static_cast<float>(segment.cone.distance(voxel * Vector3d(x, y, z))));
+            std::min(row[x], static_cast<float>(segment.cone.distance(centreOf(grid, x, y, z))));
     }
 }
 
@@ -102,11 +108,11 @@ LUMEN_SIMD_CLONES void weightedSum(const float* in, const float* weights, std::s
     for (std::size_t i = 0; i < count; ++i) out[i] += weights[k] * in[i + k * stride];
 }
 
-void blurRows(Cube& cube, const std::vector<float>& weights, int z) {
-  const auto n = static_cast<std::size_t>(cube.n), reach = weights.size() / 2;
+void blurRows(Image& image, const std::vector<float>& weights, int z) {
+  const auto n = static_cast<std::size_t>(image.size[0]), reach = weights.size() / 2;
   std::vector<float> padded(n + 2 * reach);
-  for (int y = 0; y < cube.n; ++y) {
-    float* row = cube.row(y, z);
+  for (int y = 0; y < image.size[1]; ++y) {
+    float* row = image.row(y, z);
     for (std::size_t i = 0; i < padded.size(); ++i)
       padded[i] = row[std::min(n - 1, i < reach ? 0 : i - reach)];
     weightedSum(padded.data(), weights.data(), weights.size(), 1, row, n);
@@ -148,7 +154,7 @@ std::array<Wave, 4> biasWaves(int n, std::uint64_t seed) {
 
 // Adds the mean of the waves times `bias` to a row, each wave by turning a phasor from voxel to
 // voxel.
-void addBias(float* row, int n, int y, int z, const std::array<Wave, 4>& waves, double bias) {
+void addBias(float* row, int n, int y, double z, const std::array<Wave, 4>& waves, double bias) {
   for (const Wave& wave : waves) {
     const double start = wave.phase + wave.perVoxel.y() * y + wave.perVoxel.z() * z;
     double c = std::cos(start), s = std::sin(start);
@@ -164,63 +170,92 @@ void addBias(float* row, int n, int y, int z, const std::array<Wave, 4>& waves, 
 
 }  // namespace
 
-Cube drawOccupancy(const Design& design, const Frame& frame, int size, Progress& progress) {
-  const auto n = static_cast<std::size_t>(size);
-  Cube cube{size, std::vector<float>(n * n * n, kFar)};
-  const double rim = kHalfDiagonal * frame.voxel;
+Image drawOccupancy(const Design& design, const Grid& grid, Progress& progress) {
+  const auto [nx, ny, nz] = grid.size;
+  Image image{grid.size,
+              std::vector<float>(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
+                                     static_cast<std::size_t>(nz),
+                                 kFar)};
+  const double rim = kHalfDiagonal * grid.voxel;
   const std::vector<Segment> segments = segmentsOf(design.tree, rim);
   const TubeTreeDistance wall(design.tree);
   const bool uniform = std::all_of(design.contrast.begin(), design.contrast.end(),
                                    [](float c) { return c == 1.0F; });
   constexpr int kSlab = 4;
-  tbb::parallel_for(0, (size + kSlab - 1) / kSlab, [&](int slab) {
-    const int zFirst = slab * kSlab, zLast = std::min(size, zFirst + kSlab) - 1;
+  tbb::parallel_for(0, (nz + kSlab - 1) / kSlab, [&, nx = nx, ny = ny, nz = nz](int slab) {
+    const int zFirst = slab * kSlab, zLast = std::min(nz, zFirst + kSlab) - 1;
     for (const Segment& segment : segments)
-      if (segment.high.z() >= zFirst * frame.voxel && segment.low.z() <= zLast * frame.voxel)
-        drawSegment(segment, frame.voxel, zFirst, zLast, cube);
+      if (segment.high.z() >= centreOf(grid, 0, 0, zFirst).z() &&
+          segment.low.z() <= centreOf(grid, 0, 0, zLast).z()) {
+        progress.check();
+        drawSegment(segment, grid, zFirst, zLast, image);
+      }
     std::vector<std::uint32_t> near;
     for (int z = zFirst; z <= zLast; ++z) {
       progress.check();
-      for (int y = 0; y < size; ++y) {
-        float* row = cube.row(y, z);
-        for (int x = 0; x < size; ++x) {
+      for (int y = 0; y < ny; ++y) {
+        float* row = image.row(y, z);
+        for (int x = 0; x < nx; ++x) {
           const double distance = static_cast<double>(row[x]);
           if (distance >= rim)
             row[x] = 0;
           else if (distance <= -rim && uniform)
             row[x] = 1;
           else
-            row[x] = static_cast<float>(occupancyOf(
-                wall, design.contrast, frame.voxel * Vector3d(x, y, z), frame.voxel, near));
+            row[x] = static_cast<float>(
+                occupancyOf(wall, design.contrast, centreOf(grid, x, y, z), grid.voxel, near));
         }
       }
       progress.advance();
     }
   });
-  return cube;
+  return image;
 }
 
-void blur(Cube& cube, double sigma, Progress& progress) {
+void blur(Image& image, double sigma, Progress& progress) {
   if (sigma <= 0) return;
   const std::vector<float> weights = gaussianWeights(sigma);
-  const auto n = static_cast<std::size_t>(cube.n);
-  const auto columns = [&](float* first, std::size_t step, std::vector<float>& padded) {
-    for (std::size_t x = 0; x < n; x += kColumns)
-      blurColumns(first + x, n, step, std::min<std::size_t>(kColumns, n - x), weights, padded);
+  const auto nx = static_cast<std::size_t>(image.size[0]),
+             ny = static_cast<std::size_t>(image.size[1]),
+             nz = static_cast<std::size_t>(image.size[2]);
+  const auto columns = [&](float* first, std::size_t n, std::size_t step,
+                           std::vector<float>& padded) {
+    for (std::size_t x = 0; x < nx; x += kColumns)
+      blurColumns(first + x, n, step, std::min<std::size_t>(kColumns, nx - x), weights, padded);
   };
-  tbb::parallel_for(0, cube.n, [&](int z) {
+  tbb::parallel_for(0, image.size[2], [&](int z) {
     progress.check();
     std::vector<float> padded;
-    blurRows(cube, weights, z);
-    columns(cube.row(0, z), n, padded);
+    blurRows(image, weights, z);
+    columns(image.row(0, z), ny, nx, padded);
     progress.advance();
   });
-  tbb::parallel_for(0, cube.n, [&](int y) {
+  tbb::parallel_for(0, image.size[1], [&](int y) {
     progress.check();
     std::vector<float> padded;
-    columns(cube.row(y, 0), n * n, padded);
+    columns(image.row(y, 0), nz, nx * ny, padded);
     progress.advance();
   });
+}
+
+Image averageSlices(const Image& image, double thickness) {
+  const auto slice =
+      static_cast<std::size_t>(image.size[0]) * static_cast<std::size_t>(image.size[1]);
+  const int count = static_cast<int>(image.size[2] / thickness * (1 + 1e-12));
+  Image thick{{image.size[0], image.size[1], count},
+              std::vector<float>(slice * static_cast<std::size_t>(count), 0.0F)};
+  tbb::parallel_for(0, count, [&](int k) {
+    // voxel z reaches from z to z + 1
+    const double low = k * thickness, high = low + thickness;
+    float* out = thick.row(0, k);
+    for (int z = static_cast<int>(low); z < image.size[2] && z < high; ++z) {
+      const auto weight = static_cast<float>(
+          (std::min(high, z + 1.0) - std::max(low, static_cast<double>(z))) / thickness);
+      const float* in = image.value.data() + static_cast<std::size_t>(z) * slice;
+      for (std::size_t i = 0; i < slice; ++i) out[i] += weight * in[i];
+    }
+  });
+  return thick;
 }
 
 double countedNormal(Random& random) {
@@ -233,22 +268,25 @@ double countedNormal(Random& random) {
   return (ones - 64 + (u + v - 1)) * kPerDeviation;
 }
 
-std::vector<std::int16_t> degrade(Cube& cube, double bias, double noise, std::uint64_t seed,
-                                  Progress& progress) {
-  const auto n = static_cast<std::size_t>(cube.n);
-  const std::array<Wave, 4> waves = biasWaves(cube.n, seed);
-  std::vector<std::int16_t> voxels(n * n * n);
-  tbb::parallel_for(0, cube.n, [&](int z) {
+std::vector<std::int16_t> degrade(Image& image, double bias, double noise, std::uint64_t seed,
+                                  double thickness, Progress& progress) {
+  const auto [nx, ny, nz] = image.size;
+  const int depth = static_cast<int>(std::lround(nz * thickness));
+  const std::array<Wave, 4> waves = biasWaves(std::max({nx, ny, depth}), seed);
+  std::vector<std::int16_t> voxels(image.value.size());
+  tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int z) {
     progress.check();
-    for (int y = 0; y < cube.n; ++y) {
-      float* row = cube.row(y, z);
-      const std::size_t line = static_cast<std::size_t>(z) * n + static_cast<std::size_t>(y);
-      if (bias > 0) addBias(row, cube.n, y, z, waves, bias);
+    for (int y = 0; y < ny; ++y) {
+      float* row = image.row(y, z);
+      const std::size_t line =
+          static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y);
+      if (bias > 0) addBias(row, nx, y, thickness * z, waves, bias);
       Random random(seed, line);
-      for (std::size_t x = 0; x < n; ++x) {
+      std::int16_t* out = voxels.data() + line * static_cast<std::size_t>(nx);
+      for (int x = 0; x < nx; ++x) {
         double value = static_cast<double>(row[x]);
         if (noise > 0) value += noise * countedNormal(random);
-        voxels[line * n + x] = static_cast<std::int16_t>(
+        out[x] = static_cast<std::int16_t>(
             std::clamp(std::nearbyint(kBackground + kContrast * value), -32768.0, 32767.0));
       }
     }

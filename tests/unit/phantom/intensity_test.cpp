@@ -84,23 +84,23 @@ TEST(PhantomIntensity, SumsToTheVolumeOfTheVessel) {
 TEST(PhantomIntensity, BlurKeepsTheSum) {
   Progress progress;
   const Frame frame{0.2, 12.6};
-  Cube cube = drawOccupancy(designHelix(frame), frame, 64, progress);
-  const double sharp = std::accumulate(cube.value.begin(), cube.value.end(), 0.0);
-  blur(cube, 1.5, progress);
-  EXPECT_NEAR(std::accumulate(cube.value.begin(), cube.value.end(), 0.0), sharp, 1e-5 * sharp);
+  Image image = drawOccupancy(designHelix(frame), Grid{{64, 64, 64}, 0.2}, progress);
+  const double sharp = std::accumulate(image.value.begin(), image.value.end(), 0.0);
+  blur(image, 1.5, progress);
+  EXPECT_NEAR(std::accumulate(image.value.begin(), image.value.end(), 0.0), sharp, 1e-5 * sharp);
 }
 
 TEST(PhantomIntensity, BlurSpreadsAnImpulseByItsSigma) {
-  Cube cube{21, std::vector<float>(21 * 21 * 21, 0.0F)};
-  cube.row(10, 10)[10] = 1;
+  Image image{{21, 21, 21}, std::vector<float>(21 * 21 * 21, 0.0F)};
+  image.row(10, 10)[10] = 1;
   Progress progress;
-  blur(cube, 1.5, progress);
+  blur(image, 1.5, progress);
   double sum = 0, square = 0;
   for (int z = 0; z < 21; ++z)
     for (int y = 0; y < 21; ++y)
       for (int x = 0; x < 21; ++x) {
-        sum += static_cast<double>(cube.row(y, z)[x]);
-        square += static_cast<double>(cube.row(y, z)[x]) * (z - 10) * (z - 10);
+        sum += static_cast<double>(image.row(y, z)[x]);
+        square += static_cast<double>(image.row(y, z)[x]) * (z - 10) * (z - 10);
       }
   EXPECT_NEAR(sum, 1, 1e-5);
   EXPECT_NEAR(square, 1.5 * 1.5, 0.01);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A centerline as files of other programs hold it: points with radii that hang on one another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lumen::convert {
+
+constexpr std::int32_t kNoPoint = -1;
+
+struct CenterlinePoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the file's unit and axes, finite
+  double radius = 0;                                   ///< in the same unit, > 0
+  std::int32_t parent = kNoPoint;                      ///< index of a point before this one
+  std::int32_t type = 0;                               ///< as the file says
+};
+
+/// One or several trees. Parents come before their children.
+struct CenterlineFile {
+  std::vector<CenterlinePoint> points;
+};
+
+/// A way without forks: what one vessel is.
+struct CenterlineChain {
+  /// Indices of points. A chain that hangs on another one does not repeat the point it hangs on.
+  std::vector<std::int32_t> points;
+  std::int32_t parent = -1;      ///< index of a chain before this one, or -1
+  std::size_t parentSample = 0;  ///< which of the parent's points it hangs on
+};
+
+/// The trees of a file as chains, parents first. Points at the place of their parent are one with
+/// it. At a fork the widest child goes on as the same chain, of equals the one that turns least;
+/// the others begin chains of their own. Points at the place of a root that has no others are a
+/// chain of one point.
+std::vector<CenterlineChain> chainsOf(const CenterlineFile& file);
+
+}  // namespace lumen::convert

@@ -1,0 +1,6 @@
+lumen_test(centerline_test
+  LABELS memory
+  LIBS lumen_centerline
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/centerline/chains_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/centerline/read_swc_test.cpp)

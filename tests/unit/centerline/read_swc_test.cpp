@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/centerline/read_swc.h"
+
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "converters/common/error.h"
+
+namespace lumen::convert {
+namespace {
+
+// The message of the refusal, or "" if the text is read.
+std::string refusal(const std::string& text) {
+  try {
+    parseSwc(text, "tree.swc");
+    return {};
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
+    return error.what();
+  }
+}
+
+TEST(ReadSwc, APointHasItsPositionRadiusTypeAndParent) {
+  const CenterlineFile file = parseSwc("1 1 0.5 -2 3e1 4 -1\n2 3 1 2 3 .25 1\n", "tree.swc");
+  ASSERT_EQ(file.points.size(), 2U);
+  EXPECT_EQ(file.points[0].position, Eigen::Vector3d(0.5, -2, 30));
+  EXPECT_EQ(file.points[0].radius, 4);
+  EXPECT_EQ(file.points[0].type, 1);
+  EXPECT_EQ(file.points[0].parent, kNoPoint);
+  EXPECT_EQ(file.points[1].radius, 0.25);
+  EXPECT_EQ(file.points[1].type, 3);
+  EXPECT_EQ(file.points[1].parent, 0);
+}
+
+TEST(ReadSwc, CommentsBlankLinesTabsAndFurtherColumnsAreNoPoints) {
+  const CenterlineFile file = parseSwc(
+      "# ORIGINAL_SOURCE NeuroMorpho\n##n,type,x,y,z,radius,parent\n\n  \t\n"
+      "\t1\t2 0 0 0 1  -1   0 17 abc\n2 2 1 0 0 1 1 # a remark",
+      "tree.swc");
+  EXPECT_EQ(file.points.size(), 2U);
+}
+
+TEST(ReadSwc, LinesEndInEveryWay) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const std::string text =
+        "# head" + end + "1 0 0 0 0 1 -1" + end + end + "2 0 1 0 0 1 1" + end + "3 0 2 0 0 x 2";
+    EXPECT_NE(refusal(text).find("line 5: the radius is \"x\""), std::string::npos)
+        << refusal(text);
+  }
+}
+
+TEST(ReadSwc, AByteOrderMarkAndIdsWrittenAsRealNumbersAreRead) {
+  const CenterlineFile file = parseSwc(
+      "\xEF\xBB\xBF"
+      "1.000e+00 0.0 0 0 0 1 -1.0\n2.0 0 1 0 0 +1 1.0",
+      "tree.swc");
+  EXPECT_EQ(file.points[1].parent, 0);
+  EXPECT_EQ(file.points[1].radius, 1);
+}
+
+TEST(ReadSwc, ParentsComeFirstWhereverTheyStandAndWhateverTheirIds) {
+  // 70 <- 5 <- 900, and a root of its own in between
+  const CenterlineFile file =
+      parseSwc("900 0 3 0 0 1 5\n70 0 1 0 0 1 -1\n8 0 9 0 0 1 -1\n5 0 2 0 0 1 70\n", "tree.swc");
+  ASSERT_EQ(file.points.size(), 4U);
+  EXPECT_EQ(file.points[0].position.x(), 1);
+  EXPECT_EQ(file.points[1].position.x(), 9);
+  EXPECT_EQ(file.points[2].position.x(), 2);
+  EXPECT_EQ(file.points[3].position.x(), 3);
+  EXPECT_EQ(file.points[1].parent, kNoPoint);
+  EXPECT_EQ(file.points[2].parent, 0);
+  EXPECT_EQ(file.points[3].parent, 2);
+}
+
+TEST(ReadSwc, PointsKeepTheOrderOfTheFileWhereParentsComeFirst) {
+  const CenterlineFile file = parseSwc(
+      "1 0 1 0 0 1 -1\n2 0 2 0 0 1 1\n3 0 3 0 0 1 1\n4 0 4 0 0 1 2\n5 0 5 0 0 1 3\n", "tree.swc");
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(file.points[i].position.x(), static_cast<double>(i) + 1);
+}
+
+struct Refused {
+  const char* text;
+  const char* message;
+};
+
+class ReadSwcRefuses : public testing::TestWithParam<Refused> {};
+
+TEST_P(ReadSwcRefuses, SayingLineFoundAndExpected) {
+  EXPECT_EQ(refusal(GetParam().text), "tree.swc: " + std::string(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Texts, ReadSwcRefuses,
+    testing::Values(
+        Refused{"", "has no points; expected: id type x y z radius parent"},
+        Refused{"# only\n\n", "has no points; expected: id type x y z radius parent"},
+        Refused{"1 0 0 0 0 1\n",
+                "line 1: has 6 of 7 columns; expected: id type x y z radius parent"},
+        Refused{"1,0,0,0,0,1,-1\n",
+                "line 1: has 1 of 7 columns; expected: id type x y z radius parent"},
+        Refused{"1 0 1,5 0 0 1 -1\n", "line 1: x is \"1,5\"; expected a number"},
+        Refused{"1 0 0 nan 0 1 -1\n", "line 1: y is \"nan\"; expected a number"},
+        Refused{"1 0 0 0 -inf 1 -1\n", "line 1: z is \"-inf\"; expected a number"},
+        Refused{"1 0 1e400 0 0 1 -1\n", "line 1: x is \"1e400\"; expected a number"},
+        Refused{"1 0 +-1 0 0 1 -1\n", "line 1: x is \"+-1\"; expected a number"},
+        Refused{"1 0 2e9 0 0 1 -1\n", "line 1: x is \"2e9\"; expected -1e9 to 1e9"},
+        Refused{"1 0 0 0 0 0 -1\n",
+                "line 1: the radius is \"0\"; expected a positive number up to 1e9"},
+        Refused{"1 0 0 0 0 -1 -1\n",
+                "line 1: the radius is \"-1\"; expected a positive number up to 1e9"},
+        Refused{"1.5 0 0 0 0 1 -1\n",
+                "line 1: the id is \"1.5\"; expected a whole number from 0 to 2147483647"},
+        Refused{"3000000000 0 0 0 0 1 -1\n",
+                "line 1: the id is \"3000000000\"; expected a whole number from 0 to 2147483647"},
+        Refused{"1 0 0 0 0 1 -2\n",
+                "line 1: the parent is \"-2\"; expected a whole number from -1 to 2147483647"},
+        Refused{"1 0 0 0 0 1 -1\n2 0 0 0 0 1 7\n",
+                "line 2: the parent is 7, which no line has as its id; expected the id of a point, "
+                "or -1 of a root"},
+        Refused{"1 0 0 0 0 1 -1\n\n1 0 0 0 0 1 -1\n",
+                "line 3: the id 1 is that of line 1 already; expected one point of each id"},
+        Refused{"1 0 0 0 0 1 1\n",
+                "line 1: the parent is \"1\", the point itself; expected another point, or -1 of a "
+                "root"},
+        Refused{"1 0 0 0 0 1 -1\n5 0 0 0 0 1 4\n3 0 0 0 0 1 4\n4 0 0 0 0 1 3\n",
+                "line 3: the parents of point 3 lead back to it; expected a way to a root, whose "
+                "parent is -1"},
+        Refused{"1 0 \x1b[2Jabcdefghijklmnopqrstuvwxyz 0 0 1 -1\n",
+                "line 1: x is \"\\u001b[2Jabcdefghijklmnopqrst...\"; expected a number"}));
+
+TEST(ReadSwc, ALongChainThatRunsBackwardsTakesNoRecursion) {
+  std::string text;
+  const int count = 200000;
+  for (int i = 1; i <= count; ++i)
+    text += std::to_string(i) + " 0 " + std::to_string(i) + " 0 0 1 " +
+            std::to_string(i == count ? -1 : i + 1) + "\n";
+  const CenterlineFile file = parseSwc(text, "tree.swc");
+  EXPECT_EQ(file.points.front().position.x(), count);
+  EXPECT_EQ(file.points.back().parent, count - 2);
+}
+
+TEST(ReadSwc, AFileThatIsNotThereIsNamed) {
+  try {
+    readSwc("no-such.swc");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
+    EXPECT_EQ(std::string(error.what()).rfind("no-such.swc: cannot be read", 0), 0U);
+  }
+}
+
+TEST(ReadSwc, RealTreesAreRead) {
+  const std::filesystem::path folder = std::filesystem::path(LUMEN_SHARED_DATA) / "arteries";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "there is no " << folder;
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".swc") continue;
+    ++files;
+    const CenterlineFile file = readSwc(entry.path());
+    EXPECT_GT(file.points.size(), 1000U);
+    const std::vector<CenterlineChain> chains = chainsOf(file);
+    EXPECT_GT(chains.size(), 70U);
+    EXPECT_LT(chains.size(), 140U);
+  }
+  EXPECT_GT(files, 0U);
+}
+
+}  // namespace
+}  // namespace lumen::convert
