@@ -2,9 +2,10 @@
 #include "converters/fitting/open_edges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "formats/case/blobby.h"
@@ -16,41 +17,65 @@ namespace {
 
 using formats::ClosedPlace;
 
-/// Of the edge's lesser radius: how wide the opening is, by turns.
+/// Of the edge's lesser radius: how wide the opening is, by turns, and how far apart its blobs are.
 constexpr double kOpening[] = {0.4, 0.5, 0.6, 0.75, 0.9};
+constexpr double kApart = 0.5;
 
 struct NewBlob {
   formats::Vec3f centre;
   float width;
 };
+using NewBlobs = std::map<std::uint32_t, std::vector<NewBlob>>;  ///< by the node that gets them
 
-/// The nodes that have a say at a place.
-std::vector<std::uint32_t> blendingNodes(const field::BlendedField& field,
-                                         const ClosedPlace& closed) {
+/// The nodes whose blobs have a say at a place.
+std::vector<std::uint32_t> ownersAt(const field::BlendedField& field, const ClosedPlace& closed) {
   const double p[3] = {closed.place.x, closed.place.y, closed.place.z};
-  std::vector<std::uint32_t> nodes;
+  std::vector<std::uint32_t> owners;
   field::visitActiveNodes(closed.cursor, [&](std::uint32_t k, field::ActiveNodes& active) {
     const bool blends = field::weightOf<1>(field, k, p, active).value > 0;
-    if (blends) nodes.push_back(field.lender(k));
+    if (blends) owners.push_back(field.lender(k));
     return blends;
   });
-  if (nodes.empty()) nodes.push_back(field.lender(closed.cursor));
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+  if (owners.empty()) owners.push_back(field.lender(closed.cursor));
+  std::sort(owners.begin(), owners.end());
+  owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
+  std::erase(owners, field::kNowhere);
+  return owners;
 }
 
-void addBlobs(const std::map<std::uint32_t, std::vector<NewBlob>>& added,
-              formats::BlobbyModels& models) {
+/// The lesser radius of the edge that leads to a node, mm; of a root, its own.
+double radiusAlong(const formats::CenterlineTree& tree, std::uint32_t node) {
+  if (tree.parent[node] == formats::kNoParent) return double{tree.radius[node]};
+  return double{
+      std::min(tree.radius[node], tree.radius[static_cast<std::size_t>(tree.parent[node])])};
+}
+
+/// Blobs in a row along the closed places of one edge, whose own surface has that radius.
+void openEdge(const field::BlendedField& field, const formats::BlobbyModels& models,
+              std::span<const ClosedPlace> closed, double radius, NewBlobs& added) {
+  const double width =
+      formats::widthForRadius(models.kernel, models.kernelParameter, radius, models.isoLevel);
+  const field::Vec* last = nullptr;
+  for (const ClosedPlace& at : closed) {
+    const field::Vec& p = at.place;
+    if (last && std::hypot(p.x - last->x, p.y - last->y, p.z - last->z) < kApart * radius) continue;
+    last = &p;
+    const NewBlob blob{{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
+                       static_cast<float>(width)};
+    for (const std::uint32_t owner : ownersAt(field, at)) added[owner].push_back(blob);
+  }
+}
+
+formats::BlobbyModels withBlobs(const formats::BlobbyModels& models, const NewBlobs& added) {
   formats::BlobbyModels out = models;
   out.offset.assign(1, 0);
   out.centre.clear();
   out.width.clear();
   for (std::uint32_t node = 0; node + 1 < models.offset.size(); ++node) {
-    for (std::uint32_t b = models.offset[node]; b < models.offset[node + 1]; ++b) {
-      out.centre.push_back(models.centre[b]);
-      out.width.push_back(models.width[b]);
-    }
+    const auto first = static_cast<std::ptrdiff_t>(models.offset[node]);
+    const auto last = static_cast<std::ptrdiff_t>(models.offset[node + 1]);
+    out.centre.insert(out.centre.end(), models.centre.begin() + first, models.centre.begin() + last);
+    out.width.insert(out.width.end(), models.width.begin() + first, models.width.begin() + last);
     if (const auto found = added.find(node); found != added.end())
       for (const NewBlob& blob : found->second) {
         out.centre.push_back(blob.centre);
@@ -58,45 +83,22 @@ void addBlobs(const std::map<std::uint32_t, std::vector<NewBlob>>& added,
       }
     out.offset.push_back(static_cast<std::uint32_t>(out.centre.size()));
   }
-  models = std::move(out);
+  return out;
 }
 
 }  // namespace
 
-std::size_t openEdges(formats::Case& target) {
+void openEdges(formats::Case& target) {
   const formats::CenterlineTree& tree = target.tree;
-  std::size_t closedEdges = 0;
   for (const double opening : kOpening) {
     const field::BlendedField field = formats::blendedFieldOf(target);
     const auto closed = formats::closedPlacesOf(tree, field);
-    std::map<std::uint32_t, std::vector<NewBlob>> added;
-    closedEdges = 0;
-    for (std::uint32_t node = 0; node < closed.size(); ++node) {
-      if (closed[node].empty()) continue;
-      ++closedEdges;
-      const auto parent = static_cast<std::uint32_t>(std::max(tree.parent[node], 0));
-      const double radius = tree.parent[node] < 0
-                                ? double{tree.radius[node]}
-                                : double{std::min(tree.radius[node], tree.radius[parent])};
-      const double width =
-          formats::widthForRadius(target.models->kernel, target.models->kernelParameter,
-                                  opening * radius, target.models->isoLevel);
-      // one in the middle of each half radius that is closed
-      const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(4 * opening));
-      for (std::size_t i = std::min(stride, closed[node].size() - 1) / 2; i < closed[node].size(); i += stride) {
-        const ClosedPlace& place = closed[node][i];
-        const NewBlob blob{{static_cast<float>(place.place.x), static_cast<float>(place.place.y),
-                            static_cast<float>(place.place.z)},
-                           static_cast<float>(width)};
-        for (const std::uint32_t k : blendingNodes(field, place))
-          if (k != field::kNowhere) added[k].push_back(blob);
-      }
-    }
-    std::fprintf(stderr, "opening %.2f: %zu closed edges, %zu nodes changed\n", opening, closedEdges, added.size());
-    if (closedEdges == 0) return 0;
-    addBlobs(added, *target.models);
+    NewBlobs added;
+    for (std::uint32_t node = 0; node < closed.size(); ++node)
+      openEdge(field, *target.models, closed[node], opening * radiusAlong(tree, node), added);
+    if (added.empty()) return;
+    target.models = withBlobs(*target.models, added);
   }
-  return closedEdges;
 }
 
 }  // namespace lumen::convert

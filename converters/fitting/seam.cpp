@@ -2,24 +2,17 @@
 #include "converters/fitting/seam.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
 #include "converters/common/vectors.h"
+#include "converters/fitting/ring.h"
 
 namespace lumen::convert::fitting {
 namespace {
 
 using Eigen::Vector3d;
 using formats::Vec3d;
-
-/// Cosines of multiples of a sixteenth of a turn; the C library's differ between machines.
-constexpr std::array<double, kSeamRays> kCosine = {
-    1,  0.92387953251128674,  0.70710678118654752,  0.38268343236508977,
-    0,  -0.38268343236508977, -0.70710678118654752, -0.92387953251128674,
-    -1, -0.92387953251128674, -0.70710678118654752, -0.38268343236508977,
-    0,  0.38268343236508977,  0.70710678118654752,  0.92387953251128674};
 
 /// Of the wider radius: the length of a ray, the step at which it looks for the surface, and how
 /// precisely it finds it.
@@ -107,8 +100,7 @@ std::vector<Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide
   const auto [side, up] = planeBasis(normal);
   const double farthest = kFarthestApart * std::min(r0, r1);
   for (std::size_t i = 0; i < kSeamRays; ++i) {
-    const Vector3d direction =
-        kCosine[i] * side + kCosine[(i + 3 * kSeamRays / 4) % kSeamRays] * up;
+    const Vector3d direction = ringDirection(i, side, up);
     const Ray ray(parameters, origin, direction, std::max(r0, r1));
     const std::optional<double> a = ray.leave(first);
     if (!a) continue;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/fitting/levenberg_marquardt.h"
+#include "converters/fitting/ring.h"
 
 namespace lumen::convert::fitting {
 
@@ -17,7 +18,7 @@ struct SeamSide {
 };
 
 /// Rays per seam.
-constexpr std::size_t kSeamRays = 16;
+constexpr std::size_t kSeamRays = kRingSize;
 
 /// Points halfway between the two surfaces, along rays in the radical plane, in the frame of the
 /// centres: at most kSeamRays. None where a ray meets one of the surfaces only, where they are

@@ -2,11 +2,10 @@
 #include "converters/fitting/unmeasured.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "converters/common/vectors.h"
+#include "converters/fitting/ring.h"
 #include "formats/case/node_origin.h"
 
 namespace lumen::convert {
@@ -14,8 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Points of a ring.
-constexpr int kRing = 12;
 /// Edges along the tree within which another branch's lumen opens the wall: a bridge that leaves
 /// its parent has that many nodes beside it.
 constexpr int kNear = 12;
@@ -34,10 +31,9 @@ std::vector<std::vector<formats::Vec3f>> pointsOfUnmeasured(const formats::Case&
     const std::vector<std::uint32_t> near = neighbours.within(node, kNear);
     const Vector3d centre = toEigen(tree.centre[node]);
     const auto [u, v] = planeBasis(toEigen(tree.direction[node]));
-    for (int i = 0; i < kRing; ++i) {
-      const double angle = 2 * std::numbers::pi * i / kRing;
+    for (std::size_t i = 0; i < fitting::kRingSize; ++i) {
       const Vector3d p =
-          centre + double{tree.radius[node]} * (std::cos(angle) * u + std::sin(angle) * v);
+          centre + double{tree.radius[node]} * fitting::ringDirection(i, u, v);
       const bool isOpen = std::any_of(near.begin(), near.end(), [&](std::uint32_t other) {
         return tree.branch[other] != tree.branch[node] &&
                (p - toEigen(tree.centre[other])).norm() < double{tree.radius[other]};
