@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/app/reachable.h"
 #include "converters/common/progress.h"
 #include "converters/fitting/error_of_fit.h"
 #include "formats/case/case.h"
@@ -35,6 +36,7 @@ struct CaseInfo {
   double length = 0;                                     ///< mm
   std::optional<RadiusRange> radius;                     ///< absent without nodes
   std::optional<convert::ErrorOfFitSummary> errorOfFit;  ///< over the nodes
+  std::optional<Reach> reach;                            ///< absent without models
   std::vector<BranchInfo> branches;
   formats::Metadata metadata;
 };

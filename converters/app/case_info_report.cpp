@@ -113,6 +113,7 @@ Json caseInfoJson(const CaseInfo& info) {
   json["blobs"] = info.blobs.value_or(0);
   json["blobs_per_node"] = perNode ? jsonNumber(*perNode) : Json(nullptr);
   json["length_mm"] = jsonNumber(info.length);
+  json["reachable"] = reachJson(info.reach);
   json["radius_mm"] = nullptr;
   if (info.radius)
     json["radius_mm"] = {{"min", jsonNumber(info.radius->min)},
@@ -139,6 +140,10 @@ std::string caseInfoText(const CaseInfo& info) {
       .add("points", std::to_string(info.points))
       .add("blobs", blobs)
       .add("length", fixed(info.length, 1) + " mm");
+  if (info.reach) {
+    lines.add("reachable", reachText(*info.reach));
+    for (const ClosedPlaceInfo& place : info.reach->closed) lines.add("closed", closedText(place));
+  }
   if (info.radius)
     lines.add("radius", fixed(info.radius->min, 3) + " to " + fixed(info.radius->max, 3) + " mm");
   if (const auto& e = info.errorOfFit)

@@ -2,6 +2,7 @@
 // lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
 #include "converters/app/value_checks.h"
@@ -48,8 +49,10 @@ public:
     formats::Case value = load(from, context.progress);
     complete(value, from, to, context.progress);
     context.progress.check();
+    const std::optional<Reach> reach = reachOf(value);
+    warnOfClosed(reach, context.progress);
     to.writeCase(value, m_output, m_outputOptions, context.progress);
-    report(value, context);
+    report(value, reach, context);
     return 0;
   }
 
@@ -82,14 +85,15 @@ private:
       convert::fit(value, m_fit.options(), progress);
   }
 
-  void report(const formats::Case& value, const Context& context) {
+  void report(const formats::Case& value, const std::optional<Reach>& reach,
+              const Context& context) {
     if (context.common.json) {
-      Json json = caseSummary(value);
+      Json json = withReach(caseSummary(value), reach);
       json["failed_seeds"] = failedSeeds(m_failures);
       json["missed_points"] = failedSeeds(m_missedPoints);
       answerJson(json);
     } else if (!context.common.quiet) {
-      answer(caseLine(m_output, value));
+      answer(caseLine(m_output, value) + reachLine(reach));
     }
   }
 

@@ -3,6 +3,7 @@
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/options.h"
+#include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/value_checks.h"
 
@@ -40,11 +41,13 @@ public:
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
     convert::fit(value, m_fit.options(), context.progress);
+    const std::optional<Reach> reach = reachOf(value);
+    warnOfClosed(reach, context.progress);
     to.writeCase(value, m_output, {}, context.progress);
     if (context.common.json)
-      answerJson(caseSummary(value));
+      answerJson(withReach(caseSummary(value), reach));
     else if (!context.common.quiet)
-      answer(caseLine(m_output, value));
+      answer(caseLine(m_output, value) + reachLine(reach));
     return 0;
   }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen validate: all that is wrong in case files.
 #include <optional>
+#include <utility>
 
 #include "converters/app/command.h"
 #include "converters/app/file_content.h"
 #include "converters/app/privacy.h"
+#include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/value_checks.h"
 #include "formats/case/case_file.h"
@@ -54,6 +56,20 @@ Remark remarkOf(const PrivacyFinding& finding) {
           code + " at " + finding.pointer + ": " + finding.message};
 }
 
+/// 651: the first after those of the privacy check that no rule of the format has.
+Remark remarkOf(const ClosedPlaceInfo& place) {
+  const std::string code = "CLOSED_EDGE", pointer = "/tree/parent/" + std::to_string(place.index);
+  const std::string message = closedText(place);
+  return {code,
+          651,
+          formats::severityName(formats::Severity::Warning),
+          std::nullopt,
+          pointer,
+          {{"found", fixed(place.beyond, 1)}},
+          message,
+          code + " at " + pointer + ": " + message};
+}
+
 struct FileReport {
   bool valid = true;
   bool refusedByStrict = false;  ///< valid, but for a warning and --strict
@@ -83,11 +99,17 @@ FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy)
   for (const Issue& issue : report.issues)
     result.remarks.push_back(
         remarkOf(issue.code == ErrorCode::NotLumen ? named(issue, file) : issue));
+  const auto warn = [&](Remark remark) {
+    ++result.counts.warnings;
+    if (result.remarks.size() < maxIssues) result.remarks.push_back(std::move(remark));
+  };
+  if (const auto value = formats::decodeCase(*bytes); result.valid && value)
+    if (const auto reach = reachOf(*value))
+      for (const ClosedPlaceInfo& place : reach->closed) warn(remarkOf(place));
   if (!privacy) return result;
   for (const PrivacyFinding& finding : scanPrivacy(*bytes)) {
     result.personal = true;
-    ++result.counts.warnings;
-    if (result.remarks.size() < maxIssues) result.remarks.push_back(remarkOf(finding));
+    warn(remarkOf(finding));
   }
   return result;
 }

@@ -121,7 +121,7 @@ private:
   fitting::LocalModelOptions m_local;
   formats::Neighbours m_neighbours;
   std::vector<fitting::LocalModel> m_models;  ///< in the frame of their node
-  std::vector<std::vector<Vec3d>> m_seam;  ///< between a node and its parent, in the node's frame
+  std::vector<std::vector<Vec3d>> m_seam;   ///< between a node and its parent, in the node's frame
   std::vector<std::vector<Vec3f>> m_drawn;  ///< of each node that has no measured points
   tbb::enumerable_thread_specific<Worker> m_workers;
 };

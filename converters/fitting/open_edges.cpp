@@ -74,7 +74,8 @@ formats::BlobbyModels withBlobs(const formats::BlobbyModels& models, const NewBl
   for (std::uint32_t node = 0; node + 1 < models.offset.size(); ++node) {
     const auto first = static_cast<std::ptrdiff_t>(models.offset[node]);
     const auto last = static_cast<std::ptrdiff_t>(models.offset[node + 1]);
-    out.centre.insert(out.centre.end(), models.centre.begin() + first, models.centre.begin() + last);
+    out.centre.insert(out.centre.end(), models.centre.begin() + first,
+                      models.centre.begin() + last);
     out.width.insert(out.width.end(), models.width.begin() + first, models.width.begin() + last);
     if (const auto found = added.find(node); found != added.end())
       for (const NewBlob& blob : found->second) {

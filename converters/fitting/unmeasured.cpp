@@ -32,8 +32,7 @@ std::vector<std::vector<formats::Vec3f>> pointsOfUnmeasured(const formats::Case&
     const Vector3d centre = toEigen(tree.centre[node]);
     const auto [u, v] = planeBasis(toEigen(tree.direction[node]));
     for (std::size_t i = 0; i < fitting::kRingSize; ++i) {
-      const Vector3d p =
-          centre + double{tree.radius[node]} * fitting::ringDirection(i, u, v);
+      const Vector3d p = centre + double{tree.radius[node]} * fitting::ringDirection(i, u, v);
       const bool isOpen = std::any_of(near.begin(), near.end(), [&](std::uint32_t other) {
         return tree.branch[other] != tree.branch[node] &&
                (p - toEigen(tree.centre[other])).norm() < double{tree.radius[other]};

@@ -46,8 +46,7 @@ struct Station {
 /// Places along a polyline, evenly, without its ends.
 std::vector<Station> stationsAlong(std::span<const Vector3d> line, double first, double last) {
   std::vector<double> at(line.size(), 0.0);
-  for (std::size_t i = 1; i < line.size(); ++i)
-    at[i] = at[i - 1] + (line[i] - line[i - 1]).norm();
+  for (std::size_t i = 1; i < line.size(); ++i) at[i] = at[i - 1] + (line[i] - line[i - 1]).norm();
   const double length = at.back();
   const int count = static_cast<int>(std::floor(length / (kSpacing * std::min(first, last))));
   std::vector<Station> stations;
@@ -160,13 +159,12 @@ void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random
     if (i + 1 == nodes.size() || !isGap(nodes[i], nodes[i + 1])) continue;
     const std::size_t low = i + 1 > kLevelNodes ? i + 1 - kLevelNodes : 0;
     const std::size_t high = std::min(nodes.size(), i + 1 + kLevelNodes);
-    const LumenLevels levels =
-        levelsOf(context.volume, std::span(nodes).subspan(low, high - low));
+    const LumenLevels levels = levelsOf(context.volume, std::span(nodes).subspan(low, high - low));
     const Vector3d to = nodes[i + 1].centre;
     const Goal goal{to, 0};
     const Line line = lineTo(context, levels, nodes[i].centre, {&goal, 1}, nodes[i].radius);
-    auto between = nodesAlong(context, line.points, nodes[i].radius, nodes[i + 1].radius, nullptr, random,
-                              workspace);
+    auto between = nodesAlong(context, line.points, nodes[i].radius, nodes[i + 1].radius, nullptr,
+                              random, workspace);
     std::move(between.begin(), between.end(), std::back_inserter(filled));
   }
   branch.nodes = std::move(filled);

@@ -148,7 +148,8 @@ void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
       const bool isDue = depth < 0 || ancestry.depth[i] == depth;
       if (!isDue || branches[i].nodes.empty() || seeds[i].kind != BranchKind::Vessel) return;
       TrackWorkspace workspace(context);
-      Random random(context.options.seed, branches.size() * static_cast<std::size_t>(depth + 2) + i);
+      Random random(context.options.seed,
+                    branches.size() * static_cast<std::size_t>(depth + 2) + i);
       action(branches[i], random, workspace);
     });
   };

@@ -135,8 +135,7 @@ std::optional<Way> findWay(const TrackContext& context, const LumenLevels& level
   std::vector<std::uint32_t> from(lattice.count(), 0);
   const auto priceOf = [&](std::size_t place, const Vector3i& cell) {
     if (price[place] < 0)
-      price[place] = static_cast<float>(
-          costAt(levels, context.volume.sample(lattice.index(cell))));
+      price[place] = static_cast<float>(costAt(levels, context.volume.sample(lattice.index(cell))));
     return price[place];
   };
   using Entry = std::pair<float, std::uint32_t>;

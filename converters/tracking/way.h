@@ -38,7 +38,6 @@ struct Goal {
 /// millimetre that is darker than the lumen's middle costs more, and one beyond the wall's level
 /// much more. Empty if no goal is within `reach` mm of the start. Throws Error(Cancelled).
 std::optional<Way> findWay(const TrackContext& context, const LumenLevels& levels,
-                           const Eigen::Vector3d& start, std::span<const Goal> goals,
-                           double reach);
+                           const Eigen::Vector3d& start, std::span<const Goal> goals, double reach);
 
 }  // namespace lumen::convert

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "formats/case/topology.h"
+
 namespace lumen::formats {
 namespace {
 
@@ -16,12 +18,6 @@ constexpr double kMostSteps = 4096;
 field::Vec centreOf(const CenterlineTree& tree, std::uint32_t node) {
   const Vec3f& c = tree.centre[node];
   return {double{c.x}, double{c.y}, double{c.z}};
-}
-
-double edgeLength(const CenterlineTree& tree, std::uint32_t node) {
-  const field::Vec a = centreOf(tree, static_cast<std::uint32_t>(tree.parent[node]));
-  const field::Vec b = centreOf(tree, node);
-  return std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
 }
 
 bool isInside(const field::BlendedField& field, const field::Vec& point, std::uint32_t cursor) {
@@ -38,7 +34,7 @@ Push pushAlong(const CenterlineTree& tree, const field::BlendedField& field, std
                std::uint32_t cursor) {
   const auto parent = static_cast<std::uint32_t>(tree.parent[node]);
   const field::Vec from = centreOf(tree, parent), to = centreOf(tree, node);
-  const double length = edgeLength(tree, node);
+  const double length = std::hypot(to.x - from.x, to.y - from.y, to.z - from.z);
   const double radius = double{std::min(tree.radius[node], tree.radius[parent])};
   const double count = std::clamp(std::ceil(length / (kStep * radius)), 1.0, kMostSteps);
   Push push;
@@ -83,7 +79,7 @@ Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedFiel
   std::vector<std::uint32_t> barrier(closed.size(), kOpen);  // what keeps a node from its root
   for (std::uint32_t node = 0; node < closed.size(); ++node) {
     const bool isRoot = tree.parent[node] == kNoParent;
-    const double length = isRoot ? 0 : edgeLength(tree, node);
+    const double length = edgeLength(tree, node);
     result.total += length;
     if (!isRoot) barrier[node] = barrier[static_cast<std::size_t>(tree.parent[node])];
     if (barrier[node] == kOpen && !closed[node].empty()) {

@@ -33,7 +33,7 @@ struct ClosedPlace {
 std::vector<std::vector<ClosedPlace>> closedPlacesOf(const CenterlineTree& tree,
                                                      const field::BlendedField& field);
 
-/// Lengths are of the polylines through the nodes and of the edges to their parents, mm.
+/// Lengths are those of edgeLength(), mm.
 struct Reachability {
   double total = 0;
   double reachable = 0;           ///< from all roots

@@ -54,17 +54,19 @@ std::vector<std::uint32_t> Neighbours::within(std::uint32_t node, int distance) 
   return found;
 }
 
+double edgeLength(const CenterlineTree& tree, std::uint32_t node) {
+  if (tree.parent[node] == kNoParent) return 0;
+  const auto parent = static_cast<std::size_t>(tree.parent[node]);
+  const double length = distance(tree.centre[parent], tree.centre[node]);
+  if (tree.branch[parent] == tree.branch[node]) return length;
+  return std::max(0.0, length - double{tree.radius[parent]});
+}
+
 double branchLength(const CenterlineTree& tree, const Branch& branch) {
   double length = 0;
-  for (std::size_t i = 1; i < branch.nodeCount; ++i) {
-    const std::size_t node = branch.firstNode + i;
-    length += distance(tree.centre[node - 1], tree.centre[node]);
-  }
-  if (branch.parentNode != kNoParent && branch.nodeCount > 0) {
-    const auto parent = static_cast<std::size_t>(branch.parentNode);
-    const double link = distance(tree.centre[parent], tree.centre[branch.firstNode]);
-    length += std::max(0.0, link - double{tree.radius[parent]});
-  }
+  for (std::uint32_t i = 1; i < branch.nodeCount; ++i)
+    length += edgeLength(tree, branch.firstNode + i);
+  if (branch.nodeCount > 0) length += edgeLength(tree, branch.firstNode);
   return length;
 }
 

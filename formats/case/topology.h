@@ -25,8 +25,11 @@ private:
   std::vector<std::uint32_t> m_offset, m_node;
 };
 
-/// Length of a branch, mm: the polyline through its nodes, and what lies outside the parent node's
-/// ball of the line from there to the first node.
+/// Length of the edge from a node's parent, mm: of a branch's first node, what lies outside of the
+/// parent's ball; zero without a parent.
+double edgeLength(const CenterlineTree& tree, std::uint32_t node);
+
+/// Length of a branch, mm: of all its nodes' edges.
 double branchLength(const CenterlineTree& tree, const Branch& branch);
 
 }  // namespace lumen::formats
