@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "converters/common/tube_tree_distance.h"
