@@ -33,7 +33,7 @@ struct Step {
 };
 
 /// Appends the next node, or what follows it beyond a gap. `longest`: the length from which nodes
-/// were given up last; only a track that has become longer may do so again.
+/// were given up last; only a track that has become longer may do so again, so that it ends.
 Step stepOn(const TrackContext& context, std::vector<TrackedNode>& nodes, std::size_t& longest,
             Random& random, TrackWorkspace& workspace) {
   const TrackOptions& options = context.options;
@@ -52,9 +52,13 @@ Step stepOn(const TrackContext& context, std::vector<TrackedNode>& nodes, std::s
   if (turn) nodes.resize(std::max<std::size_t>(*turn, 1));
   const StopReason reason = node ? StopReason::TurnedBack : StopReason::NoValidCylinder;
   if (isAtFace(context.volume, nodes.back())) return {reason};
-  Continuation next = findContinuation(context, nodes, nodes.size() > longest, random, workspace);
+  // a path that turned back has given up nodes, and would turn back for ever if it might do so
+  // again at the same place
+  const bool isLonger = before > longest;
+  if (turn && !isLonger) return {reason};
+  Continuation next = findContinuation(context, nodes, isLonger, random, workspace);
   if (next.found.empty()) return {reason};
-  if (next.kept < nodes.size()) longest = nodes.size();
+  if (next.kept < before) longest = before;
   nodes.resize(next.kept);
   std::move(next.found.begin(), next.found.end(), std::back_inserter(nodes));
   return {{}, std::min(before, nodes.size() - 1)};
