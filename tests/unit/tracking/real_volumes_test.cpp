@@ -115,5 +115,20 @@ TEST(AngiogramFistula, TheVeinAndTheFistulaAreTracked) {
   EXPECT_GT(lengthOf(chainOf(tracked.out.result, "fistula")), 55);
 }
 
+// One click on a thin artery of a rendered arterial tree: the path turned back at the same place for
+// ever, with 223 nodes and nothing given up.
+TEST(Tracker, APathThatTurnsBackEnds) {
+  const auto folder = std::filesystem::path(LUMEN_SHARED_DATA) / "../hostile";
+  const auto file = folder / "track-never-ends.nrrd";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+  Progress silent;
+  const Volume volume = readVolume(file, VolumeFormat::Nrrd, ReadVolumeOptions{}, silent);
+  const auto seeds = readSeeds(folder / "track-never-ends.seeds.json");
+  const formats::Case tracked = track(volume, seeds, TrackOptions{}, silent).result;
+  ASSERT_EQ(tracked.tree.branches.size(), 1u);
+  EXPECT_GT(tracked.tree.nodeCount(), 150u);
+  EXPECT_LT(tracked.tree.nodeCount(), 400u);
+}
+
 }  // namespace
 }  // namespace lumen::convert

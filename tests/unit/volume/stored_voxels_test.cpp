@@ -105,7 +105,7 @@ TEST_F(StoredVoxels, AHeaderIsNotReadAsVoxels) {
 
 TEST_F(StoredVoxels, CompressedSizesThatAreTooSmallAreTold) {
   std::string noise;
-  for (int i = 0; i < 4096; ++i) noise += static_cast<char>(i * i * 7919 >> 5);
+  for (unsigned i = 0; i < 4096; ++i) noise += static_cast<char>(i * i * 7919 >> 5);
   const std::string stream = asStream(noise);
   const auto lines = [](std::size_t size) {
     return Lines{"DimSize = 16 16 16", "CompressedData = True",
