@@ -62,7 +62,8 @@ void writeMeshAs(const formats::Case& value, const fs::path& file, const OutputO
                  Progress& progress) {
   const Meshes meshes = convert::polygonise(value, options.polygonise, progress);
   progress.check();
-  reportLosses(meshes, file.string(), options.polygonise.cell, progress);
+  const double cell = convert::cellOf(value, options.polygonise);
+  reportLosses(meshes, file.string(), cell, progress);
   writeText(encode(meshes, options.mesh), file);
 }
 

@@ -34,11 +34,13 @@ std::string atMost(double value) {
   return text.data();
 }
 
-std::string advice(double thinnest, double cell) {
-  const std::string cells =
-      cell > 0 ? "cells of " + atMost(cell) + " mm are" : "cells as large as the voxels are";
-  return "; " + cells + " too coarse there: --cell " + atMost(convert::coarsestCellFor(thinnest)) +
-         " or less keeps it";
+/// What is to be done about losses at nodes of at least that radius, mm. `promise`: of finer cells.
+std::string advice(double thinnest, double cell, const std::string& promise) {
+  const double coarsest = convert::coarsestCellFor(thinnest);
+  if (cell <= coarsest)
+    return "; their models do not agree on a surface there, and finer cells do not help";
+  return "; cells of " + atMost(cell) + " mm are too coarse there: --cell " + atMost(coarsest) +
+         " or less " + promise;
 }
 
 std::string missingText(const std::vector<BranchMesh>& meshes, double cell) {
@@ -50,7 +52,8 @@ std::string missingText(const std::vector<BranchMesh>& meshes, double cell) {
     if (mesh.losses.any()) thinnest = std::min(thinnest, mesh.losses.thinnest);
   }
   std::string text;
-  if (!coarse.empty()) text += subject(coarse) + " no surface in it" + advice(thinnest, cell);
+  if (!coarse.empty())
+    text += subject(coarse) + " no surface in it" + advice(thinnest, cell, "keeps it");
   if (!bare.empty())
     text += (text.empty() ? "" : "; ") + subject(bare) +
             " no models, so no surface in it; lumen fit makes models";
@@ -70,7 +73,8 @@ std::string holesText(const std::vector<BranchMesh>& meshes, double cell) {
   }
   if (torn.empty()) return "";
   return subject(torn) + " holes (" + counted(nodes, "node", "nodes") + " without surface, " +
-         counted(triangles, "triangle", "triangles") + " dropped)" + advice(thinnest, cell);
+         counted(triangles, "triangle", "triangles") + " dropped)" +
+         advice(thinnest, cell, "may close them");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 namespace lumen::app {
 
-/// Warns of branches that have no surface in `file`, and of those with holes, where cells of `cell`
-/// mm (0: the voxel size) were too coarse for them, with cells that would do. That a mesh holds the
+/// Warns of branches that have no surface in `file`, and of those with holes: where cells of `cell`
+/// mm were too coarse for them, with cells that would do. That a mesh holds the
 /// surface and nothing else is no loss.
 void reportLosses(const std::vector<convert::BranchMesh>& meshes, const std::string& file,
                   double cell, Progress& progress);

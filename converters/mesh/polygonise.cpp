@@ -232,6 +232,8 @@ void append(const NodePatch& part, BranchMesh& mesh) {
     mesh.triangle.push_back({base + t[0], base + t[1], base + t[2]});
 }
 
+}  // namespace
+
 double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
   if (!source.models)
     throw invalidInput(
@@ -243,8 +245,6 @@ double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
                        " mm and no voxel size in the case; expected --cell above 0");
   return cell;
 }
-
-}  // namespace
 
 std::vector<BranchMesh> polygonise(const formats::Case& source, const PolygoniseOptions& options,
                                    Progress& progress) {

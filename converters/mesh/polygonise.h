@@ -16,6 +16,9 @@ struct PolygoniseOptions {
   double cell = 0;
 };
 
+/// The edge of a cell, mm: as the options say, or the voxel size. Throws as polygonise() does.
+double cellOf(const formats::Case& source, const PolygoniseOptions& options);
+
 /// One mesh per branch, in the tree's order (docs/method.md, section 5). For each node with blobs,
 /// marching cubes at the iso-level on a lattice that all nodes share, of the connected component
 /// of the lumen at the node's centre. The patch is cut by the radical planes to the node's

@@ -7,6 +7,7 @@ lumen_test(conformance_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/damage_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/verdict_test.cpp)
+target_include_directories(conformance_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_compile_definitions(conformance_test PRIVATE LUMEN_CONFORMANCE="${conformance}")
 
 add_executable(case_reader ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/case_reader.cpp)

@@ -13,6 +13,7 @@
 
 #include "formats/case/case_file.h"
 #include "formats/container/container.h"
+#include "unit/formats/chunk_source.h"
 
 namespace lumen::formats {
 namespace {
@@ -61,13 +62,7 @@ Bytes withNotes(const Bytes& file) {
   std::vector<ChunkSource> chunks(150, ChunkSource{chunkType("note"), 1, false});
   for (const Chunk& c : container->chunks) {
     if (!verifyChunk(c)) return {};
-    chunks.push_back({c.type,
-                      c.version,
-                      c.critical,
-                      {c.stored.begin(), c.stored.end()},
-                      c.independent,
-                      c.encoding,
-                      c.rawSize});
+    chunks.push_back(sourceOf(c));
   }
   return writeContainer(chunks);
 }

@@ -9,6 +9,7 @@
 #include "formats/container/bytes.h"
 #include "formats/container/printable.h"
 #include "unit/formats/allocation_meter.h"
+#include "unit/formats/chunk_source.h"
 #include "unit/formats/sample_case.h"
 
 namespace lumen::formats {
@@ -47,14 +48,7 @@ TEST(Report, OfAValidFileTellsOnlyOfUnknownChunks) {
 Bytes withNotes(const Bytes& file, std::size_t count) {
   const auto container = readContainer(file);
   std::vector<ChunkSource> chunks;
-  for (const Chunk& c : container->chunks)
-    chunks.push_back({c.type,
-                      c.version,
-                      c.critical,
-                      {c.stored.begin(), c.stored.end()},
-                      c.independent,
-                      c.encoding,
-                      c.rawSize});
+  for (const Chunk& c : container->chunks) chunks.push_back(sourceOf(c));
   chunks.insert(chunks.end(), count, ChunkSource{chunkType("abcd"), 1, false});
   return writeContainer(chunks);
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/app/loss_report.h"
+
+#include <gtest/gtest.h>
+
+namespace lumen::app {
+namespace {
+
+class Warnings : public Progress {
+public:
+  void warn(std::string_view message) override { text += message; }
+  std::string text;
+};
+
+/// What is said of a branch whose losses are at nodes of a quarter of a millimetre or more, which
+/// cells up to a millimetre resolve.
+std::string saidOf(double cell, bool hasSurface) {
+  convert::BranchMesh mesh;
+  mesh.label = "thin";
+  mesh.losses = {9, 2, 5, 0.25};
+  if (hasSurface) mesh.triangle.push_back({0, 1, 2});
+  Warnings warnings;
+  reportLosses({mesh}, "out.glb", cell, warnings);
+  return warnings.text;
+}
+
+TEST(LossReport, AsksForFinerCellsOnlyWhereTheseWereTooCoarse) {
+  for (const bool hasSurface : {false, true}) {
+    const std::string coarse = saidOf(1.5, hasSurface);
+    EXPECT_NE(coarse.find("cells of 1.5 mm are too coarse there: --cell 1 or less"),
+              std::string::npos)
+        << coarse;
+    for (const double cell : {1.0, 0.5}) {
+      const std::string fine = saidOf(cell, hasSurface);
+      EXPECT_NE(fine.find("finer cells do not help"), std::string::npos) << fine;
+      EXPECT_EQ(fine.find("--cell"), std::string::npos) << fine;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lumen::app
