@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "converters/tracking/follow.h"
+#include "converters/tracking/onward.h"
 #include "converters/tracking/path_rules.h"
 
 namespace lumen::convert {
@@ -145,6 +146,28 @@ BranchStart startChild(const TrackContext& context, const SeedBranch& seed,
   start.nodes = trackBack(context, start.nodes[0], parent, random, workspace);
   const ChainPoint end = closestOnChain(parent.nodes, start.nodes.front().centre);
   start.parentNode = static_cast<int>(end.node);
+  return start;
+}
+
+BranchStart startNearby(const TrackContext& context, const SeedPoint& click,
+                        const TrackedBranch* parent, Random& random, TrackWorkspace& workspace) {
+  std::vector<Ball> taken;
+  if (parent) addBalls(parent->nodes, context.volume.geometry(), taken);
+  BranchStart start;
+  for (const NearbyPlace& place : placesAround(context, click.position, taken)) {
+    BranchStart there = startAtClick(context, {place.position, click.radius}, place.direction, true,
+                                     random, workspace);
+    if (there.nodes.empty()) continue;
+    const TrackedNode& node = there.nodes[0];
+    if (parent) {
+      const ChainPoint nearest = closestOnChain(parent->nodes, node.centre);
+      if (nearest.distance < kInLumen * nearest.radius) continue;
+    }
+    if (stepsFrom(context, node, random, workspace) < kTrialSteps) continue;
+    start.nodes = std::move(there.nodes);
+    break;
+  }
+  if (parent) start.parentNode = static_cast<int>(closestOnChain(parent->nodes, click.position).node);
   return start;
 }
 

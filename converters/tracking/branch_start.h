@@ -35,4 +35,9 @@ BranchStart startAtClick(const TrackContext& context, const SeedPoint& click,
 BranchStart startChild(const TrackContext& context, const SeedBranch& seed,
                        const TrackedBranch& parent, Random& random, TrackWorkspace& workspace);
 
+/// One node a little way along the lumen from a click at which nothing fits, either way: the first
+/// that leads on; none if none does. `parent` may be null; its lumen is left out.
+BranchStart startNearby(const TrackContext& context, const SeedPoint& click,
+                        const TrackedBranch* parent, Random& random, TrackWorkspace& workspace);
+
 }  // namespace lumen::convert

@@ -14,12 +14,27 @@ namespace {
 
 using Eigen::Vector3d;
 
-BranchStart startOf(const TrackContext& context, const SeedBranch& seed,
-                    const TrackedBranch* parent, Random& random, TrackWorkspace& workspace) {
+/// Times a parent's radius: a branch that starts farther from its axis may look the wrong way.
+constexpr double kBeside = 2.5;
+/// Of the distance between its first node and its parent: a tip nearer to that is its start.
+constexpr double kWrongEnd = 0.5;
+
+BranchStart startAt(const TrackContext& context, const SeedBranch& seed, const TrackedBranch* parent,
+                    Random& random, TrackWorkspace& workspace) {
   if (parent) return startChild(context, seed, *parent, random, workspace);
   const auto direction = directionOf(seed);
   return startAtClick(context, seed.points[0], direction.value_or(Vector3d::UnitZ()),
                       direction.has_value(), random, workspace);
+}
+
+/// At the click, or else a little way along from it.
+BranchStart startOf(const TrackContext& context, const SeedBranch& seed, const TrackedBranch* parent,
+                    Random& random, TrackWorkspace& workspace) {
+  BranchStart start = startAt(context, seed, parent, random, workspace);
+  if (!start.nodes.empty()) return start;
+  BranchStart nearby = startNearby(context, seed.points[0], parent, random, workspace);
+  if (!nearby.nodes.empty()) return nearby;
+  return start;
 }
 
 /// Why a branch cannot go on from its start; empty if it can.
@@ -29,7 +44,7 @@ std::string failureOf(const TrackContext& context, const BranchStart& start,
     return start.inParent ? "what fits at the seed lies in its parent's lumen; click farther along "
                             "the branch, and give its radius if it is thin"
                           : "at the seed " + failureText(context, start.best);
-  if (inCore(finished, start.nodes.back().centre)) return kTrackedAlready;
+  if (inCore(finished, start.nodes.back())) return kTrackedAlready;
   return {};
 }
 
@@ -52,6 +67,22 @@ std::string passThrough(const TrackContext& context, const SeedPoint& click, Tra
   return {};
 }
 
+/// Tracks a root the other way first, so that its click is between its ends.
+void followBack(const TrackContext& context, TrackedBranch& branch,
+                std::span<const TrackedBranch* const> finished, Random& random,
+                TrackWorkspace& workspace) {
+  turnRound(branch);
+  followVessel(context, branch, finished, random, workspace);
+  turnRound(branch);
+}
+
+/// True if a branch that began away from its parent has run towards it.
+bool looksBack(const TrackedBranch& parent, const TrackedBranch& branch) {
+  const ChainPoint first = closestOnChain(parent.nodes, branch.nodes.front().centre);
+  const ChainPoint last = closestOnChain(parent.nodes, branch.nodes.back().centre);
+  return first.distance > kBeside * first.radius && last.distance < kWrongEnd * first.distance;
+}
+
 }  // namespace
 
 TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
@@ -64,14 +95,13 @@ TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
   branch.failure = failureOf(context, start, finished);
   if (!branch.failure.empty()) return branch;
   branch.nodes = std::move(start.nodes);
-  const bool bothWays = !parent && !seed.direction && seed.points.size() == 1;
-  if (bothWays) {
-    branch.nodes[0] = reversed(branch.nodes[0]);
-    followVessel(context, branch, finished, random, workspace);
-    reverseTrack(branch.nodes);
-  }
   branch.clickNode = branch.nodes.size() - 1;
+  if (!parent && !seed.direction) followBack(context, branch, finished, random, workspace);
   followVessel(context, branch, finished, random, workspace);
+  if (parent && looksBack(*parent, branch)) {
+    turnRound(branch);
+    followVessel(context, branch, finished, random, workspace);
+  }
   for (std::size_t i = 1; i < seed.points.size(); ++i) {
     const std::string missed =
         passThrough(context, seed.points[i], branch, finished, random, workspace);

@@ -56,7 +56,7 @@ Step stepOn(const TrackContext& context, std::vector<TrackedNode>& nodes, std::s
   // again at the same place
   const bool isLonger = before > longest;
   if (turn && !isLonger) return {reason};
-  Continuation next = findContinuation(context, nodes, isLonger, random, workspace);
+  Continuation next = findContinuation(context, nodes, isLonger, {}, random, workspace);
   if (next.found.empty()) return {reason};
   if (next.kept < before) longest = before;
   nodes.resize(next.kept);
@@ -76,7 +76,7 @@ void followVessel(const TrackContext& context, TrackedBranch& branch,
     context.progress.check();
     step = stepOn(context, nodes, longest, random, workspace);
     for (std::size_t i = step.changedFrom; !step.stop && i < nodes.size(); ++i)
-      if (inCore(finished, nodes[i].centre)) {
+      if (inCore(finished, nodes[i])) {
         nodes.resize(i);
         step.stop = StopReason::MetBranch;
       }

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
-#include <optional>
 #include <span>
 #include <utility>
 
-#include "converters/tracking/path_rules.h"
+#include "converters/tracking/nodes_along.h"
 #include "converters/tracking/way.h"
 
 namespace lumen::convert {
@@ -19,8 +17,6 @@ using Eigen::Vector3d;
 
 /// Of the mean height and of the lesser radius: edges longer than both are gaps.
 constexpr double kLongEdge = 1.25, kLongStep = 1.0;
-/// Of the radius: from one node of a bridge to the next.
-constexpr double kSpacing = 0.5;
 /// Nodes at an end of a track that tell the levels of its lumen.
 constexpr std::size_t kLevelNodes = 12;
 /// Of the straight distance: a longer way is one along other vessels; and how far around the ends
@@ -28,81 +24,11 @@ constexpr std::size_t kLevelNodes = 12;
 constexpr double kLongestWay = 2.5, kReach = 1.5, kLeastReach = 6;
 /// Of a way: the share outside of the lumen up to which it is followed rather than a straight line.
 constexpr double kOutside = 0.5;
-/// Of the interpolated radius: how far a fitted node may lie beside the way, and be narrower or
-/// wider.
-constexpr double kAside = 0.7, kNarrow = 0.6, kWide = 1.5;
-
 /// Of the parent's radius: a way that has come so near to its axis has arrived.
 constexpr double kCore = 0.5;
 
 /// Radii of the child: so much farther may its named parent be than another branch of that tree.
 constexpr double kSurcharge = 3;
-
-struct Station {
-  Vector3d position, direction;
-  double radius;
-};
-
-/// Places along a polyline, evenly, without its ends.
-std::vector<Station> stationsAlong(std::span<const Vector3d> line, double first, double last) {
-  std::vector<double> at(line.size(), 0.0);
-  for (std::size_t i = 1; i < line.size(); ++i) at[i] = at[i - 1] + (line[i] - line[i - 1]).norm();
-  const double length = at.back();
-  const int count = static_cast<int>(std::floor(length / (kSpacing * std::min(first, last))));
-  std::vector<Station> stations;
-  const auto place = [&](double t) {
-    const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, t);
-    const auto i = static_cast<std::size_t>(above - at.begin());
-    const double share = at[i] > at[i - 1] ? (t - at[i - 1]) / (at[i] - at[i - 1]) : 0.0;
-    return Vector3d(line[i - 1] + share * (line[i] - line[i - 1]));
-  };
-  for (int n = 1; n < count; ++n) {
-    const double t = length * n / count, half = 0.5 * length / count;
-    const Vector3d tangent = place(t + half) - place(t - half);
-    if (!(tangent.norm() > 0)) continue;
-    stations.push_back({place(t), tangent.normalized(), first + (last - first) * n / count});
-  }
-  return stations;
-}
-
-bool inLumen(const TrackedBranch* other, const Vector3d& point) {
-  if (!other) return false;
-  const ChainPoint at = closestOnChain(other->nodes, point);
-  return at.distance < at.radius;
-}
-
-TrackedNode bridgedNode(const Station& station) {
-  TrackedNode node;
-  node.origin = formats::NodeOrigin::Bridged;
-  node.centre = station.position;
-  node.direction = station.direction;
-  node.radius = station.radius;
-  node.height = 2 * kSpacing * station.radius;
-  return node;
-}
-
-/// Nodes along a line from a node to another. `parent`: what is inside of its lumen has no wall.
-std::vector<TrackedNode> nodesAlong(const TrackContext& context, std::span<const Vector3d> line,
-                                    double first, double last, const TrackedBranch* parent,
-                                    Random& random, TrackWorkspace& workspace) {
-  std::vector<TrackedNode> nodes;
-  for (const Station& station : stationsAlong(line, first, last)) {
-    const NodeGuess guess{station.position, station.direction, station.radius, true,
-                          0.5 * kSpacing * station.radius};
-    std::optional<TrackedNode> node;
-    if (!inLumen(parent, station.position))
-      node = fitNode(context, guess, leastInlierRate(context.options), random, workspace).node;
-    if (node) {
-      const Vector3d aside = node->centre - station.position;
-      if (aside.norm() > kAside * station.radius || node->radius < kNarrow * station.radius ||
-          node->radius > kWide * station.radius ||
-          node->direction.dot(station.direction) < std::numbers::sqrt2 / 2)
-        node.reset();
-    }
-    nodes.push_back(node ? std::move(*node) : bridgedNode(station));
-  }
-  return nodes;
-}
 
 /// A line from one place to another, and which goal it leads to.
 struct Line {

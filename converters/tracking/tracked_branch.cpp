@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a radius: a centre that is nearer to another vessel's axis is in that vessel.
+/// Of a radius: a centre that is nearer to another vessel's axis is in that vessel; so much of a
+/// narrower one's own radius is.
 constexpr double kCore = 0.5;
 
 /// Closest point to `p` on the segment a-b, as a fraction of it.
@@ -46,11 +47,19 @@ ChainPoint closestOnChain(std::span<const TrackedNode> chain, const Vector3d& po
   return best;
 }
 
-bool inCore(std::span<const TrackedBranch* const> branches, const Vector3d& point) {
+void turnRound(TrackedBranch& branch) {
+  reverseTrack(branch.nodes);
+  branch.clickNode = branch.nodes.size() - 1 - std::min(branch.clickNode, branch.nodes.size() - 1);
+  std::swap(branch.stopReason, branch.startReason);
+  std::swap(branch.goesOn, branch.startGoesOn);
+}
+
+bool inCore(std::span<const TrackedBranch* const> branches, const TrackedNode& node) {
   return std::any_of(branches.begin(), branches.end(), [&](const TrackedBranch* branch) {
     if (branch->nodes.empty()) return false;
-    const ChainPoint closest = closestOnChain(branch->nodes, point);
-    return closest.distance < kCore * closest.radius;
+    const ChainPoint closest = closestOnChain(branch->nodes, node.centre);
+    const double core = std::max(kCore * closest.radius, closest.radius - kCore * node.radius);
+    return closest.distance < core;
   });
 }
 

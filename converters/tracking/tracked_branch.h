@@ -27,11 +27,17 @@ struct TrackedNode {
 struct TrackedBranch {
   std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
   std::size_t clickNode = 0;       ///< the one that was fitted at the seed's first point
-  formats::StopReason stopReason = formats::StopReason::Unknown;
+  formats::StopReason stopReason = formats::StopReason::Unknown;   ///< at its last node
+  formats::StopReason startReason = formats::StopReason::Unknown;  ///< at its first, if it was tracked
+                                                                   ///< both ways from a click
+  double goesOn = 0;       ///< mm for which the lumen is seen to lead on beyond the last node
+  double startGoesOn = 0;  ///< the same beyond the first
   std::string failure;                    ///< why nothing was tracked
   std::vector<std::string> missedPoints;  ///< a sentence for each further click not reached
-  int parentBranch = -1;                  ///< position in the seeds' order
+  int parentBranch = -1;                  ///< position in the seeds' order; -1: a root
   int parentNode = -1;                    ///< within that branch
+  bool isTail = false;  ///< it took over from its parent what that had of it
+  int trackedBy = -1;   ///< if it has no nodes: the branch that its click lies in
 };
 
 /// Why a seed on a vessel that is tracked already starts no track.
@@ -44,6 +50,9 @@ TrackedNode reversed(TrackedNode node);
 /// The same nodes from the last to the first, each looking the other way.
 void reverseTrack(std::vector<TrackedNode>& nodes);
 
+/// The same branch from its last node to its first.
+void turnRound(TrackedBranch& branch);
+
 /// The closest place on a chain of nodes.
 struct ChainPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -53,8 +62,8 @@ struct ChainPoint {
 };
 ChainPoint closestOnChain(std::span<const TrackedNode> chain, const Eigen::Vector3d& point);
 
-/// True if `point` lies within half a radius of the axis of one of `branches`: in that lumen's
-/// core.
-bool inCore(std::span<const TrackedBranch* const> branches, const Eigen::Vector3d& point);
+/// True if half of a node's lumen or its axis lies in the core of one of `branches`: within half a
+/// radius of that one's axis or, if the node is narrower, a whole one less half of the node's own.
+bool inCore(std::span<const TrackedBranch* const> branches, const TrackedNode& node);
 
 }  // namespace lumen::convert

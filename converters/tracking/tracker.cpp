@@ -5,18 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
-#include <unordered_map>
 
-#include <tbb/parallel_for.h>
-
-#include "converters/common/vectors.h"
-#include "converters/tracking/aneurysm.h"
 #include "converters/tracking/bends.h"
-#include "converters/tracking/branch_tracker.h"
-#include "converters/tracking/joining.h"
+#include "converters/tracking/case_of_tracks.h"
 #include "converters/tracking/point_spread.h"
 #include "converters/tracking/smoothing.h"
+#include "converters/tracking/track_waves.h"
+#include "converters/tracking/tree_joins.h"
 #include "converters/volume/write_volume.h"
 #include "formats/container/printable.h"
 
@@ -65,163 +60,6 @@ void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
                      "--dark");
 }
 
-/// For every seed, its parent's position in the list (-1: none) and its depth below a root.
-struct Ancestry {
-  std::vector<int> parent, depth;
-  int deepest = 0;
-
-  [[nodiscard]] std::size_t rootOf(std::size_t i) const {
-    while (parent[i] >= 0) i = static_cast<std::size_t>(parent[i]);
-    return i;
-  }
-};
-
-Ancestry findAncestry(const std::vector<SeedBranch>& seeds) {
-  std::unordered_map<std::string, int> position;
-  Ancestry out;
-  for (const SeedBranch& seed : seeds) {
-    const int parent = seed.parent ? position.at(*seed.parent) : -1;
-    position[seed.label] = static_cast<int>(out.parent.size());
-    out.parent.push_back(parent);
-    out.depth.push_back(parent < 0 ? 0 : out.depth[static_cast<std::size_t>(parent)] + 1);
-    out.deepest = std::max(out.deepest, out.depth.back());
-  }
-  return out;
-}
-
-/// Cuts off what an earlier branch of the same wave has tracked too, on either side of the click.
-void trimDuplicates(std::vector<TrackedBranch>& branches, const std::vector<std::size_t>& wave) {
-  std::vector<const TrackedBranch*> kept;
-  for (const std::size_t b : wave) {
-    TrackedBranch& branch = branches[b];
-    auto& nodes = branch.nodes;
-    const auto met = [&](const TrackedNode& n) { return inCore(kept, n.centre); };
-    const auto click = nodes.begin() + static_cast<std::ptrdiff_t>(branch.clickNode);
-    const auto end = std::find_if(click, nodes.end(), met);
-    if (end != nodes.end()) branch.stopReason = StopReason::MetBranch;
-    if (end == click && !nodes.empty()) branch.failure = kTrackedAlready;
-    const auto begin = std::find_if(std::make_reverse_iterator(click), nodes.rend(), met).base();
-    nodes.erase(end, nodes.end());
-    nodes.erase(nodes.begin(), end == click ? nodes.end() : begin);
-    kept.push_back(&branch);
-  }
-}
-
-/// One wave: all branches whose parents are done. Branches of a wave do not see one another while
-/// they are tracked, so the outcome does not depend on the order in which threads take them.
-void trackWave(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-               const Ancestry& ancestry, int depth, std::vector<TrackedBranch>& branches,
-               Progress& progress) {
-  std::vector<std::size_t> wave;
-  std::vector<const TrackedBranch*> finished;
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    if (ancestry.depth[i] == depth) wave.push_back(i);
-    if (ancestry.depth[i] < depth && seeds[i].kind == BranchKind::Vessel)
-      finished.push_back(&branches[i]);
-  }
-  tbb::parallel_for(std::size_t{0}, wave.size(), [&](std::size_t w) {
-    const std::size_t i = wave[w];
-    const int p = ancestry.parent[i];
-    const TrackedBranch* parent = p < 0 ? nullptr : &branches[static_cast<std::size_t>(p)];
-    if (parent && parent->nodes.empty()) {
-      branches[i].failure =
-          "its parent \"" + formats::printable(*seeds[i].parent) + "\" was not tracked";
-    } else if (seeds[i].kind == BranchKind::Aneurysm) {
-      branches[i] = captureAneurysm(context, seeds[i], parent);
-    } else {
-      branches[i] =
-          trackBranch(context, seeds[i], parent, finished, Random(context.options.seed, i));
-    }
-    branches[i].parentBranch = p;
-    progress.advance();
-  });
-  std::erase_if(wave, [&](std::size_t i) { return seeds[i].kind != BranchKind::Vessel; });
-  trimDuplicates(branches, wave);
-}
-
-/// Fills the gaps of all vessels, then leads children to their parents, those first that have
-/// arrived themselves.
-void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-             const Ancestry& ancestry, std::vector<TrackedBranch>& branches) {
-  const auto eachVessel = [&](int depth, const auto& action) {
-    tbb::parallel_for(std::size_t{0}, branches.size(), [&](std::size_t i) {
-      const bool isDue = depth < 0 || ancestry.depth[i] == depth;
-      if (!isDue || branches[i].nodes.empty() || seeds[i].kind != BranchKind::Vessel) return;
-      TrackWorkspace workspace(context);
-      Random random(context.options.seed,
-                    branches.size() * static_cast<std::size_t>(depth + 2) + i);
-      action(branches[i], random, workspace);
-    });
-  };
-  eachVessel(-1, [&](TrackedBranch& branch, Random& random, TrackWorkspace& workspace) {
-    fillGaps(context, branch, random, workspace);
-  });
-  for (int depth = 1; depth <= ancestry.deepest; ++depth)
-    eachVessel(depth, [&](TrackedBranch& branch, Random& random, TrackWorkspace& workspace) {
-      std::vector<int> others;
-      for (std::size_t i = 0; i < branches.size(); ++i)
-        if (ancestry.depth[i] < depth && seeds[i].kind == BranchKind::Vessel &&
-            ancestry.rootOf(i) == ancestry.rootOf(static_cast<std::size_t>(branch.parentBranch)))
-          others.push_back(static_cast<int>(i));
-      joinToParent(context, branches, others, branch, random, workspace);
-    });
-  for (std::size_t i = 0; i < branches.size(); ++i) {
-    TrackedBranch& branch = branches[i];
-    if (seeds[i].kind != BranchKind::Aneurysm || branch.parentBranch < 0 || branch.nodes.empty())
-      continue;
-    const auto& parent = branches[static_cast<std::size_t>(branch.parentBranch)];
-    branch.parentNode = static_cast<int>(closestOnChain(parent.nodes, branch.nodes[0].centre).node);
-  }
-}
-
-/// All branches, in the seeds' order but for parents that come after a child.
-std::vector<std::size_t> parentsFirst(const std::vector<TrackedBranch>& branches) {
-  std::vector<std::size_t> order;
-  std::vector<bool> isPlaced(branches.size(), false);
-  while (order.size() < branches.size())
-    for (std::size_t i = 0; i < branches.size(); ++i) {
-      const int parent = branches[i].parentBranch;
-      if (isPlaced[i] || (parent >= 0 && !isPlaced[static_cast<std::size_t>(parent)])) continue;
-      isPlaced[i] = true;
-      order.push_back(i);
-    }
-  return order;
-}
-
-/// Appends one tracked branch to the case. `firstNode`: of each branch by position in the seeds.
-void appendBranch(const SeedBranch& seed, const TrackedBranch& branch,
-                  const std::vector<std::int32_t>& firstNode, formats::Case& out) {
-  formats::CenterlineTree& tree = out.tree;
-  const auto first = static_cast<std::int32_t>(tree.nodeCount());
-  if (branch.nodes.empty()) return;
-  formats::Branch record;
-  record.label = seed.label;
-  record.kind = seed.kind;
-  record.firstNode = static_cast<std::uint32_t>(first);
-  record.nodeCount = static_cast<std::uint32_t>(branch.nodes.size());
-  record.stopReason = branch.stopReason;
-  if (branch.parentBranch >= 0)
-    record.parentNode =
-        firstNode[static_cast<std::size_t>(branch.parentBranch)] + branch.parentNode;
-  double rates = 0;
-  for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
-    const TrackedNode& node = branch.nodes[i];
-    tree.centre.push_back(toVec3f(node.centre));
-    tree.direction.push_back(toVec3f(node.direction));
-    tree.radius.push_back(static_cast<float>(node.radius));
-    tree.height.push_back(static_cast<float>(node.height));
-    tree.inlierRate.push_back(static_cast<float>(node.inlierRate));
-    tree.parent.push_back(i == 0 ? record.parentNode : first + static_cast<std::int32_t>(i) - 1);
-    tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
-    rates += node.inlierRate;
-    auto& points = *out.points;
-    points.position.insert(points.position.end(), node.points.begin(), node.points.end());
-    points.offset.push_back(static_cast<std::uint32_t>(points.position.size()));
-  }
-  record.meanInlierRate = static_cast<float>(rates / static_cast<double>(branch.nodes.size()));
-  tree.branches.push_back(std::move(record));
-}
-
 /// The blur by which walls are corrected, mm: as given, as measured, or at least that of the
 /// voxel's own box and of the smoothing.
 double pointSpreadOf(const SmoothedVolume& volume, const std::vector<SeedBranch>& seeds,
@@ -245,12 +83,10 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   warnOfOtherSign(volume, seeds, options, progress);
   const SmoothedVolume smoothed = smoothForNoise(volume, seeds, options, progress);
   const TrackContext context(*smoothed.spline, options, smoothed.noiseFloor, progress);
-  const Ancestry ancestry = findAncestry(seeds);
-  std::vector<TrackedBranch> branches(seeds.size());
   progress.begin("track", seeds.size());
-  for (int depth = 0; depth <= ancestry.deepest; ++depth)
-    trackWave(context, seeds, ancestry, depth, branches, progress);
-  joinAll(context, seeds, ancestry, branches);
+  std::vector<TrackedBranch> branches = trackAll(context, seeds, SeedTree(seeds), progress);
+  goOnwardAll(context, seeds, branches);
+  joinAll(context, seeds, branches);
   progress.end();
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;
@@ -261,19 +97,12 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   }
 
   TrackResult out;
-  out.result.points.emplace();
-  out.result.points->offset.push_back(0);
-  std::vector<std::int32_t> firstNode(seeds.size());
-  std::vector<formats::NodeOrigin> origins;
-  for (const std::size_t i : parentsFirst(branches)) {
-    firstNode[i] = static_cast<std::int32_t>(out.result.tree.nodeCount());
-    appendBranch(seeds[i], branches[i], firstNode, out.result);
-    for (const TrackedNode& node : branches[i].nodes) origins.push_back(node.origin);
+  out.result = caseOfTracks(seeds, branches);
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
     if (branches[i].nodes.empty()) out.failures.push_back({seeds[i].label, branches[i].failure});
     for (const std::string& missed : branches[i].missedPoints)
       out.missedPoints.push_back({seeds[i].label, missed});
   }
-  setNodeOrigins(out.result, origins);
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
   out.result.metadata.source = describeSource(volume);
   out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});

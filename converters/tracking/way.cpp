@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <functional>
 #include <limits>
-#include <queue>
+#include <numbers>
 #include <unordered_map>
 #include <utility>
 
@@ -16,67 +14,10 @@ namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-using Eigen::Vector3i;
+using Then = VoxelSearch::Then;
 
-/// Cost of a millimetre: at the wall's level, where it rises with the square of what the middle is
-/// missed by, and beyond the wall.
-constexpr double kAtWall = 8, kBeyondWall = 60;
-/// Voxels that a search may look at; beyond, it has lost its way.
-constexpr std::size_t kMostVoxels = std::size_t{1} << 22;
 /// Passes of smoothing of a way along lattice edges.
 constexpr int kSmoothing = 6;
-
-/// A box of the volume's lattice with what the search knows of each voxel.
-class Lattice {
-public:
-  Lattice(const VolumeGeometry& geometry, const Vector3d& start, double reach)
-      : m_geometry(geometry) {
-    const Vector3d at = geometry.indexFromWorld(start);
-    for (int a = 0; a < 3; ++a) {
-      const double half = reach / geometry.spacing[a];
-      const int last = geometry.size[static_cast<std::size_t>(a)] - 1;
-      m_low[a] = static_cast<int>(std::clamp(std::floor(at[a] - half), 0.0, double(last)));
-      const int high = static_cast<int>(std::clamp(std::ceil(at[a] + half), 0.0, double(last)));
-      m_size[a] = high - m_low[a] + 1;
-    }
-  }
-  [[nodiscard]] std::size_t count() const {
-    return std::size_t(m_size[0]) * std::size_t(m_size[1]) * std::size_t(m_size[2]);
-  }
-  [[nodiscard]] std::optional<std::size_t> nearest(const Vector3d& world) const {
-    const Vector3d at = m_geometry.indexFromWorld(world);
-    Vector3i cell;
-    for (int a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::lround(at[a])) - m_low[a];
-    if (!holds(cell)) return {};
-    return place(cell);
-  }
-  [[nodiscard]] bool holds(const Vector3i& cell) const {
-    return (cell.array() >= 0).all() && (cell.array() < m_size.array()).all();
-  }
-  [[nodiscard]] std::size_t place(const Vector3i& cell) const {
-    return (std::size_t(cell[2]) * std::size_t(m_size[1]) + std::size_t(cell[1])) *
-               std::size_t(m_size[0]) +
-           std::size_t(cell[0]);
-  }
-  [[nodiscard]] Vector3i cell(std::size_t place) const {
-    const std::size_t row = place / std::size_t(m_size[0]);
-    return {static_cast<int>(place % std::size_t(m_size[0])),
-            static_cast<int>(row % std::size_t(m_size[1])),
-            static_cast<int>(row / std::size_t(m_size[1]))};
-  }
-  [[nodiscard]] Vector3d index(const Vector3i& cell) const { return (cell + m_low).cast<double>(); }
-
-private:
-  const VolumeGeometry& m_geometry;
-  Vector3i m_low, m_size;
-};
-
-double costAt(const LumenLevels& levels, double value) {
-  const double range = levels.middle - levels.wall;
-  const double missed = range != 0 ? (levels.middle - value) / range : 0;
-  if (!(missed > 0)) return 1;
-  return missed < 1 ? 1 + (kAtWall - 1) * missed * missed : kBeyondWall;
-}
 
 Way smoothed(const TrackContext& context, const LumenLevels& levels, std::vector<Vector3d> points) {
   for (int pass = 0; pass < kSmoothing; ++pass) {
@@ -92,10 +33,41 @@ Way smoothed(const TrackContext& context, const LumenLevels& levels, std::vector
     const Vector3d middle = 0.5 * (points[i] + points[i - 1]);
     const double value = context.volume.sample(geometry.indexFromWorld(middle));
     way.length += step;
-    if (costAt(levels, value) >= kBeyondWall) way.outside += step;
+    if (VoxelSearch::price(levels, value) >= VoxelSearch::kBeyondWall) way.outside += step;
   }
   way.points = std::move(points);
   return way;
+}
+
+/// Voxels at the front of a search, in groups that touch; each in the order of their cost.
+std::vector<std::vector<std::size_t>> groupsOf(const VoxelSearch& search,
+                                               const std::vector<std::size_t>& front) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (const std::size_t voxel : front) {
+    std::size_t into = groups.size();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const bool touches =
+          std::any_of(groups[g].begin(), groups[g].end(),
+                      [&](std::size_t other) { return search.areNeighbours(voxel, other); });
+      if (!touches) continue;
+      if (into == groups.size()) {
+        into = g;
+        continue;
+      }
+      groups[into].insert(groups[into].end(), groups[g].begin(), groups[g].end());
+      groups[g].clear();
+    }
+    if (into == groups.size()) groups.emplace_back();
+    groups[into].push_back(voxel);
+  }
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  return groups;
+}
+
+/// The radius of a disc as large as so many voxels that lie side by side, mm.
+double breadthOf(std::size_t voxels, const VolumeGeometry& geometry) {
+  const double face = std::pow(geometry.spacing.prod(), 2.0 / 3.0);
+  return std::sqrt(static_cast<double>(voxels) * face / std::numbers::pi);
 }
 
 }  // namespace
@@ -118,73 +90,63 @@ LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> n
 
 std::optional<Way> findWay(const TrackContext& context, const LumenLevels& levels,
                            const Vector3d& start, std::span<const Goal> goals, double reach) {
-  const VolumeGeometry& geometry = context.volume.geometry();
-  const Lattice lattice(geometry, start, reach);
-  const auto first = lattice.nearest(start);
-  if (!first || lattice.count() > kMostVoxels) return {};
-  std::vector<bool> done(lattice.count(), false);
+  VoxelSearch search(context, levels, start, reach);
+  if (!search.isPossible()) return {};
   std::unordered_map<std::size_t, std::size_t> goalAt;  // the one of least surcharge in a voxel
-  for (std::size_t g = 0; g < goals.size(); ++g)
-    if (const auto at = lattice.nearest(goals[g].position)) {
-      const auto [there, isNew] = goalAt.emplace(*at, g);
-      if (!isNew && goals[g].surcharge < goals[there->second].surcharge) there->second = g;
-    }
-  if (goalAt.empty()) return {};
-  constexpr float kFar = std::numeric_limits<float>::infinity();
-  std::vector<float> cost(lattice.count(), kFar), price(lattice.count(), -1.0f);
-  std::vector<std::uint32_t> from(lattice.count(), 0);
-  const auto priceOf = [&](std::size_t place, const Vector3i& cell) {
-    if (price[place] < 0)
-      price[place] = static_cast<float>(costAt(levels, context.volume.sample(lattice.index(cell))));
-    return price[place];
-  };
-  using Entry = std::pair<float, std::uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  cost[*first] = 0;
-  queue.push({0.0f, static_cast<std::uint32_t>(*first)});
-  std::size_t taken = 0;
-  float best = kFar;
-  std::size_t bestPlace = 0, bestGoal = 0;
-  while (!queue.empty()) {
-    const auto [c, place] = queue.top();
-    queue.pop();
-    if (done[place]) continue;
-    done[place] = true;
-    if ((++taken & 1023U) == 0) context.progress.check();
-    if (c >= best) break;
-    if (const auto goal = goalAt.find(place); goal != goalAt.end()) {
-      const float whole = c + static_cast<float>(goals[goal->second].surcharge);
-      if (whole < best) {
-        best = whole;
-        bestPlace = place;
-        bestGoal = goal->second;
-      }
-    }
-    const Vector3i cell = lattice.cell(place);
-    const float here = priceOf(place, cell);
-    for (int n = 0; n < 27; ++n) {
-      const Vector3i step(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-      const Vector3i next = cell + step;
-      if (n == 13 || !lattice.holds(next)) continue;
-      const std::size_t to = lattice.place(next);
-      if (done[to]) continue;
-      const double length = step.cast<double>().cwiseProduct(geometry.spacing).norm();
-      const float reached = c + static_cast<float>(0.5 * length) * (here + priceOf(to, next));
-      if (reached >= cost[to]) continue;
-      cost[to] = reached;
-      from[to] = static_cast<std::uint32_t>(place);
-      queue.push({reached, static_cast<std::uint32_t>(to)});
-    }
+  for (std::size_t g = 0; g < goals.size(); ++g) {
+    const std::size_t at = search.voxelAt(goals[g].position);
+    if (at == VoxelSearch::kNowhere) continue;
+    const auto [there, isNew] = goalAt.emplace(at, g);
+    if (!isNew && goals[g].surcharge < goals[there->second].surcharge) there->second = g;
   }
-  if (best == kFar) return {};
-  std::vector<Vector3d> points;
-  for (std::size_t at = bestPlace; at != *first; at = from[at])
-    points.push_back(geometry.worldFromIndex(lattice.index(lattice.cell(at))));
-  points.push_back(start);
-  std::reverse(points.begin(), points.end());
-  Way way = smoothed(context, levels, std::move(points));
+  if (goalAt.empty()) return {};
+  double best = std::numeric_limits<double>::infinity();
+  std::size_t bestVoxel = 0, bestGoal = 0;
+  search.run(false, [&](std::size_t voxel, double cost) {
+    if (cost >= best) return Then::Stop;
+    const auto goal = goalAt.find(voxel);
+    if (goal == goalAt.end()) return Then::GoOn;
+    const double whole = cost + goals[goal->second].surcharge;
+    if (whole < best) {
+      best = whole;
+      bestVoxel = voxel;
+      bestGoal = goal->second;
+    }
+    return Then::GoOn;
+  });
+  if (!std::isfinite(best)) return {};
+  Way way = smoothed(context, levels, search.wayTo(bestVoxel));
   way.goal = bestGoal;
   return way;
+}
+
+WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, const Vector3d& start,
+                      const Taken& taken, double distance) {
+  WaysOnward onward;
+  VoxelSearch search(context, levels, start, distance);
+  if (!search.isPossible()) return onward;
+  for (const Ball& ball : taken.balls) search.exclude(ball, [](const Vector3d&) { return true; });
+  for (const Ball& ball : taken.behind)
+    search.exclude(ball,
+                   [&](const Vector3d& p) { return (p - taken.end).dot(taken.direction) < 0; });
+  std::unordered_map<std::size_t, double> length;  // of the way to a voxel
+  std::vector<std::size_t> front;
+  search.run(true, [&](std::size_t voxel, double) {
+    const std::size_t before = search.before(voxel);
+    const double there =
+        before == voxel ? 0.0
+                        : length[before] + (search.position(voxel) - search.position(before)).norm();
+    length[voxel] = there;
+    onward.visible = std::max(onward.visible, std::min(there, distance));
+    if (there < distance) return Then::GoOn;
+    front.push_back(voxel);
+    return Then::GoNoFurther;
+  });
+  for (const auto& group : groupsOf(search, front)) {
+    onward.ways.push_back(smoothed(context, levels, search.wayTo(group.front())));
+    onward.ways.back().breadth = breadthOf(group.size(), context.volume.geometry());
+  }
+  return onward;
 }
 
 }  // namespace lumen::convert

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way through the volume from one place to another that keeps to the lumen: a minimal path
-// (L. Cohen, R. Kimmel, "Global minimum for active contour models: a minimal path approach", 1997).
+// Ways through the volume that keep to the lumen: minimal paths (L. Cohen, R. Kimmel, "Global minimum
+// for active contour models: a minimal path approach", 1997).
 #pragma once
 
 #include <optional>
@@ -10,22 +10,20 @@
 #include <Eigen/Core>
 
 #include "converters/tracking/node_fit.h"
+#include "converters/tracking/voxel_search.h"
 
 namespace lumen::convert {
 
-/// Intensities, bright or dark as the vessels are: of the lumen's middle, and halfway down its wall.
-struct LumenLevels {
-  double middle = 0, wall = 0;
-};
-
-/// Medians over nodes: of the intensity at their centres, and at their wall points.
+/// Medians over nodes: of the intensity at their centres, and at their wall points. Both zero if
+/// none has wall points.
 LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> nodes);
 
 struct Way {
-  std::vector<Eigen::Vector3d> points;  ///< from start to goal, mm, LPS, smoothed
+  std::vector<Eigen::Vector3d> points;  ///< from the start, mm, LPS, smoothed
   double length = 0;                    ///< mm
   double outside = 0;                   ///< of the length: darker than the wall, mm
   std::size_t goal = 0;                 ///< where it ends, as an index of the goals
+  double breadth = 0;  ///< onward: radius of a disc as large as the lumen where it ends, mm
 };
 
 /// Where a way may end.
@@ -39,5 +37,22 @@ struct Goal {
 /// much more. Empty if no goal is within `reach` mm of the start. Throws Error(Cancelled).
 std::optional<Way> findWay(const TrackContext& context, const LumenLevels& levels,
                            const Eigen::Vector3d& start, std::span<const Goal> goals, double reach);
+
+/// Where no way leads.
+struct Taken {
+  std::vector<Ball> balls;
+  std::vector<Ball> behind;  ///< as far as they lie behind the plane of `end`
+  Eigen::Vector3d end = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
+};
+
+struct WaysOnward {
+  std::vector<Way> ways;  ///< one to each part of the lumen at that distance, the cheapest first
+  double visible = 0;     ///< mm along the lumen to its farthest place, at most the distance
+};
+
+/// The ways within the lumen from `start` to everything that is `distance` mm of way from it: where
+/// the lumen forks there are several, where it ends before there is none. Throws Error(Cancelled).
+WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels,
+                      const Eigen::Vector3d& start, const Taken& taken, double distance);
 
 }  // namespace lumen::convert

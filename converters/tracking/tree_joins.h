@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// From tracks to trees: tracks go on as far as the lumen does, gaps are filled, children led to their
+// parents (docs/method.md, section 1.7).
+#pragma once
+
+#include <vector>
+
+#include "converters/tracking/node_fit.h"
+#include "converters/seeds/seeds.h"
+
+namespace lumen::convert {
+
+/// Leads all vessels on from the ends at which they found nothing, as far as the lumen is not
+/// another vessel's. What two of them find is the earlier one's. Throws Error(Cancelled).
+void goOnwardAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+                 std::vector<TrackedBranch>& branches);
+
+/// Makes one lumen of each tree: fills the gaps of all vessels, leads children to the axis of their
+/// parents, and roots that the lumen ties to another tree to that. Throws Error(Cancelled).
+void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+             std::vector<TrackedBranch>& branches);
+
+}  // namespace lumen::convert
