@@ -31,15 +31,19 @@ constexpr double kFarClick = 2.0;
 constexpr double kAroundEstimate[] = {1.0, 0.7, 1.4};
 constexpr double kBelowBound[] = {1.0, 0.7, 0.5, 0.35, 0.25};
 
-/// How many steps, up to kTrialSteps, a track from a node that was fitted to a guess goes on.
-int stepsFrom(const TrackContext& context, const TrackedNode& start, Random& random,
-              TrackWorkspace& workspace) {
+/// How many steps, up to kTrialSteps, a track from a node that was fitted to a guess goes on outside
+/// of the lumen of `parent`, which may be null.
+int stepsFrom(const TrackContext& context, const TrackedNode& start, const TrackedBranch* parent,
+              Random& random, TrackWorkspace& workspace) {
+  const std::span others(&parent, parent ? 1 : 0);
   const TrackOptions& options = context.options;
   std::vector<TrackedNode> nodes{start};
   for (int step = 0; step < kTrialSteps; ++step) {
     const NodeGuess guess = predictNode(options, nodes.back(), 1, nodes.back().direction);
     auto next = fitNode(context, guess, leastInlierRate(options), random, workspace).node;
-    if (!next || isSwollen(options, nodes, *next) || findTurningPoint(nodes, *next)) return step;
+    if (!next || isSwollen(options, nodes, *next) || findTurningPoint(nodes, *next) ||
+        inCore(others, *next))
+      return step;
     nodes.push_back(std::move(*next));
   }
   return kTrialSteps;
@@ -68,7 +72,7 @@ BranchStart startBeside(const TrackContext& context, const TrackedBranch& parent
           start.inParent = true;
           continue;
         }
-        const int steps = stepsFrom(context, *fit.node, random, workspace);
+        const int steps = stepsFrom(context, *fit.node, &parent, random, workspace);
         if (steps > mostSteps) {
           mostSteps = steps;
           start.nodes.assign(1, std::move(*fit.node));
@@ -163,7 +167,7 @@ BranchStart startNearby(const TrackContext& context, const SeedPoint& click,
       const ChainPoint nearest = closestOnChain(parent->nodes, node.centre);
       if (nearest.distance < kInLumen * nearest.radius) continue;
     }
-    if (stepsFrom(context, node, random, workspace) < kTrialSteps) continue;
+    if (stepsFrom(context, node, parent, random, workspace) < kTrialSteps) continue;
     start.nodes = std::move(there.nodes);
     break;
   }

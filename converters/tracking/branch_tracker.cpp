@@ -19,22 +19,12 @@ constexpr double kBeside = 2.5;
 /// Of the distance between its first node and its parent: a tip nearer to that is its start.
 constexpr double kWrongEnd = 0.5;
 
-BranchStart startAt(const TrackContext& context, const SeedBranch& seed, const TrackedBranch* parent,
+BranchStart startAtSeed(const TrackContext& context, const SeedBranch& seed, const TrackedBranch* parent,
                     Random& random, TrackWorkspace& workspace) {
   if (parent) return startChild(context, seed, *parent, random, workspace);
   const auto direction = directionOf(seed);
   return startAtClick(context, seed.points[0], direction.value_or(Vector3d::UnitZ()),
                       direction.has_value(), random, workspace);
-}
-
-/// At the click, or else a little way along from it.
-BranchStart startOf(const TrackContext& context, const SeedBranch& seed, const TrackedBranch* parent,
-                    Random& random, TrackWorkspace& workspace) {
-  BranchStart start = startAt(context, seed, parent, random, workspace);
-  if (!start.nodes.empty()) return start;
-  BranchStart nearby = startNearby(context, seed.points[0], parent, random, workspace);
-  if (!nearby.nodes.empty()) return nearby;
-  return start;
 }
 
 /// Why a branch cannot go on from its start; empty if it can.
@@ -76,6 +66,9 @@ void followBack(const TrackContext& context, TrackedBranch& branch,
   turnRound(branch);
 }
 
+/// Radii from its click within which a track has died where it began.
+constexpr double kStunted = 4;
+
 /// True if a branch that began away from its parent has run towards it.
 bool looksBack(const TrackedBranch& parent, const TrackedBranch& branch) {
   const ChainPoint first = closestOnChain(parent.nodes, branch.nodes.front().centre);
@@ -83,14 +76,12 @@ bool looksBack(const TrackedBranch& parent, const TrackedBranch& branch) {
   return first.distance > kBeside * first.radius && last.distance < kWrongEnd * first.distance;
 }
 
-}  // namespace
-
-TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
-                          const TrackedBranch* parent,
-                          std::span<const TrackedBranch* const> finished, Random random) {
-  TrackWorkspace workspace(context);
+/// The track from one start, both ways where it has no parent.
+TrackedBranch trackFrom(const TrackContext& context, const SeedBranch& seed,
+                        const TrackedBranch* parent, BranchStart start,
+                        std::span<const TrackedBranch* const> finished, Random& random,
+                        TrackWorkspace& workspace) {
   TrackedBranch branch;
-  BranchStart start = startOf(context, seed, parent, random, workspace);
   branch.parentNode = start.parentNode;
   branch.failure = failureOf(context, start, finished);
   if (!branch.failure.empty()) return branch;
@@ -102,6 +93,42 @@ TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
     turnRound(branch);
     followVessel(context, branch, finished, random, workspace);
   }
+  return branch;
+}
+
+/// True for a track that died where it began.
+bool isStunted(const TrackedBranch& branch) {
+  if (branch.nodes.empty()) return true;
+  const TrackedNode& click = branch.nodes[std::min(branch.clickNode, branch.nodes.size() - 1)];
+  return std::all_of(branch.nodes.begin(), branch.nodes.end(), [&](const TrackedNode& node) {
+    return (node.centre - click.centre).norm() < kStunted * click.radius;
+  });
+}
+
+}  // namespace
+
+TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
+                          const TrackedBranch* parent,
+                          std::span<const TrackedBranch* const> finished, Random random) {
+  TrackWorkspace workspace(context);
+  TrackedBranch branch =
+      trackFrom(context, seed, parent, startAtSeed(context, seed, parent, random, workspace),
+                finished, random, workspace);
+  if (isStunted(branch) && !branch.nodes.empty()) {
+    TrackedBranch other = branch;
+    turnRound(other);
+    followVessel(context, other, finished, random, workspace);
+    if (other.nodes.size() > branch.nodes.size()) branch = std::move(other);
+  }
+  if (isStunted(branch)) {
+    BranchStart nearby = startNearby(context, seed.points[0], parent, random, workspace);
+    if (!nearby.nodes.empty()) {
+      TrackedBranch other = trackFrom(context, seed, parent, std::move(nearby), finished, random,
+                                      workspace);
+      if (other.nodes.size() > branch.nodes.size()) branch = std::move(other);
+    }
+  }
+  if (branch.nodes.empty()) return branch;
   for (std::size_t i = 1; i < seed.points.size(); ++i) {
     const std::string missed =
         passThrough(context, seed.points[i], branch, finished, random, workspace);

@@ -56,7 +56,7 @@ Step stepOn(const TrackContext& context, std::vector<TrackedNode>& nodes, std::s
   // again at the same place
   const bool isLonger = before > longest;
   if (turn && !isLonger) return {reason};
-  Continuation next = findContinuation(context, nodes, isLonger, {}, random, workspace);
+  Continuation next = findContinuation(context, nodes, isLonger, random, workspace);
   if (next.found.empty()) return {reason};
   if (next.kept < before) longest = before;
   nodes.resize(next.kept);

@@ -35,10 +35,9 @@ constexpr std::array<std::size_t, 3> kGivenUp = {0, 3, 6};
 struct Likeness {
   const TrackedNode& last;
   RecentMeans mean;
-  std::span<const TrackedBranch* const> others;
 
   [[nodiscard]] bool holds(const TrackedNode& node) const {
-    return !inCore(others, node) && node.strength >= kLikeStrength * mean.strength &&
+    return node.strength >= kLikeStrength * mean.strength &&
            node.radius >= kNarrowest * last.radius && node.radius <= kWidest * last.radius;
   }
   [[nodiscard]] bool onCourse(const TrackedNode& node) const {
@@ -76,9 +75,8 @@ std::vector<TrackedNode> fitPair(const TrackContext& context, std::span<const Tr
 
 /// The two nodes of the nearest place ahead of a path that it may go on to; empty if there is none.
 std::vector<TrackedNode> lookAhead(const TrackContext& context, std::span<const TrackedNode> nodes,
-                                   std::span<const TrackedBranch* const> others, Random& random,
-                                   TrackWorkspace& workspace) {
-  const Likeness like{nodes.back(), recentMeans(nodes), others};
+                                   Random& random, TrackWorkspace& workspace) {
+  const Likeness like{nodes.back(), recentMeans(nodes)};
   for (int steps = 1; steps <= context.options.lookAhead; ++steps)
     for (int side = 0; side <= kSides; ++side) {
       context.progress.check();
@@ -93,12 +91,11 @@ std::vector<TrackedNode> lookAhead(const TrackContext& context, std::span<const 
 }  // namespace
 
 Continuation findContinuation(const TrackContext& context, std::span<const TrackedNode> nodes,
-                              bool mayGiveUp, std::span<const TrackedBranch* const> others,
-                              Random& random, TrackWorkspace& workspace) {
+                              bool mayGiveUp, Random& random, TrackWorkspace& workspace) {
   for (const std::size_t back : kGivenUp) {
     if (back > 0 && (!mayGiveUp || nodes.size() < back + 2)) break;
     const std::size_t kept = nodes.size() - back;
-    std::vector<TrackedNode> found = lookAhead(context, nodes.first(kept), others, random, workspace);
+    std::vector<TrackedNode> found = lookAhead(context, nodes.first(kept), random, workspace);
     if (!found.empty()) return {kept, std::move(found)};
   }
   return {nodes.size(), {}};

@@ -18,10 +18,9 @@ struct Continuation {
 
 /// Where the next step from a path finds nothing: the nearest place ahead of its last node at which
 /// two consecutive nodes fit as well as the vessel did so far. If there is none and `mayGiveUp`,
-/// looks ahead from nodes before, since the last ones may have gone astray. Nothing counts that lies
-/// in the core of one of `others`. Throws Error(Cancelled).
+/// looks ahead from nodes before, since the last ones may have gone astray. Throws
+/// Error(Cancelled).
 Continuation findContinuation(const TrackContext& context, std::span<const TrackedNode> nodes,
-                              bool mayGiveUp, std::span<const TrackedBranch* const> others,
-                              Random& random, TrackWorkspace& workspace);
+                              bool mayGiveUp, Random& random, TrackWorkspace& workspace);
 
 }  // namespace lumen::convert

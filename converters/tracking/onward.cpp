@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "converters/tracking/follow.h"
-#include "converters/tracking/look_ahead.h"
 #include "converters/tracking/nodes_along.h"
 #include "converters/tracking/path_rules.h"
 #include "converters/tracking/smoothing.h"
@@ -22,16 +21,18 @@ using formats::StopReason;
 /// Of the radius, beyond which voxels are outside of a lumen; the blur of its rim comes on top.
 constexpr double kRim = 1.15;
 /// Radii of way, at least so many voxels, that a way leads on for: as far as a hairpin takes to turn.
-constexpr double kOnward = 7, kLeastVoxels = 6;
+constexpr double kOnward[] = {7, 14}, kLeastVoxels = 6;
 /// Radii before the tip whose lumen is closed only behind the tip.
 constexpr double kNearTip = 3;
+/// Radii beyond the tip within which a way may enter another vessel.
+constexpr double kThrough = 3;
 /// Nodes at a tip that tell the levels of its lumen.
 constexpr std::size_t kLevelNodes = 12;
 /// Of the last radius: the range of that of a way's end.
 constexpr double kNarrowest = 0.4, kWidest = 2.5;
 /// Of the nodes along a way: the share that must have been fitted, and how many of the last.
-constexpr double kFitted = 0.6;
-constexpr std::size_t kLastFitted = 2;
+constexpr double kFitted = 0.3;
+constexpr std::size_t kLastFitted = 3;
 /// Of the strength before: the least of what is found.
 constexpr double kLikeStrength = 0.5;
 /// Radii of a tip's own rounded end: a lumen that is visible for less has ended.
@@ -43,25 +44,19 @@ constexpr double kPlaces[] = {1.0 / 3, 2.0 / 3, 1};
 /// Of the contrast: the wall's level.
 constexpr double kHalf = 0.5;
 
-double distanceOf(const TrackContext& context, double radius) {
-  return std::max(kOnward * radius, kLeastVoxels * context.volume.geometry().voxelSize());
-}
-
-/// What a track must not go back into, and what others hold.
-Taken takenBy(const TrackContext& context, std::span<const TrackedNode> nodes,
-              std::span<const Ball> others) {
+/// The tip of a track, which must not go back into itself.
+Outset outsetOf(const TrackContext& context, std::span<const TrackedNode> nodes,
+                std::span<const Ball> others) {
   const TrackedNode& tip = nodes.back();
-  Taken taken;
-  taken.balls.assign(others.begin(), others.end());
-  taken.end = tip.centre;
-  taken.direction = courseOf(nodes);
+  Outset outset{tip.centre, courseOf(nodes), {}, {}, {}, kThrough * tip.radius};
+  outset.others.assign(others.begin(), others.end());
   std::vector<Ball> own;
   addBalls(nodes, context.volume.geometry(), own);
   for (const Ball& ball : own) {
     const bool isNear = (ball.centre - tip.centre).norm() < kNearTip * tip.radius;
-    (isNear ? taken.behind : taken.balls).push_back(ball);
+    (isNear ? outset.behind : outset.closed).push_back(ball);
   }
-  return taken;
+  return outset;
 }
 
 /// True if what was found along a way is the vessel that was tracked so far.
@@ -92,6 +87,15 @@ std::size_t countBeforeOthers(std::span<const TrackedNode> nodes, std::span<cons
   return count;
 }
 
+/// The straightest first.
+void sortByTurn(std::vector<Way>& ways, const Vector3d& course) {
+  const auto turn = [&](const Way& way) {
+    return -(way.points.back() - way.points.front()).normalized().dot(course);
+  };
+  std::stable_sort(ways.begin(), ways.end(),
+                   [&](const Way& a, const Way& b) { return turn(a) < turn(b); });
+}
+
 /// Appends nodes along the first of some ways that leads through this vessel.
 bool takeWay(const TrackContext& context, std::vector<TrackedNode>& nodes,
              std::span<const Way> ways, Random& random, TrackWorkspace& workspace) {
@@ -106,22 +110,23 @@ bool takeWay(const TrackContext& context, std::vector<TrackedNode>& nodes,
   return false;
 }
 
-/// Appends the nodes beyond another vessel that crosses this one.
-bool takeCrossing(const TrackContext& context, std::vector<TrackedNode>& nodes,
-                  std::span<const TrackedBranch* const> others, Random& random,
-                  TrackWorkspace& workspace) {
-  Continuation beyond = findContinuation(context, nodes, false, others, random, workspace);
-  std::move(beyond.found.begin(), beyond.found.end(), std::back_inserter(nodes));
-  return !beyond.found.empty();
-}
-
-/// The straightest first.
-void sortByTurn(std::vector<Way>& ways, const Vector3d& course) {
-  const auto turn = [&](const Way& way) {
-    return -(way.points.back() - way.points.front()).normalized().dot(course);
-  };
-  std::stable_sort(ways.begin(), ways.end(),
-                   [&](const Way& a, const Way& b) { return turn(a) < turn(b); });
+/// Appends nodes along a way on from the tip of a branch, and writes how far there seem to be any.
+bool leadOn(const TrackContext& context, TrackedBranch& branch, std::span<const Ball> others,
+            Random& random, TrackWorkspace& workspace) {
+  std::vector<TrackedNode>& nodes = branch.nodes;
+  const LumenLevels levels =
+      levelsOf(context.volume, std::span(nodes).last(std::min(nodes.size(), kLevelNodes)));
+  const TrackedNode& tip = nodes.back();
+  const double least = kLeastVoxels * context.volume.geometry().voxelSize();
+  const Outset outset = outsetOf(context, nodes, others);
+  for (const double radii : kOnward) {
+    const double distance = std::max(radii * tip.radius, least);
+    WaysOnward onward = waysOnward(context, levels, outset, distance);
+    branch.goesOn = onward.visible > kRoundEnd * tip.radius ? onward.visible : 0;
+    sortByTurn(onward.ways, courseOf(nodes));
+    if (takeWay(context, nodes, onward.ways, random, workspace)) return true;
+  }
+  return false;
 }
 
 LumenLevels levelsAt(const TrackContext& context, const Vector3d& click) {
@@ -155,16 +160,7 @@ void goOnward(const TrackContext& context, TrackedBranch& branch, std::span<cons
         std::make_move_iterator(nodes.begin() + static_cast<std::ptrdiff_t>(kept)),
         std::make_move_iterator(nodes.end()));
     nodes.resize(kept);
-    const LumenLevels levels =
-        levelsOf(context.volume, std::span(nodes).last(std::min(kept, kLevelNodes)));
-    const double radius = nodes.back().radius;
-    WaysOnward onward = waysOnward(context, levels, nodes.back().centre,
-                                   takenBy(context, nodes, others), distanceOf(context, radius));
-    branch.goesOn = onward.visible > kRoundEnd * radius ? onward.visible : 0;
-    sortByTurn(onward.ways, courseOf(nodes));
-    if (!takeWay(context, nodes, onward.ways, random, workspace) &&
-        !(branch.stopReason == StopReason::MetBranch &&
-          takeCrossing(context, nodes, finished, random, workspace))) {
+    if (!leadOn(context, branch, others, random, workspace)) {
       std::move(strayed.begin(), strayed.end(), std::back_inserter(nodes));
       return;
     }
@@ -186,11 +182,12 @@ std::vector<NearbyPlace> placesAround(const TrackContext& context, const Vector3
                                       std::span<const Ball> others) {
   if (!context.volume.geometry().containsWorld(click)) return {};
   const LumenLevels levels = levelsAt(context, click);
-  Taken taken;
-  taken.balls.assign(others.begin(), others.end());
+  Outset outset;
+  outset.place = click;
+  outset.closed.assign(others.begin(), others.end());
   std::vector<NearbyPlace> places;
   for (const double voxels : kAround) {
-    const WaysOnward onward = waysOnward(context, levels, click, taken,
+    const WaysOnward onward = waysOnward(context, levels, outset,
                                          voxels * context.volume.geometry().voxelSize());
     for (const double share : kPlaces)
       for (const Way& way : onward.ways) {

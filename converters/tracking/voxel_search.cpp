@@ -83,22 +83,22 @@ bool VoxelSearch::areNeighbours(std::size_t a, std::size_t b) const {
   return (cell(a) - cell(b)).cwiseAbs().maxCoeff() <= 1;
 }
 
-void VoxelSearch::exclude(const Ball& ball, const std::function<bool(const Vector3d&)>& accepts) {
+std::vector<std::size_t> VoxelSearch::voxelsIn(const Ball& ball) const {
   const VolumeGeometry& geometry = m_context.volume.geometry();
   const Vector3d middle = geometry.indexFromWorld(ball.centre) - m_low.cast<double>();
   const Vector3d half = ball.radius * geometry.spacing.cwiseInverse();
   const Vector3d last = (m_size - Vector3i::Ones()).cast<double>();
   const Vector3d low = (middle - half).cwiseMax(0.0), high = (middle + half).cwiseMin(last);
-  if ((low.array() > high.array()).any()) return;
+  if ((low.array() > high.array()).any()) return {};
   const Vector3i from = low.array().ceil().cast<int>(), to = high.array().floor().cast<int>();
+  std::vector<std::size_t> voxels;
   for (int z = from.z(); z <= to.z(); ++z)
     for (int y = from.y(); y <= to.y(); ++y)
       for (int x = from.x(); x <= to.x(); ++x) {
         const std::size_t voxel = voxelOf({x, y, z});
-        if (voxel == m_first || m_isDone[voxel]) continue;
-        const Vector3d p = position(voxel);
-        if ((p - ball.centre).norm() <= ball.radius && accepts(p)) m_isDone[voxel] = true;
+        if ((position(voxel) - ball.centre).norm() <= ball.radius) voxels.push_back(voxel);
       }
+  return voxels;
 }
 
 float VoxelSearch::priceOf(std::size_t voxel, const Vector3i& cell) {

@@ -47,9 +47,11 @@ public:
   [[nodiscard]] std::size_t voxelAt(const Eigen::Vector3d& world) const;
   [[nodiscard]] Eigen::Vector3d position(std::size_t voxel) const;  ///< mm, LPS
 
-  /// Keeps the search out of the voxels whose centres lie in a ball and are accepted; not out of
-  /// the one that it starts at.
-  void exclude(const Ball& ball, const std::function<bool(const Eigen::Vector3d&)>& accepts);
+  /// The voxels in the cube whose centres lie in a ball.
+  [[nodiscard]] std::vector<std::size_t> voxelsIn(const Ball& ball) const;
+  /// Keeps the search out of a voxel, if it does not start there.
+  void exclude(std::size_t voxel) { m_isDone[voxel] = voxel != m_first; }
+  [[nodiscard]] std::size_t count() const { return m_isDone.size(); }
 
   /// What to do with a voxel that the search has come to.
   enum class Then : std::uint8_t { GoOn, GoNoFurther, Stop };

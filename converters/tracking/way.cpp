@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <unordered_map>
@@ -15,6 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 using Then = VoxelSearch::Then;
+
+/// Cosine of 60 degrees: a vessel that crosses another hardly turns.
+constexpr double kCrossing = 0.5;
 
 /// Passes of smoothing of a way along lattice edges.
 constexpr int kSmoothing = 6;
@@ -38,6 +42,62 @@ Way smoothed(const TrackContext& context, const LumenLevels& levels, std::vector
   way.points = std::move(points);
   return way;
 }
+
+/// What a way has passed when it comes to a voxel: its own lumen only, another vessel's, or that and
+/// its own again.
+enum class Stretch : std::uint8_t { Own, Other, Beyond, Closed };
+
+/// The stretches of the ways of a search, and their lengths.
+class Stretches {
+public:
+  Stretches(VoxelSearch& search, const Outset& outset)
+      : m_search(search),
+        m_outset(outset),
+        m_isOther(search.count(), false),
+        m_stretch(search.count(), Stretch::Own),
+        m_length(search.count(), 0.0F) {
+    for (const Ball& ball : outset.others)
+      for (const std::size_t voxel : search.voxelsIn(ball)) m_isOther[voxel] = true;
+    for (const Ball& ball : outset.closed)
+      for (const std::size_t voxel : search.voxelsIn(ball)) search.exclude(voxel);
+    for (const Ball& ball : outset.behind)
+      for (const std::size_t voxel : search.voxelsIn(ball))
+        if (along(voxel) < 0) search.exclude(voxel);
+  }
+
+  /// Of a voxel that the search has come to, after all on its way.
+  Stretch at(std::size_t voxel) {
+    const std::size_t before = m_search.before(voxel);
+    if (before == voxel) return Stretch::Own;
+    m_length[voxel] = m_length[before] +
+                      static_cast<float>((m_search.position(voxel) - m_search.position(before)).norm());
+    Stretch there = m_stretch[before];
+    if (m_isOther[voxel]) {
+      if (there == Stretch::Beyond || (there == Stretch::Own && m_length[voxel] > m_outset.through))
+        there = Stretch::Closed;
+      else
+        there = Stretch::Other;
+    } else if (there == Stretch::Other) {
+      there = Stretch::Beyond;
+    }
+    return m_stretch[voxel] = there;
+  }
+  [[nodiscard]] double lengthTo(std::size_t voxel) const { return double{m_length[voxel]}; }
+  [[nodiscard]] bool isAhead(std::size_t voxel) const {
+    return along(voxel) > kCrossing * (m_search.position(voxel) - m_outset.place).norm();
+  }
+
+private:
+  [[nodiscard]] double along(std::size_t voxel) const {
+    return (m_search.position(voxel) - m_outset.place).dot(m_outset.direction);
+  }
+
+  VoxelSearch& m_search;
+  const Outset& m_outset;
+  std::vector<bool> m_isOther;
+  std::vector<Stretch> m_stretch;
+  std::vector<float> m_length;
+};
 
 /// Voxels at the front of a search, in groups that touch; each in the order of their cost.
 std::vector<std::vector<std::size_t>> groupsOf(const VoxelSearch& search,
@@ -120,26 +180,21 @@ std::optional<Way> findWay(const TrackContext& context, const LumenLevels& level
   return way;
 }
 
-WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, const Vector3d& start,
-                      const Taken& taken, double distance) {
+WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, const Outset& outset,
+                      double distance) {
   WaysOnward onward;
-  VoxelSearch search(context, levels, start, distance);
+  VoxelSearch search(context, levels, outset.place, distance);
   if (!search.isPossible()) return onward;
-  for (const Ball& ball : taken.balls) search.exclude(ball, [](const Vector3d&) { return true; });
-  for (const Ball& ball : taken.behind)
-    search.exclude(ball,
-                   [&](const Vector3d& p) { return (p - taken.end).dot(taken.direction) < 0; });
-  std::unordered_map<std::size_t, double> length;  // of the way to a voxel
+  Stretches stretches(search, outset);
   std::vector<std::size_t> front;
   search.run(true, [&](std::size_t voxel, double) {
-    const std::size_t before = search.before(voxel);
-    const double there =
-        before == voxel ? 0.0
-                        : length[before] + (search.position(voxel) - search.position(before)).norm();
-    length[voxel] = there;
-    onward.visible = std::max(onward.visible, std::min(there, distance));
-    if (there < distance) return Then::GoOn;
-    front.push_back(voxel);
+    const Stretch there = stretches.at(voxel);
+    if (there == Stretch::Closed) return Then::GoNoFurther;
+    const double length = stretches.lengthTo(voxel);
+    if (there != Stretch::Other) onward.visible = std::max(onward.visible, std::min(length, distance));
+    if (length < distance) return Then::GoOn;
+    if (there == Stretch::Own || (there == Stretch::Beyond && stretches.isAhead(voxel)))
+      front.push_back(voxel);
     return Then::GoNoFurther;
   });
   for (const auto& group : groupsOf(search, front)) {

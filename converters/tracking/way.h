@@ -38,11 +38,13 @@ struct Goal {
 std::optional<Way> findWay(const TrackContext& context, const LumenLevels& levels,
                            const Eigen::Vector3d& start, std::span<const Goal> goals, double reach);
 
-/// Where no way leads.
-struct Taken {
-  std::vector<Ball> balls;
-  std::vector<Ball> behind;  ///< as far as they lie behind the plane of `end`
-  Eigen::Vector3d end = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
+/// Where ways begin, and what they keep away from.
+struct Outset {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
+  std::vector<Ball> closed;  ///< no way leads here
+  std::vector<Ball> behind;  ///< nor here, as far as it lies behind the plane through the place
+  std::vector<Ball> others;  ///< other vessels: a way may cross them once, ...
+  double through = 0;        ///< ... if it enters them within so many mm
 };
 
 struct WaysOnward {
@@ -50,9 +52,10 @@ struct WaysOnward {
   double visible = 0;     ///< mm along the lumen to its farthest place, at most the distance
 };
 
-/// The ways within the lumen from `start` to everything that is `distance` mm of way from it: where
-/// the lumen forks there are several, where it ends before there is none. Throws Error(Cancelled).
-WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels,
-                      const Eigen::Vector3d& start, const Taken& taken, double distance);
+/// The ways within the lumen to everything that is `distance` mm of way from a place: where the
+/// lumen forks there are several, where it ends before there is none. Those through another vessel
+/// lead within 60 degrees of the direction. Throws Error(Cancelled).
+WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, const Outset& outset,
+                      double distance);
 
 }  // namespace lumen::convert
