@@ -5,6 +5,7 @@
 #include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
+#include "converters/app/track_report.h"
 #include "converters/app/value_checks.h"
 #include "converters/fitting/fit.h"
 
@@ -67,8 +68,7 @@ private:
     }
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
     convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
-    m_failures = std::move(tracked.failures);
-    m_missedPoints = std::move(tracked.missedPoints);
+    m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
     return std::move(tracked.result);
   }
 
@@ -88,12 +88,9 @@ private:
   void report(const formats::Case& value, const std::optional<Reach>& reach,
               const Context& context) {
     if (context.common.json) {
-      Json json = withReach(caseSummary(value), reach);
-      json["failed_seeds"] = failedSeeds(m_failures);
-      json["missed_points"] = failedSeeds(m_missedPoints);
-      answerJson(json);
+      answerJson(withRemarks(withReach(caseSummary(value), reach), m_remarks));
     } else if (!context.common.quiet) {
-      answer(caseLine(m_output, value) + reachLine(reach));
+      answer(caseLine(m_output, value) + reachLine(reach) + endLines(m_remarks));
     }
   }
 
@@ -103,7 +100,7 @@ private:
   FitArguments m_fit;
   OutputOptions m_outputOptions;
   std::vector<convert::SeedBranch> m_seeds;
-  std::vector<convert::SeedFailure> m_failures, m_missedPoints;
+  convert::TrackRemarks m_remarks;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
+#include "converters/app/track_report.h"
 #include "converters/app/value_checks.h"
 
 namespace lumen::app {
@@ -53,12 +54,9 @@ public:
 private:
   void report(const convert::TrackResult& tracked, const Context& context) const {
     if (context.common.json) {
-      Json json = caseSummary(tracked.result);
-      json["failed_seeds"] = failedSeeds(tracked.failures);
-      json["missed_points"] = failedSeeds(tracked.missedPoints);
-      answerJson(json);
+      answerJson(withRemarks(caseSummary(tracked.result), tracked));
     } else if (!context.common.quiet) {
-      answer(caseLine(m_output, tracked.result));
+      answer(caseLine(m_output, tracked.result) + endLines(tracked));
     }
   }
 

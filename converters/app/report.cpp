@@ -75,13 +75,6 @@ std::string caseLine(const std::string& file, const formats::Case& value) {
          " mm\n";
 }
 
-Json failedSeeds(const std::vector<convert::SeedFailure>& failures) {
-  Json json = Json::array();
-  for (const auto& failure : failures)
-    json.push_back({{"label", failure.label}, {"reason", failure.reason}});
-  return json;
-}
-
 std::string fixed(std::optional<double> value, int digits) {
   if (!value || !std::isfinite(*value)) return "-";
   std::array<char, 64> text{};

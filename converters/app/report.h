@@ -9,7 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/tracking/tracker.h"
 #include "formats/case/case.h"
 
 namespace lumen::app {
@@ -29,8 +28,6 @@ std::string caseLine(const std::string& file, const formats::Case& value);
 
 /// "1 node", "2 nodes".
 std::string counted(std::size_t count, const std::string& noun, const std::string& plural);
-
-Json failedSeeds(const std::vector<convert::SeedFailure>& failures);
 
 double totalLength(const formats::CenterlineTree& tree);
 

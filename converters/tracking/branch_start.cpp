@@ -22,32 +22,12 @@ constexpr double kSeenWall = 0.5;
 
 /// Of the parent's radius: a start nearer to its axis is in its lumen.
 constexpr double kInLumen = 0.75;
-/// Steps that a start must lead on for; noise leads on for one or two.
-constexpr int kTrialSteps = 4;
 /// Offsets from the parent's axis beyond which a click is far: the child is tracked back from it.
 constexpr double kFarClick = 2.0;
 /// Trial radii of a child: shares of the user's radius, which is an estimate, or of the parent's,
 /// which is an upper bound.
 constexpr double kAroundEstimate[] = {1.0, 0.7, 1.4};
 constexpr double kBelowBound[] = {1.0, 0.7, 0.5, 0.35, 0.25};
-
-/// How many steps, up to kTrialSteps, a track from a node that was fitted to a guess goes on outside
-/// of the lumen of `parent`, which may be null.
-int stepsFrom(const TrackContext& context, const TrackedNode& start, const TrackedBranch* parent,
-              Random& random, TrackWorkspace& workspace) {
-  const std::span others(&parent, parent ? 1 : 0);
-  const TrackOptions& options = context.options;
-  std::vector<TrackedNode> nodes{start};
-  for (int step = 0; step < kTrialSteps; ++step) {
-    const NodeGuess guess = predictNode(options, nodes.back(), 1, nodes.back().direction);
-    auto next = fitNode(context, guess, leastInlierRate(options), random, workspace).node;
-    if (!next || isSwollen(options, nodes, *next) || findTurningPoint(nodes, *next) ||
-        inCore(others, *next))
-      return step;
-    nodes.push_back(std::move(*next));
-  }
-  return kTrialSteps;
-}
 
 /// A node from one of several guesses, each with several radii: the first that leads on and is not
 /// in the lumen of `parent`, else the one that goes on farthest; well fitted ones before others.
@@ -93,6 +73,22 @@ std::vector<double> trialRadii(const SeedPoint& click, double parentRadius) {
 }
 
 }  // namespace
+
+int stepsFrom(const TrackContext& context, const TrackedNode& start, const TrackedBranch* parent,
+              Random& random, TrackWorkspace& workspace) {
+  const std::span others(&parent, parent ? 1 : 0);
+  const TrackOptions& options = context.options;
+  std::vector<TrackedNode> nodes{start};
+  for (int step = 0; step < kTrialSteps; ++step) {
+    const NodeGuess guess = predictNode(options, nodes.back(), 1, nodes.back().direction);
+    auto next = fitNode(context, guess, leastInlierRate(options), random, workspace).node;
+    if (!next || isSwollen(options, nodes, *next) || findTurningPoint(nodes, *next) ||
+        inCore(others, *next))
+      return step;
+    nodes.push_back(std::move(*next));
+  }
+  return kTrialSteps;
+}
 
 std::optional<Vector3d> directionOf(const SeedBranch& seed) {
   if (seed.direction) return seed.direction;

@@ -20,6 +20,13 @@ struct BranchStart {
   bool inParent = false;  ///< something fitted, but in the parent's lumen
 };
 
+/// Steps that a start must lead on for; noise leads on for one or two.
+constexpr int kTrialSteps = 4;
+/// How many steps, up to kTrialSteps, a track from a node that was fitted to a guess goes on outside
+/// of the lumen of `parent`, which may be null.
+int stepsFrom(const TrackContext& context, const TrackedNode& start, const TrackedBranch* parent,
+              Random& random, TrackWorkspace& workspace);
+
 /// Where a vessel goes from its first point (unit, LPS), as far as the user said.
 std::optional<Eigen::Vector3d> directionOf(const SeedBranch& seed);
 

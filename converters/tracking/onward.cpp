@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "converters/tracking/branch_start.h"
 #include "converters/tracking/follow.h"
 #include "converters/tracking/nodes_along.h"
 #include "converters/tracking/path_rules.h"
@@ -29,7 +30,7 @@ constexpr double kThrough = 3;
 /// Nodes at a tip that tell the levels of its lumen.
 constexpr std::size_t kLevelNodes = 12;
 /// Of the last radius: the range of that of a way's end.
-constexpr double kNarrowest = 0.4, kWidest = 2.5;
+constexpr double kNarrowest = 0.4, kWidest = 1.5;
 /// Of the nodes along a way: the share that must have been fitted, and how many of the last.
 constexpr double kFitted = 0.3;
 constexpr std::size_t kLastFitted = 3;
@@ -87,6 +88,20 @@ std::size_t countBeforeOthers(std::span<const TrackedNode> nodes, std::span<cons
   return count;
 }
 
+/// A node of another width at the end of a way, as where a narrow vessel opens into a wide one, if it
+/// leads on.
+std::optional<TrackedNode> fitEnd(const TrackContext& context, const Way& way, Random& random,
+                                  TrackWorkspace& workspace) {
+  const Vector3d& end = way.points.back();
+  const Vector3d ahead = end - way.points[way.points.size() / 2];
+  if (!(ahead.norm() > 0)) return std::nullopt;
+  const NodeGuess guess{end, ahead.normalized(), way.breadth, true, way.breadth};
+  auto node = fitNode(context, guess, context.options.inlierRate, random, workspace).node;
+  if (!node || stepsFrom(context, *node, nullptr, random, workspace) < kTrialSteps)
+    return std::nullopt;
+  return node;
+}
+
 /// The straightest first.
 void sortByTurn(std::vector<Way>& ways, const Vector3d& course) {
   const auto turn = [&](const Way& way) {
@@ -103,7 +118,11 @@ bool takeWay(const TrackContext& context, std::vector<TrackedNode>& nodes,
   for (const Way& way : ways) {
     const double end = std::clamp(way.breadth, kNarrowest * radius, kWidest * radius);
     auto found = nodesAlong(context, way.points, radius, end, nullptr, random, workspace);
-    if (!isVessel(nodes, found)) continue;
+    if (!isVessel(nodes, found)) {
+      auto last = fitEnd(context, way, random, workspace);
+      if (!last) continue;
+      found.push_back(std::move(*last));
+    }
     std::move(found.begin(), found.end(), std::back_inserter(nodes));
     return true;
   }
@@ -164,15 +183,7 @@ void goOnward(const TrackContext& context, TrackedBranch& branch, std::span<cons
       std::move(strayed.begin(), strayed.end(), std::back_inserter(nodes));
       return;
     }
-    const auto isMet = [&](const TrackedNode& node) { return inCore(finished, node); };
-    const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(kept);
-    const auto met = std::find_if(first, nodes.end(), isMet);
-    if (met != nodes.end()) {
-      nodes.erase(met, nodes.end());
-      branch.stopReason = StopReason::MetBranch;
-    } else {
-      followVessel(context, branch, finished, random, workspace);
-    }
+    followVessel(context, branch, finished, random, workspace);
     branch.goesOn = 0;
     if (nodes.size() <= before) return;
   }

@@ -74,6 +74,22 @@ double pointSpreadOf(const SmoothedVolume& volume, const std::vector<SeedBranch>
       .value_or(std::sqrt(volume.smoothing * volume.smoothing + edge * edge / kEdgesToVariance));
 }
 
+/// Adds what became of one seed.
+void remark(const SeedBranch& seed, const TrackedBranch& branch, TrackRemarks& out) {
+  if (branch.nodes.empty()) {
+    out.failures.push_back({seed.label, branch.failure});
+    return;
+  }
+  for (const std::string& missed : branch.missedPoints)
+    out.missedPoints.push_back({seed.label, missed});
+  if (seed.kind != BranchKind::Vessel) return;
+  if (branch.parentBranch < 0 && branch.startReason != StopReason::Unknown)
+    out.ends.push_back({seed.label, true, branch.startReason, branch.nodes.front().centre,
+                        branch.startGoesOn});
+  out.ends.push_back(
+      {seed.label, false, branch.stopReason, branch.nodes.back().centre, branch.goesOn});
+}
+
 }  // namespace
 
 TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
@@ -98,11 +114,7 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
 
   TrackResult out;
   out.result = caseOfTracks(seeds, branches);
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    if (branches[i].nodes.empty()) out.failures.push_back({seeds[i].label, branches[i].failure});
-    for (const std::string& missed : branches[i].missedPoints)
-      out.missedPoints.push_back({seeds[i].label, missed});
-  }
+  for (std::size_t i = 0; i < seeds.size(); ++i) remark(seeds[i], branches[i], out);
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
   out.result.metadata.source = describeSource(volume);
   out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});

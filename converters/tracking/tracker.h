@@ -13,10 +13,25 @@
 
 namespace lumen::convert {
 
-struct TrackResult {
-  formats::Case result;  ///< tree and wall points; metadata complete but for the fit
+/// An end of a tracked vessel, and why it is there.
+struct TrackEnd {
+  std::string label;
+  bool isStart = false;  ///< of a root that was tracked both ways, the other end
+  formats::StopReason reason = formats::StopReason::Unknown;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS
+  /// mm for which the lumen is seen to lead on from there, at least; 0 if it ends
+  double goesOn = 0;
+};
+
+/// What became of the seeds.
+struct TrackRemarks {
   std::vector<SeedFailure> failures;
   std::vector<SeedFailure> missedPoints;  ///< of vessels that were tracked
+  std::vector<TrackEnd> ends;             ///< of the vessels that were tracked, in the seeds' order
+};
+
+struct TrackResult : TrackRemarks {
+  formats::Case result;  ///< tree and wall points; metadata complete but for the fit
 };
 
 /// Tracks every seed. The result does not depend on the number of threads. Throws
