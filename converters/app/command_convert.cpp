@@ -49,7 +49,7 @@ public:
     formats::Case value = load(from, context.progress);
     complete(value, from, to, context.progress);
     context.progress.check();
-    const std::optional<Reach> reach = reachOf(value);
+    const std::optional<Reach> reach = reachOf(value, context.progress);
     warnOfClosed(reach, context.progress);
     to.writeCase(value, m_output, m_outputOptions, context.progress);
     report(value, reach, context);
@@ -88,7 +88,8 @@ private:
   void report(const formats::Case& value, const std::optional<Reach>& reach,
               const Context& context) {
     if (context.common.json) {
-      Json json = withReach(caseSummary(value), reach);
+      Json json = caseSummary(value);
+      json["reachable"] = reachJson(reach);
       json["failed_seeds"] = failedSeeds(m_failures);
       json["missed_points"] = failedSeeds(m_missedPoints);
       answerJson(json);

@@ -54,11 +54,12 @@ private:
   void report(const convert::TrackResult& tracked, const Context& context) const {
     if (context.common.json) {
       Json json = caseSummary(tracked.result);
+      json["reachable"] = reachJson(std::nullopt);
       json["failed_seeds"] = failedSeeds(tracked.failures);
       json["missed_points"] = failedSeeds(tracked.missedPoints);
       answerJson(json);
     } else if (!context.common.quiet) {
-      answer(caseLine(m_output, tracked.result));
+      answer(caseLine(m_output, tracked.result) + reachLine(std::nullopt));
     }
   }
 

@@ -66,6 +66,25 @@ void openEdge(const field::BlendedField& field, const formats::BlobbyModels& mod
   }
 }
 
+/// Of every closed edge, the blobs that open it by that share of its radius.
+NewBlobs openingsOf(const formats::Case& value, double opening) {
+  const field::BlendedField field = formats::blendedFieldOf(value);
+  std::vector<ClosedPlace> closed;  // in node order
+  formats::findClosedPlaces(value.tree, field, [&closed](const ClosedPlace& place) {
+    closed.push_back(place);
+    return true;
+  });
+  NewBlobs added;
+  for (auto first = closed.begin(); first != closed.end();) {
+    const std::uint32_t node = first->node;
+    const auto last = std::find_if(first, closed.end(),
+                                   [node](const ClosedPlace& place) { return place.node != node; });
+    openEdge(field, *value.models, {first, last}, opening * radiusAlong(value.tree, node), added);
+    first = last;
+  }
+  return added;
+}
+
 formats::BlobbyModels withBlobs(const formats::BlobbyModels& models, const NewBlobs& added) {
   formats::BlobbyModels out = models;
   out.offset.assign(1, 0);
@@ -90,13 +109,8 @@ formats::BlobbyModels withBlobs(const formats::BlobbyModels& models, const NewBl
 }  // namespace
 
 void openEdges(formats::Case& target) {
-  const formats::CenterlineTree& tree = target.tree;
   for (const double opening : kOpening) {
-    const field::BlendedField field = formats::blendedFieldOf(target);
-    const auto closed = formats::closedPlacesOf(tree, field);
-    NewBlobs added;
-    for (std::uint32_t node = 0; node < closed.size(); ++node)
-      openEdge(field, *target.models, closed[node], opening * radiusAlong(tree, node), added);
+    const NewBlobs added = openingsOf(target, opening);
     if (added.empty()) return;
     target.models = withBlobs(*target.models, added);
   }
