@@ -14,7 +14,7 @@ namespace {
 /// between two steps.
 constexpr double kStep = 0.125;
 /// Along one edge: bounds the work where an edge is long and thin beyond reason.
-constexpr double kMostSteps = 4096;
+constexpr double kMostSteps = 512;
 
 field::Vec centreOf(const CenterlineTree& tree, std::uint32_t node) {
   const Vec3f& c = tree.centre[node];

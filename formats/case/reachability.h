@@ -25,7 +25,7 @@ struct ClosedPlace {
 using TellClosedPlace = std::function<bool(const ClosedPlace&)>;
 
 /// Pushes a point from every root along every edge, in node order, and tells where it is outside. It
-/// steps by at most an eighth of the edge's lesser radius, but 4096 times at most. Its cursor follows
+/// steps by at most an eighth of the edge's lesser radius, but 512 times at most. Its cursor follows
 /// it from the root on; beyond a closed edge it is set anew at the node. Of a root, its centre is
 /// asked. The case is valid and has models. `check`, if there is one, is called before each node and
 /// may throw to end it all. O(n) for edges as long as radii.

@@ -78,7 +78,7 @@ TEST(OpenEdges, StaysWithinTheTube) {
   for (double x = 5; x <= 7.4; x += 0.05)
     for (int i = 0; i < 16; ++i) {
       const double angle = 0.3926991 * i;
-      const field::Vec wall{x, 1.05 * std::cos(angle), 1.05 * std::sin(angle)};
+      const field::Vec wall{x, 1.02 * std::cos(angle), 1.02 * std::sin(angle)};
       EXPECT_LT(field.blended(wall, field.follow(wall, x < 6.2 ? 10 : 11)).value, field.level())
           << x;
     }

@@ -22,8 +22,8 @@ using formats::test::alongX;
 Case trunkAndArm() {
   Case value = formats::test::noBeads();
   addBeads(value, "trunk", alongX(-4, 2, 5), 2);
-  addBeads(value, "arm", {{0, 1, 0}, {0.6F, 1.8F, 0}, {1.2F, 2.6F, 0}, {1.8F, 3.4F, 0}, {2.4F, 4.2F, 0}},
-           1, 2);
+  addBeads(value, "arm",
+           {{0, 1, 0}, {0.6F, 1.8F, 0}, {1.2F, 2.6F, 0}, {1.8F, 3.4F, 0}, {2.4F, 4.2F, 0}}, 1, 2);
   formats::PointSets points{{0}, {}};
   for (std::uint32_t node = 0; node < 10; ++node) {
     if (node < 5) points.position.push_back({value.tree.centre[node].x, -2, 0});

@@ -21,8 +21,9 @@ inline Case noBeads() {
 }
 
 /// Appends a branch with a node and its ball at every place; returns its first node.
-inline std::uint32_t addBeads(Case& value, const std::string& label, const std::vector<Vec3f>& places,
-                              float radius, std::int32_t parent = kNoParent) {
+inline std::uint32_t addBeads(Case& value, const std::string& label,
+                              const std::vector<Vec3f>& places, float radius,
+                              std::int32_t parent = kNoParent) {
   CenterlineTree& tree = value.tree;
   BlobbyModels& models = *value.models;
   const auto first = static_cast<std::uint32_t>(tree.nodeCount());

@@ -151,7 +151,7 @@ TEST(ClosedPlaces, AreBoundedOnAnEdgeThatIsLongBeyondReason) {
         return true;
       },
       [&] { ++checked; });
-  EXPECT_LE(told, 4097U);
+  EXPECT_LE(told, 513U);
   EXPECT_EQ(checked, 2U);
 }
 
