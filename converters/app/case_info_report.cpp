@@ -140,10 +140,9 @@ std::string caseInfoText(const CaseInfo& info) {
       .add("points", std::to_string(info.points))
       .add("blobs", blobs)
       .add("length", fixed(info.length, 1) + " mm");
-  if (info.reach) {
-    lines.add("reachable", reachText(*info.reach));
-    for (const ClosedPlaceInfo& place : info.reach->closed) lines.add("closed", closedText(place));
-  }
+  lines.add("reachable", reachText(info.reach));
+  if (info.reach)
+    for (const std::string& text : closedTexts(*info.reach)) lines.add("closed", text);
   if (info.radius)
     lines.add("radius", fixed(info.radius->min, 3) + " to " + fixed(info.radius->max, 3) + " mm");
   if (const auto& e = info.errorOfFit)

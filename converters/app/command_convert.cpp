@@ -50,7 +50,7 @@ public:
     formats::Case value = load(from, context.progress);
     complete(value, from, to, context.progress);
     context.progress.check();
-    const std::optional<Reach> reach = reachOf(value);
+    const std::optional<Reach> reach = reachOf(value, context.progress);
     warnOfClosed(reach, context.progress);
     to.writeCase(value, m_output, m_outputOptions, context.progress);
     report(value, reach, context);
@@ -88,7 +88,9 @@ private:
   void report(const formats::Case& value, const std::optional<Reach>& reach,
               const Context& context) {
     if (context.common.json) {
-      answerJson(withRemarks(withReach(caseSummary(value), reach), m_remarks));
+      Json json = caseSummary(value);
+      json["reachable"] = reachJson(reach);
+      answerJson(withRemarks(std::move(json), m_remarks));
     } else if (!context.common.quiet) {
       answer(caseLine(m_output, value) + reachLine(reach) + endLines(m_remarks));
     }

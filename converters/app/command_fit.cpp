@@ -41,17 +41,25 @@ public:
                          ": this case has no wall points to fit to; lumen track makes one "
                          "that has");
     convert::fit(value, m_fit.options(), context.progress);
-    const std::optional<Reach> reach = reachOf(value);
+    const std::optional<Reach> reach = reachOf(value, context.progress);
     warnOfClosed(reach, context.progress);
     to.writeCase(value, m_output, {}, context.progress);
-    if (context.common.json)
-      answerJson(withReach(caseSummary(value), reach));
-    else if (!context.common.quiet)
-      answer(caseLine(m_output, value) + reachLine(reach));
+    report(value, reach, context);
     return 0;
   }
 
 private:
+  void report(const formats::Case& value, const std::optional<Reach>& reach,
+              const Context& context) const {
+    if (context.common.json) {
+      Json json = caseSummary(value);
+      json["reachable"] = reachJson(reach);
+      answerJson(json);
+    } else if (!context.common.quiet) {
+      answer(caseLine(m_output, value) + reachLine(reach));
+    }
+  }
+
   std::string m_input, m_output, m_to;
   FitArguments m_fit;
 };

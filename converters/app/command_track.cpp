@@ -54,9 +54,11 @@ public:
 private:
   void report(const convert::TrackResult& tracked, const Context& context) const {
     if (context.common.json) {
-      answerJson(withRemarks(caseSummary(tracked.result), tracked));
+      Json json = caseSummary(tracked.result);
+      json["reachable"] = reachJson(std::nullopt);
+      answerJson(withRemarks(std::move(json), tracked));
     } else if (!context.common.quiet) {
-      answer(caseLine(m_output, tracked.result) + endLines(tracked));
+      answer(caseLine(m_output, tracked.result) + reachLine(std::nullopt) + endLines(tracked));
     }
   }
 

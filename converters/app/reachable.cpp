@@ -9,60 +9,64 @@
 
 namespace lumen::app {
 
-std::optional<Reach> reachOf(const formats::Case& value) {
+std::optional<Reach> reachOf(const formats::Case& value, const Progress& progress) {
   if (!value.models) return std::nullopt;
-  const auto found = formats::reachabilityOf(value.tree, formats::blendedFieldOf(value));
+  const auto found = formats::reachabilityOf(value.tree, formats::blendedFieldOf(value),
+                                             [&progress] { progress.check(); });
   Reach reach{found.reachable, found.total, {}};
-  for (const formats::Barrier& barrier : found.barriers) {
-    const formats::Branch& branch = value.tree.branches[value.tree.branch[barrier.node]];
-    reach.closed.push_back(
-        {branch.label, barrier.node - branch.firstNode, barrier.node, barrier.place, barrier.beyond});
-  }
+  for (const formats::Barrier& barrier : found.barriers)
+    reach.closed.push_back({value.tree.branches[value.tree.branch[barrier.node]].label,
+                            barrier.node, barrier.place, barrier.beyond});
+  std::stable_sort(reach.closed.begin(), reach.closed.end(),
+                   [](const ClosedWay& a, const ClosedWay& b) { return a.beyond > b.beyond; });
   return reach;
 }
 
-std::string reachText(const Reach& reach) {
-  return fixed(reach.length, 1) + " of " + fixed(reach.of, 1) + " mm";
+std::string reachText(const std::optional<Reach>& reach) {
+  if (!reach) return "not known, as there are no models (lumen fit makes them)";
+  return fixed(reach->length, 1) + " of " + fixed(reach->of, 1) + " mm";
 }
 
-std::string closedText(const ClosedPlaceInfo& place) {
-  return "branch " + formats::printable(place.branch) + " is closed before its node " +
-         std::to_string(place.node) + ", at (" + fixed(place.position.x, 1) + ", " +
-         fixed(place.position.y, 1) + ", " + fixed(place.position.z, 1) +
-         "): " + fixed(place.beyond, 1) + " mm beyond cannot be reached";
+std::string reachLine(const std::optional<Reach>& reach) {
+  return "reachable: " + reachText(reach) + "\n";
+}
+
+std::string closedText(const ClosedWay& way) {
+  return "branch " + formats::printable(way.branch) + " is closed before node " +
+         std::to_string(way.node) + " at (" + fixed(way.position.x, 1) + ", " +
+         fixed(way.position.y, 1) + ", " + fixed(way.position.z, 1) + "): " + fixed(way.beyond, 1) +
+         " mm beyond cannot be reached";
+}
+
+std::vector<std::string> closedTexts(const Reach& reach) {
+  constexpr std::size_t kMost = 10;
+  const std::size_t count = std::min(reach.closed.size(), kMost);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) texts.push_back(closedText(reach.closed[i]));
+  if (const std::size_t more = reach.closed.size() - count; more > 0)
+    texts.push_back("closed at " + counted(more, "place more", "places more") +
+                    "; lumen info --json lists all");
+  return texts;
+}
+
+void warnOfClosed(const std::optional<Reach>& reach, Progress& progress) {
+  if (!reach) return;
+  for (const std::string& text : closedTexts(*reach)) progress.warn(text);
 }
 
 Json reachJson(const std::optional<Reach>& reach) {
   if (!reach) return nullptr;
   Json closed = Json::array();
-  for (const ClosedPlaceInfo& place : reach->closed)
-    closed.push_back({{"branch", place.branch},
-                      {"node", place.node},
-                      {"position_mm", {jsonNumber(place.position.x), jsonNumber(place.position.y),
-                                       jsonNumber(place.position.z)}},
-                      {"beyond_mm", jsonNumber(place.beyond)}});
+  for (const ClosedWay& way : reach->closed)
+    closed.push_back(
+        {{"branch", way.branch},
+         {"node", way.node},
+         {"position",
+          {jsonNumber(way.position.x), jsonNumber(way.position.y), jsonNumber(way.position.z)}},
+         {"beyond_mm", jsonNumber(way.beyond)}});
   return {{"length_mm", jsonNumber(reach->length)},
           {"of_mm", jsonNumber(reach->of)},
           {"closed", std::move(closed)}};
-}
-
-Json withReach(Json json, const std::optional<Reach>& reach) {
-  json["reachable"] = reachJson(reach);
-  return json;
-}
-
-std::string reachLine(const std::optional<Reach>& reach) {
-  return reach ? "reachable: " + reachText(*reach) + "\n" : std::string();
-}
-
-void warnOfClosed(const std::optional<Reach>& reach, Progress& progress) {
-  constexpr std::size_t kMost = 20;
-  if (!reach) return;
-  for (std::size_t i = 0; i < std::min(reach->closed.size(), kMost); ++i)
-    progress.warn(closedText(reach->closed[i]));
-  if (reach->closed.size() > kMost)
-    progress.warn("and so on at " + std::to_string(reach->closed.size() - kMost) +
-                  " more places; lumen info --json lists all");
 }
 
 }  // namespace lumen::app

@@ -15,38 +15,37 @@
 namespace lumen::app {
 
 /// Where the way is closed: see formats::Barrier.
-struct ClosedPlaceInfo {
+struct ClosedWay {
   std::string branch;      ///< its label
-  std::uint32_t node = 0;  ///< within the branch
-  std::uint32_t index = 0;  ///< of that node in the tree
+  std::uint32_t node = 0;  ///< index in the case; the way to it is closed
   field::Vec position{};   ///< mm, LPS
   double beyond = 0;       ///< mm
 };
 
 struct Reach {
-  double length = 0, of = 0;  ///< mm
-  std::vector<ClosedPlaceInfo> closed;
+  double length = 0, of = 0;      ///< mm
+  std::vector<ClosedWay> closed;  ///< the one with most beyond it first
 };
 
-/// Empty for a case without models.
-std::optional<Reach> reachOf(const formats::Case& value);
+/// Empty for a case without models. The case is valid.
+std::optional<Reach> reachOf(const formats::Case& value, const Progress& progress);
 
-/// "3448.1 of 3477.0 mm".
-std::string reachText(const Reach& reach);
+/// "3448.1 of 3477.0 mm", or why that is not known.
+std::string reachText(const std::optional<Reach>& reach);
 
-/// "branch a-1 is closed before its node 27, at (1, 2, 3): 28.9 mm beyond cannot be reached".
-std::string closedText(const ClosedPlaceInfo& place);
+/// "reachable: 3448.1 of 3477.0 mm\n".
+std::string reachLine(const std::optional<Reach>& reach);
+
+/// "branch a-1 is closed before node 27 at (1.0, 2.0, 3.0): 28.9 mm beyond cannot be reached".
+std::string closedText(const ClosedWay& way);
+
+/// One text for each closed way, or as many as are worth reading and then how many more there are.
+std::vector<std::string> closedTexts(const Reach& reach);
+
+/// A warning of each of these texts.
+void warnOfClosed(const std::optional<Reach>& reach, Progress& progress);
 
 /// length_mm, of_mm and closed; null for nothing.
 Json reachJson(const std::optional<Reach>& reach);
-
-/// An answer with the member "reachable".
-Json withReach(Json json, const std::optional<Reach>& reach);
-
-/// "reachable: 3448.1 of 3477.0 mm\n"; empty for nothing.
-std::string reachLine(const std::optional<Reach>& reach);
-
-/// A warning for each place, as long as there are not too many to read.
-void warnOfClosed(const std::optional<Reach>& reach, Progress& progress);
 
 }  // namespace lumen::app

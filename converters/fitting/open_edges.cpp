@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <span>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "formats/case/blobby.h"
@@ -15,11 +16,12 @@
 namespace lumen::convert {
 namespace {
 
-using formats::ClosedPlace;
-
-/// Of the edge's lesser radius: how wide the opening is, by turns, and how far apart its blobs are.
-constexpr double kOpening[] = {0.4, 0.5, 0.6, 0.75, 0.9};
-constexpr double kApart = 0.5;
+/// Of the edge's lesser radius: how wide the way is that an opening makes. A wider one moves the wall.
+constexpr double kWay = 0.4;
+/// Of the iso-level: by how much the field exceeds it where it was too low.
+constexpr double kExcess = 0.1;
+/// An opening may be incomplete where other nodes answer than at its middle; the next turn adds these.
+constexpr int kMostTurns = 5;
 
 struct NewBlob {
   formats::Vec3f centre;
@@ -27,8 +29,15 @@ struct NewBlob {
 };
 using NewBlobs = std::map<std::uint32_t, std::vector<NewBlob>>;  ///< by the node that gets them
 
+/// A place where an edge is closed, and what the field lacks there, mm.
+struct Lack {
+  formats::ClosedPlace at;
+  double amount;
+};
+
 /// The nodes whose blobs have a say at a place.
-std::vector<std::uint32_t> ownersAt(const field::BlendedField& field, const ClosedPlace& closed) {
+std::vector<std::uint32_t> ownersAt(const field::BlendedField& field,
+                                    const formats::ClosedPlace& closed) {
   const double p[3] = {closed.place.x, closed.place.y, closed.place.z};
   std::vector<std::uint32_t> owners;
   field::visitActiveNodes(closed.cursor, [&](std::uint32_t k, field::ActiveNodes& active) {
@@ -37,8 +46,6 @@ std::vector<std::uint32_t> ownersAt(const field::BlendedField& field, const Clos
     return blends;
   });
   if (owners.empty()) owners.push_back(field.lender(closed.cursor));
-  std::sort(owners.begin(), owners.end());
-  owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
   std::erase(owners, field::kNowhere);
   return owners;
 }
@@ -50,20 +57,41 @@ double radiusAlong(const formats::CenterlineTree& tree, std::uint32_t node) {
       std::min(tree.radius[node], tree.radius[static_cast<std::size_t>(tree.parent[node])])};
 }
 
-/// Blobs in a row along the closed places of one edge, whose own surface has that radius.
+/// Opens one edge: where it lacks most, a blob that adds as much all over a way of that radius, and so
+/// on with what that does not reach.
 void openEdge(const field::BlendedField& field, const formats::BlobbyModels& models,
-              std::span<const ClosedPlace> closed, double radius, NewBlobs& added) {
-  const double width =
-      formats::widthForRadius(models.kernel, models.kernelParameter, radius, models.isoLevel);
-  const field::Vec* last = nullptr;
-  for (const ClosedPlace& at : closed) {
-    const field::Vec& p = at.place;
-    if (last && std::hypot(p.x - last->x, p.y - last->y, p.z - last->z) < kApart * radius) continue;
-    last = &p;
-    const NewBlob blob{{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-                       static_cast<float>(width)};
-    for (const std::uint32_t owner : ownersAt(field, at)) added[owner].push_back(blob);
+              std::vector<Lack> lacks, double radius, NewBlobs& added) {
+  std::stable_sort(lacks.begin(), lacks.end(),
+                   [](const Lack& a, const Lack& b) { return a.amount > b.amount; });
+  while (!lacks.empty()) {
+    const field::Vec c = lacks.front().at.place;
+    const NewBlob blob{{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
+                       static_cast<float>(formats::widthForRadius(
+                           models.kernel, models.kernelParameter, radius, lacks.front().amount))};
+    std::set<std::uint32_t> owners;
+    std::erase_if(lacks, [&](const Lack& lack) {
+      const field::Vec& p = lack.at.place;
+      if (std::hypot(p.x - c.x, p.y - c.y, p.z - c.z) > radius) return false;
+      for (const std::uint32_t owner : ownersAt(field, lack.at)) owners.insert(owner);
+      return true;
+    });
+    for (const std::uint32_t owner : owners) added[owner].push_back(blob);
   }
+}
+
+/// What opens the edges that are closed.
+NewBlobs openingsOf(const formats::Case& value) {
+  const field::BlendedField field = formats::blendedFieldOf(value);
+  std::map<std::uint32_t, std::vector<Lack>> closed;  // by the edge's farther end
+  formats::findClosedPlaces(value.tree, field, [&](const formats::ClosedPlace& at) {
+    const double f = field.blended(at.place, at.cursor).value;
+    closed[at.node].push_back({at, (1 + kExcess) * field.level() - f});
+    return true;
+  });
+  NewBlobs added;
+  for (auto& [node, lacks] : closed)
+    openEdge(field, *value.models, std::move(lacks), kWay * radiusAlong(value.tree, node), added);
+  return added;
 }
 
 formats::BlobbyModels withBlobs(const formats::BlobbyModels& models, const NewBlobs& added) {
@@ -90,13 +118,8 @@ formats::BlobbyModels withBlobs(const formats::BlobbyModels& models, const NewBl
 }  // namespace
 
 void openEdges(formats::Case& target) {
-  const formats::CenterlineTree& tree = target.tree;
-  for (const double opening : kOpening) {
-    const field::BlendedField field = formats::blendedFieldOf(target);
-    const auto closed = formats::closedPlacesOf(tree, field);
-    NewBlobs added;
-    for (std::uint32_t node = 0; node < closed.size(); ++node)
-      openEdge(field, *target.models, closed[node], opening * radiusAlong(tree, node), added);
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    const NewBlobs added = openingsOf(target);
     if (added.empty()) return;
     target.models = withBlobs(*target.models, added);
   }

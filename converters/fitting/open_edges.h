@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lumen of a tree is one: no wall stands across an edge (docs/method.md, section 2.8).
+// The lumen of a tree is one: no wall stands across an edge (docs/method.md, section 2.9).
 #pragma once
 
 #include "formats/case/case.h"
 
 namespace lumen::convert {
 
-/// Adds blobs to the models of a fitted case wherever a point that is pushed along an edge of the
-/// tree would leave the lumen, as narrow as opens it, up to nine tenths of the edge's lesser radius.
+/// Adds blobs to the models of a fitted case wherever a point that is pushed along an edge of the tree
+/// would leave the lumen: as small ones as make a way of four tenths of the edge's lesser radius.
 void openEdges(formats::Case& target);
 
 }  // namespace lumen::convert

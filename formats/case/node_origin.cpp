@@ -3,33 +3,58 @@
 
 #include <algorithm>
 
+#include "formats/case/enum_names.h"
+#include "formats/view/text_rules.h"
+
 namespace lumen::formats {
+namespace {
+
+using Values = std::vector<std::uint32_t>;
+
+bool isOrigins(const NodeArray& array) {
+  return array.name == kOriginArray;
+}
+
+}  // namespace
+
+std::optional<Issue> originFault(const NodeArray& array, const std::string& place) {
+  if (!isOrigins(array)) return std::nullopt;
+  if (array.components != 1)
+    return limitIssue(ErrorCode::NodeArrayComponents, place + "/components", array.components, 1);
+  const auto* values = std::get_if<Values>(&array.values);
+  if (values == nullptr)
+    return foundIssue(ErrorCode::EnumValue, place + "/type",
+                      std::string(kArrayTypeNames[array.values.index()]), "u32");
+  const auto fault = std::find_if(values->begin(), values->end(),
+                                  [](std::uint32_t value) { return value >= kNodeOriginCount; });
+  if (fault == values->end()) return std::nullopt;
+  return foundIssue(
+      ErrorCode::EnumValue,
+      at("/nodeArrays/" + array.name, static_cast<std::size_t>(fault - values->begin())),
+      std::to_string(*fault), "an origin from 0 to 2");
+}
 
 std::vector<NodeOrigin> nodeOriginsOf(const Case& value) {
   std::vector<NodeOrigin> origins(value.tree.nodeCount(), NodeOrigin::Measured);
-  for (const NodeArray& array : value.nodeArrays) {
-    if (array.name != kOriginArray || array.components != 1) continue;
-    const auto* stored = std::get_if<std::vector<std::uint32_t>>(&array.values);
-    if (stored == nullptr || stored->size() != origins.size()) continue;
-    for (std::size_t i = 0; i < origins.size(); ++i)
-      if ((*stored)[i] <= static_cast<std::uint32_t>(NodeOrigin::Given))
-        origins[i] = static_cast<NodeOrigin>((*stored)[i]);
-  }
+  const auto array = std::find_if(value.nodeArrays.begin(), value.nodeArrays.end(), isOrigins);
+  if (array != value.nodeArrays.end())
+    std::transform(std::get<Values>(array->values).begin(), std::get<Values>(array->values).end(),
+                   origins.begin(), [](std::uint32_t v) { return static_cast<NodeOrigin>(v); });
   return origins;
 }
 
 void setNodeOrigins(Case& value, const std::vector<NodeOrigin>& origins) {
-  std::erase_if(value.nodeArrays, [](const NodeArray& a) { return a.name == kOriginArray; });
-  if (std::all_of(origins.begin(), origins.end(),
-                  [](NodeOrigin o) { return o == NodeOrigin::Measured; }))
-    return;
-  NodeArray array{kOriginArray, 1, "", std::vector<std::uint32_t>{}};
-  auto& stored = std::get<std::vector<std::uint32_t>>(array.values);
-  for (const NodeOrigin origin : origins) stored.push_back(static_cast<std::uint32_t>(origin));
-  value.nodeArrays.push_back(std::move(array));
   auto& used = value.metadata.extensionsUsed;
-  if (std::find(used.begin(), used.end(), kOriginExtension) == used.end())
-    used.emplace_back(kOriginExtension);
+  std::erase_if(value.nodeArrays, isOrigins);
+  std::erase(used, kOriginExtension);
+  std::erase(value.metadata.extensionsRequired, kOriginExtension);
+  if (std::all_of(origins.begin(), origins.end(),
+                  [](NodeOrigin origin) { return origin == NodeOrigin::Measured; }))
+    return;
+  Values values;
+  for (const NodeOrigin origin : origins) values.push_back(static_cast<std::uint32_t>(origin));
+  value.nodeArrays.push_back({kOriginArray, 1, "", std::move(values)});
+  used.emplace_back(kOriginExtension);
 }
 
 }  // namespace lumen::formats

@@ -2,10 +2,14 @@
 // Where the nodes of a tree come from: the node array LUMEN_node.origin (spec/lumen.md, extensions).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "formats/case/case.h"
+#include "formats/container/issue.h"
 
 namespace lumen::formats {
 
@@ -13,16 +17,22 @@ namespace lumen::formats {
 enum class NodeOrigin : std::uint8_t {
   Measured = 0,  ///< fitted to a volume or a mesh
   Bridged = 1,   ///< put between measured nodes where nothing could be measured
-  Given = 2,     ///< taken from a centerline with radii
+  Given = 2,     ///< taken from a centerline that states radii
 };
+constexpr std::size_t kNodeOriginCount = 3;
 
 constexpr const char* kOriginExtension = "LUMEN_node";
 constexpr const char* kOriginArray = "LUMEN_node.origin";
 
-/// One value for each node; all measured if the case does not say, or says what is not known here.
+/// The first fault of a node array of that name: its components, its type, or a value. `place` is that
+/// of its description. Empty if there is none, and for any other array.
+std::optional<Issue> originFault(const NodeArray& array, const std::string& place);
+
+/// One value for each node of a valid case; all measured if it does not say.
 std::vector<NodeOrigin> nodeOriginsOf(const Case& value);
 
-/// Replaces the array; without one if all nodes are measured. One value for each node.
+/// Replaces the array of a case and lists its extension; removes both if all nodes are measured. One
+/// value for each node.
 void setNodeOrigins(Case& value, const std::vector<NodeOrigin>& origins);
 
 }  // namespace lumen::formats

@@ -3,93 +3,120 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "formats/case/topology.h"
 
 namespace lumen::formats {
 namespace {
 
-/// Of the lesser radius: the length of a step, and the most steps along one edge, which bounds the
-/// work where an edge is long and thin beyond reason.
+/// Of the lesser radius: the length of a step. A wall is as thick as a blob is wide, so none fits
+/// between two steps.
 constexpr double kStep = 0.125;
-constexpr double kMostSteps = 4096;
+/// Along one edge: bounds the work where an edge is long and thin beyond reason.
+constexpr double kMostSteps = 512;
 
 field::Vec centreOf(const CenterlineTree& tree, std::uint32_t node) {
   const Vec3f& c = tree.centre[node];
   return {double{c.x}, double{c.y}, double{c.z}};
 }
 
-bool isInside(const field::BlendedField& field, const field::Vec& point, std::uint32_t cursor) {
-  return field.blended<1>(point, cursor).value > field.level();
-}
+/// A point that is pushed, and its cursor.
+class Pushed {
+public:
+  Pushed(const CenterlineTree& tree, const field::BlendedField& field, const TellClosedPlace& tell)
+      : m_tree(tree), m_field(field), m_tell(tell) {}
 
-/// Where a push along one edge ended, and the places where it was outside.
-struct Push {
-  std::uint32_t cursor = 0;
-  std::vector<ClosedPlace> closed;
-};
-
-Push pushAlong(const CenterlineTree& tree, const field::BlendedField& field, std::uint32_t node,
-               std::uint32_t cursor) {
-  const auto parent = static_cast<std::uint32_t>(tree.parent[node]);
-  const field::Vec from = centreOf(tree, parent), to = centreOf(tree, node);
-  const double length = std::hypot(to.x - from.x, to.y - from.y, to.z - from.z);
-  const double radius = double{std::min(tree.radius[node], tree.radius[parent])};
-  const double count = std::clamp(std::ceil(length / (kStep * radius)), 1.0, kMostSteps);
-  Push push;
-  push.cursor = cursor;
-  for (double i = 1; i <= count; ++i) {
-    const double t = i / count;
-    const field::Vec p = {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
-                          from.z + t * (to.z - from.z)};
-    push.cursor = field.follow(p, push.cursor);
-    if (!isInside(field, p, push.cursor)) push.closed.push_back({p, push.cursor});
+  /// Starts at a node's own centre.
+  void put(std::uint32_t node) {
+    m_cursor = node;
+    moveTo(centreOf(m_tree, node));
   }
-  return push;
-}
+
+  /// Along the edge that leads to a node, the cursor being that of the node's parent. True if the
+  /// point was inside all the way.
+  bool along(std::uint32_t node, std::uint32_t cursor) {
+    const auto parent = static_cast<std::uint32_t>(m_tree.parent[node]);
+    const field::Vec from = centreOf(m_tree, parent), to = centreOf(m_tree, node);
+    const double length = std::hypot(to.x - from.x, to.y - from.y, to.z - from.z);
+    const double radius = double{std::min(m_tree.radius[node], m_tree.radius[parent])};
+    const double count = std::clamp(std::ceil(length / (kStep * radius)), 1.0, kMostSteps);
+    m_cursor = cursor;
+    bool isOpen = true;
+    for (double i = 1; i <= count; ++i) {
+      const double t = i / count;
+      moveTo({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
+              from.z + t * (to.z - from.z)});
+      if (isInside()) continue;
+      isOpen = false;
+      if (!tell(node)) break;
+    }
+    return isOpen;
+  }
+
+  [[nodiscard]] bool isInside() const {
+    return m_field.blended<1>(m_place, m_cursor).value > m_field.level();
+  }
+  [[nodiscard]] bool tell(std::uint32_t node) const { return m_tell({node, m_place, m_cursor}); }
+  [[nodiscard]] std::uint32_t cursor() const { return m_cursor; }
+
+private:
+  void moveTo(const field::Vec& place) {
+    m_place = place;
+    m_cursor = m_field.follow(place, m_cursor);
+  }
+
+  const CenterlineTree& m_tree;
+  const field::BlendedField& m_field;
+  const TellClosedPlace& m_tell;
+  field::Vec m_place{};
+  std::uint32_t m_cursor = 0;
+};
 
 }  // namespace
 
-std::vector<std::vector<ClosedPlace>> closedPlacesOf(const CenterlineTree& tree,
-                                                     const field::BlendedField& field) {
-  const auto count = static_cast<std::uint32_t>(tree.nodeCount());
-  std::vector<std::uint32_t> cursor(count);
-  std::vector<std::vector<ClosedPlace>> closed(count);
-  for (std::uint32_t node = 0; node < count; ++node) {
-    if (tree.parent[node] != kNoParent) {
-      const auto parent = static_cast<std::uint32_t>(tree.parent[node]);
-      Push push = pushAlong(tree, field, node, cursor[parent]);
-      cursor[node] = push.cursor;
-      closed[node] = std::move(push.closed);
-      if (closed[node].empty()) continue;
+void findClosedPlaces(const CenterlineTree& tree, const field::BlendedField& field,
+                      const TellClosedPlace& tell, const std::function<void()>& check) {
+  std::vector<std::uint32_t> cursor(tree.nodeCount());
+  Pushed point(tree, field, tell);
+  for (std::uint32_t node = 0; node < cursor.size(); ++node) {
+    if (check) check();
+    if (tree.parent[node] == kNoParent) {
+      point.put(node);
+      if (!point.isInside()) static_cast<void>(point.tell(node));
+    } else if (!point.along(node, cursor[static_cast<std::size_t>(tree.parent[node])])) {
+      point.put(node);
     }
-    const field::Vec centre = centreOf(tree, node);
-    cursor[node] = field.follow(centre, node);
-    if (tree.parent[node] == kNoParent && !isInside(field, centre, cursor[node]))
-      closed[node] = {{centre, cursor[node]}};
+    cursor[node] = point.cursor();
   }
-  return closed;
 }
 
-Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedField& field) {
-  constexpr std::uint32_t kOpen = field::kNowhere;
-  const std::vector<std::vector<ClosedPlace>> closed = closedPlacesOf(tree, field);
+Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedField& field,
+                            const std::function<void()>& check) {
   Reachability result;
-  std::vector<std::uint32_t> barrier(closed.size(), kOpen);  // what keeps a node from its root
-  for (std::uint32_t node = 0; node < closed.size(); ++node) {
-    const bool isRoot = tree.parent[node] == kNoParent;
+  std::vector<std::optional<std::size_t>> barrier(
+      tree.nodeCount());            // what keeps a node from a root
+  std::vector<ClosedPlace> closed;  // in node order
+  findClosedPlaces(
+      tree, field,
+      [&](const ClosedPlace& place) {
+        closed.push_back(place);
+        return false;
+      },
+      check);
+  auto next = closed.begin();
+  for (std::uint32_t node = 0; node < barrier.size(); ++node) {
+    const bool isClosed = next != closed.end() && next->node == node;
+    if (tree.parent[node] != kNoParent)
+      barrier[node] = barrier[static_cast<std::size_t>(tree.parent[node])];
+    if (isClosed && !barrier[node]) {
+      barrier[node] = result.barriers.size();
+      result.barriers.push_back({node, next->place, 0});
+    }
+    if (isClosed) ++next;
     const double length = edgeLength(tree, node);
     result.total += length;
-    if (!isRoot) barrier[node] = barrier[static_cast<std::size_t>(tree.parent[node])];
-    if (barrier[node] == kOpen && !closed[node].empty()) {
-      barrier[node] = static_cast<std::uint32_t>(result.barriers.size());
-      result.barriers.push_back({node, closed[node].front().place, 0});
-    }
-    if (barrier[node] == kOpen)
-      result.reachable += length;
-    else
-      result.barriers[barrier[node]].beyond += length;
+    (barrier[node] ? result.barriers[*barrier[node]].beyond : result.reachable) += length;
   }
   return result;
 }

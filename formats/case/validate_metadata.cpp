@@ -6,6 +6,7 @@
 #include <span>
 
 #include "formats/case/metadata_json.h"
+#include "formats/case/node_origin.h"
 #include "formats/view/limits.h"
 #include "formats/view/model_rules.h"
 #include "formats/view/text_rules.h"
@@ -138,8 +139,8 @@ void checkExtensions(const Metadata& metadata, IssueList& issues) {
       issues.add(pointerIssue(ErrorCode::ExtensionUnlisted, at(required, i),
                               "the extension " + name + " is not in extensionsUsed",
                               {{"found", name}}));
-    else if (isExtensionName(metadata.extensionsRequired[i]))
-      // this reader has no extension
+    else if (name != kOriginExtension && isExtensionName(metadata.extensionsRequired[i]))
+      // this reader has no other extension
       issues.add(pointerIssue(ErrorCode::ExtensionRequired, at(required, i),
                               "the extension " + name +
                                   " is needed to understand the file, and "
@@ -193,6 +194,7 @@ void checkNodeArrays(const Case& value, IssueList& issues) {
                             kMaxComponents));
     else
       checkArrayValues(array, value.tree.nodeCount(), issues);
+    if (std::optional<Issue> fault = originFault(array, place)) issues.add(std::move(*fault));
   }
 }
 

@@ -94,7 +94,7 @@ enum class ErrorCode : std::uint16_t {
   ExtensionRequired = 512,
   NodeArrayName = 513,
   NodeArrayComponents = 514,
-  // 601 to 605 are those of lumen validate --privacy, which are no rules of the format
+  // 601 to 700 are for programs' own findings, which are no rules of the format (spec/errors.md)
   // files
   IoMissing = 901,
   IoNotAFile = 902,

@@ -101,7 +101,7 @@ def check_case(m, lacking=()):
     axes, used, needed, described = (m["metadata"].get(k, ()) for k in ("source", "extensionsUsed", "extensionsRequired", "nodeArrays"))
     for i in range(9 if axes else 0): need("/metadata/source/direction", SOURCE_DIRECTION=math.isclose(  # axes times axes
         sum(axes["direction"][k + i // 3] * axes["direction"][k + i % 3] for k in (0, 3, 6)), i % 4 == 0, rel_tol=0, abs_tol=1e-4))
-    need("/metadata/extensionsRequired", EXTENSION_UNLISTED=set(needed) <= set(used), EXTENSION_REQUIRED=not needed)
+    need("/metadata/extensionsRequired", EXTENSION_UNLISTED=set(needed) <= set(used), EXTENSION_REQUIRED=set(needed) <= {"LUMEN_node"})
     need("/metadata/nodeArrays", NODE_ARRAY_NAME=len(arrays := {a["name"]: a for a in described}) == len(described),
          EXTENSION_UNLISTED=all(name.split(".")[0] in used for name in arrays))
     need("/nodeArrays", JSON_KEY_UNKNOWN=set(values) <= set(arrays), JSON_KEY_MISSING=set(values) >= set(arrays) or "NARR" in lacking)
@@ -110,6 +110,10 @@ def check_case(m, lacking=()):
         need(f"/nodeArrays/{name}", ARRAY_LENGTH=len(array) == n * a["components"],
              JSON_TYPE=a["type"] == "f32" or all(type(x) is int for x in array))
         need(f"/nodeArrays/{name}", NUMBER_RANGE=a["type"] == "f32" or all(low <= x <= high for x in array))
+        origins, of = name == "LUMEN_node.origin", f"/metadata/nodeArrays/{described.index(a)}"
+        need(f"{of}/components", NODE_ARRAY_COMPONENTS=not origins or a["components"] == 1)
+        need(f"{of}/type", ENUM_VALUE=not origins or a["type"] == "u32")
+        for i, x in enumerate(array if origins else ()): need(f"/nodeArrays/{name}/{i}", ENUM_VALUE=x <= 2)
         if a["type"] == "f32": array[:] = [real(x, True, f"/nodeArrays/{name}/{i}") for i, x in enumerate(array)]
     for part, items in (("points", "position"), ("models", "centre")):
         offset, count = (g := m.get(part, {"offset": [0] * (n + 1), items: ()}))["offset"], len(g[items])

@@ -48,8 +48,8 @@ TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   ASSERT_EQ(told.code, 0) << told.err;
   const Json info = Json::parse(told.out);
   EXPECT_EQ(keys(info), (Names{"branches", "nodes", "links", "points", "blobs", "blobs_per_node",
-                               "length_mm", "radius_mm", "error_of_fit_mm", "provenance", "note",
-                               "node_arrays", "branch_table"}));
+                               "length_mm", "reachable", "radius_mm", "error_of_fit_mm",
+                               "provenance", "note", "node_arrays", "branch_table"}));
   EXPECT_EQ(keys(info["radius_mm"]), (Names{"min", "max"}));
   EXPECT_EQ(keys(info["error_of_fit_mm"]), kQuantiles);
   EXPECT_EQ(keys(info["provenance"]),

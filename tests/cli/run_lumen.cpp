@@ -52,10 +52,10 @@ int exitCode(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
 }
 
-/// The exit code; kills the process after a minute.
+/// The exit code; kills the process after ten minutes.
 int waitFor(pid_t child) {
   int status = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < 60000; ++i) {
     if (waitpid(child, &status, WNOHANG) == child) return exitCode(status);
     std::this_thread::sleep_for(10ms);
   }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Differential: a case that our reader accepts is the same after every way of writing and reading
 // it again, and its canonical bytes are a fixed point.
+#include <cmath>
 #include <cstdint>
 
+#include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
+#include "formats/case/reachability.h"
 #include "formats/view/case_view.h"
 #include "fuzz/fuzz_support.h"
 
@@ -35,6 +38,17 @@ void compareView(const Case& value, const CaseView& view) {
          "the view has the same parts");
 }
 
+void pushThrough(const Case& value) {
+  const Reachability found = reachabilityOf(value.tree, blendedFieldOf(value));
+  double sum = found.reachable;
+  for (const Barrier& barrier : found.barriers) {
+    expect(barrier.node < value.tree.nodeCount(), "a barrier is at a node");
+    sum += barrier.beyond;
+  }
+  expect(!(std::abs(sum - found.total) > 1e-6 * found.total),
+         "every length is reachable or beyond");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -50,6 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto view = viewCase(canonical, Verify::All);
   expect(static_cast<bool>(view), "a canonical file can be viewed");
   compareView(*first, *view);
+  if (first->models) pushThrough(*first);
   if (hasJson(*first)) {
     const auto json = decodeJson(encodeJson(*first));
     expect(json && encodeBinary(*json) == canonical, "JSON gives back the same bytes");

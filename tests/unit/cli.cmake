@@ -1,6 +1,6 @@
 # The executable, from outside.
 lumen_test(cli_test
-  LIBS lumen_options lumen_terminal lumen_app lumen_case nlohmann_json::nlohmann_json
+  LIBS lumen_options lumen_terminal lumen_app lumen_case lumen::blob_static nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/completion_test.cpp
@@ -13,8 +13,11 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/pushed_tool.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/reachable_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/terminal_progress_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/tool_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/usage_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/validate_test.cpp)
 target_compile_definitions(cli_test PRIVATE LUMEN_EXECUTABLE="$<TARGET_FILE:lumen>")

@@ -16,7 +16,9 @@ lumen_test(formats_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/json_text_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/places_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/memory_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/node_origin_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/printable_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/reachability_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/spec_tables.cpp

@@ -159,6 +159,23 @@ std::string filesWith(const std::string& code, const std::map<std::string, std::
   return files;
 }
 
+// What lumen validate finds beyond the rules.
+constexpr const char* kFindings =
+    "\n<a id=\"findings\"></a>\n"
+    "## Findings of lumen validate\n\n"
+    "Warnings, which are errors under `--strict`. Those from 601 to 605 are looked for with\n"
+    "`--privacy` only, and then lead to exit code 3.\n\n"
+    "| number | code | arguments | meaning |\n|---|---|---|---|\n"
+    "| 601 | `PRIVACY_DATE` | found | a text has what may be a date |\n"
+    "| 602 | `PRIVACY_PATH` | found | a text has what may be a path or the address of a file |\n"
+    "| 603 | `PRIVACY_ADDRESS` | found | a text has what may be an e-mail address |\n"
+    "| 604 | `PRIVACY_NUMBER` | found | a text has what may be an identification number |\n"
+    "| 605 | `PRIVACY_NAME` | found | a text has what may be the name or title of a person |\n"
+    "| 651 | `CLOSED_EDGE` | found | the surface of the case stands across an edge between a node "
+    "and "
+    "its parent, or a root is outside of it: no tool can be pushed there along the tree; found is "
+    "the length beyond that cannot be reached, in mm |\n";
+
 }  // namespace
 
 std::string readText(const fs::path& file) {
@@ -172,13 +189,14 @@ std::string errorsPage() {
       "Made from `formats/container/error_code.cpp`; see [the specification](lumen.md#errors).\n"
       "Numbers and names are stable and are never used again for another rule. A file with an "
       "error is\n"
-      "refused; warnings and information do not change that. Numbers from 601 to 700 are free for\n"
-      "programs that look for personal texts, which are no breach of the format.\n\n"
+      "refused; warnings and information do not change that. Numbers from 601 to 700 are for\n"
+      "programs' own findings, which are no breach of the format; [below](#findings) are those of\n"
+      "`lumen validate`.\n\n"
       "| number | code | severity | arguments | meaning |\n|---|---|---|---|---|\n";
   for (const ErrorRule& rule : errorRules())
     text += "| " + std::to_string(static_cast<int>(rule.code)) + " | `" + rule.name + "` | " +
             severityName(rule.severity) + " | " + rule.arguments + " | " + rule.meaning + " |\n";
-  return text;
+  return text + kFindings;
 }
 
 std::string propertyTables(const fs::path& folder) {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tool is pushed through cases that were made of volumes, as a simulator does it.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/pushed_tool.h"
+#include "tests/cli/run_lumen.h"
+
+namespace lumen::test {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+class ToolTest : public CliTest {
+protected:
+  /// Converts a volume, and pushes a tool to every tip of the case.
+  void pushThrough(const std::string& volume, const std::string& seeds) const {
+    const Outcome made = lumen({"convert", volume, "case.lumen", "--seeds", seeds, "--quiet"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const Json info = Json::parse(lumen({"info", "case.lumen", "--json"}).out);
+    const double voxel = info["provenance"]["voxel_size_mm"];
+    blob_model* model = nullptr;
+    ASSERT_EQ(blob_model_open(path("case.lumen").c_str(), nullptr, &model), BLOB_OK);
+    const std::vector<PushedTool> tools = pushToEveryTip(model);
+    EXPECT_FALSE(tools.empty());
+    for (const PushedTool& tool : tools) {
+      const std::string tip = "tip " + std::to_string(tool.tip) + " after " +
+                              std::to_string(tool.length) + " mm, worst near node " +
+                              std::to_string(tool.outsideNode) + " at " +
+                              std::to_string(tool.outsideAt[0]) + ", " +
+                              std::to_string(tool.outsideAt[1]) + ", " +
+                              std::to_string(tool.outsideAt[2]);
+      EXPECT_LE(tool.outside, 0.1 * voxel) << tip;
+      const double radius = blob_model_node(model, tool.tip).radius;
+      EXPECT_LE(tool.fromTip, radius) << tip;
+      EXPECT_LE(tool.cursorFromTip, 4 * radius) << tip;
+    }
+    blob_model_close(model);
+  }
+
+  void pushThroughPhantom(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> all = {"phantom"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), {"volume.nrrd", "--seeds", "seeds.json", "--quiet"});
+    const Outcome made = lumen(all);
+    ASSERT_EQ(made.code, 0) << made.err;
+    pushThrough("volume.nrrd", "seeds.json");
+  }
+};
+
+TEST_F(ToolTest, OfTwoHundredPointsArrivesAtEveryTipOfABifurcation) {
+  pushThroughPhantom({"bifurcation"});
+}
+
+TEST_F(ToolTest, OfTwoHundredPointsArrivesAtTheEndsOfVesselsThatTouch) {
+  pushThroughPhantom({"kissing"});
+}
+
+TEST_F(ToolTest, OfTwoHundredPointsArrivesBeyondAHairpin) {
+  pushThroughPhantom({"hairpin"});
+}
+
+TEST_F(ToolTest, OfTwoHundredPointsArrivesAtEveryTipOfAPatient) {
+  pushThroughPhantom({"patient", "--size", "128"});
+}
+
+TEST_F(ToolTest, OfTwoHundredPointsArrivesAtEveryTipOfARealAngiogram) {
+  const std::filesystem::path volume = LUMEN_SHARED_DATA "/aneurism-3dra.nrrd";
+  if (!std::filesystem::exists(volume)) GTEST_SKIP() << volume << " is not there";
+  pushThrough(volume, LUMEN_TEST_DATA "/aneurism-3dra.seeds.json");
+}
+
+}  // namespace lumen::test

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/fitting/open_edges.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "formats/case/case_field.h"
+#include "formats/case/reachability.h"
+#include "tests/unit/formats/beads.h"
+
+namespace lumen::convert {
+namespace {
+
+using formats::Case;
+using formats::test::addBeads;
+using formats::test::alongX;
+
+/// Two rows of eleven beads of radius 1 along x, half a radius apart, and a gap of 2.4 mm from x = 5
+/// between them: 0.4 mm of it is closed.
+Case closedTube(float y = 0) {
+  Case value = formats::test::noBeads();
+  auto places = alongX(0, 0.5F, 11, y);
+  for (const auto& place : alongX(7.4F, 0.5F, 11, y)) places.push_back(place);
+  addBeads(value, "a", places, 1);
+  return value;
+}
+
+double missing(const Case& value) {
+  const auto found = formats::reachabilityOf(value.tree, formats::blendedFieldOf(value));
+  return found.total - found.reachable;
+}
+
+/// The blobs of a node.
+std::vector<std::array<float, 4>> blobsOf(const Case& value, std::uint32_t node) {
+  std::vector<std::array<float, 4>> blobs;
+  for (std::uint32_t k = value.models->offset[node]; k < value.models->offset[node + 1]; ++k) {
+    const auto& c = value.models->centre[k];
+    blobs.push_back({c.x, c.y, c.z, value.models->width[k]});
+  }
+  return blobs;
+}
+
+TEST(OpenEdges, OpensAnEdgeThatIsClosed) {
+  Case value = closedTube();
+  ASSERT_GT(missing(value), 5);
+  openEdges(value);
+  EXPECT_EQ(missing(value), 0);
+}
+
+TEST(OpenEdges, LeavesOpenTreesAsTheyAre) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "a", alongX(0, 0.5F, 11), 1);
+  const Case before = value;
+  openEdges(value);
+  EXPECT_EQ(value, before);
+}
+
+TEST(OpenEdges, AddsToTheNodesOfTheEdgeAndChangesNothingElse) {
+  const Case before = closedTube();
+  Case value = before;
+  openEdges(value);
+  EXPECT_EQ(value.tree, before.tree);
+  for (std::uint32_t node = 0; node < before.tree.nodeCount(); ++node) {
+    auto blobs = blobsOf(value, node);
+    if (node == 10 || node == 11) {
+      ASSERT_GE(blobs.size(), 2U);
+      blobs.resize(1);
+    }
+    EXPECT_EQ(blobs, blobsOf(before, node)) << node;
+  }
+}
+
+TEST(OpenEdges, StaysWithinTheTube) {
+  Case value = closedTube();
+  openEdges(value);
+  const field::BlendedField field = formats::blendedFieldOf(value);
+  for (double x = 5; x <= 7.4; x += 0.05)
+    for (int i = 0; i < 16; ++i) {
+      const double angle = 0.3926991 * i;
+      const field::Vec wall{x, 1.02 * std::cos(angle), 1.02 * std::sin(angle)};
+      EXPECT_LT(field.blended(wall, field.follow(wall, x < 6.2 ? 10 : 11)).value, field.level())
+          << x;
+    }
+}
+
+TEST(OpenEdges, OpensARootsOwnCentre) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "a", alongX(0, 0.5F, 5), 1);
+  value.models->centre[0].y = 1.1F;
+  ASSERT_EQ(missing(value), 2);
+  openEdges(value);
+  EXPECT_EQ(missing(value), 0);
+}
+
+TEST(OpenEdges, KeepsVesselsThatTouchApart) {
+  Case value = closedTube();
+  const std::uint32_t other = addBeads(value, "b", alongX(0, 0.5F, 40, 2), 1);
+  openEdges(value);
+  EXPECT_EQ(missing(value), 0);
+  const field::BlendedField field = formats::blendedFieldOf(value);
+  // across the place where they touch, beside the opening, from either side
+  for (const bool upwards : {true, false}) {
+    std::uint32_t cursor = upwards ? 10 : other + 12;
+    bool left = false;
+    for (double y = upwards ? 0 : 2; upwards ? y <= 2 : y >= 0; y += upwards ? 0.05 : -0.05) {
+      const field::Vec point{6.2, y, 0};
+      cursor = field.follow(point, cursor);
+      left = left || field.blended(point, cursor).value <= field.level();
+    }
+    EXPECT_TRUE(left);
+    EXPECT_EQ(cursor < other, upwards);
+  }
+}
+
+}  // namespace
+}  // namespace lumen::convert
