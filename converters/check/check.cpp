@@ -158,12 +158,14 @@ CheckResult checkCase(const Volume& volume, const formats::Case& value, const Ed
 
   progress.begin("places", 0);
   report.lumenVolume = static_cast<double>(lumen.voxels().size()) * volume.geometry.spacing.prod();
-  const std::vector<float> half = halfLevels(tree, offsets);
-  if (!half.empty()) {
-    const Levels levels{volume, options.dark, half};
+  const std::vector<NodeLevels> ofNodes = nodeLevels(tree, offsets);
+  if (!ofNodes.empty()) {
+    const Levels levels{volume, options.dark, ofNodes};
     report.dark = darkInside(lumen, levels, progress);
-    report.missing = brightOutside(lumen, levels, progress);
+    report.missing = brightOutside(lumen, levels, tree, progress);
+    report.shownLength = shownLength(tree, lumen, levels);
   }
+  report.ends = findOpenEnds(tree, report.voxelSize, report.missing.vessels);
   progress.end();
   result.lumen = lumen.voxels();
   return result;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/check/open_ends.h"
 #include "converters/check/places.h"
 #include "converters/check/wall_offsets.h"
 #include "converters/common/progress.h"
@@ -50,7 +51,15 @@ struct CheckReport {
   std::vector<BranchCheck> branches;
   std::vector<Agreement> nodes;
   double lumenVolume = 0;  ///< mm^3, of the voxels inside
-  Places dark, missing;
+  Regions dark;
+  Missing missing;
+  std::vector<OpenEnd> ends;
+  double shownLength = 0;                       ///< mm of the case's vessels that the volume shows
+  [[nodiscard]] double missingLength() const {  ///< mm
+    double sum = 0;
+    for (const MissingVessel& vessel : missing.vessels) sum += vessel.length;
+    return sum;
+  }
 };
 
 struct CheckResult {
