@@ -30,7 +30,8 @@ Json offsetsJson(const convert::Offsets& o, double voxel) {
     json[unit] = {{"median", jsonNumber(o.median / size)},
                   {"median_absolute", jsonNumber(o.absoluteMedian / size)},
                   {"p90_absolute", jsonNumber(o.absoluteP90 / size)},
-                  {"median_uncorrected", jsonNumber(o.uncorrectedMedian / size)}};
+                  {"median_uncorrected", jsonNumber(o.uncorrectedMedian / size)},
+                  {"median_steepest", jsonNumber(o.steepestMedian / size)}};
   json["beyond_voxel_share"] = jsonNumber(o.beyondVoxel);
   json["no_edge_share"] = jsonNumber(o.noEdge);
   json["wrong_polarity_share"] = jsonNumber(o.wrongPolarity);

@@ -21,7 +21,7 @@ constexpr double kSameLength = 1e-4;  // of a voxel: floats of one file and doub
 
 Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
   Offsets result;
-  std::vector<double> each, absolute, uncorrected;
+  std::vector<double> each, absolute, uncorrected, steepest;
   std::size_t beyond = 0, none = 0, wrong = 0;
   for (const WallOffset& o : offsets) {
     result.beside += o.verdict == Verdict::BesideAnother;
@@ -32,6 +32,7 @@ Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
     each.push_back(o.offset);
     absolute.push_back(std::abs(o.offset));
     uncorrected.push_back(o.offset - o.displaced);
+    steepest.push_back(o.fromSteepest);
     beyond += std::abs(o.offset) > voxel;
   }
   result.samples = each.size() + none + wrong;
@@ -46,6 +47,7 @@ Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
   result.absoluteMedian = quantile(absolute, 0.5);
   result.absoluteP90 = quantile(absolute, 0.9);
   result.uncorrectedMedian = quantile(uncorrected, 0.5);
+  result.steepestMedian = quantile(steepest, 0.5);
   result.beyondVoxel = share(beyond);
   result.noEdge = share(none);
   result.wrongPolarity = share(wrong);

@@ -25,6 +25,7 @@ struct Offsets {
   double median = 0;        ///< over the samples with an edge, as the next ones
   double absoluteMedian = 0, absoluteP90 = 0;
   double uncorrectedMedian = 0;  ///< from the edge as it is seen, blur and all
+  double steepestMedian = 0;     ///< from where the intensity changes most, blur and all
   double beyondVoxel = 0;        ///< share whose wall is more than a voxel off its edge
   double noEdge = 0;
   double wrongPolarity = 0;

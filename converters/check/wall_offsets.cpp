@@ -84,6 +84,7 @@ public:
     result.displaced =
         kind == formats::BranchKind::Aneurysm ? m_ideal.ofBall(seen) : m_ideal.ofCylinder(seen);
     result.offset = result.displaced - at;
+    result.fromSteepest = -edge.steepest * m_step;
     result.inside = edge.inside;
     result.outside = edge.outside;
     return result;

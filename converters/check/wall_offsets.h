@@ -32,6 +32,7 @@ struct WallOffset {
   std::uint32_t node = 0;
   Verdict verdict = Verdict::NoEdge;
   double offset = 0;               ///< mm, of the wall outward of where the edge says that it is
+  double fromSteepest = 0;         ///< mm, outward of where the intensity changes most
   double displaced = 0;            ///< mm, of the edge outward of such a wall, by the blur
   double inside = 0, outside = 0;  ///< levels on the two sides, voxel units, brighter is more
   double beyond = 0;               ///< the same at the far end of the profile, where one was taken
