@@ -272,8 +272,10 @@ public:
     checkOutputs(context);
     const formats::Case value = readCase(m_case);
     if (!value.models || value.tree.nodeCount() == 0)
-      throw invalidInput(m_case +
-                         ": has no models, so it has no wall to check; lumen fit makes them");
+      throw invalidInput(
+          m_case +
+          ": has no models, so it has no wall to check; lumen fit makes them of wall points, "
+          "lumen convert of the volume and its seeds");
     const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
     const std::string source = checkSource(volume, value, context);
 
@@ -322,10 +324,11 @@ private:
     const auto difference =
         convert::sourceDifference(convert::describeSource(volume), *value.metadata.source);
     if (!difference) return "same";
-    const std::string text = m_case + ": was made from another volume: its " + difference->what +
-                             " was " + difference->expected + ", that of " + m_input + " is " +
-                             difference->found;
-    context.progress.warn(text);
+    context.progress.warn(m_case + ": was made from another volume: " +
+                          (difference->what == "voxels"
+                               ? m_input + " has its size and place, but other voxels"
+                               : "its " + difference->what + " was " + difference->expected +
+                                     ", that of " + m_input + " is " + difference->found));
     return "other " + difference->what;
   }
 

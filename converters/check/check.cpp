@@ -81,11 +81,24 @@ void summariseAll(const formats::CenterlineTree& tree, const std::vector<WallOff
         agreementOf(summarise(ofNodes(offsets, n, n + 1), report.voxelSize), report.voxelSize));
 }
 
-std::size_t countOutside(const Volume& volume, const formats::CenterlineTree& tree) {
+/// Nodes outside of the volume, were every coordinate multiplied.
+std::size_t countOutside(const Volume& volume, const formats::CenterlineTree& tree,
+                         const Eigen::Vector3d& factor) {
   return static_cast<std::size_t>(
       std::count_if(tree.centre.begin(), tree.centre.end(), [&](const formats::Vec3f& centre) {
-        return !volume.geometry.containsWorld(toEigen(centre));
+        return !volume.geometry.containsWorld(factor.cwiseProduct(toEigen(centre)));
       }));
+}
+
+/// Why a case has no node in the volume, as far as that can be seen.
+std::string likelyReason(const Volume& volume, const formats::CenterlineTree& tree) {
+  const std::pair<Eigen::Vector3d, const char*> reasons[] = {
+      {{-1, -1, 1}, "with x and y negated they do: one of the two is in RAS"},
+      {{1000, 1000, 1000}, "times 1000 they do: the case is in metres"},
+      {{1e-3, 1e-3, 1e-3}, "divided by 1000 they do: the volume is in metres; --unit states that"}};
+  for (const auto& [factor, reason] : reasons)
+    if (countOutside(volume, tree, factor) < tree.nodeCount() / 2) return reason;
+  return "they do not belong together, or one of them has another origin or unit";
 }
 
 template <class Values>
@@ -142,11 +155,10 @@ CheckResult checkCase(const Volume& volume, const formats::Case& value, const Ed
   CheckReport& report = result.report;
   report.options = options;
   report.voxelSize = volume.geometry.voxelSize();
-  report.nodesOutside = countOutside(volume, tree);
+  report.nodesOutside = countOutside(volume, tree, Eigen::Vector3d::Ones());
   if (report.nodesOutside == tree.nodeCount())
     throw invalidInput("none of the case's " + std::to_string(tree.nodeCount()) +
-                       " nodes lies in the volume: they do not belong together, or one of them has "
-                       "another origin or unit");
+                       " nodes lies in the volume: " + likelyReason(volume, tree));
   const field::BlendedField surface = formats::blendedFieldOf(value);
 
   progress.begin("lumen", tree.nodeCount());
