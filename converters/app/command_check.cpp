@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen check: the agreement of a case with its volume.
+#include <algorithm>
 #include <cmath>
 
 #include "converters/app/command.h"
@@ -29,25 +30,62 @@ Json offsetsJson(const convert::Offsets& o, double voxel) {
     json[unit] = {{"median", jsonNumber(o.median / size)},
                   {"median_absolute", jsonNumber(o.absoluteMedian / size)},
                   {"p90_absolute", jsonNumber(o.absoluteP90 / size)},
-                  {"median_uncorrected", jsonNumber(o.uncorrectedMedian / size)}};
+                  {"median_uncorrected", jsonNumber(o.uncorrectedMedian / size)},
+                  {"median_steepest", jsonNumber(o.steepestMedian / size)}};
   json["beyond_voxel_share"] = jsonNumber(o.beyondVoxel);
   json["no_edge_share"] = jsonNumber(o.noEdge);
   json["wrong_polarity_share"] = jsonNumber(o.wrongPolarity);
   return json;
 }
 
-Json placesJson(const convert::Places& places, const formats::CenterlineTree& tree) {
+Json vectorJson(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+const std::string& labelOf(const formats::CenterlineTree& tree, std::uint32_t node) {
+  return tree.branches[tree.branch[node]].label;
+}
+
+Json regionsJson(const convert::Regions& regions, const formats::CenterlineTree& tree) {
   Json json = Json::array();
-  for (const convert::Place& place : places.places) {
-    const auto& p = place.position;
-    json.push_back({{"position", {p.x(), p.y(), p.z()}},
-                    {"length_mm", jsonNumber(place.length)},
-                    {"radius_mm", jsonNumber(place.radius)},
-                    {"volume_mm3", jsonNumber(place.volume)},
-                    {"voxels", place.voxels},
-                    {"branch", tree.branches[tree.branch[place.node]].label},
-                    {"node", place.node}});
-  }
+  for (const convert::Region& region : regions.regions)
+    json.push_back({{"position", vectorJson(region.position)},
+                    {"radius_mm", jsonNumber(region.radius)},
+                    {"volume_mm3", jsonNumber(region.volume)},
+                    {"voxels", region.voxels},
+                    {"branch", labelOf(tree, region.node)},
+                    {"node", region.node}});
+  return json;
+}
+
+const Eigen::Vector3d& middleOf(const convert::MissingVessel& vessel) {
+  return vessel.way[vessel.way.size() / 2].position;
+}
+
+Json vesselsJson(const convert::Missing& missing, const formats::CenterlineTree& tree) {
+  Json json = Json::array();
+  for (const convert::MissingVessel& vessel : missing.vessels)
+    json.push_back({{"position", vectorJson(middleOf(vessel))},
+                    {"start", vectorJson(vessel.way.front().position)},
+                    {"tip", vectorJson(vessel.way.back().position)},
+                    {"length_mm", jsonNumber(vessel.length)},
+                    {"radius_mm", jsonNumber(vessel.radius)},
+                    {"volume_mm3", jsonNumber(vessel.volume)},
+                    {"voxels", vessel.voxels},
+                    {"branch", labelOf(tree, vessel.way.front().node)},
+                    {"node", vessel.way.front().node},
+                    {"at_end", vessel.atEnd}});
+  return json;
+}
+
+Json endsJson(const std::vector<convert::OpenEnd>& ends, const formats::CenterlineTree& tree) {
+  Json json = Json::array();
+  for (const convert::OpenEnd& end : ends)
+    json.push_back({{"position", vectorJson(toEigen(tree.centre[end.node]))},
+                    {"branch", labelOf(tree, end.node)},
+                    {"node", end.node},
+                    {"first", end.first},
+                    {"goes_on_mm", jsonNumber(end.goesOn)}});
   return json;
 }
 
@@ -65,10 +103,16 @@ Json checkJson(const convert::CheckReport& report, const formats::CenterlineTree
   json["wall"] = offsetsJson(report.offsets, report.voxelSize);
   json["lumen_mm3"] = jsonNumber(report.lumenVolume);
   json["dark_share"] = jsonNumber(share(report.dark.volume, report.lumenVolume));
-  json["dark_places"] = placesJson(report.dark, tree);
+  json["dark_places"] = regionsJson(report.dark, tree);
   json["missing_share"] =
       jsonNumber(share(report.missing.volume, report.missing.volume + report.lumenVolume));
-  json["missing_places"] = placesJson(report.missing, tree);
+  json["missing_vessels"] = vesselsJson(report.missing, tree);
+  json["wide_regions"] = regionsJson(report.missing.wide, tree);
+  json["ends"] = endsJson(report.ends, tree);
+  json["shown_mm"] = jsonNumber(report.shownLength);
+  json["missing_mm"] = jsonNumber(report.missingLength());
+  json["coverage_share"] =
+      jsonNumber(share(report.shownLength, report.shownLength + report.missingLength()));
   json["branches"] = Json::array();
   for (const auto& branch : report.branches) {
     Json entry;
@@ -101,35 +145,70 @@ std::string at(const Eigen::Vector3d& p) {
   return "(" + fixed(p.x(), 1) + ", " + fixed(p.y(), 1) + ", " + fixed(p.z(), 1) + ")";
 }
 
-/// "a vessel of 12.3 mm and radius 0.8 mm at (x, y, z), beside aca-4"
-std::string placeText(const convert::Place& place, const formats::CenterlineTree& tree) {
-  constexpr double kSlender = 3;  // radii: what is shorter is no vessel to the eye
-  const std::string kind = place.length > kSlender * place.radius ? "a vessel" : "a region";
-  return kind + " of " + fixed(place.length, 1) + " mm and radius " + fixed(place.radius, 1) +
-         " mm at " + at(place.position) + ", beside " +
-         printable(tree.branches[tree.branch[place.node]].label);
+/// The lines of the first kPlacesShown of `list`, and how many more there are.
+template <class List, class Line>
+std::string firstLines(const List& list, const std::string& singular, const std::string& plural,
+                       Line&& line) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kPlacesShown, list.size()); ++i)
+    text += line(list[i]) + "\n";
+  if (list.size() > kPlacesShown)
+    text += counted(list.size() - kPlacesShown, singular, plural) + "; --json lists them\n";
+  return text;
 }
 
-std::string missingText(const convert::Places& missing, const formats::CenterlineTree& tree) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kPlacesShown, missing.places.size()); ++i)
-    text += placeText(missing.places[i], tree) + " is not in the case\n";
-  if (missing.places.size() > kPlacesShown)
-    text +=
-        counted(missing.places.size() - kPlacesShown, "smaller place is", "smaller places are") +
-        " not in the case; --json lists them\n";
-  return text;
+/// "1.5 mm3 ", "1520 mm3"
+std::string volumeText(double mm3) {
+  return fixed(mm3, mm3 < 100 ? 1 : 0) + " mm3";
 }
 
 std::string darkText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
-  std::string text = percent(share(report.dark.volume, report.lumenVolume)) +
-                     " of the lumen's volume is dark and farther than a voxel from its wall\n";
-  for (std::size_t i = 0; i < std::min(kPlacesShown, report.dark.places.size()); ++i) {
-    const convert::Place& place = report.dark.places[i];
-    text += "the lumen of " + printable(tree.branches[tree.branch[place.node]].label) + " at " +
-            at(place.position) + " is dark over " + fixed(place.volume, 1) + " mm3\n";
-  }
-  return text;
+  return percent(share(report.dark.volume, report.lumenVolume)) +
+         " of the lumen's volume is dark and farther than a voxel from its wall\n" +
+         firstLines(report.dark.regions, "smaller dark place", "smaller dark places",
+                    [&](const convert::Region& region) {
+                      return "the lumen of " + printable(labelOf(tree, region.node)) + " at " +
+                             at(region.position) + " is dark over " + volumeText(region.volume);
+                    });
+}
+
+std::string endsText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
+  std::vector<convert::OpenEnd> onward;
+  for (const convert::OpenEnd& end : report.ends)
+    if (end.goesOn > 0) onward.push_back(end);
+  std::stable_sort(onward.begin(), onward.end(),
+                   [](const auto& a, const auto& b) { return a.goesOn > b.goesOn; });
+  return counted(report.ends.size() - onward.size(), "open end", "open ends") + " of " +
+         std::to_string(report.ends.size()) + " reach as far as the volume shows their vessel\n" +
+         firstLines(onward, "more end stops short", "more ends stop short",
+                    [&](const convert::OpenEnd& end) {
+                      return printable(labelOf(tree, end.node)) +
+                             (end.first ? " begins at " : " ends at ") +
+                             at(toEigen(tree.centre[end.node])) +
+                             ", and the vessel goes on for about " + fixed(end.goesOn, 0) + " mm";
+                    });
+}
+
+std::string missingText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
+  const double missing = report.missingLength(), whole = report.shownLength + missing;
+  return "the case has " + fixed(report.shownLength, 1) + " of " + fixed(whole, 1) + " mm (" +
+         percent(share(report.shownLength, whole)) +
+         ") of the vessels that hang together with it in the volume\n" +
+         firstLines(report.missing.vessels, "shorter vessel is not in the case",
+                    "shorter vessels are not in the case",
+                    [&](const convert::MissingVessel& vessel) {
+                      return "a vessel of " + fixed(vessel.length, 1) + " mm and radius " +
+                             fixed(vessel.radius, 1) + " mm at " + at(middleOf(vessel)) +
+                             ", beside " + printable(labelOf(tree, vessel.way.front().node)) +
+                             ", is not in the case";
+                    }) +
+         firstLines(report.missing.wide.regions, "smaller wide region", "smaller wide regions",
+                    [&](const convert::Region& region) {
+                      return "a bright region of " + volumeText(region.volume) + " at " +
+                             at(region.position) + ", beside " +
+                             printable(labelOf(tree, region.node)) +
+                             ", is wider than every vessel of the case";
+                    });
 }
 
 std::string checkText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
@@ -145,7 +224,7 @@ std::string checkText(const convert::CheckReport& report, const formats::Centerl
          "samples: farther than\na voxel, without an edge, dark inside and bright outside. Beside: "
          "samples where another part of the\ntree begins, not judged. One voxel is " +
          fixed(report.voxelSize, 3) + " mm; blur taken as " + fixed(report.options.pointSpread, 3) +
-         " mm.\n\n" + darkText(report, tree) + missingText(report.missing, tree);
+         " mm.\n\n" + darkText(report, tree) + endsText(report, tree) + missingText(report, tree);
 }
 
 class CheckCommand : public Command {
@@ -193,8 +272,10 @@ public:
     checkOutputs(context);
     const formats::Case value = readCase(m_case);
     if (!value.models || value.tree.nodeCount() == 0)
-      throw invalidInput(m_case +
-                         ": has no models, so it has no wall to check; lumen fit makes them");
+      throw invalidInput(
+          m_case +
+          ": has no models, so it has no wall to check; lumen fit makes them of wall points, "
+          "lumen convert of the volume and its seeds");
     const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
     const std::string source = checkSource(volume, value, context);
 
@@ -243,10 +324,11 @@ private:
     const auto difference =
         convert::sourceDifference(convert::describeSource(volume), *value.metadata.source);
     if (!difference) return "same";
-    const std::string text = m_case + ": was made from another volume: its " + difference->what +
-                             " was " + difference->expected + ", that of " + m_input + " is " +
-                             difference->found;
-    context.progress.warn(text);
+    context.progress.warn(m_case + ": was made from another volume: " +
+                          (difference->what == "voxels"
+                               ? m_input + " has its size and place, but other voxels"
+                               : "its " + difference->what + " was " + difference->expected +
+                                     ", that of " + m_input + " is " + difference->found));
     return "other " + difference->what;
   }
 

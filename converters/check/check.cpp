@@ -21,7 +21,7 @@ constexpr double kSameLength = 1e-4;  // of a voxel: floats of one file and doub
 
 Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
   Offsets result;
-  std::vector<double> each, absolute, uncorrected;
+  std::vector<double> each, absolute, uncorrected, steepest;
   std::size_t beyond = 0, none = 0, wrong = 0;
   for (const WallOffset& o : offsets) {
     result.beside += o.verdict == Verdict::BesideAnother;
@@ -32,6 +32,7 @@ Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
     each.push_back(o.offset);
     absolute.push_back(std::abs(o.offset));
     uncorrected.push_back(o.offset - o.displaced);
+    steepest.push_back(o.fromSteepest);
     beyond += std::abs(o.offset) > voxel;
   }
   result.samples = each.size() + none + wrong;
@@ -46,6 +47,7 @@ Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
   result.absoluteMedian = quantile(absolute, 0.5);
   result.absoluteP90 = quantile(absolute, 0.9);
   result.uncorrectedMedian = quantile(uncorrected, 0.5);
+  result.steepestMedian = quantile(steepest, 0.5);
   result.beyondVoxel = share(beyond);
   result.noEdge = share(none);
   result.wrongPolarity = share(wrong);
@@ -79,11 +81,24 @@ void summariseAll(const formats::CenterlineTree& tree, const std::vector<WallOff
         agreementOf(summarise(ofNodes(offsets, n, n + 1), report.voxelSize), report.voxelSize));
 }
 
-std::size_t countOutside(const Volume& volume, const formats::CenterlineTree& tree) {
+/// Nodes outside of the volume, were every coordinate multiplied.
+std::size_t countOutside(const Volume& volume, const formats::CenterlineTree& tree,
+                         const Eigen::Vector3d& factor) {
   return static_cast<std::size_t>(
       std::count_if(tree.centre.begin(), tree.centre.end(), [&](const formats::Vec3f& centre) {
-        return !volume.geometry.containsWorld(toEigen(centre));
+        return !volume.geometry.containsWorld(factor.cwiseProduct(toEigen(centre)));
       }));
+}
+
+/// Why a case has no node in the volume, as far as that can be seen.
+std::string likelyReason(const Volume& volume, const formats::CenterlineTree& tree) {
+  const std::pair<Eigen::Vector3d, const char*> reasons[] = {
+      {{-1, -1, 1}, "with x and y negated they do: one of the two is in RAS"},
+      {{1000, 1000, 1000}, "times 1000 they do: the case is in metres"},
+      {{1e-3, 1e-3, 1e-3}, "divided by 1000 they do: the volume is in metres; --unit states that"}};
+  for (const auto& [factor, reason] : reasons)
+    if (countOutside(volume, tree, factor) < tree.nodeCount() / 2) return reason;
+  return "they do not belong together, or one of them has another origin or unit";
 }
 
 template <class Values>
@@ -140,11 +155,10 @@ CheckResult checkCase(const Volume& volume, const formats::Case& value, const Ed
   CheckReport& report = result.report;
   report.options = options;
   report.voxelSize = volume.geometry.voxelSize();
-  report.nodesOutside = countOutside(volume, tree);
+  report.nodesOutside = countOutside(volume, tree, Eigen::Vector3d::Ones());
   if (report.nodesOutside == tree.nodeCount())
     throw invalidInput("none of the case's " + std::to_string(tree.nodeCount()) +
-                       " nodes lies in the volume: they do not belong together, or one of them has "
-                       "another origin or unit");
+                       " nodes lies in the volume: " + likelyReason(volume, tree));
   const field::BlendedField surface = formats::blendedFieldOf(value);
 
   progress.begin("lumen", tree.nodeCount());
@@ -158,12 +172,14 @@ CheckResult checkCase(const Volume& volume, const formats::Case& value, const Ed
 
   progress.begin("places", 0);
   report.lumenVolume = static_cast<double>(lumen.voxels().size()) * volume.geometry.spacing.prod();
-  const std::vector<float> half = halfLevels(tree, offsets);
-  if (!half.empty()) {
-    const Levels levels{volume, options.dark, half};
+  const std::vector<NodeLevels> ofNodes = nodeLevels(tree, offsets);
+  if (!ofNodes.empty()) {
+    const Levels levels{volume, options.dark, ofNodes};
     report.dark = darkInside(lumen, levels, progress);
-    report.missing = brightOutside(lumen, levels, progress);
+    report.missing = brightOutside(lumen, levels, tree, progress);
+    report.shownLength = shownLength(tree, lumen, levels);
   }
+  report.ends = findOpenEnds(tree, report.voxelSize, report.missing.vessels);
   progress.end();
   result.lumen = lumen.voxels();
   return result;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/check/open_ends.h"
 #include "converters/check/places.h"
 #include "converters/check/wall_offsets.h"
 #include "converters/common/progress.h"
@@ -24,6 +25,7 @@ struct Offsets {
   double median = 0;        ///< over the samples with an edge, as the next ones
   double absoluteMedian = 0, absoluteP90 = 0;
   double uncorrectedMedian = 0;  ///< from the edge as it is seen, blur and all
+  double steepestMedian = 0;     ///< from where the intensity changes most, blur and all
   double beyondVoxel = 0;        ///< share whose wall is more than a voxel off its edge
   double noEdge = 0;
   double wrongPolarity = 0;
@@ -50,7 +52,15 @@ struct CheckReport {
   std::vector<BranchCheck> branches;
   std::vector<Agreement> nodes;
   double lumenVolume = 0;  ///< mm^3, of the voxels inside
-  Places dark, missing;
+  Regions dark;
+  Missing missing;
+  std::vector<OpenEnd> ends;
+  double shownLength = 0;                       ///< mm of the case's vessels that the volume shows
+  [[nodiscard]] double missingLength() const {  ///< mm
+    double sum = 0;
+    for (const MissingVessel& vessel : missing.vessels) sum += vessel.length;
+    return sum;
+  }
 };
 
 struct CheckResult {

@@ -88,7 +88,18 @@ LumenVoxels::LumenVoxels(const formats::CenterlineTree& tree, const field::Blend
   }
 }
 
-std::uint32_t LumenVoxels::nodeOf(std::size_t index) const {
+std::size_t cornerIndex(const VolumeGeometry& geometry, const Vector3d& at, int corner) {
+  std::size_t index = 0;
+  for (int a = 2; a >= 0; --a) {
+    const int size = geometry.size[static_cast<std::size_t>(a)];
+    const int i = std::min(static_cast<int>(at[a]) + (corner >> a & 1), size - 1);
+    index = index * static_cast<std::size_t>(size) + static_cast<std::size_t>(i);
+  }
+  return index;
+}
+
+std::optional<std::uint32_t> LumenVoxels::nodeAt(std::size_t index) const {
+  if (m_inside[index] == 0) return std::nullopt;
   const auto found =
       std::lower_bound(m_voxels.begin(), m_voxels.end(), index,
                        [](const LumenVoxel& v, std::size_t i) { return v.index < i; });
@@ -102,14 +113,9 @@ bool LumenVoxels::isInAnother(const Vector3d& point, std::uint32_t own) const {
   const std::uint32_t here = m_surface.follow(p, own);
   std::uint32_t before = here;
   for (int corner = 0; corner < 8; ++corner) {
-    std::size_t index = 0;
-    for (int a = 2; a >= 0; --a) {
-      const int size = m_geometry.size[static_cast<std::size_t>(a)];
-      const int i = std::min(static_cast<int>(at[a]) + (corner >> a & 1), size - 1);
-      index = index * static_cast<std::size_t>(size) + static_cast<std::size_t>(i);
-    }
-    if (m_inside[index] == 0) continue;
-    const std::uint32_t other = m_surface.follow(p, nodeOf(index));
+    const auto claimant = nodeAt(cornerIndex(m_geometry, at, corner));
+    if (!claimant) continue;
+    const std::uint32_t other = m_surface.follow(p, *claimant);
     if (other == here || other == before) continue;
     before = other;
     if (m_surface.blended(p, other).value > m_surface.level()) return true;

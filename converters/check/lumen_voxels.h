@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,9 @@ struct LumenVoxel {
                            ///< of least power
 };
 
+/// The index of one of the eight voxels around `at`, an index position in the volume.
+std::size_t cornerIndex(const VolumeGeometry& geometry, const Eigen::Vector3d& at, int corner);
+
 /// The lumen of a case on the grid of a volume: f > T of the blended field with a cursor that began
 /// in the voxel's own vessel. What lies farther from every node than twice its radius and a voxel is
 /// not looked at.
@@ -33,13 +37,14 @@ public:
   /// For each voxel of the volume 1 inside and 0 outside.
   [[nodiscard]] const std::vector<std::uint8_t>& inside() const { return m_inside; }
 
+  /// The node of a voxel; nothing outside.
+  [[nodiscard]] std::optional<std::uint32_t> nodeAt(std::size_t index) const;
+
   /// Whether `point` (mm, LPS), seen from the cursor `own`, lies in the lumen of another stretch of
   /// the tree than the one that cursor follows it to. Sees lumens of a voxel or more.
   [[nodiscard]] bool isInAnother(const Eigen::Vector3d& point, std::uint32_t own) const;
 
 private:
-  [[nodiscard]] std::uint32_t nodeOf(std::size_t index) const;
-
   const field::BlendedField& m_surface;
   VolumeGeometry m_geometry;
   std::vector<LumenVoxel> m_voxels;

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <variant>
 
 #include <tbb/parallel_for.h>
 
+#include "converters/check/projection.h"
 #include "converters/common/statistics.h"
 #include "converters/common/vectors.h"
 
@@ -15,10 +17,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kLeastEdge = 480,
-              kMostScale = 4;                // pixels; small volumes are enlarged, up to 4 times
-constexpr int kGap = 8, kLegendHeight = 24;  // pixels
-constexpr Rgb kBackdrop{24, 24, 32}, kInk{230, 230, 230};
+constexpr int kGap = 8, kLineHeight = 22, kTextScale = 2;  // pixels
+constexpr int kLegendWidth = 560, kLegendHeight = 250;     // pixels, at least
+constexpr std::size_t kManyBranches = 12;                  // more have smaller names
+constexpr std::size_t kNumbered = 9;                       // missing vessels with a number
+constexpr Rgb kBackdrop{24, 24, 32}, kInk{230, 230, 230}, kMissing{255, 80, 255},
+    kLabel{150, 220, 255};
 
 struct Shade {
   Agreement agreement;
@@ -34,81 +38,51 @@ constexpr std::array<Shade, 4> kShades{{
     {Agreement::Poor, {255, 60, 60}, "farther, or no edge"},
 }};
 
-/// A projection along one axis of the index space.
-struct Panel {
-  int across, down, along;  // axes
-  double right, below;      // pixels for a voxel
-  int x, width, height;     // in the picture
+/// Text where no other text is, on a dark ground.
+class Labels {
+public:
+  explicit Labels(Picture& picture) : m_picture(picture) {}
 
-  [[nodiscard]] std::array<double, 2> pixel(const Vector3d& index) const {
-    return {x + (index[across] + 0.5) * right, (index[down] + 0.5) * below};
+  /// Gives false, and draws nothing, where it would hide another or leave `panel`.
+  bool put(const Panel& panel, double x, double y, std::string_view text, const Rgb& colour,
+           int scale) {
+    const int width =
+        (5 * static_cast<int>(text.size()) + static_cast<int>(text.size()) + 1) * scale;
+    const Box box{static_cast<int>(x), static_cast<int>(y), static_cast<int>(x) + width,
+                  static_cast<int>(y) + 9 * scale};
+    if (box.left < panel.x || box.top < panel.y || box.right > panel.x + panel.width ||
+        box.bottom > panel.y + panel.height)
+      return false;
+    for (const Box& other : m_boxes)
+      if (box.left < other.right && other.left < box.right && box.top < other.bottom &&
+          other.top < box.bottom)
+        return false;
+    m_boxes.push_back(box);
+    for (int j = box.top; j < box.bottom; ++j)
+      for (int i = box.left; i < box.right; ++i) m_picture.set(i, j, {0, 0, 0});
+    m_picture.text(box.left + scale, box.top + scale, scale, text, colour);
+    return true;
   }
+
+private:
+  struct Box {
+    int left, top, right, bottom;
+  };
+  Picture& m_picture;
+  std::vector<Box> m_boxes;
 };
 
-std::array<Panel, 3> layOut(const VolumeGeometry& geometry) {
-  std::array<Panel, 3> panels{
-      {{0, 1, 2, 0, 0, 0, 0, 0}, {0, 2, 1, 0, 0, 0, 0, 0}, {1, 2, 0, 0, 0, 0, 0, 0}}};
-  const double finest = geometry.spacing.minCoeff();
-  double longest = 0;
-  for (int a = 0; a < 3; ++a)
-    longest = std::max(longest, geometry.size[static_cast<std::size_t>(a)] * geometry.spacing[a]);
-  const double scale =
-      std::clamp(std::ceil(kLeastEdge * finest / longest), 1.0, double(kMostScale));
-  const auto edge = [&](int axis, double pixels) {
-    return std::max(1, static_cast<int>(geometry.size[static_cast<std::size_t>(axis)] * pixels));
-  };
-  int x = 0;
-  for (Panel& panel : panels) {
-    panel.right = scale * geometry.spacing[panel.across] / finest;
-    panel.below = scale * geometry.spacing[panel.down] / finest;
-    panel.width = edge(panel.across, panel.right);
-    panel.height = edge(panel.down, panel.below);
-    panel.x = x;
-    x += panel.width + kGap;
-  }
-  return panels;
-}
-
-/// The greatest value (times `sign`) of each line of voxels along the panel's axis, `across` fastest.
-template <class T>
-std::vector<float> project(const std::vector<T>& voxels, const VolumeGeometry& geometry,
-                           const Panel& panel, float sign) {
-  const std::array<std::size_t, 3> size{static_cast<std::size_t>(geometry.size[0]),
-                                        static_cast<std::size_t>(geometry.size[1]),
-                                        static_cast<std::size_t>(geometry.size[2])};
-  const std::array<std::size_t, 3> stride{1, size[0], size[0] * size[1]};
-  const auto across = static_cast<std::size_t>(panel.across);
-  const auto down = static_cast<std::size_t>(panel.down);
-  const auto along = static_cast<std::size_t>(panel.along);
-  std::vector<float> image(size[across] * size[down]);
-  tbb::parallel_for(std::size_t{0}, size[down], [&](std::size_t j) {
-    float* row = image.data() + j * size[across];
-    std::fill(row, row + size[across], -INFINITY);
-    for (std::size_t k = 0; k < size[along]; ++k) {
-      const T* from = voxels.data() + j * stride[down] + k * stride[along];
-      for (std::size_t i = 0; i < size[across]; ++i)
-        row[i] = std::max(row[i], sign * static_cast<float>(from[i * stride[across]]));
-    }
-  });
-  return image;
-}
-
-void drawProjection(Picture& picture, const std::vector<float>& image, int across,
-                    const Panel& panel) {
+void drawProjection(Picture& picture, const Projection& image, const Panel& panel) {
   constexpr double kDarkest = 0.01, kBrightest = 0.995;  // quantiles: single voxels set no scale
   constexpr float kGrey = 200;                           // leaves the lines the brightest
-  std::vector<float> sorted = image;
+  std::vector<float> sorted = image.values;
   const float low = lowerQuantile(sorted, kDarkest), high = lowerQuantile(sorted, kBrightest);
   for (int y = 0; y < panel.height; ++y)
     for (int x = 0; x < panel.width; ++x) {
-      const int i = std::min(static_cast<int>((x + 0.5) / panel.right), across - 1);
-      const int j = std::min(static_cast<int>((y + 0.5) / panel.below),
-                             static_cast<int>(image.size()) / across - 1);
-      const float value = image[static_cast<std::size_t>(j) * static_cast<std::size_t>(across) +
-                                static_cast<std::size_t>(i)];
+      const float value = image.at((x + 0.5) / panel.right, (y + 0.5) / panel.below);
       const float share = high > low ? std::clamp((value - low) / (high - low), 0.0F, 1.0F) : 0.0F;
       const auto grey = static_cast<std::uint8_t>(kGrey * share);
-      picture.set(panel.x + x, y, {grey, grey, grey});
+      picture.set(panel.x + x, panel.y + y, {grey, grey, grey});
     }
 }
 
@@ -120,41 +94,81 @@ void drawTree(Picture& picture, const formats::CenterlineTree& tree, const Check
       const auto from = tree.parent[n] < 0 ? n : static_cast<std::size_t>(tree.parent[n]);
       const auto a = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[from])));
       const auto b = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[n])));
-      picture.line(a[0], a[1], b[0], b[1], shade.colour);
+      picture.thickLine(a[0], a[1], b[0], b[1], shade.colour);
     }
 }
 
-void drawLegend(Picture& picture, int top) {
-  constexpr int kTextScale = 2, kSwatch = 20, kSpace = 24;
-  int x = kGap;
-  for (const Shade& shade : kShades) {
-    for (int i = 0; i < kSwatch; ++i)
-      for (int j = 0; j < 4; ++j) picture.set(x + i, top + kLegendHeight / 2 + j - 2, shade.colour);
-    x = picture.text(x + kSwatch + kGap, top + 5, kTextScale, shade.meaning, kInk) + kSpace;
+void drawMissing(Picture& picture, const CheckReport& report, const VolumeGeometry& geometry,
+                 const Panel& panel) {
+  for (const MissingVessel& vessel : report.missing.vessels)
+    for (std::size_t i = 0; i + 1 < vessel.way.size(); ++i) {
+      const auto a = panel.pixel(geometry.indexFromWorld(vessel.way[i].position));
+      const auto b = panel.pixel(geometry.indexFromWorld(vessel.way[i + 1].position));
+      picture.line(a[0], a[1], b[0], b[1], kMissing);
+    }
+}
+
+/// Numbers of the longest missing vessels, then the names of branches at their last nodes.
+void drawLabels(Labels& labels, const formats::CenterlineTree& tree, const CheckReport& report,
+                const VolumeGeometry& geometry, const Panel& panel) {
+  const auto& vessels = report.missing.vessels;
+  for (std::size_t i = 0; i < std::min(kNumbered, vessels.size()); ++i) {
+    const auto& way = vessels[i].way;
+    const auto at = panel.pixel(geometry.indexFromWorld(way[way.size() / 2].position));
+    labels.put(panel, at[0] + 4, at[1] - 9, std::to_string(i + 1), kMissing, kTextScale);
   }
+  const int scale = tree.branches.size() > kManyBranches ? 1 : kTextScale;
+  for (const formats::Branch& branch : tree.branches) {
+    const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
+    const auto at = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[last])));
+    const double wide = scale * (6.0 * static_cast<double>(branch.label.size()) + 1);
+    for (const auto& [x, y] : {std::pair{4.0, -4.0}, std::pair{-4.0 - wide, -4.0},
+                               std::pair{-0.5 * wide, 4.0}, std::pair{-0.5 * wide, -9.0 * scale}})
+      if (labels.put(panel, at[0] + x, at[1] + y, branch.label, kLabel, scale)) break;
+  }
+}
+
+std::string rounded(double value) {
+  return std::to_string(std::lround(value));
+}
+
+void drawLegend(Picture& picture, int left, int top, const CheckReport& report) {
+  constexpr int kSwatch = 20;
+  int y = top;
+  const auto line = [&](const Rgb* swatch, const std::string& text) {
+    if (y + kLineHeight > picture.height) return;
+    for (int i = 0; swatch != nullptr && i < kSwatch; ++i)
+      for (int j = 0; j < 4; ++j) picture.set(left + i, y + 6 + j, *swatch);
+    picture.text(left + (swatch != nullptr ? kSwatch + kGap : 0), y, kTextScale, text, kInk);
+    y += kLineHeight;
+  };
+  for (const Shade& shade : kShades) line(&shade.colour, std::string(shade.meaning));
+  line(&kMissing, "not in the case, longest first");
+  const auto& vessels = report.missing.vessels;
+  for (std::size_t i = 0; i < std::min(kNumbered, vessels.size()); ++i) {
+    const Vector3d& at = vessels[i].way[vessels[i].way.size() / 2].position;
+    line(nullptr, std::to_string(i + 1) + ": " + rounded(vessels[i].length) + " mm at (" +
+                      rounded(at.x()) + ", " + rounded(at.y()) + ", " + rounded(at.z()) + ")");
+  }
+  if (vessels.size() > kNumbered)
+    line(nullptr, "and " + std::to_string(vessels.size() - kNumbered) + " shorter");
 }
 
 }  // namespace
 
 Picture drawOverlay(const Volume& volume, const formats::CenterlineTree& tree,
                     const CheckReport& report) {
-  constexpr int kLegendWidth = 1140;
-  const std::array<Panel, 3> panels = layOut(volume.geometry);
-  int height = 0;
-  for (const Panel& panel : panels) height = std::max(height, panel.height);
-  const int width = std::max(panels[2].x + panels[2].width, kLegendWidth);
-  Picture picture(width, height + kLegendHeight, kBackdrop);
-  for (const Panel& panel : panels) {
-    const auto image = std::visit(
-        [&](const auto& voxels) {
-          return project(voxels, volume.geometry, panel, report.options.dark ? -1.0F : 1.0F);
-        },
-        volume.voxels);
-    drawProjection(picture, image, volume.geometry.size[static_cast<std::size_t>(panel.across)],
-                   panel);
+  const Layout layout = layOut(volume.geometry, kGap, kLegendWidth, kLegendHeight);
+  Picture picture(layout.width, layout.height, kBackdrop);
+  for (const Panel& panel : layout.panels) {
+    drawProjection(picture, project(volume, panel, report.options.dark ? -1.0F : 1.0F), panel);
+    drawMissing(picture, report, volume.geometry, panel);
     drawTree(picture, tree, report, volume.geometry, panel);
+    Labels labels(picture);
+    labels.put(panel, panel.x + 2, panel.y + 2, panel.title, kInk, kTextScale);
+    drawLabels(labels, tree, report, volume.geometry, panel);
   }
-  drawLegend(picture, height);
+  drawLegend(picture, layout.legendX, layout.legendY, report);
   return picture;
 }
 

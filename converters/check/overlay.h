@@ -9,8 +9,9 @@
 
 namespace lumen::convert {
 
-/// Maximum-intensity projections (minimum, for dark vessels) along the volume's k, j and i axis, side
-/// by side with equal scale, the centerlines in the colour of their nodes' agreement over them, and a legend below.
+/// Maximum-intensity projections (minimum, for dark vessels) as front, side and top view, over them
+/// the centerlines in the colour of their nodes' agreement, names of branches where they end and where
+/// there is room, and missing vessels, the longest ones numbered as in the legend.
 Picture drawOverlay(const Volume& volume, const formats::CenterlineTree& tree,
                     const CheckReport& report);
 

@@ -26,8 +26,11 @@ struct Picture {
   /// Does nothing outside.
   void set(int x, int y, const Rgb& colour);
   void line(double x0, double y0, double x1, double y1, const Rgb& colour);
-  /// Letters of 5 by 7 pixels, `scale` times as large, with the upper left corner at (x, y): the
-  /// lower-case ones and the comma; others are left blank. Gives the x behind the last.
+  /// Three pixels wide.
+  void thickLine(double x0, double y0, double x1, double y1, const Rgb& colour);
+  /// Letters of 5 by 7 pixels, `scale` times as large, with the upper left corner at (x, y): ASCII
+  /// letters (capitals as small ones), digits and the signs , . : ( ) - _ + /; others are left blank.
+  /// Gives the x behind the last.
   int text(int x, int y, int scale, std::string_view letters, const Rgb& colour);
 };
 

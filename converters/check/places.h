@@ -4,46 +4,66 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "converters/check/bright_region.h"
 #include "converters/check/lumen_voxels.h"
 #include "converters/common/progress.h"
-#include "converters/volume/volume.h"
+#include "formats/case/case.h"
 
 namespace lumen::convert {
 
 /// A connected group of voxels.
-struct Place {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS: the middle of its longest way
+struct Region {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS: where it is deepest
   std::uint32_t node = 0;  ///< of the case: inside of which it lies, or from which it was reached
   std::size_t voxels = 0;
   double volume = 0;  ///< mm^3
-  double length = 0;  ///< mm, of its longest way
-  double radius = 0;  ///< mm, of the cylinder of that length and volume
+  double radius = 0;  ///< mm, of the greatest ball in it
 };
 
-struct Places {
-  double volume = 0;          ///< mm^3, of all such voxels, in places or not
-  std::vector<Place> places;  ///< the longest first
+struct Regions {
+  double volume = 0;            ///< mm^3, of all such voxels, in regions or not
+  std::vector<Region> regions;  ///< the greatest volume first
 };
 
-/// How the grid of a volume is searched.
-struct Levels {
-  const Volume& volume;
-  bool dark;                    ///< vessels are darker than their background
-  std::span<const float> half;  ///< for each node, brighter is more: negative for dark vessels
+/// A place on the way of a vessel, and the node from which it was reached.
+struct WayPoint {
+  Eigen::Vector3d position;  ///< mm, LPS
+  std::uint32_t node;
 };
 
-/// Voxels inside, deeper than a voxel, that are darker than the half level of their node. A place
+/// A vessel of the volume that is not in the case.
+struct MissingVessel {
+  std::vector<WayPoint> way;  ///< from where it begins to its tip
+  std::size_t voxels = 0;
+  double volume = 0;   ///< mm^3
+  double length = 0;   ///< mm
+  double radius = 0;   ///< mm
+  bool atEnd = false;  ///< a branch of the case goes on in it
+};
+
+struct Missing {
+  double volume = 0;                   ///< mm^3, of all bright voxels outside, but for `wide`
+  std::vector<MissingVessel> vessels;  ///< the longest first
+  Regions wide;                        ///< what is too wide to be a vessel, and all beyond it
+};
+
+/// Voxels inside, deeper than a voxel, that are darker than the half level of their node. A region
 /// has at least four voxels.
-Places darkInside(const LumenVoxels& lumen, const Levels& levels, const Progress& progress);
+Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progress& progress);
 
-/// Voxels outside that are brighter than the half level of the node from which they are reached
-/// through such voxels, farther than two voxels from the lumen. A place has at least 20 voxels and
-/// is at least four voxels long.
-Places brightOutside(const LumenVoxels& lumen, const Levels& levels, const Progress& progress);
+/// The vessels of the bright region that lie farther than two voxels from the lumen, of at least 20
+/// voxels and four voxels' length. What is half again as wide as the widest vessel of the case is
+/// none.
+Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
+                      const formats::CenterlineTree& tree, const Progress& progress);
+
+/// mm of the tree's vessels whose axis the volume shows: where it is brighter than the half level,
+/// and counted once where branches lie in each other.
+double shownLength(const formats::CenterlineTree& tree, const LumenVoxels& lumen,
+                   const Levels& levels);
 
 }  // namespace lumen::convert

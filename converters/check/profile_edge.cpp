@@ -44,6 +44,15 @@ public:
     return best;
   }
 
+  /// Where sign * fall has its maximum, in samples from the wall: of the parabola through `i` and
+  /// its neighbours.
+  [[nodiscard]] double peak(int i, double sign) const {
+    if (i <= first() || i >= last()) return i - m_wall;
+    const double before = sign * fall(i - 1), here = sign * fall(i), after = sign * fall(i + 1);
+    const double bend = before - 2 * here + after;
+    return i - m_wall + (bend < 0 ? 0.5 * (before - after) / bend : 0);
+  }
+
   /// The greatest sign * mean over a voxel between the places `from` and `to`, times sign.
   [[nodiscard]] double level(int from, int to, double sign) const {
     from = std::clamp(from, first(), last());
@@ -96,6 +105,7 @@ ProfileEdge findEdge(std::span<const float> values, std::size_t wall) {
   edge.inside = profile.level(place - kLevelReach, place - kHalfWindow, sign);
   edge.outside = profile.level(place + kHalfWindow, place + kLevelReach, -sign);
   edge.at = profile.crossing(place, edge.half(), sign);
+  edge.steepest = profile.peak(place, sign);
   return edge;
 }
 

@@ -18,9 +18,10 @@ enum class EdgeKind {
 
 struct ProfileEdge {
   EdgeKind kind = EdgeKind::None;
-  double at = 0;       ///< samples outward of the wall
-  double inside = 0;   ///< level on the inner side of the edge
-  double outside = 0;  ///< level on the outer side
+  double at = 0;        ///< samples outward of the wall
+  double steepest = 0;  ///< the same, of the place where it changes most over one voxel
+  double inside = 0;    ///< level on the inner side of the edge
+  double outside = 0;   ///< level on the outer side
   [[nodiscard]] double contrast() const { return inside - outside; }
   [[nodiscard]] double half() const { return 0.5 * (inside + outside); }
 };

@@ -29,6 +29,18 @@ constexpr double kClearOf[] = {0.5, 1.0, 1.5};
 constexpr std::uint32_t kNodesAround = 4;  // on either side, whose edges give a node's half level
 constexpr std::size_t kLeastEdges = 8;     // for a median that one of them does not decide
 
+constexpr double kTexture = 3 * 1.4826;  // of the median deviation: three standard deviations
+
+/// The mean over the last voxel of a profile that lies in the volume.
+double farEnd(const std::vector<float>& values) {
+  auto end = values.end();
+  while (end != values.begin() && std::isnan(*(end - 1))) --end;
+  const auto count = std::min<std::ptrdiff_t>(kSamplesPerVoxel, end - values.begin());
+  double sum = 0;
+  for (auto value = end - count; value != end; ++value) sum += static_cast<double>(*value);
+  return sum / static_cast<double>(count);
+}
+
 /// What one thread keeps.
 struct Scratch {
   std::vector<WallSample> samples;
@@ -63,6 +75,7 @@ public:
       result.verdict = Verdict::OutsideVolume;
       return result;
     }
+    result.beyond = farEnd(values);
     const ProfileEdge edge = findEdge(values, wall);
     if (edge.kind == EdgeKind::None) return result;
     result.verdict = edge.kind == EdgeKind::Falls ? Verdict::Edge : Verdict::WrongPolarity;
@@ -71,6 +84,7 @@ public:
     result.displaced =
         kind == formats::BranchKind::Aneurysm ? m_ideal.ofBall(seen) : m_ideal.ofCylinder(seen);
     result.offset = result.displaced - at;
+    result.fromSteepest = -edge.steepest * m_step;
     result.inside = edge.inside;
     result.outside = edge.outside;
     return result;
@@ -123,13 +137,28 @@ void dropFaintEdges(const formats::CenterlineTree& tree, std::vector<WallOffset>
       o.verdict = Verdict::NoEdge;
 }
 
-/// The median of the half levels of the edges in a range; nothing if they are too few.
-std::optional<float> halfLevel(std::span<const WallOffset> offsets, std::size_t least) {
-  std::vector<double> halves;
+/// The level above which the background around some samples hardly goes.
+double textureOf(std::span<const WallOffset> offsets) {
+  std::vector<double> beyond;
   for (const WallOffset& o : offsets)
-    if (hasEdge(o)) halves.push_back(0.5 * (o.inside + o.outside));
+    if (o.verdict != Verdict::BesideAnother && o.verdict != Verdict::OutsideVolume)
+      beyond.push_back(o.beyond);
+  const double middle = upperMedian(beyond);
+  for (double& value : beyond) value = std::abs(value - middle);
+  return middle + kTexture * upperMedian(beyond);
+}
+
+/// The medians over the edges in a range; nothing if they are too few.
+std::optional<NodeLevels> levelsOf(std::span<const WallOffset> offsets, std::size_t least) {
+  std::vector<double> halves, faints;
+  for (const WallOffset& o : offsets) {
+    if (!hasEdge(o)) continue;
+    halves.push_back(0.5 * (o.inside + o.outside));
+    faints.push_back(o.outside + kShareOfBranch * (o.inside - o.outside));
+  }
   if (halves.size() < least) return std::nullopt;
-  return static_cast<float>(upperMedian(halves));
+  return NodeLevels{static_cast<float>(upperMedian(halves)),
+                    static_cast<float>(std::max(upperMedian(faints), textureOf(offsets)))};
 }
 
 }  // namespace
@@ -160,20 +189,20 @@ std::vector<WallOffset> wallOffsets(const formats::CenterlineTree& tree,
   return all;
 }
 
-std::vector<float> halfLevels(const formats::CenterlineTree& tree,
-                              const std::vector<WallOffset>& offsets) {
+std::vector<NodeLevels> nodeLevels(const formats::CenterlineTree& tree,
+                                   const std::vector<WallOffset>& offsets) {
   const auto ofNodes = [&](std::uint32_t first, std::uint32_t end, std::size_t least) {
     const auto before = [](const WallOffset& o, std::uint32_t node) { return o.node < node; };
     const auto from = std::lower_bound(offsets.begin(), offsets.end(), first, before);
-    return halfLevel({from, std::lower_bound(from, offsets.end(), end, before)}, least);
+    return levelsOf({from, std::lower_bound(from, offsets.end(), end, before)}, least);
   };
   const auto count = static_cast<std::uint32_t>(tree.nodeCount());
   const auto ofTree = ofNodes(0, count, 1);
   if (!ofTree) return {};
-  std::vector<float> levels(count);
+  std::vector<NodeLevels> levels(count);
   for (const formats::Branch& branch : tree.branches) {
     const std::uint32_t end = branch.firstNode + branch.nodeCount;
-    const float fallback = ofNodes(branch.firstNode, end, kLeastEdges).value_or(*ofTree);
+    const NodeLevels fallback = ofNodes(branch.firstNode, end, kLeastEdges).value_or(*ofTree);
     for (std::uint32_t n = branch.firstNode; n < end; ++n) {
       const std::uint32_t first = n - std::min(n - branch.firstNode, kNodesAround);
       levels[n] =

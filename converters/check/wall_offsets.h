@@ -32,8 +32,10 @@ struct WallOffset {
   std::uint32_t node = 0;
   Verdict verdict = Verdict::NoEdge;
   double offset = 0;               ///< mm, of the wall outward of where the edge says that it is
+  double fromSteepest = 0;         ///< mm, outward of where the intensity changes most
   double displaced = 0;            ///< mm, of the edge outward of such a wall, by the blur
   double inside = 0, outside = 0;  ///< levels on the two sides, voxel units, brighter is more
+  double beyond = 0;               ///< the same at the far end of the profile, where one was taken
 };
 
 /// The offsets, sorted by node. Throws Error(Cancelled).
@@ -42,10 +44,16 @@ std::vector<WallOffset> wallOffsets(const formats::CenterlineTree& tree,
                                     const LumenVoxels& lumen, const EdgeOptions& options,
                                     Progress& progress);
 
-/// For each node the level halfway between lumen and background: the median over the edges of the
-/// nodes around it in its branch, of the branch where they have none, of the tree where it has none.
-/// Empty if there is no edge at all.
-std::vector<float> halfLevels(const formats::CenterlineTree& tree,
-                              const std::vector<WallOffset>& offsets);
+/// What is lumen and what is background around a node; brighter is more, so values are negative if
+/// vessels are dark.
+struct NodeLevels {
+  float half = 0;   ///< halfway between lumen and background
+  float faint = 0;  ///< a quarter of the way to the lumen, or where the background's texture ends
+};
+
+/// The levels of each node: medians over the edges of the nodes around it in its branch, of the
+/// branch where they have none, of the tree where it has none. Empty if there is no edge at all.
+std::vector<NodeLevels> nodeLevels(const formats::CenterlineTree& tree,
+                                   const std::vector<WallOffset>& offsets);
 
 }  // namespace lumen::convert

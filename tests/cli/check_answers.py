@@ -120,6 +120,11 @@ def make_cases(lumen, folder):
     go("compare.schema.json", "compare", "truth.lumen", "tracked.lumen")
     (folder / "vessel.json").write_text(json.dumps(dict(seeds, branches=[vessel])))
     go("convert.schema.json", "convert", "a.nrrd", "vessel.lumen", "--seeds", "vessel.json")
+    go("phantom.schema.json", "phantom", "bifurcation", "fork.nrrd", "--size", "64", "--seeds", "fork.json")
+    fork = json.loads((folder / "fork.json").read_text())
+    (folder / "fork.json").write_text(json.dumps(dict(fork, branches=fork["branches"][:1])))
+    go("convert.schema.json", "convert", "fork.nrrd", "trunk.lumen", "--seeds", "fork.json")
+    go("check.schema.json", "check", "fork.nrrd", "trunk.lumen")
     for case in ("fitted.lumen", "vessel.lumen"): go("check.schema.json", "check", "a.nrrd", case)
     go("completion.schema.json", "completion", "bash")
     for volume in ("a.nrrd", "a.nii.gz"):

@@ -19,6 +19,22 @@ protected:
   }
 };
 
+/// A case of one branch, without all nodes but the first `count` and without wall points.
+Json firstNodes(Json value, std::size_t count) {
+  const auto cut = [](Json& list, std::size_t n) {
+    list.erase(list.begin() + std::ptrdiff_t(n), list.end());
+  };
+  for (const char* key :
+       {"centre", "direction", "radius", "height", "parent", "branch", "inlierRate"})
+    cut(value["tree"][key], count);
+  value["tree"]["branches"][0]["nodeCount"] = count;
+  value.erase("points");
+  Json& models = value["models"];
+  cut(models["offset"], count + 1);
+  for (const char* key : {"centre", "width"}) cut(models[key], models["offset"].back());
+  return value;
+}
+
 }  // namespace
 
 TEST_F(CheckTest, ATubeAgreesWithItsVolume) {
@@ -29,7 +45,7 @@ TEST_F(CheckTest, ATubeAgreesWithItsVolume) {
   EXPECT_EQ(answer["nodes_outside"], 0);
   EXPECT_LT(answer["wall"]["offset_voxels"]["median_absolute"].get<double>(), 0.15);
   EXPECT_EQ(answer["wall"]["no_edge_share"], 0.0);
-  EXPECT_EQ(answer["missing_places"].size(), 0U);
+  EXPECT_EQ(answer["missing_vessels"].size(), 0U);
   EXPECT_EQ(answer["branches"].size(), 1U);
 }
 
@@ -39,11 +55,26 @@ TEST_F(CheckTest, WritesAPictureAndLabels) {
   ASSERT_EQ(checked.code, 0) << checked.err;
   EXPECT_EQ(read("tube.png").substr(0, 4), "\x89PNG");
   const Json volume = Json::parse(lumen({"info", "tube.nrrd", "--json"}).out);
-  const Json mask = Json::parse(lumen({"info", "mask.nrrd", "--json"}).out);
+  const Json mask = Json::parse(lumen({"info", "mask.nrrd", "--json", "--voxels"}).out);
   for (const char* key : {"size", "spacing_mm", "origin_mm", "direction"})
     EXPECT_EQ(mask[key], volume[key]) << key;
   EXPECT_EQ(mask["max"], 1.0);
   EXPECT_EQ(mask["pixel_type"], "uint8");
+}
+
+TEST_F(CheckTest, HalfOfAVesselTellsThatItGoesOn) {
+  ASSERT_EQ(lumen({"convert", "tube.lumen", "tube.lumen.json"}).code, 0);
+  const Json whole = Json::parse(read("tube.lumen.json"));
+  write("half.lumen.json", firstNodes(whole, whole["tree"]["radius"].size() / 2).dump());
+  const Outcome checked = lumen({"check", "tube.nrrd", "half.lumen.json", "--json"});
+  ASSERT_EQ(checked.code, 0) << checked.err;
+  const Json answer = Json::parse(checked.out);
+  EXPECT_NEAR(answer["coverage_share"].get<double>(), 0.5, 0.15);
+  EXPECT_EQ(answer["missing_vessels"][0]["at_end"], true);
+  EXPECT_EQ(answer["ends"].size(), 2U);
+  const Outcome text = lumen({"check", "tube.nrrd", "half.lumen.json"});
+  EXPECT_NE(text.out.find(" ends at ("), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("and the vessel goes on for about "), std::string::npos) << text.out;
 }
 
 TEST_F(CheckTest, TheCorrectionForBlurCanBeTakenAway) {
@@ -60,7 +91,8 @@ TEST_F(CheckTest, AnotherVolumeIsAWarningAndAnErrorIfStrict) {
   ASSERT_EQ(lumen({"phantom", "tube", "other.nrrd", "--size", "64", "--seed", "2"}).code, 0);
   const Outcome warned = lumen({"check", "other.nrrd", "tube.lumen", "--json"});
   EXPECT_EQ(warned.code, 0);
-  EXPECT_NE(warned.err.find("warning: tube.lumen: was made from another volume: its voxels"),
+  EXPECT_NE(warned.err.find("warning: tube.lumen: was made from another volume: other.nrrd has its "
+                            "size and place, but other voxels"),
             std::string::npos)
       << warned.err;
   EXPECT_EQ(Json::parse(warned.out)["source"], "other voxels");

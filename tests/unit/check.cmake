@@ -4,6 +4,8 @@ lumen_test(check_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/ideal_edge_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/missing_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/picture_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/profile_edge_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/skeleton_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/true_wall_test.cpp)

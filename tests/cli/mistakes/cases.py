@@ -109,3 +109,25 @@ def faults(store):
 def warning(store):
     """A negative zero, which is legal."""
     return changed('"height": [0.5, 0.5]', '"height": [-0.0, 0.5]')
+
+
+@fixture("other.nrrd")
+def other(store):
+    """A tube as the case's volume, with other noise."""
+    store.lumen("phantom", "tube", "other.nrrd", "--size", "40", "--seed", "2")
+
+
+@fixture("moved.nrrd")
+def moved(store):
+    """The case's volume with an origin a metre away."""
+    data = store.bytes("tube.nrrd")
+    assert data.count(b"space origin: (0,0,0)") == 1, data[:400]
+    return data.replace(b"space origin: (0,0,0)", b"space origin: (1000,0,0)")
+
+
+@fixture("negated.nrrd")
+def negated(store):
+    """The case's volume with x and y negated, as if RAS were LPS."""
+    data = store.bytes("tube.nrrd")
+    directions = re.search(rb"space directions: \(([^,]*),0,0\) \(0,([^,]*),0\)", data)
+    return data.replace(directions[0], b"space directions: (-%s,0,0) (0,-%s,0)" % directions.groups())

@@ -54,7 +54,7 @@ TEST_P(TubeCheck, OffsetIsHowMuchTheModelIsTooWide) {
     EXPECT_NEAR(report.offsets.median, error, 0.03 * kVoxel + 0.05 * std::abs(error));
     EXPECT_LT(report.offsets.noEdge + report.offsets.wrongPolarity, 0.01);
     EXPECT_NEAR(report.offsets.beyondVoxel, std::abs(error) > kVoxel ? 1 : 0, 0.02);
-    EXPECT_TRUE(report.missing.places.empty());
+    EXPECT_TRUE(report.missing.vessels.empty());
   }
 }
 
@@ -80,7 +80,7 @@ TEST(Check, DarkLumenIsFoundInAModelThatIsTooWide) {
   const CheckReport report = reportOf(tube.volume, tube.truth);
   const double exact = (inner * inner - radius * radius) / (4 * radius * radius);
   EXPECT_NEAR(report.dark.volume / report.lumenVolume, exact, 0.1);
-  ASSERT_EQ(report.dark.places.size(), 1U);
+  ASSERT_EQ(report.dark.regions.size(), 1U);
 }
 
 TEST(Check, ABranchInTheDarkHasNoEdge) {
@@ -103,8 +103,8 @@ TEST(Check, ABranchInTheDarkHasNoEdge) {
   EXPECT_LT(report.branches[0].offsets.noEdge, 0.01);
   EXPECT_GT(report.branches[1].offsets.noEdge, 0.95);
   EXPECT_EQ(report.nodes[count + count / 2], Agreement::Poor);
-  ASSERT_FALSE(report.dark.places.empty());
-  for (const Place& place : report.dark.places) EXPECT_GE(place.node, count);
+  ASSERT_FALSE(report.dark.regions.empty());
+  for (const Region& place : report.dark.regions) EXPECT_GE(place.node, count);
 }
 
 /// The fork, with models for its trunk only; the radius serves both ends of it.
@@ -127,24 +127,31 @@ struct Fork {
 TEST(Check, AVesselThatTheCaseLeavesOutIsAPlaceWithItsLengthAndRadius) {
   const Fork fork;
   const CheckReport report = reportOf(fork.phantom.volume, fork.trunk);
-  ASSERT_EQ(report.missing.places.size(), 1U);
-  const Place& place = report.missing.places[0];
+  ASSERT_EQ(report.missing.vessels.size(), 1U);
+  const MissingVessel& vessel = report.missing.vessels[0];
   const auto& tree = fork.phantom.truth.tree;
   const formats::Branch& child = tree.branches[1];
   const auto first = static_cast<std::size_t>(child.firstNode);
   const double whole = (toEigen(tree.centre.back()) - toEigen(tree.centre[first])).norm();
   const auto radius = static_cast<double>(tree.radius[first]);
-  EXPECT_LT(TubeTreeDistance(tree, 1).nearest(place.position).distance, 0);
-  EXPECT_NEAR(place.radius, radius, 0.2 * radius);
+  const TubeTreeDistance wall(tree, 1);
+  for (const WayPoint& point : vessel.way) EXPECT_LT(wall.nearest(point.position).distance, 0);
+  EXPECT_NEAR(vessel.radius, radius, 0.2 * radius);
   // it begins two voxels outside of the trunk, and its end is round
-  EXPECT_NEAR(place.length, whole + radius - static_cast<double>(tree.radius[0]), 5 * kVoxel);
-  EXPECT_LT(place.node, child.firstNode);
+  EXPECT_NEAR(vessel.length, whole + radius - static_cast<double>(tree.radius[0]), 5 * kVoxel);
+  EXPECT_LT(vessel.way.front().node, child.firstNode);
+  EXPECT_FALSE(vessel.atEnd);
+  EXPECT_TRUE(report.missing.wide.regions.empty());
+  const formats::CenterlineTree& trunk = fork.trunk.tree;
+  const double modelled = (toEigen(trunk.centre.back()) - toEigen(trunk.centre.front())).norm();
+  EXPECT_NEAR(report.shownLength, modelled, 0.02 * modelled);
+  EXPECT_EQ(report.missingLength(), vessel.length);
 }
 
 TEST(Check, AVesselOfTheCaseIsNoPlace) {
   Phantom tube = phantomOf("tube", 0.08);
   addStraightModels(tube.truth, tubeRadius(tube));
-  EXPECT_TRUE(reportOf(tube.volume, tube.truth).missing.places.empty());
+  EXPECT_TRUE(reportOf(tube.volume, tube.truth).missing.vessels.empty());
 }
 
 TEST(Check, ABranchOfHalfTheContrastIsMeasuredAsWell) {
@@ -160,7 +167,7 @@ TEST(Check, ABranchOfHalfTheContrastIsMeasuredAsWell) {
   EXPECT_NEAR(report.offsets.median, 0, 0.03 * kVoxel);
   EXPECT_LT(report.offsets.noEdge, 0.01);
   EXPECT_EQ(report.dark.volume, 0);
-  EXPECT_TRUE(report.missing.places.empty());
+  EXPECT_TRUE(report.missing.vessels.empty());
 }
 
 TEST(Check, DarkVesselsAreMeasuredLikeBrightOnes) {
@@ -192,7 +199,7 @@ TEST(Check, ThreadsDoNotChangeTheReport) {
   EXPECT_EQ(many.offsets.median, single.offsets.median);
   EXPECT_EQ(many.offsets.absoluteP90, single.offsets.absoluteP90);
   EXPECT_EQ(many.nodes, single.nodes);
-  EXPECT_EQ(many.missing.places[0].length, single.missing.places[0].length);
+  EXPECT_EQ(many.missing.vessels[0].length, single.missing.vessels[0].length);
 }
 
 TEST(Check, LabelsCountBranchesFromOne) {

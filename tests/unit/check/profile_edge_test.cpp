@@ -28,6 +28,7 @@ TEST(ProfileEdge, LiesAtTheHalfLevel) {
     const ProfileEdge edge = findEdge(slope(at, 1100, 100), kReach);
     EXPECT_EQ(edge.kind, EdgeKind::Falls);
     EXPECT_NEAR(edge.at, at, 1e-3);
+    EXPECT_NEAR(edge.steepest, at, 1);
     EXPECT_NEAR(edge.inside, 1100, 1e-3);
     EXPECT_NEAR(edge.outside, 100, 1e-3);
   }
