@@ -16,10 +16,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep = 0.1;      // mm
-constexpr double kTolerance = 0.5; // voxels
-constexpr double kThin = 1.5;      // voxels
-constexpr double kShortest = 0.5;  // mm of a piece that is listed
+constexpr double kStep = 0.1;       // mm
+constexpr double kTolerance = 0.5;  // voxels
+constexpr double kThin = 1.5;       // voxels
+constexpr double kShortest = 0.5;   // mm of a piece that is listed
 
 void addLine(formats::CenterlineTree& lines, const formats::Vec3f& a, const formats::Vec3f& b) {
   formats::Branch branch;

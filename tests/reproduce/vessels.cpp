@@ -58,7 +58,8 @@ void makeVolume(const Arguments& arguments, const std::string& subject, const st
     return;
   std::vector<std::string> words{"phantom"};
   if (subject.ends_with(".swc"))
-    words.insert(words.end(), {"--tree", subject, stem + ".nrrd", "--voxel", "0.3", "--noise", "0.06"});
+    words.insert(words.end(),
+                 {"--tree", subject, stem + ".nrrd", "--voxel", "0.3", "--noise", "0.06"});
   else
     words.insert(words.end(),
                  {"patient", stem + ".nrrd", "--seed", subject.substr(subject.rfind('-') + 1)});
@@ -87,9 +88,9 @@ Result runCase(const Arguments& arguments, const std::string& subject, Progress&
   for (const convert::SeedBranch& seed : seeds)
     if (seed.kind == formats::BranchKind::Vessel) labels.insert(seed.label);
 
-  result.track = runTimed(arguments.lumen,
-                          {"track", stem + ".nrrd", own + "-track.lumen", "--seeds", clicks, "--json"},
-                          own + "-track.json", own + "-track.err");
+  result.track = runTimed(
+      arguments.lumen, {"track", stem + ".nrrd", own + "-track.lumen", "--seeds", clicks, "--json"},
+      own + "-track.json", own + "-track.err");
   result.fit = runTimed(arguments.lumen, {"fit", own + "-track.lumen", own + ".lumen", "--json"},
                         own + "-fit.json", own + "-fit.err");
   fs::remove(own + "-track.lumen");
@@ -98,7 +99,8 @@ Result runCase(const Arguments& arguments, const std::string& subject, Progress&
     if (labels.contains(seed.at("label"))) result.failed.insert(seed.at("label"));
   result.clicks = labels.size();
   result.started = labels.size() - result.failed.size();
-  result.score = scoreVessels(readCase(own + ".lumen"), readCase(stem + "-t.lumen"), labels, progress);
+  result.score =
+      scoreVessels(readCase(own + ".lumen"), readCase(stem + "-t.lumen"), labels, progress);
   return result;
 }
 
@@ -114,23 +116,22 @@ std::string oneDecimal(double value) {
 
 void addRow(const Result& r, Table& table) {
   const VesselScore& s = r.score;
-  table.rows.push_back({r.name, std::to_string(r.clicks), std::to_string(r.started),
-                        oneDecimal(s.clicked), oneDecimal(s.covered),
-                        oneDecimal(percent(s.covered, s.clicked)), oneDecimal(s.thin),
-                        oneDecimal(s.length), oneDecimal(s.falseLength),
-                        oneDecimal(percent(s.falseLength, s.length)), oneDecimal(s.reachable),
-                        oneDecimal(s.reachableOf), s.wallMedian, s.radiusBias,
-                        oneDecimal(r.track.wall), oneDecimal(r.track.processor),
-                        oneDecimal(r.fit.wall), oneDecimal(r.fit.processor)});
+  table.rows.push_back(
+      {r.name, std::to_string(r.clicks), std::to_string(r.started), oneDecimal(s.clicked),
+       oneDecimal(s.covered), oneDecimal(percent(s.covered, s.clicked)), oneDecimal(s.thin),
+       oneDecimal(s.length), oneDecimal(s.falseLength),
+       oneDecimal(percent(s.falseLength, s.length)), oneDecimal(s.reachable),
+       oneDecimal(s.reachableOf), s.wallMedian, s.radiusBias, oneDecimal(r.track.wall),
+       oneDecimal(r.track.processor), oneDecimal(r.fit.wall), oneDecimal(r.fit.processor)});
 }
 
 Table overview(const std::vector<Result>& results) {
-  Table table{"Cases",
-              {"case", "clicks", "started", "clicked mm", "covered mm", "covered, %",
-               "not covered, thin, mm", "found mm", "false mm", "false, %", "reachable mm",
-               "of mm", "wall, median mm", "radius bias mm", "track s", "processor s", "fit s",
-               "processor s "},
-              {}};
+  Table table{
+      "Cases",
+      {"case", "clicks", "started", "clicked mm", "covered mm", "covered, %",
+       "not covered, thin, mm", "found mm", "false mm", "false, %", "reachable mm", "of mm",
+       "wall, median mm", "radius bias mm", "track s", "processor s", "fit s", "processor s "},
+      {}};
   Result all;
   all.name = "all";
   for (const Result& r : results) {
@@ -150,9 +151,10 @@ Table overview(const std::vector<Result>& results) {
 
 Table places(const std::string& title, const std::vector<Result>& results,
              std::vector<Piece> VesselScore::*pieces) {
-  Table table{title,
-              {"case", "branch", "its click", "from mm", "to mm", "length mm", "place", "radius mm"},
-              {}};
+  Table table{
+      title,
+      {"case", "branch", "its click", "from mm", "to mm", "length mm", "place", "radius mm"},
+      {}};
   for (const Result& r : results)
     for (const Piece& p : r.score.*pieces)
       table.rows.push_back({r.name, p.branch, r.failed.contains(p.branch) ? "failed" : "started",
@@ -169,12 +171,13 @@ void run(const Arguments& arguments, Progress& progress) {
   for (const std::string& subject : arguments.cases) {
     results.push_back(runCase(arguments, subject, progress));
     Report report("Clicked vessels");
-    report.paragraph(std::string("One click to a vessel") +
-                     (arguments.parents ? ", parents named." : ", no parents named.") +
-                     " A point of a true axis is covered if an axis of the case passes within the "
-                     "true radius, whatever its label; thin is what has a radius below 1.5 voxels. "
-                     "An axis of the case is false where it is farther than half a voxel from every "
-                     "true lumen. Pieces shorter than half a millimetre are not listed.");
+    report.paragraph(
+        std::string("One click to a vessel") +
+        (arguments.parents ? ", parents named." : ", no parents named.") +
+        " A point of a true axis is covered if an axis of the case passes within the "
+        "true radius, whatever its label; thin is what has a radius below 1.5 voxels. "
+        "An axis of the case is false where it is farther than half a voxel from every "
+        "true lumen. Pieces shorter than half a millimetre are not listed.");
     report.table(overview(results));
     report.table(places("Not covered", results, &VesselScore::uncovered));
     report.table(places("False", results, &VesselScore::wrong));
@@ -218,7 +221,8 @@ int main(int argc, char** argv) {
     const auto* error = dynamic_cast<const Error*>(&e);
     if (error != nullptr && error->kind() == ErrorKind::Usage) {
       std::fputs(
-          "usage: lumen_vessels [--no-parents] [--tag NAME] LUMEN FOLDER (FILE.swc | patient-K)...\n",
+          "usage: lumen_vessels [--no-parents] [--tag NAME] LUMEN FOLDER (FILE.swc | "
+          "patient-K)...\n",
           stderr);
       return 2;
     }
