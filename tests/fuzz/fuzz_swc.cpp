@@ -31,8 +31,9 @@ void checkChains(const convert::CenterlineFile& file) {
     expect(chains[c].parent >= -1 && chains[c].parent < static_cast<std::int32_t>(c),
            "chains hang on one before");
     if (chains[c].parent >= 0)
-      expect(chains[c].parentSample < chains[static_cast<std::size_t>(chains[c].parent)].points.size(),
-             "chains hang on a point of their parent");
+      expect(
+          chains[c].parentSample < chains[static_cast<std::size_t>(chains[c].parent)].points.size(),
+          "chains hang on a point of their parent");
     for (const std::int32_t point : chains[c].points) {
       expect(!seen.at(static_cast<std::size_t>(point)), "no point is in two chains");
       seen[static_cast<std::size_t>(point)] = true;

@@ -39,6 +39,7 @@ struct Arguments {
 /// Files of one case, and what came of it.
 struct Result {
   std::string name;
+  bool tree = false;  ///< from an SWC file
   std::size_t clicks = 0, started = 0;
   TimedRun track, fit;
   std::set<std::string> failed;  ///< labels
@@ -78,6 +79,7 @@ void dropParents(const std::vector<convert::SeedBranch>& seeds, const fs::path& 
 Result runCase(const Arguments& arguments, const std::string& subject, Progress& progress) {
   Result result;
   result.name = fs::path(subject).stem().string();
+  result.tree = subject.ends_with(".swc");
   makeVolume(arguments, subject, result.name);
   const std::string stem = (arguments.folder / result.name).string(),
                     own = stem + "-" + arguments.tag;
@@ -125,17 +127,12 @@ void addRow(const Result& r, Table& table) {
        oneDecimal(r.track.processor), oneDecimal(r.fit.wall), oneDecimal(r.fit.processor)});
 }
 
-Table overview(const std::vector<Result>& results) {
-  Table table{
-      "Cases",
-      {"case", "clicks", "started", "clicked mm", "covered mm", "covered, %",
-       "not covered, thin, mm", "found mm", "false mm", "false, %", "reachable mm", "of mm",
-       "wall, median mm", "radius bias mm", "track s", "processor s", "fit s", "processor s "},
-      {}};
+/// The sums over those whose volumes were drawn from a tree (or not); nothing of none.
+void addSum(const std::string& name, const std::vector<Result>& results, bool trees, Table& table) {
   Result all;
-  all.name = "all";
+  all.name = name;
   for (const Result& r : results) {
-    addRow(r, table);
+    if (r.tree != trees) continue;
     all.clicks += r.clicks, all.started += r.started;
     VesselScore& sum = all.score;
     sum.clicked += r.score.clicked, sum.covered += r.score.covered, sum.thin += r.score.thin;
@@ -145,7 +142,19 @@ Table overview(const std::vector<Result>& results) {
     all.fit.wall += r.fit.wall, all.fit.processor += r.fit.processor;
   }
   all.score.wallMedian = all.score.radiusBias = std::nan("");
-  addRow(all, table);
+  if (all.clicks > 0) addRow(all, table);
+}
+
+Table overview(const std::vector<Result>& results) {
+  Table table{"Cases",
+              {"case", "clicks", "started", "clicked mm", "covered mm", "covered, %",
+               "not covered, thin, mm", "found mm", "false mm", "false, %", "reachable mm", "of mm",
+               "wall, median mm", "radius bias mm", "track s", "track, processor s", "fit s",
+               "fit, processor s"},
+              {}};
+  for (const Result& r : results) addRow(r, table);
+  addSum("all trees", results, true, table);
+  addSum("all patients", results, false, table);
   return table;
 }
 
