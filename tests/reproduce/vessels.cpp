@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen_vessels [--no-parents] [--tag NAME] LUMEN FOLDER CASE...: how much of the vessels that were
+// lumen_vessels [--no-parents] [--track-only] [--tag NAME] LUMEN FOLDER CASE...: how much of the vessels that were
 // clicked the program LUMEN finds. A CASE is an SWC file, drawn in voxels of 0.3 mm with 6 % of
 // noise, or patient-K, the synthetic patient of random seed K. FOLDER keeps the volumes, which are
 // made if they are missing, and everything else that is read or written; what LUMEN makes of a case
@@ -31,6 +31,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   bool parents = true;
+  bool fit = true;  ///< otherwise there is no wall, and nothing to reach
   std::string tag = "lumen";
   fs::path lumen, folder;
   std::vector<std::string> cases;
@@ -93,8 +94,11 @@ Result runCase(const Arguments& arguments, const std::string& subject, Progress&
   result.track = runTimed(
       arguments.lumen, {"track", stem + ".nrrd", own + "-track.lumen", "--seeds", clicks, "--json"},
       own + "-track.json", own + "-track.err");
-  result.fit = runTimed(arguments.lumen, {"fit", own + "-track.lumen", own + ".lumen", "--json"},
-                        own + "-fit.json", own + "-fit.err");
+  if (arguments.fit)
+    result.fit = runTimed(arguments.lumen, {"fit", own + "-track.lumen", own + ".lumen", "--json"},
+                          own + "-fit.json", own + "-fit.err");
+  else
+    fs::copy_file(own + "-track.lumen", own + ".lumen", fs::copy_options::overwrite_existing);
   fs::remove(own + "-track.lumen");
   const auto answer = nlohmann::json::parse(readText(own + "-track.json"));
   for (const auto& seed : answer.at("failed_seeds"))
@@ -207,6 +211,8 @@ Arguments parse(std::vector<std::string> words) {
     const std::string option = take();
     if (option == "--no-parents")
       arguments.parents = false;
+    else if (option == "--track-only")
+      arguments.fit = false;
     else if (option == "--tag")
       arguments.tag = take();
     else
@@ -230,7 +236,8 @@ int main(int argc, char** argv) {
     const auto* error = dynamic_cast<const Error*>(&e);
     if (error != nullptr && error->kind() == ErrorKind::Usage) {
       std::fputs(
-          "usage: lumen_vessels [--no-parents] [--tag NAME] LUMEN FOLDER (FILE.swc | "
+          "usage: lumen_vessels [--no-parents] [--track-only] [--tag NAME] LUMEN FOLDER (FILE.swc "
+          "| "
           "patient-K)...\n",
           stderr);
       return 2;

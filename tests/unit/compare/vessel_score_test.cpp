@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The measuring instrument of lumen_vessels. The truth is a T: a root of 20 mm and radius 1 along x,
 // and a child of 10 mm and radius 0.5 that leaves it upwards at x = 10.
+#include "tests/reproduce/vessel_score.h"
+
 #include <gtest/gtest.h>
 
 #include "lines.h"
-#include "tests/reproduce/vessel_score.h"
 
 namespace lumen::reproduce {
 namespace {
@@ -17,8 +18,8 @@ formats::Case teeTruth() {
   return truth;
 }
 
-VesselScore scored(const formats::Case& found, const std::set<std::string>& clicked = {"root",
-                                                                                       "b01"}) {
+VesselScore scored(const formats::Case& found,
+                   const std::set<std::string>& clicked = {"root", "b01"}) {
   Progress progress;
   return scoreVessels(found, teeTruth(), clicked, progress);
 }
