@@ -5,8 +5,9 @@
   arteries.py VESSELS DATA FOLDER LUMEN [BEFORE]
 
 VESSELS is the program lumen_vessels. Runs it with LUMEN on the trees DATA/arteries/*.swc (0.3 mm, 6 % of noise) and ten
-patients, parents named; on the trees again without parents; and with an older program, BEFORE, on all of them. Volumes,
-cases and reports stay in FOLDER, 6 GB of them; so does arteries.md, which is printed too. Takes 25 minutes on two cores.
+patients, parents named; on the trees again without parents, and with clicks within the parent's lumen; and with an older program, BEFORE, on all of them, unless
+FOLDER has its figures (before.json) from an earlier run. Volumes, cases and reports stay in FOLDER, 2 GB of them; so does
+arteries.md, which is printed too.
 """
 import json
 import subprocess
@@ -18,9 +19,13 @@ SHOWN = ["case", "clicks", "started", "clicked mm", "covered, %", "not covered, 
          "wall, median mm", "radius bias mm", "track, processor s", "fit, processor s"]
 
 
+def read(report):
+    return {table["title"]: table["rows"] for table in json.loads(report.read_text())["tables"]}
+
+
 def tables(vessels, folder, tag, lumen, subjects, *options):
     subprocess.run([vessels, *options, "--tag", tag, lumen, folder, *subjects], check=True, stdout=subprocess.DEVNULL)
-    return {table["title"]: table["rows"] for table in json.loads((folder / f"{tag}.json").read_text())["tables"]}
+    return read(folder / f"{tag}.json")
 
 
 def cell(value):
@@ -54,8 +59,11 @@ def main():
     if trees:
         alone = tables(vessels, folder, "now-no-parents", lumen, trees, "--no-parents")
         text += markdown("Now, trees, no parents named", alone["Cases"], SHOWN)
+        near = tables(vessels, folder, "now-near", lumen, trees, "--near")
+        text += markdown("Now, trees, clicks one radius from where the axis begins, within the parent's lumen", near["Cases"], SHOWN)
     if len(sys.argv) == 6:
-        before = tables(vessels, folder, "before", sys.argv[5], trees + PATIENTS)
+        known = folder / "before.json"
+        before = read(known) if known.exists() else tables(vessels, folder, "before", sys.argv[5], trees + PATIENTS)
         text += markdown("Before", before["Cases"], SHOWN)
     long = [row for row in now["Not covered"] if float(row["length mm"]) >= 2]
     text += markdown("Now, not covered over 2 mm or more", long, ["case", "branch", "its click", "from mm", "to mm", "place", "radius mm"])

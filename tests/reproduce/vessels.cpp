@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen_vessels [--no-parents] [--track-only] [--tag NAME] LUMEN FOLDER CASE...: how much of the vessels that were
-// clicked the program LUMEN finds. A CASE is an SWC file, drawn in voxels of 0.3 mm with 6 % of
-// noise, or patient-K, the synthetic patient of random seed K. FOLDER keeps the volumes, which are
-// made if they are missing, and everything else that is read or written; what LUMEN makes of a case
-// has NAME ("lumen") in its name. Writes NAME.md and NAME.json there.
+// lumen_vessels [--no-parents] [--near] [--track-only] [--tag NAME] LUMEN FOLDER CASE...: how much of
+// the vessels that were clicked the program LUMEN finds. A CASE is an SWC file, drawn in voxels of
+// 0.3 mm with 6 % of noise, or patient-K, the synthetic patient of random seed K. --near moves the
+// clicks to one radius from where the axis begins, within the parent's lumen. FOLDER keeps the
+// volumes, which are made if they are missing, and everything else that is read or written; what
+// LUMEN makes of a case has NAME ("lumen") in its name. Writes NAME.md and NAME.json there.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +20,8 @@
 
 #include "converters/app/terminal_progress.h"
 #include "converters/common/error.h"
+#include "converters/common/random.h"
+#include "converters/common/vectors.h"
 #include "converters/seeds/seeds.h"
 #include "formats/case/case_file.h"
 #include "report.h"
@@ -31,7 +36,8 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   bool parents = true;
-  bool fit = true;  ///< otherwise there is no wall, and nothing to reach
+  bool near = false;  ///< clicks one radius from where the vessel's axis begins
+  bool fit = true;    ///< otherwise there is no wall, and nothing to reach
   std::string tag = "lumen";
   fs::path lumen, folder;
   std::vector<std::string> cases;
@@ -70,11 +76,30 @@ void makeVolume(const Arguments& arguments, const std::string& subject, const st
 }
 
 /// The clicks without their parents, but for aneurysms, which have to have one.
-void dropParents(const std::vector<convert::SeedBranch>& seeds, const fs::path& file) {
-  std::vector<convert::SeedBranch> free = seeds;
-  for (convert::SeedBranch& seed : free)
+void dropParents(std::vector<convert::SeedBranch>& seeds) {
+  for (convert::SeedBranch& seed : seeds)
     if (seed.kind == formats::BranchKind::Vessel) seed.parent.reset();
-  convert::writeSeeds(free, file);
+}
+
+/// The clicks of children at one radius along the axis of their vessel, a fifth of it off.
+void moveToTheStart(std::vector<convert::SeedBranch>& seeds, const formats::CenterlineTree& truth) {
+  Random random(1, 0x6e656172ULL);
+  for (convert::SeedBranch& seed : seeds) {
+    if (seed.kind != formats::BranchKind::Vessel || !seed.parent) continue;
+    const auto branch =
+        std::find_if(truth.branches.begin(), truth.branches.end(),
+                     [&](const formats::Branch& b) { return b.label == seed.label; });
+    std::uint32_t node = branch->firstNode;
+    const double radius = static_cast<double>(truth.radius[node]);
+    const auto away = [&](std::uint32_t n) {
+      return (toEigen(truth.centre[n]) - toEigen(truth.centre[branch->firstNode])).norm();
+    };
+    while (node + 1 < branch->firstNode + branch->nodeCount && away(node) < radius) ++node;
+    const auto [u, v] = planeBasis(toEigen(truth.direction[node]).normalized());
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    seed.points[0].position =
+        toEigen(truth.centre[node]) + 0.2 * radius * (std::cos(angle) * u + std::sin(angle) * v);
+  }
 }
 
 Result runCase(const Arguments& arguments, const std::string& subject, Progress& progress) {
@@ -84,9 +109,13 @@ Result runCase(const Arguments& arguments, const std::string& subject, Progress&
   makeVolume(arguments, subject, result.name);
   const std::string stem = (arguments.folder / result.name).string(),
                     own = stem + "-" + arguments.tag;
+  const formats::Case truth = readCase(stem + "-t.lumen");
   std::string clicks = stem + ".json";
-  const std::vector<convert::SeedBranch> seeds = convert::readSeeds(clicks);
-  if (!arguments.parents) dropParents(seeds, clicks = own + "-clicks.json");
+  std::vector<convert::SeedBranch> seeds = convert::readSeeds(clicks);
+  if (arguments.near) moveToTheStart(seeds, truth.tree);
+  if (!arguments.parents) dropParents(seeds);
+  if (arguments.near || !arguments.parents)
+    convert::writeSeeds(seeds, clicks = own + "-clicks.json");
   std::set<std::string> labels;
   for (const convert::SeedBranch& seed : seeds)
     if (seed.kind == formats::BranchKind::Vessel) labels.insert(seed.label);
@@ -105,8 +134,7 @@ Result runCase(const Arguments& arguments, const std::string& subject, Progress&
     if (labels.contains(seed.at("label"))) result.failed.insert(seed.at("label"));
   result.clicks = labels.size();
   result.started = labels.size() - result.failed.size();
-  result.score =
-      scoreVessels(readCase(own + ".lumen"), readCase(stem + "-t.lumen"), labels, progress);
+  result.score = scoreVessels(readCase(own + ".lumen"), truth, labels, progress);
   return result;
 }
 
@@ -186,6 +214,7 @@ void run(const Arguments& arguments, Progress& progress) {
     Report report("Clicked vessels");
     report.paragraph(
         std::string("One click to a vessel") +
+        (arguments.near ? ", one radius from its beginning" : "") +
         (arguments.parents ? ", parents named." : ", no parents named.") +
         " A point of a true axis is covered if an axis of the case passes within the "
         "true radius, whatever its label; thin is what has a radius below 1.5 voxels. "
@@ -211,6 +240,8 @@ Arguments parse(std::vector<std::string> words) {
     const std::string option = take();
     if (option == "--no-parents")
       arguments.parents = false;
+    else if (option == "--near")
+      arguments.near = true;
     else if (option == "--track-only")
       arguments.fit = false;
     else if (option == "--tag")
