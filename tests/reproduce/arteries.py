@@ -40,6 +40,19 @@ def markdown(title, rows, columns):
     return "\n".join(lines) + "\n\n"
 
 
+def summary(named):
+    """The table of README.md: the sums of each set of runs."""
+    lines = ["| | clicks | started | length covered | false | reachable |", "|---|---|---|---|---|---|"]
+    for title, rows in named:
+        for row in rows:
+            if not row["case"].startswith("all "):
+                continue
+            reach = float(row["reachable mm"]) / float(row["of mm"]) if float(row["of mm"]) else 0
+            lines.append(f"| {row['case'].replace('all', 'six' if 'trees' in row['case'] else 'ten')}, {title} | {row['clicks']} | "
+                         f"{row['started']} | {row['covered, %']} % | {row['false, %']} % | {100 * reach:.1f} % |")
+    return "\n".join(lines) + "\n\n"
+
+
 def main():
     if len(sys.argv) not in (5, 6):
         sys.exit(__doc__)
@@ -48,23 +61,24 @@ def main():
     if not trees:
         print(f"arteries.py: no trees, there is no {data / 'arteries'}/*.swc", file=sys.stderr)
     now = tables(vessels, folder, "now", lumen, trees + PATIENTS)
+    named = [("now", now["Cases"])]
+    if trees:
+        named.append(("no parents named", tables(vessels, folder, "now-no-parents", lumen, trees, "--no-parents")["Cases"]))
+        named.append(("clicks within the parent's lumen", tables(vessels, folder, "now-near", lumen, trees, "--near")["Cases"]))
+    if len(sys.argv) == 6:
+        known = folder / "before.json"
+        before = read(known) if known.exists() else tables(vessels, folder, "before", sys.argv[5], trees + PATIENTS)
+        named.append(("before", before["Cases"]))
     text = "# Real arterial trees and synthetic patients\n\n"
     text += ("The six trees (see their README; healthy adults, BraVa) are drawn as volumes of 0.3 mm with 6 % of noise, the "
              "patients are `lumen phantom patient` with seeds 1 to 10. One click to a vessel near its start, a fifth of a radius "
              "off its axis (a quarter for patients), parents named; of the trees every vessel longer than 5 mm with a median "
              "radius of 1.5 voxels or more. A true point is covered if an axis of the case passes within the true radius, "
-             "whatever its label. An axis is false where it is farther than half a voxel from every true lumen. Thin is what "
+             "whatever its label. Clicks within the parent's lumen lie one radius from where the axis begins. An axis is false where it is farther than half a voxel from every true lumen. Thin is what "
              "has a radius below 1.5 voxels there.\n\n")
-    text += markdown("Now", now["Cases"], SHOWN)
-    if trees:
-        alone = tables(vessels, folder, "now-no-parents", lumen, trees, "--no-parents")
-        text += markdown("Now, trees, no parents named", alone["Cases"], SHOWN)
-        near = tables(vessels, folder, "now-near", lumen, trees, "--near")
-        text += markdown("Now, trees, clicks one radius from where the axis begins, within the parent's lumen", near["Cases"], SHOWN)
-    if len(sys.argv) == 6:
-        known = folder / "before.json"
-        before = read(known) if known.exists() else tables(vessels, folder, "before", sys.argv[5], trees + PATIENTS)
-        text += markdown("Before", before["Cases"], SHOWN)
+    text += summary(named)
+    for title, rows in named:
+        text += markdown(title.capitalize(), rows, SHOWN)
     long = [row for row in now["Not covered"] if float(row["length mm"]) >= 2]
     text += markdown("Now, not covered over 2 mm or more", long, ["case", "branch", "its click", "from mm", "to mm", "place", "radius mm"])
     long = [row for row in now["False"] if float(row["length mm"]) >= 2]

@@ -69,6 +69,26 @@ def place(position):
     return "(" + ", ".join(f"{x:.0f}" for x in position) + ")"
 
 
+def summary(results):
+    """The table of README.md: each figure before and now, or now alone."""
+    cells = {
+        "vessels clicked": lambda r: r["clicks"], "started": lambda r: r["started"], "to the visible end": lambda r: r["whole"],
+        "reachable, mm": lambda r: f"{r['reachable']['length_mm']:.0f} of {r['reachable']['of_mm']:.0f}",
+        "wall, median": lambda r: f"{r['wall']['offset_voxels']['median']:+.2f}",
+        "90 %": lambda r: f"{r['wall']['offset_voxels']['p90_absolute']:.2f}",
+        "beyond a voxel": lambda r: percent(r["wall"]["beyond_voxel_share"]) + " %",
+    }
+    rows = []
+    for name in dict.fromkeys(name for name, _ in results):
+        before, now = results.get((name, "before")), results[name, "now"]
+        row = [name]
+        for title, cell in cells.items():
+            changed = before and cell(before) != cell(now)
+            row.append(f"{cell(before)} → {cell(now)}" if changed else cell(now))
+        rows.append(row)
+    return table(["volume", *cells], rows)
+
+
 def report(results):
     rows = []
     for (name, build), r in results.items():
@@ -83,6 +103,7 @@ def report(results):
              "from the roots on. The wall's offset from the half-maximum edge is in voxels, positive where the model is too "
              "wide. Missing are bright vessels that hang together with the tree, clicked or not; covered is the share of "
              "what is seen that the case holds. How each is measured: docs/method.md, section 7.\n\n")
+    text += summary(results)
     text += table(["volume", "build", "clicks", "started", "to the visible end", "length mm", "reachable mm", "reachable, %",
                    "wall offset, median", "its size, median", "90 %", "beyond a voxel, %", "no edge, %", "dark lumen, %",
                    "missing mm", "covered, %", "s", "processor s"], rows)
