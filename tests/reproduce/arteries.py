@@ -44,12 +44,17 @@ def summary(named):
     """The table of README.md: the sums of each set of runs."""
     lines = ["| | clicks | started | length covered | false | reachable |", "|---|---|---|---|---|---|"]
     for title, rows in named:
-        for row in rows:
-            if not row["case"].startswith("all "):
-                continue
-            reach = float(row["reachable mm"]) / float(row["of mm"]) if float(row["of mm"]) else 0
-            lines.append(f"| {row['case'].replace('all', 'six' if 'trees' in row['case'] else 'ten')}, {title} | {row['clicks']} | "
-                         f"{row['started']} | {row['covered, %']} % | {row['false, %']} % | {100 * reach:.1f} % |")
+        for kind, wanted in (("six trees", lambda case: case not in PATIENTS), ("ten patients", lambda case: case in PATIENTS)):
+            cases = [row for row in rows if wanted(row["case"]) and not row["case"].startswith("all")]
+
+            def total(column):
+                return sum(float(row[column]) for row in cases)
+
+            if cases:
+                shares = [total("covered mm") / total("clicked mm"), total("false mm") / total("found mm"),
+                          total("reachable mm") / total("of mm")]
+                lines.append(f"| {kind}, {title} | {total('clicks'):.0f} | {total('started'):.0f} | " +
+                             " | ".join(f"{100 * share:.1f} %" for share in shares) + " |")
     return "\n".join(lines) + "\n\n"
 
 
@@ -74,8 +79,8 @@ def main():
              "patients are `lumen phantom patient` with seeds 1 to 10. One click to a vessel near its start, a fifth of a radius "
              "off its axis (a quarter for patients), parents named; of the trees every vessel longer than 5 mm with a median "
              "radius of 1.5 voxels or more. A true point is covered if an axis of the case passes within the true radius, "
-             "whatever its label. Clicks within the parent's lumen lie one radius from where the axis begins. An axis is false where it is farther than half a voxel from every true lumen. Thin is what "
-             "has a radius below 1.5 voxels there.\n\n")
+             "whatever its label. An axis is false where it is farther than half a voxel from every true lumen. Thin is what has a "
+             "radius below 1.5 voxels there. Clicks within the parent's lumen lie one radius from where the axis begins.\n\n")
     text += summary(named)
     for title, rows in named:
         text += markdown(title.capitalize(), rows, SHOWN)
