@@ -5,9 +5,9 @@
   arteries.py VESSELS DATA FOLDER LUMEN [BEFORE]
 
 VESSELS is the program lumen_vessels. Runs it with LUMEN on the trees DATA/arteries/*.swc (0.3 mm, 6 % of noise) and ten
-patients, parents named; on the trees again without parents, and with clicks within the parent's lumen; and with an older program, BEFORE, on all of them, unless
-FOLDER has its figures (before.json) from an earlier run. Volumes, cases and reports stay in FOLDER, 2 GB of them; so does
-arteries.md, which is printed too.
+patients, parents named; on the trees again without parents, and with clicks within the parent's lumen; and the same with
+an older program, BEFORE, unless FOLDER has its figures (before*.json) from an earlier run. Volumes, cases and reports stay
+in FOLDER, 2 GB of them; so does arteries.md, which is printed too.
 """
 import json
 import subprocess
@@ -15,6 +15,8 @@ import sys
 from pathlib import Path
 
 PATIENTS = [f"patient-{seed}" for seed in range(1, 11)]
+RUNS = [("", "", "all"), (", no parents named", "-no-parents", "trees", "--no-parents"),
+        (", clicks within the parent's lumen", "-near", "trees", "--near")]
 SHOWN = ["case", "clicks", "started", "clicked mm", "covered, %", "not covered, thin, mm", "false, %", "reachable mm", "of mm",
          "wall, median mm", "radius bias mm", "track, processor s", "fit, processor s"]
 
@@ -43,9 +45,9 @@ def markdown(title, rows, columns):
 def summary(named):
     """The table of README.md: the sums of each set of runs."""
     lines = ["| | clicks | started | length covered | false | reachable |", "|---|---|---|---|---|---|"]
-    for title, rows in named:
+    for title, report in named:
         for kind, wanted in (("six trees", lambda case: case not in PATIENTS), ("ten patients", lambda case: case in PATIENTS)):
-            cases = [row for row in rows if wanted(row["case"]) and not row["case"].startswith("all")]
+            cases = [row for row in report["Cases"] if wanted(row["case"]) and not row["case"].startswith("all")]
 
             def total(column):
                 return sum(float(row[column]) for row in cases)
@@ -65,15 +67,16 @@ def main():
     trees = sorted(str(file) for file in (data / "arteries").glob("*.swc"))
     if not trees:
         print(f"arteries.py: no trees, there is no {data / 'arteries'}/*.swc", file=sys.stderr)
-    now = tables(vessels, folder, "now", lumen, trees + PATIENTS)
-    named = [("now", now["Cases"])]
-    if trees:
-        named.append(("no parents named", tables(vessels, folder, "now-no-parents", lumen, trees, "--no-parents")["Cases"]))
-        named.append(("clicks within the parent's lumen", tables(vessels, folder, "now-near", lumen, trees, "--near")["Cases"]))
-    if len(sys.argv) == 6:
-        known = folder / "before.json"
-        before = read(known) if known.exists() else tables(vessels, folder, "before", sys.argv[5], trees + PATIENTS)
-        named.append(("before", before["Cases"]))
+    builds = [("now", lumen)] + ([("before", sys.argv[5])] if len(sys.argv) == 6 else [])
+    named = []
+    for build, program in builds:
+        for what, tag, subjects, *options in RUNS:
+            if subjects := (trees if subjects == "trees" else trees + PATIENTS):
+                known = folder / f"{build}{tag}.json"
+                keep = build == "before" and known.exists()
+                rows = read(known) if keep else tables(vessels, folder, build + tag, program, subjects, *options)
+                named.append((build + what, rows))
+    now = named[0][1]
     text = "# Real arterial trees and synthetic patients\n\n"
     text += ("The six trees (see their README; healthy adults, BraVa) are drawn as volumes of 0.3 mm with 6 % of noise, the "
              "patients are `lumen phantom patient` with seeds 1 to 10. One click to a vessel near its start, a fifth of a radius "
@@ -82,8 +85,8 @@ def main():
              "whatever its label. An axis is false where it is farther than half a voxel from every true lumen. Thin is what has a "
              "radius below 1.5 voxels there. Clicks within the parent's lumen lie one radius from where the axis begins.\n\n")
     text += summary(named)
-    for title, rows in named:
-        text += markdown(title.capitalize(), rows, SHOWN)
+    for title, report in named:
+        text += markdown(title.capitalize(), report["Cases"], SHOWN)
     long = [row for row in now["Not covered"] if float(row["length mm"]) >= 2]
     text += markdown("Now, not covered over 2 mm or more", long, ["case", "branch", "its click", "from mm", "to mm", "place", "radius mm"])
     long = [row for row in now["False"] if float(row["length mm"]) >= 2]
