@@ -6,7 +6,7 @@
     diff before.hashes after.hashes         # what changed; nothing, if nothing is printed
 
 Runs `lumen` (found in BUILD/converters/app) and libblob.so (in BUILD/libblob): every phantom with its
-truth and seeds, tracked, fitted, converted to every format, described, compared, validated and queried
+truth and seeds, tracked, fitted, converted to every format, described, checked, compared, validated and queried
 on every SIMD path that this processor has; the real angiogram of --data, where it is; and the
 files of spec/conformance. A failed run is an output too: its exit status is part of what is hashed.
 The set takes about two minutes on two cores, with --quick half a minute.
@@ -33,7 +33,8 @@ import tempfile
 import hash_queries
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SMALL = ["tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dropout"]
+SMALL = ["tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dropout", "sac-lobes", "companion",
+         "hairpin", "right-angle", "fading", "thick-slices"]
 FULL = ["bifurcation", "kissing"]  # the phantoms that every format and option is tried on
 KERNELS = ["gaussian", "quartic", "soft-object"]
 MESHES = ["glb", "gltf", "obj", "stl", "ply"]
@@ -126,6 +127,8 @@ def describe(folder, volume):
     folder.run("info-chunks", "info", "case.lumen", "--chunks")
     folder.run("info-chunks-json", "info", "case.lumen", "--chunks", "--json")
     folder.run("validate", "validate", "case.lumen", "tracked.lumen", "--privacy", "--json")
+    folder.run("check", "check", volume, "case.lumen", "--mask", "labels.nrrd", "--overlay", "overlay.png")
+    folder.run("check-json", "check", volume, "case.lumen", "--json")
 
 
 def convert_case(folder):
@@ -167,8 +170,9 @@ def queries(folder, blob, cases):
             folder.listing.add(f"{folder.group}/queries/{case}/{name}", data)
 
 
-def phantom(folder, blob, name):
-    folder.run("phantom", "phantom", name, "volume.nrrd", "--truth", "truth.lumen", "--seeds",
+def phantom(folder, blob, name, *subject):
+    """The phantom `name`, drawn by the arguments `subject` if there are any."""
+    folder.run("phantom", "phantom", *(subject or [name]), "volume.nrrd", "--truth", "truth.lumen", "--seeds",
                "seeds.json", "--json")
     track_and_fit(folder, "volume.nrrd", "seeds.json")
     describe(folder, "volume.nrrd")
@@ -181,6 +185,12 @@ def phantom(folder, blob, name):
     else:
         folder.run("to-glb", "convert", "case.lumen", "mesh.glb", "--json")
         queries(folder, blob, ["case"])
+
+
+def tree(folder, blob):
+    (folder.path / "tree.swc").symlink_to(ROOT / "tests/fuzz/corpus/swc/fork")
+    folder.seen.add("tree.swc")
+    phantom(folder, blob, "tree", "--tree", "tree.swc")
 
 
 def angiogram(folder, blob, data):
@@ -242,6 +252,7 @@ def hash_all(options, work):
     blob = hash_queries.load(options.build / "libblob/libblob.so")
     runs = {name: lambda folder, name=name: phantom(folder, blob, name)
             for name in SMALL + ([] if options.quick else ["patient"])}
+    runs["tree"] = lambda folder: tree(folder, blob)
     if not options.quick:
         runs["angiogram"] = lambda folder: angiogram(folder, blob, options.data)
     runs["conformance"] = lambda folder: conformance(folder, blob)
