@@ -16,6 +16,7 @@
 #include "converters/tracking/branch_tracker.h"
 #include "converters/tracking/joining.h"
 #include "converters/tracking/point_spread.h"
+#include "converters/tracking/sac_walls.h"
 #include "converters/tracking/smoothing.h"
 #include "converters/volume/write_volume.h"
 #include "formats/container/printable.h"
@@ -255,6 +256,7 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;
   used.pointSpread = pointSpreadOf(smoothed, seeds, branches, options);
+  captureSacs(context, seeds, branches);
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     correctWalls(branches[i], seeds[i].kind, *used.pointSpread);
     if (seeds[i].kind == BranchKind::Vessel) correctBends(branches[i].nodes);

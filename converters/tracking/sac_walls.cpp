@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/tracking/sac_walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "converters/common/vectors.h"
+#include "converters/tracking/sac_region.h"
+#include "converters/tracking/way.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using formats::BranchKind;
+using formats::NodeOrigin;
+
+/// Radii of a cylinder from its axis at which a tube has no lumen any more.
+constexpr double kAroundTube[] = {1.25, 1.5};
+/// Of the directions around an axis: where the lumen goes on in more of them, there is no tube.
+constexpr double kOpenShare = 1.0 / 3.0;
+constexpr int kDirections = 24;
+/// Voxels from the wall: points deeper in the lumen are on no wall.
+constexpr double kWithin = 1.75;
+/// Of the square of their distance: the area for each of points that leave no room for another.
+constexpr double kAreaOfPoint = 1.4;
+/// Voxels: the least distance of points; nearer ones say nothing new.
+constexpr double kLeastApart = 0.75;
+
+/// One sac: the aneurysms that make it up, and the vessels that open into it, as positions in the
+/// seeds' order.
+struct Sac {
+  std::vector<std::size_t> parts, vessels;
+};
+
+/// A piece of a vessel between two of its nodes.
+struct Piece {
+  Vector3d start, way;
+  double radius, change;
+
+  [[nodiscard]] bool holds(const Vector3d& p) const {
+    const double length2 = way.squaredNorm();
+    const double t = length2 > 0 ? std::clamp((p - start).dot(way) / length2, 0.0, 1.0) : 0.0;
+    return (p - start - t * way).norm() < radius + t * change;
+  }
+};
+
+/// The aneurysms that hang on one another with their vessels, for each that hangs on none.
+std::vector<Sac> sacsOf(std::span<const SeedBranch> seeds, std::span<const TrackedBranch> all) {
+  const auto isAneurysm = [&](int i) {
+    return i >= 0 && seeds[static_cast<std::size_t>(i)].kind == BranchKind::Aneurysm &&
+           !all[static_cast<std::size_t>(i)].nodes.empty();
+  };
+  const auto headOf = [&](int i) {
+    while (isAneurysm(all[static_cast<std::size_t>(i)].parentBranch))
+      i = all[static_cast<std::size_t>(i)].parentBranch;
+    return static_cast<std::size_t>(i);
+  };
+  std::vector<Sac> sacOf(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const int self = static_cast<int>(i), parent = all[i].parentBranch;
+    if (isAneurysm(self)) {
+      sacOf[headOf(self)].parts.push_back(i);
+      if (parent >= 0 && !isAneurysm(parent))
+        sacOf[i].vessels.push_back(static_cast<std::size_t>(parent));
+    } else if (isAneurysm(parent)) {
+      sacOf[headOf(parent)].vessels.push_back(i);
+    }
+  }
+  std::erase_if(sacOf, [](const Sac& sac) { return sac.parts.empty(); });
+  return sacOf;
+}
+
+/// True if the lumen ends all around a node, but for a third.
+bool isTube(const TrackContext& context, double wallLevel, const TrackedNode& node) {
+  const double sign = context.options.dark ? -1 : 1;
+  const VolumeGeometry& geometry = context.volume.geometry();
+  const auto [u, v] = planeBasis(node.direction);
+  int open = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kDirections;
+    const Vector3d way = node.radius * (std::cos(angle) * u + std::sin(angle) * v);
+    open += std::all_of(std::begin(kAroundTube), std::end(kAroundTube), [&](double r) {
+      const Vector3d at = geometry.indexFromWorld(node.centre + r * way);
+      return sign * (static_cast<double>(context.volume.sample(at)) - wallLevel) > 0;
+    });
+  }
+  return open <= kOpenShare * kDirections;
+}
+
+/// What of the vessels bounds a sac. `open`: their nodes that stand in it or were never measured.
+std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const Sac& sac,
+                            std::vector<TrackedBranch>& all, std::vector<TrackedNode*>& open) {
+  std::vector<Piece> pieces;
+  const auto isIn = [](const std::vector<std::size_t>& list, std::size_t i) {
+    return std::find(list.begin(), list.end(), i) != list.end();
+  };
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (isIn(sac.parts, b)) continue;
+    const bool mayOpen = isIn(sac.vessels, b);
+    std::vector<TrackedNode>& nodes = all[b].nodes;
+    const TrackedNode* last = nullptr;
+    for (TrackedNode& node : nodes) {
+      const bool bounds = !mayOpen || (node.origin == NodeOrigin::Measured &&
+                                       isTube(context, wallLevel, node));
+      if (!bounds) open.push_back(&node);
+      if (bounds && last)
+        pieces.push_back(
+            {last->centre, node.centre - last->centre, last->radius, node.radius - last->radius});
+      else if (bounds)
+        pieces.push_back({node.centre, Vector3d::Zero(), node.radius, 0});
+      last = bounds ? &node : nullptr;
+    }
+  }
+  return pieces;
+}
+
+/// Wall points of a region that are as strong as is asked, about so many.
+std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& region,
+                               std::size_t count) {
+  const SacWall wall = wallOf(context, region);
+  std::vector<Vector3d> strong;
+  if (wall.points.empty()) return strong;
+  const double strongest = *std::max_element(wall.strength.begin(), wall.strength.end());
+  for (std::size_t i = 0; i < wall.points.size(); ++i)
+    if (wall.strength[i] >= context.options.aneurysmGradient * strongest)
+      strong.push_back(wall.points[i]);
+  const double voxel = context.volume.geometry().voxelSize();
+  const double area = static_cast<double>(strong.size()) * voxel * voxel;
+  return thinnedOut(strong,
+                    std::max(kLeastApart * voxel,
+                             std::sqrt(area / (kAreaOfPoint * static_cast<double>(count)))));
+}
+
+/// Drops points that are deeper in a region's lumen than any wall.
+void dropWithin(const VolumeGeometry& geometry, const SacRegion& region, TrackedNode& node) {
+  std::erase_if(node.points, [&](const formats::Vec3f& p) {
+    const auto place = region.box.at(geometry.indexFromWorld(toEigen(p)));
+    return place && region.depth[*place] > kWithin * geometry.voxelSize();
+  });
+}
+
+/// Each point to the node of least power.
+void shareOut(const std::vector<Vector3d>& points, std::span<TrackedNode* const> owners) {
+  for (const Vector3d& p : points) {
+    const auto power = [&](const TrackedNode* node) {
+      return (p - node->centre).squaredNorm() - node->radius * node->radius;
+    };
+    TrackedNode* best = owners[0];
+    for (TrackedNode* node : owners)
+      if (power(node) < power(best)) best = node;
+    best->points.push_back(toVec3f(p));
+  }
+}
+
+void capture(const TrackContext& context, const Sac& sac, std::vector<TrackedBranch>& all) {
+  std::vector<TrackedNode*> owners;
+  std::vector<TrackedNode> parts;
+  std::vector<SacBall> balls;
+  for (const std::size_t i : sac.parts)
+    for (TrackedNode& node : all[i].nodes) {
+      owners.push_back(&node);
+      parts.push_back(node);
+      balls.push_back({node.centre, node.radius});
+    }
+  const double wallLevel = levelsOf(context.volume, parts).wall;
+  std::vector<TrackedNode*> open;
+  const std::vector<Piece> pieces = boundsOf(context, wallLevel, sac, all, open);
+  const auto region = growSac(context, wallLevel, balls, [&](const Vector3d& p) {
+    return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& x) { return x.holds(p); });
+  });
+  if (!region) return;
+  const auto count = owners.size() * context.rays.size() * 3;
+  const std::vector<Vector3d> points = pointsOf(context, *region, count);
+  if (points.empty()) return;
+  for (TrackedNode* node : owners) node->points.clear();
+  for (const std::size_t i : sac.vessels)
+    for (TrackedNode& node : all[i].nodes) dropWithin(context.volume.geometry(), *region, node);
+  owners.insert(owners.end(), open.begin(), open.end());
+  shareOut(points, owners);
+}
+
+}  // namespace
+
+void captureSacs(const TrackContext& context, std::span<const SeedBranch> seeds,
+                 std::vector<TrackedBranch>& branches) {
+  for (const Sac& sac : sacsOf(seeds, branches)) capture(context, sac, branches);
+}
+
+}  // namespace lumen::convert
