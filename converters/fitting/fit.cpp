@@ -15,6 +15,8 @@ namespace {
 
 /// Nodes within so many edges cut a seam.
 constexpr int kSeamNeighbourhood = 2;
+/// Of the radius of an aneurysm: the least lobe that tracking takes for a part of it.
+constexpr double kLobe = 0.25;
 
 using fitting::Ball;
 using fitting::Blob;
@@ -92,13 +94,21 @@ private:
     return {(double{p.x} - c.x) * m_scale, (double{p.y} - c.y) * m_scale,
             (double{p.z} - c.z) * m_scale};
   }
+  [[nodiscard]] bool isInSac(std::uint32_t node) const {
+    return m_tree.branches[m_tree.branch[node]].kind == formats::BranchKind::Aneurysm;
+  }
   /// The ball of a node, in the frame of another.
   [[nodiscard]] Ball ball(std::uint32_t frame, std::uint32_t node) const {
     return {toLocal(frame, m_tree.centre[node]), m_tree.radius[node] * m_scale};
   }
   [[nodiscard]] fitting::NodeData data(std::uint32_t node, const Worker& worker) const {
     const Vec3f& d = m_tree.direction[node];
-    return {worker.points, m_tree.radius[node] * m_scale, {d.x, d.y, d.z}, worker.lumen};
+    return {worker.points,
+            m_tree.radius[node] * m_scale,
+            {d.x, d.y, d.z},
+            worker.lumen,
+            {},
+            isInSac(node) ? kLobe : 1.0};
   }
 
   template <class Action>

@@ -210,6 +210,12 @@ std::optional<std::size_t> VoxelBox::at(const Vector3d& index) const {
   return place(cell);
 }
 
+double leastPassage(std::span<const SacBall> balls) {
+  double least = kFar;
+  for (const SacBall& ball : balls) least = std::min(least, ball.radius);
+  return kHalfWay * least;
+}
+
 std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
                                  std::span<const SacBall> balls,
                                  const std::function<bool(const Vector3d&)>& inVessel) {
@@ -220,9 +226,7 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
   if (region.box.count() > kMostVoxels) return {};
   const auto lumen = lumenIn(context, wallLevel, region.box);
   region.depth = distanceTo(region.box, geometry.spacing, lumen, 0);
-  double least = kFar;
-  for (const SacBall& ball : balls) least = std::min(least, ball.radius);
-  const double half = std::max(kHalfWay * least, geometry.spacing.maxCoeff());
+  const double half = std::max(leastPassage(balls), geometry.spacing.maxCoeff());
   std::vector<std::uint8_t> core(lumen.size(), kNone);
   const auto place = [&](std::size_t i) {
     return geometry.worldFromIndex(region.box.index(region.box.cell(i)));

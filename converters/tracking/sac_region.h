@@ -46,6 +46,9 @@ struct SacBall {
   double radius;
 };
 
+/// Half of the width of a way that leads on within the sac of some balls, mm.
+double leastPassage(std::span<const SacBall> balls);
+
 /// What is brighter than `wallLevel` (darker, for dark vessels), in no vessel, and joined to the
 /// balls' centres by ways at least half of the least ball's radius wide, up to kSacReach radii from
 /// one of them. Holes within the lumen belong to it. `inVessel`: for places in LPS mm. Empty if no

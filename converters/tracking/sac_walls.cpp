@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "converters/common/vectors.h"
+#include "converters/tracking/aneurysm.h"
+#include "converters/tracking/sac_centres.h"
 #include "converters/tracking/sac_region.h"
 #include "converters/tracking/way.h"
 
@@ -27,10 +30,9 @@ constexpr double kOpenShare = 1.0 / 3.0;
 constexpr int kDirections = 24;
 /// Voxels from the wall: points deeper in the lumen are on no wall.
 constexpr double kWithin = 1.75;
-/// Of the square of their distance: the area for each of points that leave no room for another.
-constexpr double kAreaOfPoint = 1.4;
-/// Voxels: the least distance of points; nearer ones say nothing new.
-constexpr double kLeastApart = 0.75;
+/// Voxels: the distance of wall points of a sac; nearer ones say nothing new. Points of a large sac
+/// are farther apart, so that there are not many more than so many.
+constexpr double kLeastApart = 1.25, kMostPoints = 4000;
 
 /// One sac: the aneurysms that make it up, and the vessels that open into it, as positions in the
 /// seeds' order.
@@ -120,9 +122,8 @@ std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const
   return pieces;
 }
 
-/// Wall points of a region that are as strong as is asked, about so many.
-std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& region,
-                               std::size_t count) {
+/// Wall points of a region that are as strong as is asked, evenly spread.
+std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& region) {
   const SacWall wall = wallOf(context, region);
   std::vector<Vector3d> strong;
   if (wall.points.empty()) return strong;
@@ -131,10 +132,8 @@ std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& reg
     if (wall.strength[i] >= context.options.aneurysmGradient * strongest)
       strong.push_back(wall.points[i]);
   const double voxel = context.volume.geometry().voxelSize();
-  const double area = static_cast<double>(strong.size()) * voxel * voxel;
-  return thinnedOut(strong,
-                    std::max(kLeastApart * voxel,
-                             std::sqrt(area / (kAreaOfPoint * static_cast<double>(count)))));
+  const double even = std::sqrt(static_cast<double>(strong.size()) / kMostPoints);
+  return thinnedOut(strong, std::max(kLeastApart, even) * voxel);
 }
 
 /// Drops points that are deeper in a region's lumen than any wall.
@@ -158,30 +157,77 @@ void shareOut(const std::vector<Vector3d>& points, std::span<TrackedNode* const>
   }
 }
 
+/// Puts a node into one of a sac's chains, behind its first node, where the way gets longer by
+/// the least and stays in the lumen; nowhere if no chain can be left and reached again.
+void insertNode(const TrackContext& context, const SacRegion& region, TrackedNode node,
+                const Sac& sac, std::vector<TrackedBranch>& all) {
+  std::vector<TrackedNode>* chain = nullptr;
+  std::size_t at = 0;
+  double least = std::numeric_limits<double>::infinity();
+  const VolumeGeometry& geometry = context.volume.geometry();
+  const auto isOpen = [&](const TrackedNode& other) {
+    return isStraightWay(geometry, region, node.centre, other.centre);
+  };
+  for (const std::size_t part : sac.parts) {
+    std::vector<TrackedNode>& nodes = all[part].nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const bool isLast = i + 1 == nodes.size();
+      double longer = (node.centre - nodes[i].centre).norm();
+      if (!isLast)
+        longer += (nodes[i + 1].centre - node.centre).norm() -
+                  (nodes[i + 1].centre - nodes[i].centre).norm();
+      if (longer >= least || !isOpen(nodes[i]) || (!isLast && !isOpen(nodes[i + 1]))) continue;
+      least = longer;
+      chain = &nodes;
+      at = i + 1;
+    }
+  }
+  if (chain) chain->insert(chain->begin() + static_cast<std::ptrdiff_t>(at), std::move(node));
+}
+
+/// Gives a sac nodes for lobes that no click is near to.
+void addCentres(const TrackContext& context, const SacRegion& region,
+                const std::vector<Vector3d>& wall, std::span<const SacBall> nodes, double least,
+                const Sac& sac, std::vector<TrackedBranch>& all) {
+  TrackWorkspace workspace(context);
+  for (const SacBall& ball :
+       furtherCentres(context.volume.geometry(), region, wall, nodes, least)) {
+    auto node = sacNodeAt(context, {ball.centre, ball.radius}, workspace);
+    if (!node) continue;
+    node->radius = ball.radius;
+    insertNode(context, region, std::move(*node), sac, all);
+  }
+  for (const std::size_t i : sac.parts)
+    if (all[i].nodes.size() > 1) alignWithChain(all[i].nodes);
+}
+
 void capture(const TrackContext& context, const Sac& sac, std::vector<TrackedBranch>& all) {
-  std::vector<TrackedNode*> owners;
-  std::vector<TrackedNode> parts;
+  std::vector<TrackedNode> clicked;
   std::vector<SacBall> balls;
   for (const std::size_t i : sac.parts)
-    for (TrackedNode& node : all[i].nodes) {
-      owners.push_back(&node);
-      parts.push_back(node);
+    for (const TrackedNode& node : all[i].nodes) {
+      clicked.push_back(node);
       balls.push_back({node.centre, node.radius});
     }
-  const double wallLevel = levelsOf(context.volume, parts).wall;
-  std::vector<TrackedNode*> open;
-  const std::vector<Piece> pieces = boundsOf(context, wallLevel, sac, all, open);
+  const double wallLevel = levelsOf(context.volume, clicked).wall;
+  std::vector<TrackedNode*> owners;
+  const std::vector<Piece> pieces = boundsOf(context, wallLevel, sac, all, owners);
   const auto region = growSac(context, wallLevel, balls, [&](const Vector3d& p) {
     return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& x) { return x.holds(p); });
   });
   if (!region) return;
-  const auto count = owners.size() * context.rays.size() * 3;
-  const std::vector<Vector3d> points = pointsOf(context, *region, count);
+  const std::vector<Vector3d> points = pointsOf(context, *region);
   if (points.empty()) return;
-  for (TrackedNode* node : owners) node->points.clear();
+  const double least = leastPassage(balls);
+  for (const TrackedNode* node : owners) balls.push_back({node->centre, node->radius});
+  addCentres(context, *region, points, balls, least, sac, all);
+  for (const std::size_t i : sac.parts)
+    for (TrackedNode& node : all[i].nodes) {
+      node.points.clear();
+      owners.push_back(&node);
+    }
   for (const std::size_t i : sac.vessels)
     for (TrackedNode& node : all[i].nodes) dropWithin(context.volume.geometry(), *region, node);
-  owners.insert(owners.end(), open.begin(), open.end());
   shareOut(points, owners);
 }
 
