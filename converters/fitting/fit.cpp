@@ -17,6 +17,9 @@ namespace {
 constexpr int kSeamNeighbourhood = 2;
 /// Of the radius of an aneurysm: the least lobe that tracking takes for a part of it.
 constexpr double kLobe = 0.25;
+/// Radii of a vessel: the farthest wall of a sac that a node of the vessel is fitted to, as on the
+/// rays of tracking.
+constexpr double kSeen = 2.4;
 
 using fitting::Ball;
 using fitting::Blob;
@@ -143,8 +146,11 @@ void Models::gatherPoints(std::uint32_t node, Worker& worker) const {
   worker.lumen.clear();
   for (const std::uint32_t near : m_neighbours.within(node, m_options.neighbourhood)) {
     worker.lumen.push_back(ball(node, near));
+    const bool seesAll = isInSac(node) || !isInSac(near);
+    const double seen = kSeen * m_tree.radius[node] * m_scale;
     for (std::uint32_t k = offset[near]; k < offset[near + 1]; ++k) {
-      worker.points.push_back(toLocal(node, m_case.points->position[k]));
+      const Vec3d p = toLocal(node, m_case.points->position[k]);
+      if (seesAll || p.x * p.x + p.y * p.y + p.z * p.z < seen * seen) worker.points.push_back(p);
     }
     for (const Vec3f& p : m_drawn[near]) worker.points.push_back(toLocal(node, p));
   }

@@ -59,8 +59,8 @@ private:
 }  // namespace
 
 std::vector<SacBall> furtherCentres(const VolumeGeometry& geometry, const SacRegion& region,
-                                    std::span<const Vector3d> wall,
-                                    std::span<const SacBall> nodes, double least) {
+                                    std::span<const Vector3d> wall, std::span<const SacBall> nodes,
+                                    double least) {
   const Cover cover(geometry, region);
   std::vector<double> missed(wall.size(), kFar), power(wall.size(), kFar);
   const auto cast = [&](const SacBall& node, double inscribed) {

@@ -59,8 +59,7 @@ public:
     std::size_t k = 0;
     for (std::size_t i = 0; i < f.size(); ++i) {
       while (k + 1 < m_parabola.size() && m_from[k + 1] < static_cast<double>(i)) ++k;
-      const double along =
-          (static_cast<double>(i) - static_cast<double>(m_parabola[k])) * spacing;
+      const double along = (static_cast<double>(i) - static_cast<double>(m_parabola[k])) * spacing;
       m_out[i] = along * along + f[m_parabola[k]];
     }
     std::swap(f, m_out);
@@ -280,8 +279,8 @@ SacWall wallOf(const TrackContext& context, const SacRegion& region) {
     Vector3d slope;
     for (int a = 0; a < 3; ++a) {
       const Vector3d half = 0.5 * Vector3d::Unit(a);
-      slope[a] = static_cast<double>(sign * (context.volume.sample(at - half) -
-                                             context.volume.sample(at + half))) /
+      slope[a] = static_cast<double>(
+                     sign * (context.volume.sample(at - half) - context.volume.sample(at + half))) /
                  geometry.spacing[a];
     }
     if (!(slope.norm() > 0) || slope.cwiseProduct(geometry.spacing).dot(outward) < 0) continue;
@@ -298,8 +297,8 @@ SacWall wallOf(const TrackContext& context, const SacRegion& region) {
       }
     }
     if (best == 0) continue;
-    wall.points.push_back(geometry.worldFromIndex(
-        at + (static_cast<double>(best) * kSpacing - kInward) * way));
+    wall.points.push_back(
+        geometry.worldFromIndex(at + (static_cast<double>(best) * kSpacing - kInward) * way));
     wall.strength.push_back(static_cast<double>(strongest) / (2 * kHalfFall * kSpacing * voxel));
   }
   return wall;

@@ -32,7 +32,7 @@ constexpr int kDirections = 24;
 constexpr double kWithin = 1.75;
 /// Voxels: the distance of wall points of a sac; nearer ones say nothing new. Points of a large sac
 /// are farther apart, so that there are not many more than so many.
-constexpr double kLeastApart = 1.25, kMostPoints = 4000;
+constexpr double kLeastApart = 1, kMostPoints = 4000;
 
 /// One sac: the aneurysms that make it up, and the vessels that open into it, as positions in the
 /// seeds' order.
@@ -108,8 +108,8 @@ std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const
     std::vector<TrackedNode>& nodes = all[b].nodes;
     const TrackedNode* last = nullptr;
     for (TrackedNode& node : nodes) {
-      const bool bounds = !mayOpen || (node.origin == NodeOrigin::Measured &&
-                                       isTube(context, wallLevel, node));
+      const bool bounds =
+          !mayOpen || (node.origin == NodeOrigin::Measured && isTube(context, wallLevel, node));
       if (!bounds) open.push_back(&node);
       if (bounds && last)
         pieces.push_back(
