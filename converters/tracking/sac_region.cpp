@@ -14,8 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// Radii of a ball: the farthest wall that belongs to the same sac, as on rays (rays.h).
-constexpr double kSacReach = 2.4;
 /// Of the least ball's radius: half of the width of a way that leads on within the sac.
 constexpr double kHalfWay = 0.25;
 /// Voxels: how far beyond what a ball of half a way's width reaches the sac still goes, for corners.

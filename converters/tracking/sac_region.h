@@ -46,6 +46,9 @@ struct SacBall {
   double radius;
 };
 
+/// Radii of a ball: the farthest wall that belongs to the same sac, as on rays (rays.h).
+constexpr double kSacReach = 2.4;
+
 /// Half of the width of a way that leads on within the sac of some balls, mm.
 double leastPassage(std::span<const SacBall> balls);
 

@@ -95,10 +95,18 @@ bool isTube(const TrackContext& context, double wallLevel, const TrackedNode& no
   return open <= kOpenShare * kDirections;
 }
 
-/// What of the vessels bounds a sac. `open`: their nodes that stand in it or were never measured.
+/// What of the vessels bounds a sac. `open`: nodes of those that open into it which stand in it or
+/// were never measured. Both near the sac only.
 std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const Sac& sac,
-                            std::vector<TrackedBranch>& all, std::vector<TrackedNode*>& open) {
+                            std::span<const SacBall> balls, std::vector<TrackedBranch>& all,
+                            std::vector<TrackedNode*>& open) {
   std::vector<Piece> pieces;
+  const auto isFar = [&](const TrackedNode& node) {
+    return std::none_of(balls.begin(), balls.end(), [&](const SacBall& ball) {
+      return (node.centre - ball.centre).norm() <
+             kSacReach * ball.radius + node.radius + node.height;
+    });
+  };
   const auto isIn = [](const std::vector<std::size_t>& list, std::size_t i) {
     return std::find(list.begin(), list.end(), i) != list.end();
   };
@@ -108,6 +116,10 @@ std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const
     std::vector<TrackedNode>& nodes = all[b].nodes;
     const TrackedNode* last = nullptr;
     for (TrackedNode& node : nodes) {
+      if (isFar(node)) {
+        last = nullptr;
+        continue;
+      }
       const bool bounds =
           !mayOpen || (node.origin == NodeOrigin::Measured && isTube(context, wallLevel, node));
       if (!bounds) open.push_back(&node);
@@ -211,7 +223,7 @@ void capture(const TrackContext& context, const Sac& sac, std::vector<TrackedBra
     }
   const double wallLevel = levelsOf(context.volume, clicked).wall;
   std::vector<TrackedNode*> owners;
-  const std::vector<Piece> pieces = boundsOf(context, wallLevel, sac, all, owners);
+  const std::vector<Piece> pieces = boundsOf(context, wallLevel, sac, balls, all, owners);
   const auto region = growSac(context, wallLevel, balls, [&](const Vector3d& p) {
     return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& x) { return x.holds(p); });
   });

@@ -84,6 +84,21 @@ TEST(Aneurysm, EveryPartOfALobedSacHasAWallPointNearBy) {
   EXPECT_LT(widest, 2.5 * kVoxel);
 }
 
+TEST(Aneurysm, IsTheSameWhereVesselsAreDark) {
+  const LobedSac sac;
+  Volume volume = sac.volume();
+  const TrackResult bright = trackOne(volume, sac.seeds());
+  for (std::int16_t& voxel : std::get<std::vector<std::int16_t>>(volume.voxels))
+    voxel = static_cast<std::int16_t>(1000 - voxel);
+  TrackOptions options;
+  options.dark = true;
+  Progress silent;
+  const TrackResult dark = track(volume, sac.seeds(), options, silent);
+  ASSERT_EQ(dark.result.tree.nodeCount(), bright.result.tree.nodeCount());
+  for (const formats::Vec3f& p : dark.result.points->position)
+    EXPECT_LT(std::abs(sac.wall(toEigen(p))), 1.25 * kVoxel) << toEigen(p).transpose();
+}
+
 TEST(Aneurysm, WallPointsLieInNoLumenAndOnNoOtherVessel) {
   const LobedSac sac;
   const TrackResult out = trackOne(sac.volume(), sac.seeds());
@@ -105,8 +120,7 @@ double leastOnWay(const formats::Case& value, const field::BlendedField& field, 
     const Vector3d p = from + (to - from) * (static_cast<double>(i) / kSteps);
     const field::Vec at{p.x(), p.y(), p.z()};
     cursor = field.follow(at, cursor);
-    if (wall(p) < -kVoxel)
-      least = std::min(least, field.blended(at, cursor).value - field.level());
+    if (wall(p) < -kVoxel) least = std::min(least, field.blended(at, cursor).value - field.level());
   }
   return least;
 }
