@@ -13,14 +13,14 @@ using Eigen::Vector3d;
 
 /// Radii of the greatest ball around a centre: wall that is farther away is another part's, and how
 /// near the centre of that part comes to it.
-constexpr double kCover = 2, kNear = 1.25;
+constexpr double kCover = 2, kNearby = 1.25;
 /// Centres that are added to one sac, and points of the wall that each must be nearest to, by
 /// power: a node without any would have nothing to say.
 constexpr std::size_t kMostCentres = 32, kFewestOwned = 20;
 /// Voxels: from the nearest voxel outside to the wall.
 constexpr double kRim = 0.5;
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kUnseen = std::numeric_limits<double>::infinity();
 
 double powerAt(const Vector3d& p, const SacBall& ball) {
   return (p - ball.centre).squaredNorm() - ball.radius * ball.radius;
@@ -45,7 +45,7 @@ public:
       const double radius = radiusAt(i);
       if (radius < (best ? best->radius : least) || (best && radius == best->radius)) continue;
       const Vector3d at = m_geometry.worldFromIndex(m_region.box.index(m_region.box.cell(i)));
-      if ((at - wall).norm() <= kNear * radius) best = SacBall{at, radius};
+      if ((at - wall).norm() <= kNearby * radius) best = SacBall{at, radius};
     }
     return best;
   }
@@ -62,7 +62,7 @@ std::vector<SacBall> furtherCentres(const VolumeGeometry& geometry, const SacReg
                                     std::span<const Vector3d> wall, std::span<const SacBall> nodes,
                                     double least) {
   const Cover cover(geometry, region);
-  std::vector<double> missed(wall.size(), kFar), power(wall.size(), kFar);
+  std::vector<double> missed(wall.size(), kUnseen), power(wall.size(), kUnseen);
   const auto cast = [&](const SacBall& node, double inscribed) {
     for (std::size_t i = 0; i < wall.size(); ++i) {
       missed[i] = std::min(missed[i], (wall[i] - node.centre).norm() / inscribed);

@@ -21,14 +21,17 @@ constexpr double kCorner = 1.5;
 /// Voxels in a box: beyond, a radius was mistyped.
 constexpr std::size_t kMostVoxels = std::size_t{1} << 24;
 /// Voxels: a profile across the wall, from inside to outside, and the spacing of its samples.
-constexpr double kInward = 2.0, kOutward = 2.5, kSpacing = 0.125;
-constexpr auto kProfile = static_cast<std::size_t>((kInward + kOutward) / kSpacing) + 1;
+constexpr double kInward = 2.0, kOutward = 2.5, kProfileStep = 0.125;
+constexpr auto kProfile = static_cast<std::size_t>((kInward + kOutward) / kProfileStep) + 1;
 /// Samples before and behind a place whose difference is the fall there: half a voxel apart.
 constexpr std::size_t kHalfFall = 2;
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+/// Voxels between two looks at whether the user has cancelled, less one.
+constexpr std::size_t kOften = 4095;
 
-const std::array<Vector3i, 6> kSteps = {Vector3i(-1, 0, 0), Vector3i(1, 0, 0),  Vector3i(0, -1, 0),
+constexpr double kNoPlace = std::numeric_limits<double>::infinity();
+
+const std::array<Vector3i, 6> kFaces = {Vector3i(-1, 0, 0), Vector3i(1, 0, 0),  Vector3i(0, -1, 0),
                                         Vector3i(0, 1, 0),  Vector3i(0, 0, -1), Vector3i(0, 0, 1)};
 
 /// Squared distances along one line to the nearest place, f being the squared distance that each
@@ -40,14 +43,14 @@ public:
     m_parabola.clear();
     m_from.clear();
     for (std::size_t i = 0; i < f.size(); ++i) {
-      if (f[i] == kFar) continue;
-      double from = -kFar;
+      if (f[i] == kNoPlace) continue;
+      double from = -kNoPlace;
       while (!m_parabola.empty()) {
         from = meeting(f, m_parabola.back(), i, spacing);
         if (from > m_from.back()) break;
         m_parabola.pop_back();
         m_from.pop_back();
-        from = -kFar;
+        from = -kNoPlace;
       }
       m_parabola.push_back(i);
       m_from.push_back(from);
@@ -78,7 +81,7 @@ private:
 std::vector<float> distanceTo(const VoxelBox& box, const Vector3d& spacing,
                               const std::vector<std::uint8_t>& mark, std::uint8_t target) {
   std::vector<double> squared(mark.size());
-  for (std::size_t i = 0; i < mark.size(); ++i) squared[i] = mark[i] == target ? 0 : kFar;
+  for (std::size_t i = 0; i < mark.size(); ++i) squared[i] = mark[i] == target ? 0 : kNoPlace;
   LineTransform transform;
   std::vector<double> line;
   for (int axis = 0; axis < 3; ++axis) {
@@ -110,7 +113,7 @@ void flood(const VoxelBox& box, std::vector<std::uint8_t>& mark, std::uint8_t op
   while (!queue.empty()) {
     const Vector3i cell = box.cell(queue.back());
     queue.pop_back();
-    for (const Vector3i& step : kSteps) {
+    for (const Vector3i& step : kFaces) {
       const Vector3i next = cell + step;
       if (!box.holds(next)) continue;
       const std::size_t place = box.place(next);
@@ -122,7 +125,7 @@ void flood(const VoxelBox& box, std::vector<std::uint8_t>& mark, std::uint8_t op
 }
 
 VoxelBox boxAround(const VolumeGeometry& geometry, std::span<const SacBall> balls) {
-  Vector3d low = Vector3d::Constant(kFar), high = Vector3d::Constant(-kFar);
+  Vector3d low = Vector3d::Constant(kNoPlace), high = Vector3d::Constant(-kNoPlace);
   for (const SacBall& ball : balls) {
     const Vector3d at = geometry.indexFromWorld(ball.centre);
     const Vector3d half = (kSacReach * ball.radius / geometry.spacing.array()).matrix();
@@ -178,6 +181,59 @@ std::vector<std::size_t> deepestIn(const VolumeGeometry& geometry, const SacRegi
   return out;
 }
 
+bool isInReach(std::span<const SacBall> balls, const Vector3d& p) {
+  return std::any_of(balls.begin(), balls.end(), [&](const SacBall& ball) {
+    return (p - ball.centre).norm() < kSacReach * ball.radius;
+  });
+}
+
+/// The sum of the steps from a cell to those beside it that are in no lumen.
+Vector3d outsideOf(const SacRegion& region, const Vector3i& cell) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3i& step : kFaces) {
+    const Vector3i next = cell + step;
+    if (region.box.holds(next) && region.depth[region.box.place(next)] == 0)
+      sum += step.cast<double>();
+  }
+  return sum;
+}
+
+/// One voxel's length along the fall of the intensity, in index space; zero where it is flat.
+Vector3d downhill(const TrackContext& context, const Vector3d& at) {
+  const VolumeGeometry& geometry = context.volume.geometry();
+  const float sign = context.options.dark ? -1.0F : 1.0F;
+  Vector3d fall;
+  for (int a = 0; a < 3; ++a) {
+    const Vector3d half = 0.5 * Vector3d::Unit(a);
+    const float change = context.volume.sample(at - half) - context.volume.sample(at + half);
+    fall[a] = static_cast<double>(sign * change) / geometry.spacing[a];
+  }
+  if (!(fall.norm() > 0)) return Vector3d::Zero();
+  return (geometry.voxelSize() * fall.normalized()).cwiseQuotient(geometry.spacing);
+}
+
+/// Adds the place of the steepest fall on a line through the wall; `values` is a buffer.
+void addWall(const TrackContext& context, const Vector3d& at, const Vector3d& way,
+             std::vector<float>& values, SacWall& wall) {
+  const VolumeGeometry& geometry = context.volume.geometry();
+  const float sign = context.options.dark ? -1.0F : 1.0F;
+  context.volume.sampleLine(at - kInward * way, kProfileStep * way, values);
+  std::size_t best = 0;
+  float strongest = 0;
+  for (std::size_t n = kHalfFall; n + kHalfFall < values.size(); ++n) {
+    const float fall = sign * (values[n - kHalfFall] - values[n + kHalfFall]);
+    if (fall > strongest) {
+      strongest = fall;
+      best = n;
+    }
+  }
+  if (best == 0) return;
+  const double along = static_cast<double>(best) * kProfileStep - kInward;
+  wall.points.push_back(geometry.worldFromIndex(at + along * way));
+  wall.strength.push_back(static_cast<double>(strongest) /
+                          (2 * kHalfFall * kProfileStep * geometry.voxelSize()));
+}
+
 }  // namespace
 
 std::size_t VoxelBox::count() const {
@@ -208,7 +264,7 @@ std::optional<std::size_t> VoxelBox::at(const Vector3d& index) const {
 }
 
 double leastPassage(std::span<const SacBall> balls) {
-  double least = kFar;
+  double least = kNoPlace;
   for (const SacBall& ball : balls) least = std::min(least, ball.radius);
   return kHalfWay * least;
 }
@@ -221,34 +277,23 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
   SacRegion region;
   region.box = boxAround(geometry, balls);
   if (region.box.count() > kMostVoxels) return {};
-  const auto lumen = lumenIn(context, wallLevel, region.box);
-  region.depth = distanceTo(region.box, geometry.spacing, lumen, 0);
-  const double half = std::max(leastPassage(balls), geometry.spacing.maxCoeff());
-  std::vector<std::uint8_t> core(lumen.size(), kNone);
-  const auto place = [&](std::size_t i) {
-    return geometry.worldFromIndex(region.box.index(region.box.cell(i)));
-  };
-  const auto isNear = [&](const Vector3d& p) {
-    return std::any_of(balls.begin(), balls.end(), [&](const SacBall& ball) {
-      return (p - ball.centre).norm() < kSacReach * ball.radius;
-    });
-  };
-  std::vector<std::uint8_t> isFree(lumen.size(), 0);
-  for (std::size_t i = 0; i < lumen.size(); ++i) {
-    if ((i & 4095U) == 0) context.progress.check();
-    if (!lumen[i]) continue;
-    const Vector3d p = place(i);
-    if (!isNear(p) || inVessel(p)) continue;
-    isFree[i] = 1;
-    if (region.depth[i] > half) core[i] = kCore;
+  region.isSac = lumenIn(context, wallLevel, region.box);
+  region.depth = distanceTo(region.box, geometry.spacing, region.isSac, 0);
+  const double coarsest = geometry.spacing.maxCoeff();
+  const double half = std::max(leastPassage(balls), coarsest);
+  std::vector<std::uint8_t> core(region.isSac.size(), kNone);
+  for (std::size_t i = 0; i < core.size(); ++i) {
+    if ((i & kOften) == 0) context.progress.check();
+    if (!region.isSac[i]) continue;
+    const Vector3d p = geometry.worldFromIndex(region.box.index(region.box.cell(i)));
+    region.isSac[i] = isInReach(balls, p) && !inVessel(p);
+    if (region.isSac[i] && region.depth[i] > half) core[i] = kCore;
   }
   flood(region.box, core, kCore, kReached, deepestIn(geometry, region, balls));
   const auto fromCore = distanceTo(region.box, geometry.spacing, core, kReached);
-  const double reach = half + kCorner * geometry.spacing.maxCoeff();
-  region.isSac = std::move(isFree);
   bool isEmpty = true;
-  for (std::size_t i = 0; i < lumen.size(); ++i) {
-    region.isSac[i] = region.isSac[i] && fromCore[i] < reach;
+  for (std::size_t i = 0; i < core.size(); ++i) {
+    region.isSac[i] = region.isSac[i] && fromCore[i] < half + kCorner * coarsest;
     isEmpty = isEmpty && !region.isSac[i];
   }
   if (isEmpty) return {};
@@ -256,48 +301,16 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
 }
 
 SacWall wallOf(const TrackContext& context, const SacRegion& region) {
-  const VolumeGeometry& geometry = context.volume.geometry();
-  const double voxel = geometry.voxelSize();
-  const float sign = context.options.dark ? -1.0F : 1.0F;
   SacWall wall;
   std::vector<float> values(kProfile);
   for (std::size_t i = 0; i < region.isSac.size(); ++i) {
-    if ((i & 4095U) == 0) context.progress.check();
+    if ((i & kOften) == 0) context.progress.check();
     if (!region.isSac[i]) continue;
     const Vector3i cell = region.box.cell(i);
-    Vector3d outward = Vector3d::Zero();
-    for (const Vector3i& step : kSteps) {
-      const Vector3i next = cell + step;
-      if (region.box.holds(next) && region.depth[region.box.place(next)] == 0)
-        outward += step.cast<double>();
-    }
-    const bool hasOutside = (outward.array() != 0).any();
-    if (!hasOutside) continue;
-    const Vector3d at = region.box.index(cell);
-    Vector3d slope;
-    for (int a = 0; a < 3; ++a) {
-      const Vector3d half = 0.5 * Vector3d::Unit(a);
-      slope[a] = static_cast<double>(
-                     sign * (context.volume.sample(at - half) - context.volume.sample(at + half))) /
-                 geometry.spacing[a];
-    }
-    if (!(slope.norm() > 0) || slope.cwiseProduct(geometry.spacing).dot(outward) < 0) continue;
-    // in index space, a voxel's length per unit
-    const Vector3d way = (voxel * slope.normalized()).cwiseQuotient(geometry.spacing);
-    context.volume.sampleLine(at - kInward * way, kSpacing * way, values);
-    std::size_t best = 0;
-    float strongest = 0;
-    for (std::size_t n = kHalfFall; n + kHalfFall < values.size(); ++n) {
-      const float fall = sign * (values[n - kHalfFall] - values[n + kHalfFall]);
-      if (fall > strongest) {
-        strongest = fall;
-        best = n;
-      }
-    }
-    if (best == 0) continue;
-    wall.points.push_back(
-        geometry.worldFromIndex(at + (static_cast<double>(best) * kSpacing - kInward) * way));
-    wall.strength.push_back(static_cast<double>(strongest) / (2 * kHalfFall * kSpacing * voxel));
+    const Vector3d outside = outsideOf(region, cell);
+    if ((outside.array() == 0).all()) continue;
+    const Vector3d at = region.box.index(cell), way = downhill(context, at);
+    if (way.dot(outside) > 0) addWall(context, at, way, values, wall);
   }
   return wall;
 }
