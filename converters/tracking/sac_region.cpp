@@ -19,7 +19,7 @@ constexpr double kHalfWay = 0.25;
 /// Voxels: how far beyond what a ball of half a way's width reaches the sac still goes, for corners.
 constexpr double kCorner = 1.5;
 /// Voxels in a box: beyond, a radius was mistyped.
-constexpr std::size_t kMostVoxels = std::size_t{1} << 24;
+constexpr std::size_t kMostInBox = std::size_t{1} << 24;
 /// Voxels: a profile across the wall, from inside to outside, and the spacing of its samples.
 constexpr double kInward = 2.0, kOutward = 2.5, kProfileStep = 0.125;
 constexpr auto kProfile = static_cast<std::size_t>((kInward + kOutward) / kProfileStep) + 1;
@@ -144,9 +144,9 @@ VoxelBox boxAround(const VolumeGeometry& geometry, std::span<const SacBall> ball
 /// 1 where the volume is lumen, holes within it included, else 0.
 std::vector<std::uint8_t> lumenIn(const TrackContext& context, double wallLevel,
                                   const VoxelBox& box) {
-  constexpr std::uint8_t kOutside = 0, kLumen = 1, kOpen = 2;
+  constexpr std::uint8_t kDark = 0, kLumen = 1, kOpen = 2;
   const float sign = context.options.dark ? -1.0F : 1.0F;
-  std::vector<std::uint8_t> mark(box.count(), kOutside);
+  std::vector<std::uint8_t> mark(box.count(), kDark);
   std::vector<float> row(static_cast<std::size_t>(box.size.x()));
   for (std::size_t start = 0; start < mark.size(); start += row.size()) {
     context.progress.check();
@@ -160,8 +160,8 @@ std::vector<std::uint8_t> lumenIn(const TrackContext& context, double wallLevel,
     if ((cell.array() == 0).any() || (cell.array() == box.size.array() - 1).any())
       rim.push_back(place);
   }
-  flood(box, mark, kOutside, kOpen, std::move(rim));
-  for (std::uint8_t& m : mark) m = m == kOpen ? kOutside : kLumen;
+  flood(box, mark, kDark, kOpen, std::move(rim));
+  for (std::uint8_t& m : mark) m = m == kOpen ? kDark : kLumen;
   return mark;
 }
 
@@ -272,11 +272,11 @@ double leastPassage(std::span<const SacBall> balls) {
 std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
                                  std::span<const SacBall> balls,
                                  const std::function<bool(const Vector3d&)>& inVessel) {
-  constexpr std::uint8_t kNone = 0, kCore = 1, kReached = 2;
+  constexpr std::uint8_t kNone = 0, kDeep = 1, kJoined = 2;
   const VolumeGeometry& geometry = context.volume.geometry();
   SacRegion region;
   region.box = boxAround(geometry, balls);
-  if (region.box.count() > kMostVoxels) return {};
+  if (region.box.count() > kMostInBox) return {};
   region.isSac = lumenIn(context, wallLevel, region.box);
   region.depth = distanceTo(region.box, geometry.spacing, region.isSac, 0);
   const double coarsest = geometry.spacing.maxCoeff();
@@ -287,10 +287,10 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
     if (!region.isSac[i]) continue;
     const Vector3d p = geometry.worldFromIndex(region.box.index(region.box.cell(i)));
     region.isSac[i] = isInReach(balls, p) && !inVessel(p);
-    if (region.isSac[i] && region.depth[i] > half) core[i] = kCore;
+    if (region.isSac[i] && region.depth[i] > half) core[i] = kDeep;
   }
-  flood(region.box, core, kCore, kReached, deepestIn(geometry, region, balls));
-  const auto fromCore = distanceTo(region.box, geometry.spacing, core, kReached);
+  flood(region.box, core, kDeep, kJoined, deepestIn(geometry, region, balls));
+  const auto fromCore = distanceTo(region.box, geometry.spacing, core, kJoined);
   bool isEmpty = true;
   for (std::size_t i = 0; i < core.size(); ++i) {
     region.isSac[i] = region.isSac[i] && fromCore[i] < half + kCorner * coarsest;
