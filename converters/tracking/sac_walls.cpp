@@ -95,11 +95,11 @@ bool isTube(const TrackContext& context, double wallLevel, const TrackedNode& no
   return open <= kOpenShare * kDirections;
 }
 
-/// What of the vessels bounds a sac. `open`: nodes of those that open into it which stand in it or
-/// were never measured. Both near the sac only.
+/// What of the vessels near a sac bounds it: of those that open into it, whose nodes near by are
+/// added to `mouth`, only tubes that were measured.
 std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const Sac& sac,
                             std::span<const SacBall> balls, std::vector<TrackedBranch>& all,
-                            std::vector<TrackedNode*>& open) {
+                            std::vector<TrackedNode*>& mouth) {
   std::vector<Piece> pieces;
   const auto isFar = [&](const TrackedNode& node) {
     return std::none_of(balls.begin(), balls.end(), [&](const SacBall& ball) {
@@ -122,7 +122,7 @@ std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const
       }
       const bool bounds =
           !mayOpen || (node.origin == NodeOrigin::Measured && isTube(context, wallLevel, node));
-      if (!bounds) open.push_back(&node);
+      if (mayOpen) mouth.push_back(&node);
       if (bounds && last)
         pieces.push_back(
             {last->centre, node.centre - last->centre, last->radius, node.radius - last->radius});

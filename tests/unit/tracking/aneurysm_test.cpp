@@ -176,6 +176,29 @@ TEST(Aneurysm, AVesselThroughItsSideHasNoWallWithin) {
   expectNoWallBetween(value, WideSac::kSide, WideSac::wall);
 }
 
+TEST(Aneurysm, NoWallStandsAtTheEndsOfALongNeck) {
+  static constexpr double kSide = 1.9;
+  const Wall wall = [](const Vector3d& p) {
+    return std::min(capsule(p, {kSide, 6.4, 0.4}, {kSide, 6.4, 12.2}, 0.7),
+                    ball(p, {6.7, 6.4, 6.4}, 4.6));
+  };
+  SeedBranch root = seedAt("root", {kSide, 6.4, 1.5}, 0.7);
+  root.direction = Vector3d::UnitZ();
+  SeedBranch sac = seedAt("sac", {6.7, 6.4, 6.4}, 4.4);
+  sac.kind = BranchKind::Aneurysm;
+  sac.parent = "root";
+  formats::Case value = trackOne(drawVolume(64, kVoxel, wall), {root, sac}).result;
+  Progress silent;
+  fit(value, {}, silent);
+  const field::BlendedField field = formats::blendedFieldOf(value);
+  for (double z = 4.8; z < 8.1; z += 0.2)
+    for (double y = 6; y < 6.9; y += 0.2)
+      EXPECT_GT(leastOnWay(value, field, static_cast<std::uint32_t>(value.tree.nodeCount() - 1),
+                           {kSide, y, z}, wall),
+                0)
+          << "to " << y << " " << z;
+}
+
 TEST(Aneurysm, ALobeFarFromAllClicksGetsACentre) {
   const Vector3d body(4.4, 6.4, 6.4), lobe(7.8, 6.4, 6.4);
   const Volume volume = drawVolume(64, kVoxel, [&](const Vector3d& p) {
