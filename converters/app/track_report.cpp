@@ -22,7 +22,7 @@ Json endJson(const convert::TrackEnd& end) {
   return {{"branch", end.label},
           {"end", end.isStart ? "start" : "tip"},
           {"reason", formats::enumName(formats::kStopReasonNames, end.reason)},
-          {"position_mm", {jsonNumber(p.x()), jsonNumber(p.y()), jsonNumber(p.z())}},
+          {"position", {jsonNumber(p.x()), jsonNumber(p.y()), jsonNumber(p.z())}},
           {"goes_on_mm", jsonNumber(end.goesOn)}};
 }
 

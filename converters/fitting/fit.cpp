@@ -15,6 +15,11 @@ namespace {
 
 /// Nodes within so many edges cut a seam.
 constexpr int kSeamNeighbourhood = 2;
+/// Of the radius of an aneurysm: the least lobe that tracking takes for a part of it.
+constexpr double kLobe = 0.25;
+/// Radii of a vessel: the farthest wall of a sac that a node of the vessel is fitted to, as on the
+/// rays of tracking.
+constexpr double kSeen = 2.4;
 
 using fitting::Ball;
 using fitting::Blob;
@@ -92,13 +97,21 @@ private:
     return {(double{p.x} - c.x) * m_scale, (double{p.y} - c.y) * m_scale,
             (double{p.z} - c.z) * m_scale};
   }
+  [[nodiscard]] bool isInSac(std::uint32_t node) const {
+    return m_tree.branches[m_tree.branch[node]].kind == formats::BranchKind::Aneurysm;
+  }
   /// The ball of a node, in the frame of another.
   [[nodiscard]] Ball ball(std::uint32_t frame, std::uint32_t node) const {
     return {toLocal(frame, m_tree.centre[node]), m_tree.radius[node] * m_scale};
   }
   [[nodiscard]] fitting::NodeData data(std::uint32_t node, const Worker& worker) const {
     const Vec3f& d = m_tree.direction[node];
-    return {worker.points, m_tree.radius[node] * m_scale, {d.x, d.y, d.z}, worker.lumen};
+    return {worker.points,
+            m_tree.radius[node] * m_scale,
+            {d.x, d.y, d.z},
+            worker.lumen,
+            {},
+            isInSac(node) ? kLobe : 1.0};
   }
 
   template <class Action>
@@ -133,8 +146,11 @@ void Models::gatherPoints(std::uint32_t node, Worker& worker) const {
   worker.lumen.clear();
   for (const std::uint32_t near : m_neighbours.within(node, m_options.neighbourhood)) {
     worker.lumen.push_back(ball(node, near));
+    const bool seesAll = isInSac(node) || !isInSac(near);
+    const double seen = kSeen * m_tree.radius[node] * m_scale;
     for (std::uint32_t k = offset[near]; k < offset[near + 1]; ++k) {
-      worker.points.push_back(toLocal(node, m_case.points->position[k]));
+      const Vec3d p = toLocal(node, m_case.points->position[k]);
+      if (seesAll || p.x * p.x + p.y * p.y + p.z * p.z < seen * seen) worker.points.push_back(p);
     }
     for (const Vec3f& p : m_drawn[near]) worker.points.push_back(toLocal(node, p));
   }

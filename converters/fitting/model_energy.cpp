@@ -15,7 +15,7 @@ constexpr double kTunedCurvatureWeight = 1e-3;
 /// The kernel whose widths the thesis' cohesion scale counts.
 constexpr auto kTunedKernel = formats::Kernel::Cauchy;
 /// Standard deviation of the mean curvature of a wall about its mean, in units of the inverse
-/// radius, and of the widths of a model's blobs, as a share of their mean: what the priors expect.
+/// radius of its finest bulges, and of the widths of a model's blobs, as a share of their mean: what the priors expect.
 constexpr double kCurvatureSpread = 0.5;
 constexpr double kWidthSpread = 0.1;
 /// Blobs stay within this many times the distance of the farthest point from the node: those of a
@@ -57,11 +57,12 @@ EnergyParameters scaledEnergy(const NodeProblem& problem) {
 NodeProblem makeProblem(const LocalModelOptions& options, const NodeData& node,
                         std::vector<Ball>& around) {
   const double reach = std::min(options.maxDistance, kReach * farthestFromOrigin(node.points));
-  if (!node.lumen.empty()) return {options, node.radius, reach, node.lumen};
+  const double bulge = node.bulges * node.radius;
+  if (!node.lumen.empty()) return {options, node.radius, bulge, reach, node.lumen};
   // at least no blob is farther from all points than the middle of the vessel is
   around.clear();
   for (const formats::Vec3d& p : node.points) around.push_back({p, kAroundPoints * node.radius});
-  return {options, node.radius, reach, around};
+  return {options, node.radius, bulge, reach, around};
 }
 
 void beginEnergy(const NodeProblem& problem, std::span<const formats::Vec3d> points,
@@ -77,7 +78,8 @@ void beginEnergy(const NodeProblem& problem, std::span<const formats::Vec3d> poi
 double weighPriors(const NodeProblem& problem, std::span<const Blob> blobs, Energy& energy) {
   EnergyParameters parameters = energy.parameters();
   const double variance = energy.terms().data;
-  const double spread = problem.radius / kCurvatureSpread;
+  const double spread = problem.bulge / kCurvatureSpread;
+  const double widthSpread = kWidthSpread * problem.radius / problem.bulge;
   parameters.curvatureWeight =
       problem.options.energy.curvatureWeight / kTunedCurvatureWeight * variance * spread * spread;
   parameters.expectedCurvature = energy.meanCurvature();
@@ -85,7 +87,7 @@ double weighPriors(const NodeProblem& problem, std::span<const Blob> blobs, Ener
   for (const Blob& blob : blobs) sum += blob.width;
   parameters.evenWidth = sum / static_cast<double>(blobs.size());
   parameters.evennessWeight =
-      variance / (static_cast<double>(energy.pointCount()) * kWidthSpread * kWidthSpread);
+      variance / (static_cast<double>(energy.pointCount()) * widthSpread * widthSpread);
   energy.setParameters(parameters);
   energy.freeze(blobs, 0);
   return energy.evaluate(blobs);

@@ -13,6 +13,7 @@ namespace lumen::convert::fitting {
 struct NodeProblem {
   const LocalModelOptions& options;
   double radius;                ///< of the node
+  double bulge;                 ///< radius of the wall's finest bulges
   double reach;                 ///< no centre moves farther from the node
   std::span<const Ball> lumen;  ///< no centre moves out of their union
 };

@@ -30,6 +30,8 @@ struct NodeData {
   std::span<const Ball> lumen = {};
   /// The model to begin with; if empty, two blobs along the direction.
   std::span<const Blob> start = {};
+  /// Of the radius: how wide the finest bulges of the wall are. A tube's wall has none, a sac's may.
+  double bulges = 1;
 };
 
 /// Fewer points than this say less than the two blobs that the fit begins with.

@@ -134,7 +134,7 @@ bool subdivide(const NodeProblem& problem, GrowingModel& model, FitWorkspace& wo
   Energy& energy = workspace.energy;
   model.energy = weighPriors(problem, model.blobs, energy);
   const auto [farthest, distance] = findFarthestPoint(energy, model.refused);
-  if (distance < std::min(accuracy, kRelativeAccuracy * problem.radius)) return false;
+  if (distance < std::min(accuracy, kRelativeAccuracy * problem.bulge)) return false;
   const auto points = static_cast<double>(energy.pointCount());
   const double cost = kUnknownsPerBlob * formats::repeatableLog(points) / points;
   const double bound = model.energy * (1.0 - (distance < accuracy ? cost : kShareWhenFar * cost));

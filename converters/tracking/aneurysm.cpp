@@ -2,21 +2,17 @@
 #include "converters/tracking/aneurysm.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "converters/common/statistics.h"
 #include "converters/common/vectors.h"
 
 namespace lumen::convert {
-namespace {
 
 using Eigen::Vector3d;
 
-/// A node around a click with the wall points that rays find, but for direction and height; empty
-/// if no ray meets a wall.
-std::optional<TrackedNode> nodeAround(const TrackContext& context, const SeedPoint& click,
-                                      TrackWorkspace& workspace) {
+std::optional<TrackedNode> sacNodeAt(const TrackContext& context, const SeedPoint& click,
+                                     TrackWorkspace& workspace) {
   Candidates& points = workspace.candidates;
   workspace.caster.cast(click.position, kRayRadii * click.radius.value(), points);
   if (points.count() == 0) return std::nullopt;
@@ -35,8 +31,6 @@ std::optional<TrackedNode> nodeAround(const TrackContext& context, const SeedPoi
   return node;
 }
 
-/// Directions and heights of a chain of at least two nodes: those of the way to the next node; the
-/// last repeats the one before.
 void alignWithChain(std::vector<TrackedNode>& nodes) {
   const std::size_t count = nodes.size();
   for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -48,15 +42,13 @@ void alignWithChain(std::vector<TrackedNode>& nodes) {
   nodes[count - 1].direction = nodes[count - 2].direction;
 }
 
-}  // namespace
-
 TrackedBranch captureAneurysm(const TrackContext& context, const SeedBranch& seed,
                               const TrackedBranch* parent) {
   TrackWorkspace workspace(context);
   TrackedBranch branch;
   branch.stopReason = formats::StopReason::EndOfSeeds;
   for (const SeedPoint& click : seed.points)
-    if (std::optional<TrackedNode> node = nodeAround(context, click, workspace))
+    if (std::optional<TrackedNode> node = sacNodeAt(context, click, workspace))
       branch.nodes.push_back(std::move(*node));
   if (branch.nodes.empty()) {
     branch.failure =
@@ -64,6 +56,9 @@ TrackedBranch captureAneurysm(const TrackContext& context, const SeedBranch& see
         "about the distance to its wall";
     return branch;
   }
+  if (parent && closestOnChain(parent->nodes, branch.nodes.back().centre).distance <
+                    closestOnChain(parent->nodes, branch.nodes.front().centre).distance)
+    std::reverse(branch.nodes.begin(), branch.nodes.end());
   TrackedNode& first = branch.nodes[0];
   Vector3d alone = seed.direction.value_or(Vector3d::UnitZ());
   if (parent) {

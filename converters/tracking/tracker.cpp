@@ -9,6 +9,7 @@
 #include "converters/tracking/bends.h"
 #include "converters/tracking/case_of_tracks.h"
 #include "converters/tracking/point_spread.h"
+#include "converters/tracking/sac_walls.h"
 #include "converters/tracking/smoothing.h"
 #include "converters/tracking/track_waves.h"
 #include "converters/tracking/tree_joins.h"
@@ -107,6 +108,7 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;
   used.pointSpread = pointSpreadOf(smoothed, seeds, branches, options);
+  captureSacs(context, seeds, branches);
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     correctWalls(branches[i], seeds[i].kind, *used.pointSpread);
     if (seeds[i].kind == BranchKind::Vessel) correctBends(branches[i].nodes);

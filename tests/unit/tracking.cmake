@@ -1,8 +1,9 @@
 lumen_test(tracking_test
   LABELS threads
-  LIBS lumen_tracking
+  LIBS lumen_fitting lumen_tracking
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/statistics_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/aneurysm_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/icosphere_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/cylinder_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/point_spread_test.cpp

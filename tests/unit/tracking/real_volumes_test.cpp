@@ -81,6 +81,18 @@ TEST_F(Angiogram3dra, TheAneurysmHasTheWidthThatItShows) {
     EXPECT_NEAR(node.radius, 12, 2.5);
 }
 
+TEST_F(Angiogram3dra, NoWallPointLiesWithinTheAneurysmOrItsOutflow) {
+  struct Place {
+    Vector3d centre;
+    double free;  // of walls around it, voxels
+  };
+  for (const Place& place :
+       {Place{{117, 106, 166}, 5}, {{112, 104, 160}, 8}, {{122, 110, 169}, 3.5}})
+    for (const formats::Vec3f& p : tracked->out.result.points->position)
+      EXPECT_GT((Vector3d(p.x, p.y, p.z) - place.centre).norm(), place.free)
+          << p.x << " " << p.y << " " << p.z;
+}
+
 TEST_F(Angiogram3dra, TheKissingAnteriorCerebralArteriesAreTwoVessels) {
   const auto first = chainOf(tracked->out.result, "aca-1");
   const auto second = chainOf(tracked->out.result, "aca-2");
