@@ -17,6 +17,7 @@
 #include "converters/tracking/joining.h"
 #include "converters/tracking/point_spread.h"
 #include "converters/tracking/smoothing.h"
+#include "converters/tracking/wall_section.h"
 #include "converters/volume/write_volume.h"
 #include "formats/container/printable.h"
 
@@ -174,6 +175,16 @@ void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
   }
 }
 
+/// Vessels get the walls that are not round.
+void reviewWalls(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+                 std::vector<TrackedBranch>& branches) {
+  tbb::parallel_for(std::size_t{0}, branches.size(), [&](std::size_t i) {
+    if (seeds[i].kind != BranchKind::Vessel) return;
+    TrackWorkspace workspace(context);
+    fitSections(context, branches[i].nodes, workspace);
+  });
+}
+
 /// All branches, in the seeds' order but for parents that come after a child.
 std::vector<std::size_t> parentsFirst(const std::vector<TrackedBranch>& branches) {
   std::vector<std::size_t> order;
@@ -252,6 +263,7 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   for (int depth = 0; depth <= ancestry.deepest; ++depth)
     trackWave(context, seeds, ancestry, depth, branches, progress);
   joinAll(context, seeds, ancestry, branches);
+  reviewWalls(context, seeds, branches);
   progress.end();
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;
