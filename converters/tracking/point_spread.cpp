@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -33,8 +34,7 @@ constexpr std::size_t kPartNearWall = 8;                   // one in so many
 /// Voxels: how far from the wall the levels of lumen and background are looked for. Farther out
 /// other vessels begin.
 constexpr double kLevelReach = 2.5;
-/// Voxels: a half level nearer to the steepest fall is there: a round wall's own bend moves it by
-/// about a hundredth.
+/// Voxels: a half level that is nearer to the steepest fall than that is not told from it.
 constexpr double kLopsided = 0.05;
 /// Of the radius: the most that the half level moves a wall.
 constexpr double kMostShift = 0.1;
@@ -162,6 +162,27 @@ double spreadOf(double seen, double width) {
   return 1.0 / std::sqrt(1.0 / (gaussian * gaussian) + 0.5 / (seen * seen));
 }
 
+/// The profile, `step` mm from sample to sample, of the disc that a blur of `sigma` makes fall fastest
+/// at `seen` from its centre: narrow ones have their half level elsewhere by themselves. Its fall is
+/// the blurred edge, summed around it.
+std::vector<double> blurredDisc(double seen, double sigma, double step) {
+  constexpr int kParts = 64;
+  const double radius = cylinderRadius(seen, sigma), s2 = sigma * sigma;
+  std::vector<double> profile(kSamples, 0.0);
+  double sum = 0;
+  for (std::size_t i = profile.size(); i-- > 0;) {
+    const double r = seen + (static_cast<double>(i) + 0.5 - 0.5 * (kSamples - 1)) * step;
+    double fall = 0;
+    for (int part = 0; part < kParts; ++part) {
+      const double c = std::cos(2 * std::numbers::pi * part / kParts);
+      fall += c * std::exp((2 * r * radius * c - r * r - radius * radius) / (2 * s2));
+    }
+    sum += fall * radius * step / (s2 * kParts);
+    profile[i] = sum;
+  }
+  return profile;
+}
+
 /// Nodes whose walls are measured: the wide ones, or the widest ones that there are, spread evenly.
 std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch* const> vessels,
                                             double voxel) {
@@ -209,7 +230,8 @@ std::optional<WallShape> measureWalls(const BsplineVolume& volume,
     const double spread = spreadOf(node->radius, fall.width * kSpacing * voxel);
     if (!(spread > 0)) continue;
     spreads.push_back(spread);
-    halfLevels.push_back(fall.halfLevel * kSpacing * voxel);
+    const Fall even = fallOf(blurredDisc(node->radius, spread, kSpacing * voxel), 1);
+    halfLevels.push_back((fall.halfLevel - even.halfLevel) * kSpacing * voxel);
   }
   if (spreads.size() < kLeastNodes) return std::nullopt;
   const double halfLevel = median(std::move(halfLevels));

@@ -27,8 +27,9 @@ struct WallShape {
   /// width at half height of the derivative of the profile. It holds the voxel's own box and the
   /// spline as well as the scanner.
   double pointSpread = 0;
-  /// mm, outward of the steepest fall: where the intensity is halfway between lumen and background.
-  /// 0 for a wall that is as steep on either side; less where the lumen darkens towards its wall.
+  /// mm, outward of the steepest fall: where the intensity is halfway between lumen and background,
+  /// less what the blur of a round wall makes of that. 0 for an even lumen; less than 0 where it
+  /// darkens towards its wall.
   double halfLevel = 0;
 };
 
