@@ -15,8 +15,8 @@ std::optional<Reach> reachOf(const formats::Case& value) {
   Reach reach{found.reachable, found.total, {}};
   for (const formats::Barrier& barrier : found.barriers) {
     const formats::Branch& branch = value.tree.branches[value.tree.branch[barrier.node]];
-    reach.closed.push_back(
-        {branch.label, barrier.node - branch.firstNode, barrier.node, barrier.place, barrier.beyond});
+    reach.closed.push_back({branch.label, barrier.node - branch.firstNode, barrier.node,
+                            barrier.place, barrier.beyond});
   }
   return reach;
 }
@@ -38,8 +38,9 @@ Json reachJson(const std::optional<Reach>& reach) {
   for (const ClosedPlaceInfo& place : reach->closed)
     closed.push_back({{"branch", place.branch},
                       {"node", place.node},
-                      {"position_mm", {jsonNumber(place.position.x), jsonNumber(place.position.y),
-                                       jsonNumber(place.position.z)}},
+                      {"position_mm",
+                       {jsonNumber(place.position.x), jsonNumber(place.position.y),
+                        jsonNumber(place.position.z)}},
                       {"beyond_mm", jsonNumber(place.beyond)}});
   return {{"length_mm", jsonNumber(reach->length)},
           {"of_mm", jsonNumber(reach->of)},

@@ -16,11 +16,11 @@ namespace lumen::app {
 
 /// Where the way is closed: see formats::Barrier.
 struct ClosedPlaceInfo {
-  std::string branch;      ///< its label
-  std::uint32_t node = 0;  ///< within the branch
+  std::string branch;       ///< its label
+  std::uint32_t node = 0;   ///< within the branch
   std::uint32_t index = 0;  ///< of that node in the tree
-  field::Vec position{};   ///< mm, LPS
-  double beyond = 0;       ///< mm
+  field::Vec position{};    ///< mm, LPS
+  double beyond = 0;        ///< mm
 };
 
 struct Reach {

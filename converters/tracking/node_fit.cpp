@@ -197,7 +197,8 @@ NodeFit fitNode(const TrackContext& context, const NodeGuess& guess, double minR
                 TrackWorkspace& workspace) {
   NodeFit first = fitToWall(context, guess, minRate, random, workspace);
   if (!first.node) return first;
-  WallSupport support = wallSupport(context.volume, *first.node, guess.centre, context.options.dark);
+  WallSupport support =
+      wallSupport(context.volume, *first.node, guess.centre, context.options.dark);
   if (isSupported(support)) return first;
   first.node.reset();
   first.stage = FitStage::DarkInside;

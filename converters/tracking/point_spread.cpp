@@ -30,7 +30,7 @@ constexpr std::size_t kFewestPoints = 32;
 constexpr double kReach = 4.0, kSpacing = 0.1;
 constexpr int kSamples = 2 * static_cast<int>(kReach / kSpacing) + 1;
 /// Of a profile's samples: the steepest fall is looked for up to so far from the wall.
-constexpr std::size_t kPartNearWall = 8;                   // one in so many
+constexpr std::size_t kPartNearWall = 8;  // one in so many
 /// Voxels: how far from the wall the levels of lumen and background are looked for. Farther out
 /// other vessels begin.
 constexpr double kLevelReach = 2.5;
@@ -244,8 +244,8 @@ void correctWalls(TrackedBranch& branch, formats::BranchKind kind, const WallSha
     const bool vessel = kind == formats::BranchKind::Vessel;
     const double most = kMostShift * node.radius;
     const double seen = node.radius + std::clamp(shape.halfLevel, -most, most);
-    const double radius = vessel ? cylinderRadius(seen, shape.pointSpread)
-                                 : ballRadius(seen, shape.pointSpread);
+    const double radius =
+        vessel ? cylinderRadius(seen, shape.pointSpread) : ballRadius(seen, shape.pointSpread);
     for (formats::Vec3f& p : node.points) {
       Vector3d outward = toEigen(p) - node.centre;
       if (vessel) outward -= outward.dot(node.direction) * node.direction;

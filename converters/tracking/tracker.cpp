@@ -17,7 +17,7 @@
 #include "converters/tracking/joining.h"
 #include "converters/tracking/point_spread.h"
 #include "converters/tracking/smoothing.h"
-#include "converters/tracking/wall_section.h"
+#include "converters/tracking/wall_review.h"
 #include "converters/volume/write_volume.h"
 #include "formats/container/printable.h"
 
@@ -173,16 +173,6 @@ void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
     const auto& parent = branches[static_cast<std::size_t>(branch.parentBranch)];
     branch.parentNode = static_cast<int>(closestOnChain(parent.nodes, branch.nodes[0].centre).node);
   }
-}
-
-/// Vessels get the walls that are not round.
-void reviewWalls(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-                 std::vector<TrackedBranch>& branches) {
-  tbb::parallel_for(std::size_t{0}, branches.size(), [&](std::size_t i) {
-    if (seeds[i].kind != BranchKind::Vessel) return;
-    TrackWorkspace workspace(context);
-    fitSections(context, branches[i].nodes, workspace);
-  });
 }
 
 /// All branches, in the seeds' order but for parents that come after a child.

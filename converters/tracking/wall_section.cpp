@@ -90,9 +90,9 @@ std::vector<WallPlace> placesAround(const TrackContext& context, const TrackedNo
     const Vector3d offset = points.offset(i);
     if (std::abs(offset.dot(axis)) > 0.5 * node.height) continue;
     if (points.strength[i] < kLeastStrength * node.strength) continue;
-    const bool isLumen =
-        std::all_of(std::begin(kOnTheWay), std::end(kOnTheWay),
-                    [&](double share) { return valueAt(node.centre + share * offset) > level; });
+    const bool isLumen = std::all_of(std::begin(kOnTheWay), std::end(kOnTheWay), [&](double share) {
+      return valueAt(node.centre + share * offset) > level;
+    });
     if (!isLumen) continue;
     places.push_back({node.centre + offset, 0, 0});
   }

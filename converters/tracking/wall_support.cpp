@@ -93,8 +93,8 @@ Vector3d middleOf(const std::vector<Sample>& bright, const Vector3d& guess, doub
 
 }  // namespace
 
-WallSupport wallSupport(const BsplineVolume& volume, const TrackedNode& node,
-                        const Vector3d& guess, bool dark) {
+WallSupport wallSupport(const BsplineVolume& volume, const TrackedNode& node, const Vector3d& guess,
+                        bool dark) {
   const double sign = dark ? -1.0 : 1.0;
   WallSupport support{0, node.centre, node.radius};
   if (node.points.empty()) return support;

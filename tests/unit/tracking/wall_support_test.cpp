@@ -81,8 +81,8 @@ TEST(WallSupport, NoNodeIsFittedAroundTwoVesselsAndTheirGap) {
   for (const double x : {6.0, 6.4, 6.8})
     for (const double radius : {1.5, 2.0, 2.5, 3.0}) {
       Random random(3);
-      const NodeFit fit = fitNode(context, {{x, 6.4, 6.4}, Vector3d::UnitZ(), radius}, 0.35, random,
-                                  workspace);
+      const NodeFit fit =
+          fitNode(context, {{x, 6.4, 6.4}, Vector3d::UnitZ(), radius}, 0.35, random, workspace);
       if (fit.node) {
         EXPECT_NEAR(fit.node->radius, 1.2, 0.1) << x << " " << radius;
       }
@@ -97,7 +97,8 @@ TEST(WallSupport, AVesselBesideItsCompanionKeepsItsOwnWall) {
     const TrackResult tracked = trackOne(companions(0.5), {seedAt("vessel", at)});
     ASSERT_GT(tracked.result.tree.nodeCount(), 8u) << click;
     for (std::size_t i = 0; i < tracked.result.tree.nodeCount(); ++i) {
-      if (tracked.result.tree.centre[i].z < 1.5F || tracked.result.tree.centre[i].z > 11.0F) continue;
+      if (tracked.result.tree.centre[i].z < 1.5F || tracked.result.tree.centre[i].z > 11.0F)
+        continue;
       EXPECT_NEAR(tracked.result.tree.radius[i], 1.2, 0.12);
       EXPECT_NEAR(tracked.result.tree.centre[i].x, 6.4 + (click < 0 ? -aside : aside), 0.15);
     }
