@@ -49,13 +49,11 @@ std::optional<double> radiusBeside(const std::vector<TrackedNode>& nodes, std::s
 std::optional<double> expectedInstead(const TrackContext& context,
                                       const std::vector<TrackedNode>& nodes, std::size_t n) {
   const TrackedNode& node = nodes[n];
-  if (node.origin != formats::NodeOrigin::Measured ||
-      node.inlierRate >= context.options.inlierRate)
+  if (node.origin != formats::NodeOrigin::Measured || node.inlierRate >= context.options.inlierRate)
     return std::nullopt;
   const auto before = radiusBeside(nodes, n, false, kSide * node.radius);
   const auto after = radiusBeside(nodes, n, true, kSide * node.radius);
-  if (!before || !after || node.radius <= kSwollen * std::max(*before, *after))
-    return std::nullopt;
+  if (!before || !after || node.radius <= kSwollen * std::max(*before, *after)) return std::nullopt;
   return 0.5 * (*before + *after);
 }
 
