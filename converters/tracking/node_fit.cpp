@@ -11,6 +11,7 @@
 #include "converters/common/statistics.h"
 #include "converters/common/vectors.h"
 #include "converters/tracking/icosphere.h"
+#include "converters/tracking/wall_support.h"
 
 namespace lumen::convert {
 namespace {
@@ -19,6 +20,10 @@ namespace {
 constexpr double kHeld = 0.75;
 /// Of the accepting inlier rate: a cylinder below it is no vessel (Yureidini's thesis, 3.4).
 constexpr double kLeastRate = 0.5;
+/// Times that a node whose wall is not supported is fitted anew. Each time its radius falls.
+constexpr int kRefits = 3;
+/// Of the radius that was tried: the most that is tried next.
+constexpr double kNarrower = 0.7;
 
 /// Distance along the axis from the centre of `cylinder` to a candidate, mm.
 double distanceAlong(const Cylinder& cylinder, const Candidates& points, std::size_t i) {
@@ -83,6 +88,49 @@ std::string formatted(const char* format, double a, double b) {
   return text.data();
 }
 
+/// Fits a node to a guess, whatever it holds.
+NodeFit fitToWall(const TrackContext& context, const NodeGuess& guess, double minRate,
+                  Random& random, TrackWorkspace& workspace) {
+  const VolumeGeometry& geometry = context.volume.geometry();
+  Candidates& points = workspace.candidates;
+  NodeFit fit;
+  const auto stop = [&](FitStage stage, double inlierRate) {
+    fit.stage = stage;
+    fit.inlierRate = inlierRate;
+    return std::move(fit);
+  };
+  const auto tooFew = [&](std::size_t walls) {
+    fit.walls = walls;
+    return stop(FitStage::FewWalls, 0);
+  };
+  if (!geometry.containsWorld(guess.centre)) return fit;
+  workspace.caster.cast(guess.centre, kRayRadii * guess.radius, points);
+  if (points.count() < kFewestCandidates) return tooFew(points.count());
+  Cylinder cylinder =
+      estimateCylinder(context.search, points, {guess.direction, guess.radius, guess.smooth},
+                       random, workspace.cylinder);
+  if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
+  holdPlace(guess, cylinder);
+  if (!geometry.containsWorld(cylinder.centre))
+    return stop(FitStage::LeftVolume, cylinder.inlierRate);
+  // the first rays came from a guess: cast and fit again from the better centre
+  workspace.caster.cast(cylinder.centre, kRayRadii * cylinder.radius, points);
+  cylinder = refineCylinder(points, cylinder, context.search.band, workspace.cylinder);
+  if (points.count() < kFewestCandidates) return tooFew(points.count());
+  if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
+  if (!geometry.containsWorld(cylinder.centre))
+    return stop(FitStage::LeftVolume, cylinder.inlierRate);
+  holdPlace(guess, cylinder);
+  findInliers(points, cylinder, context.search.band, workspace.inliers);
+  if (workspace.inliers.size() < kFewestCandidates) return tooFew(workspace.inliers.size());
+  if (cylinder.axis.dot(guess.direction) < 0) cylinder.axis = -cylinder.axis;
+  TrackedNode node = makeNode(cylinder, points, workspace.inliers);
+  fit.strength = node.strength;
+  if (isNoise(context, node)) return stop(FitStage::Noise, cylinder.inlierRate);
+  fit.node = std::move(node);
+  return stop(FitStage::Found, cylinder.inlierRate);
+}
+
 }  // namespace
 
 TrackContext::TrackContext(const BsplineVolume& theVolume, const TrackOptions& theOptions,
@@ -123,6 +171,11 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
           "no cylinder fits: best inlier rate %.2f, at least %.2f is needed (half of "
           "--inlier-rate)",
           roundedDown(best.inlierRate), roundedUp(leastInlierRate(context.options)));
+    case FitStage::DarkInside:
+      return formatted(
+          "a cylinder fits, but %.0f %% of what it holds is as dark as what is around it: click in "
+          "the middle of the vessel, or give its radius",
+          100.0 * best.dark, 0);
     case FitStage::LeftVolume:
       return "a cylinder fits, but its centre lies outside of the volume: a click nearer to the "
              "axis, or with a radius, would help";
@@ -142,44 +195,29 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
 
 NodeFit fitNode(const TrackContext& context, const NodeGuess& guess, double minRate, Random& random,
                 TrackWorkspace& workspace) {
-  const VolumeGeometry& geometry = context.volume.geometry();
-  Candidates& points = workspace.candidates;
-  NodeFit fit;
-  const auto stop = [&](FitStage stage, double inlierRate) {
-    fit.stage = stage;
-    fit.inlierRate = inlierRate;
-    return std::move(fit);
-  };
-  const auto tooFew = [&](std::size_t walls) {
-    fit.walls = walls;
-    return stop(FitStage::FewWalls, 0);
-  };
-  if (!geometry.containsWorld(guess.centre)) return fit;
-  workspace.caster.cast(guess.centre, kRayRadii * guess.radius, points);
-  if (points.count() < kFewestCandidates) return tooFew(points.count());
-  Cylinder cylinder =
-      estimateCylinder(context.search, points, {guess.direction, guess.radius, guess.smooth},
-                       random, workspace.cylinder);
-  if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
-  holdPlace(guess, cylinder);
-  if (!geometry.containsWorld(cylinder.centre))
-    return stop(FitStage::LeftVolume, cylinder.inlierRate);
-  // the first rays came from a guess: cast and fit again from the better centre
-  workspace.caster.cast(cylinder.centre, kRayRadii * cylinder.radius, points);
-  cylinder = refineCylinder(points, cylinder, context.search.band, workspace.cylinder);
-  if (points.count() < kFewestCandidates) return tooFew(points.count());
-  if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
-  if (!geometry.containsWorld(cylinder.centre))
-    return stop(FitStage::LeftVolume, cylinder.inlierRate);
-  holdPlace(guess, cylinder);
-  findInliers(points, cylinder, context.search.band, workspace.inliers);
-  if (workspace.inliers.size() < kFewestCandidates) return tooFew(workspace.inliers.size());
-  if (cylinder.axis.dot(guess.direction) < 0) cylinder.axis = -cylinder.axis;
-  TrackedNode node = makeNode(cylinder, points, workspace.inliers);
-  fit.strength = node.strength;
-  if (isNoise(context, node)) return stop(FitStage::Noise, cylinder.inlierRate);
-  fit.node = std::move(node);
-  return stop(FitStage::Found, cylinder.inlierRate);
+  NodeFit first = fitToWall(context, guess, minRate, random, workspace);
+  if (!first.node) return first;
+  WallSupport support =
+      wallSupport(context.volume, *first.node, guess.centre, context.options.dark);
+  if (isSupported(support)) return first;
+  first.node.reset();
+  first.stage = FitStage::DarkInside;
+  first.dark = support.dark;
+  NodeGuess next = guess;
+  next.centre = support.middle;
+  next.radius = support.radius;
+  for (int refit = 0; refit < kRefits; ++refit) {
+    NodeFit fit = fitToWall(context, next, minRate, random, workspace);
+    if (!fit.node) {
+      next.radius *= kNarrower;
+      continue;
+    }
+    support = wallSupport(context.volume, *fit.node, guess.centre, context.options.dark);
+    if (isSupported(support)) return fit;
+    next.centre = support.middle;
+    next.radius = std::min(support.radius, kNarrower * next.radius);
+  }
+  return first;
 }
 
 }  // namespace lumen::convert

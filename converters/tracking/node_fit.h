@@ -59,6 +59,7 @@ enum class FitStage : std::uint8_t {
   OutsideVolume,  ///< the guess lies outside of the volume
   FewWalls,       ///< fewer than kFewestCandidates rays met a wall, or one wall
   LowRate,        ///< the best cylinder has too few inliers
+  DarkInside,     ///< a cylinder fits, but much of what it holds is no lumen
   LeftVolume,     ///< a cylinder fits, but its centre lies outside of the volume
   Noise,          ///< a cylinder fits, but not well, and its wall is as weak as noise
   Found
@@ -70,6 +71,7 @@ struct NodeFit {
   double inlierRate = 0;  ///< of the cylinder that decided
   double strength = 0;    ///< of its wall, for Noise
   std::size_t walls = 0;  ///< rays that met it, for FewWalls
+  double dark = 0;        ///< share of what it holds, for DarkInside
 };
 
 /// True if `a` came nearer to success than `b`.
@@ -81,8 +83,9 @@ std::string failureText(const TrackContext& context, const NodeFit& best);
 /// The least inlier rate of any node: half of the one that accepts a cylinder at once.
 double leastInlierRate(const TrackOptions& options);
 
-/// Fits a node of at least `minRate` to a guess. Empty if the guess or the fit lies outside of the
-/// volume, or the fit cannot be told from noise.
+/// Fits a node of at least `minRate` to a guess; where its wall is not supported by the volume (see
+/// wall_support.h), to the lumen that it holds instead. Empty if the guess or the fit lies outside of
+/// the volume, if the fit cannot be told from noise, or if no supported one is found.
 NodeFit fitNode(const TrackContext& context, const NodeGuess& guess, double minRate, Random& random,
                 TrackWorkspace& workspace);
 

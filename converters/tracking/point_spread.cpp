@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -28,7 +30,14 @@ constexpr std::size_t kFewestPoints = 32;
 constexpr double kReach = 4.0, kSpacing = 0.1;
 constexpr int kSamples = 2 * static_cast<int>(kReach / kSpacing) + 1;
 /// Of a profile's samples: the steepest fall is looked for up to so far from the wall.
-constexpr std::size_t kPartNearWall = 8;                   // one in so many
+constexpr std::size_t kPartNearWall = 8;  // one in so many
+/// Voxels: how far from the wall the levels of lumen and background are looked for. Farther out
+/// other vessels begin.
+constexpr double kLevelReach = 2.5;
+/// Voxels: a half level that is nearer to the steepest fall than that is not told from it.
+constexpr double kLopsided = 0.05;
+/// Of the radius: the most that the half level moves a wall.
+constexpr double kMostShift = 0.1;
 constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // of the Gaussian exp(-x^2/2)
 
 /// The last partial denominator of the continued fraction: it has converged to all digits for the
@@ -72,27 +81,63 @@ std::vector<double> meanProfile(const BsplineVolume& volume, const TrackedNode& 
   return sum;
 }
 
-/// The full width at half height, in samples, of the fall of a profile near its middle; 0 if it
-/// does not fall to half on either side.
-double widthOfFall(const std::vector<double>& profile, double sign) {
+/// The fall of a profile around its middle, in samples; brighter inside.
+struct Fall {
+  double width = 0;      ///< in full at half height; 0 if it does not fall to half on either side
+  double halfLevel = 0;  ///< from the steepest place outward to the half level
+};
+
+/// From the place `peak`, refined by a parabola through the falls around it, to where the profile
+/// passes halfway between the greatest mean over a voxel before it and the least one behind; 0 if it
+/// does not.
+double halfLevelOf(const std::vector<double>& profile, const std::vector<double>& fall,
+                   std::size_t peak) {
+  const auto reach = static_cast<std::size_t>(kLevelReach / kSpacing);
+  const auto box = static_cast<std::size_t>(1.0 / kSpacing);
+  const std::size_t half = box / 2, first = peak - std::min(peak, reach);
+  const auto meanAround = [&](std::size_t i) {
+    return std::accumulate(profile.begin() + static_cast<std::ptrdiff_t>(i - half),
+                           profile.begin() + static_cast<std::ptrdiff_t>(i + half), 0.0) /
+           static_cast<double>(2 * half);
+  };
+  double inside = meanAround(peak - half), outside = meanAround(peak + half);
+  for (std::size_t i = std::max(first, half); i + half < peak; ++i)
+    inside = std::max(inside, meanAround(i));
+  for (std::size_t i = peak + half; i <= peak + reach && i + half < profile.size(); ++i)
+    outside = std::min(outside, meanAround(i));
+  const double level = 0.5 * (inside + outside);
+  const double bend = fall[peak - 1] - 2 * fall[peak] + fall[peak + 1];
+  const double steepest =
+      static_cast<double>(peak) + (bend < 0 ? 0.5 * (fall[peak - 1] - fall[peak + 1]) / bend : 0);
+  std::size_t at = peak;
+  while (at > first && profile[at] < level) --at;
+  while (at + 1 < profile.size() && at < peak + reach && profile[at + 1] >= level) ++at;
+  if (at + 1 >= profile.size() || profile[at] < level || profile[at + 1] >= level) return 0;
+  return static_cast<double>(at) + (profile[at] - level) / (profile[at] - profile[at + 1]) -
+         steepest;
+}
+
+Fall fallOf(std::vector<double> profile, double sign) {
+  for (double& value : profile) value *= sign;
   const std::size_t n = profile.size();
   std::vector<double> fall(n, 0.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) fall[i] = sign * (profile[i - 1] - profile[i + 1]);
+  for (std::size_t i = 1; i + 1 < n; ++i) fall[i] = profile[i - 1] - profile[i + 1];
   const auto middle = fall.begin() + static_cast<std::ptrdiff_t>(n / 2);
   const auto near = static_cast<std::ptrdiff_t>(n / kPartNearWall);
   const auto peak =
       static_cast<std::size_t>(std::max_element(middle - near, middle + near + 1) - fall.begin());
   const double half = 0.5 * fall[peak];
-  if (!(half > 0)) return 0;
+  if (!(half > 0)) return {};
   std::size_t right = peak, left = peak;
   while (right < n && fall[right] > half) ++right;
   while (left > 0 && fall[left] > half) --left;
-  if (right + 1 >= n || left == 0) return 0;
+  if (right + 1 >= n || left == 0) return {};
   const auto crossing = [&](std::size_t low, std::size_t high) {
     return (fall[high] - half) / (fall[high] - fall[low]);
   };
-  return static_cast<double>(right - left) - 2.0 + crossing(right, right - 1) +
-         crossing(left, left + 1);
+  return {static_cast<double>(right - left) - 2.0 + crossing(right, right - 1) +
+              crossing(left, left + 1),
+          halfLevelOf(profile, fall, peak)};
 }
 
 /// Standard deviation of the blur under which a disc falls fastest at `seen` from its centre, by a
@@ -115,6 +160,27 @@ double spreadOf(double seen, double width) {
   }
   const double gaussian = width / kWidthAtHalfHeight;
   return 1.0 / std::sqrt(1.0 / (gaussian * gaussian) + 0.5 / (seen * seen));
+}
+
+/// The profile, `step` mm from sample to sample, of the disc that a blur of `sigma` makes fall fastest
+/// at `seen` from its centre: narrow ones have their half level elsewhere by themselves. Its fall is
+/// the blurred edge, summed around it.
+std::vector<double> blurredDisc(double seen, double sigma, double step) {
+  constexpr int kParts = 64;
+  const double radius = cylinderRadius(seen, sigma), s2 = sigma * sigma;
+  std::vector<double> profile(kSamples, 0.0);
+  double sum = 0;
+  for (std::size_t i = profile.size(); i-- > 0;) {
+    const double r = seen + (static_cast<double>(i) + 0.5 - 0.5 * (kSamples - 1)) * step;
+    double fall = 0;
+    for (int part = 0; part < kParts; ++part) {
+      const double c = std::cos(2 * std::numbers::pi * part / kParts);
+      fall += c * std::exp((2 * r * radius * c - r * r - radius * radius) / (2 * s2));
+    }
+    sum += fall * radius * step / (s2 * kParts);
+    profile[i] = sum;
+  }
+  return profile;
 }
 
 /// Nodes whose walls are measured: the wide ones, or the widest ones that there are, spread evenly.
@@ -154,25 +220,32 @@ double ballRadius(double seen, double sigma) {
   return std::max(2.0 * cylinderRadius(seen, sigma) - seen, kLeastShare * seen);
 }
 
-std::optional<double> measurePointSpread(const BsplineVolume& volume,
-                                         std::span<const TrackedBranch* const> vessels, bool dark) {
+std::optional<WallShape> measureWalls(const BsplineVolume& volume,
+                                      std::span<const TrackedBranch* const> vessels, bool dark) {
   const double voxel = volume.geometry().voxelSize();
-  std::vector<double> spreads;
+  std::vector<double> spreads, halfLevels;
   for (const TrackedNode* node : widestNodes(vessels, voxel)) {
-    const double width = widthOfFall(meanProfile(volume, *node), dark ? -1.0 : 1.0);
-    if (width == 0) continue;
-    const double spread = spreadOf(node->radius, width * kSpacing * voxel);
-    if (spread > 0) spreads.push_back(spread);
+    const Fall fall = fallOf(meanProfile(volume, *node), dark ? -1.0 : 1.0);
+    if (fall.width == 0) continue;
+    const double spread = spreadOf(node->radius, fall.width * kSpacing * voxel);
+    if (!(spread > 0)) continue;
+    spreads.push_back(spread);
+    const Fall even = fallOf(blurredDisc(node->radius, spread, kSpacing * voxel), 1);
+    halfLevels.push_back((fall.halfLevel - even.halfLevel) * kSpacing * voxel);
   }
   if (spreads.size() < kLeastNodes) return std::nullopt;
-  return median(std::move(spreads));
+  const double halfLevel = median(std::move(halfLevels));
+  return WallShape{median(std::move(spreads)),
+                   std::abs(halfLevel) > kLopsided * voxel ? halfLevel : 0.0};
 }
 
-void correctWalls(TrackedBranch& branch, formats::BranchKind kind, double sigma) {
+void correctWalls(TrackedBranch& branch, formats::BranchKind kind, const WallShape& shape) {
   for (TrackedNode& node : branch.nodes) {
     const bool vessel = kind == formats::BranchKind::Vessel;
+    const double most = kMostShift * node.radius;
+    const double seen = node.radius + std::clamp(shape.halfLevel, -most, most);
     const double radius =
-        vessel ? cylinderRadius(node.radius, sigma) : ballRadius(node.radius, sigma);
+        vessel ? cylinderRadius(seen, shape.pointSpread) : ballRadius(seen, shape.pointSpread);
     for (formats::Vec3f& p : node.points) {
       Vector3d outward = toEigen(p) - node.centre;
       if (vessel) outward -= outward.dot(node.direction) * node.direction;

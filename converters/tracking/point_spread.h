@@ -21,15 +21,26 @@ double cylinderRadius(double seen, double sigma);
 /// The same for the ball, whose wall is bent both ways: its steepest fall is about s^2/R inside.
 double ballRadius(double seen, double sigma);
 
-/// Standard deviation, mm, of the Gaussian whose blur makes the walls of the tracked vessels as
-/// wide as they are: from the width at half height of the derivative of the mean profile across
-/// each of the widest nodes, the median over them. It holds the voxel's own box and the spline as
-/// well as the scanner. Empty where fewer than eight nodes are wide enough to show it.
-std::optional<double> measurePointSpread(const BsplineVolume& volume,
-                                         std::span<const TrackedBranch* const> vessels, bool dark);
+/// What the walls of the tracked vessels look like on average.
+struct WallShape {
+  /// mm, standard deviation of the Gaussian whose blur makes the walls as wide as they are: from the
+  /// width at half height of the derivative of the profile. It holds the voxel's own box and the
+  /// spline as well as the scanner.
+  double pointSpread = 0;
+  /// mm, outward of the steepest fall: where the intensity is halfway between lumen and background,
+  /// less what the blur of a round wall makes of that. 0 for an even lumen; less than 0 where it
+  /// darkens towards its wall.
+  double halfLevel = 0;
+};
 
-/// Moves radii and wall points outward by what a blur of `sigma` mm has displaced them: away from
-/// the node's axis in a vessel, from its centre in an aneurysm.
-void correctWalls(TrackedBranch& branch, formats::BranchKind kind, double sigma);
+/// The medians over the widest nodes, each from the mean profile across its wall. Empty where fewer
+/// than eight nodes are wide enough to show it.
+std::optional<WallShape> measureWalls(const BsplineVolume& volume,
+                                      std::span<const TrackedBranch* const> vessels, bool dark);
+
+/// Moves radii and wall points from the steepest fall to the wall: to the half level, by at most a
+/// tenth of the radius, and outward by what the blur has displaced it; away from the node's axis in
+/// a vessel, from its centre in an aneurysm.
+void correctWalls(TrackedBranch& branch, formats::BranchKind kind, const WallShape& shape);
 
 }  // namespace lumen::convert

@@ -13,6 +13,7 @@
 #include "converters/tracking/smoothing.h"
 #include "converters/tracking/track_waves.h"
 #include "converters/tracking/tree_joins.h"
+#include "converters/tracking/wall_review.h"
 #include "converters/volume/write_volume.h"
 #include "formats/container/printable.h"
 
@@ -61,18 +62,19 @@ void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
                      "--dark");
 }
 
-/// The blur by which walls are corrected, mm: as given, as measured, or at least that of the
-/// voxel's own box and of the smoothing.
-double pointSpreadOf(const SmoothedVolume& volume, const std::vector<SeedBranch>& seeds,
-                     const std::vector<TrackedBranch>& branches, const TrackOptions& options) {
-  if (options.pointSpread) return *options.pointSpread;
+/// By what walls are corrected: the blur as given, then nothing else is; or as measured, or at least
+/// that of the voxel's own box and of the smoothing.
+WallShape wallShapeOf(const SmoothedVolume& volume, const std::vector<SeedBranch>& seeds,
+                      const std::vector<TrackedBranch>& branches, const TrackOptions& options) {
+  if (options.pointSpread) return {*options.pointSpread, 0};
   std::vector<const TrackedBranch*> vessels;
   for (std::size_t i = 0; i < seeds.size(); ++i)
     if (seeds[i].kind == BranchKind::Vessel) vessels.push_back(&branches[i]);
   const VolumeGeometry& geometry = volume.spline->geometry();
   const double edge = options.evenBlur ? geometry.spacing.maxCoeff() : geometry.voxelSize();
-  return measurePointSpread(*volume.spline, vessels, options.dark)
-      .value_or(std::sqrt(volume.smoothing * volume.smoothing + edge * edge / kEdgesToVariance));
+  const double least =
+      std::sqrt(volume.smoothing * volume.smoothing + edge * edge / kEdgesToVariance);
+  return measureWalls(*volume.spline, vessels, options.dark).value_or(WallShape{least, 0});
 }
 
 /// Adds what became of one seed.
@@ -104,13 +106,15 @@ TrackResult track(const Volume& volume, const std::vector<SeedBranch>& seeds,
   std::vector<TrackedBranch> branches = trackAll(context, seeds, SeedTree(seeds), progress);
   goOnwardAll(context, seeds, branches);
   joinAll(context, seeds, branches);
+  reviewWalls(context, seeds, branches);
   progress.end();
   TrackOptions used = options;
   used.smoothing = smoothed.smoothing;
-  used.pointSpread = pointSpreadOf(smoothed, seeds, branches, options);
+  const WallShape shape = wallShapeOf(smoothed, seeds, branches, options);
+  used.pointSpread = shape.pointSpread;
   captureSacs(context, seeds, branches);
   for (std::size_t i = 0; i < seeds.size(); ++i) {
-    correctWalls(branches[i], seeds[i].kind, *used.pointSpread);
+    correctWalls(branches[i], seeds[i].kind, shape);
     if (seeds[i].kind == BranchKind::Vessel) correctBends(branches[i].nodes);
   }
 

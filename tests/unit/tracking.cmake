@@ -11,4 +11,5 @@ lumen_test(tracking_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/real_volumes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/smoothing_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tracker_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/volume_doubt_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/volume_doubt_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/wall_support_test.cpp)

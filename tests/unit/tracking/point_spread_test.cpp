@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/tracking/point_spread.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -127,6 +128,35 @@ TEST(PointSpread, RadiiAndWallPointsOfANarrowBlurredTubeAreThoseOfTheTube) {
   for (const formats::Vec3f& p : corrected.result.points->position)
     distances.push_back(static_cast<float>(distanceToAxis(Vector3d(p.x, p.y, p.z))));
   EXPECT_NEAR(meanOf(distances), 0.3, 0.006);
+}
+
+// The lumen darkens over half a millimetre towards its wall and the background does not: the steepest place
+// lies outside of the level halfway between them.
+TEST(PointSpread, AWallWhoseLumenDarkensTowardsItLiesAtTheHalfLevel) {
+  constexpr double kRadius = 2.0, kShoulder = 0.5, kEdge = 0.12;
+  const auto level = [](double r) {
+    const double into = kRadius - r;
+    return 260 * (1 + std::erf(into / (std::numbers::sqrt2 * kEdge))) +
+           480 * std::clamp(into / kShoulder, 0.0, 1.0);
+  };
+  Volume volume = drawVolume(48, 0.2, [](const Vector3d&) { return 1.0; });
+  auto& voxels = std::get<std::vector<std::int16_t>>(volume.voxels);
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const auto part = [&](std::size_t n) { return 0.2 * static_cast<double>(n % 48); };
+    voxels[i] = static_cast<std::int16_t>(
+        std::lround(10 * level(distanceToAxis({part(i), part(i / 48), part(i / 48 / 48)}))));
+  }
+  double half = 0;
+  while (level(half) > 500) half += 1e-4;
+  const TrackResult seen = trackTube(volume, 0.0), corrected = trackTube(volume, {});
+  const auto medianRadius = [](const TrackResult& tracked) {
+    std::vector<float> radii = tracked.result.tree.radius;
+    std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+    return static_cast<double>(radii[radii.size() / 2]);
+  };
+  const double blur = storedSpread(corrected);  // moves the wall outward
+  EXPECT_GT(medianRadius(seen), half + 0.03);
+  EXPECT_NEAR(medianRadius(corrected), half + blur * blur / (2 * half), 0.03);
 }
 
 }  // namespace
