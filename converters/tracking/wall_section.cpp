@@ -17,7 +17,9 @@ namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-using Vector5d = Eigen::Matrix<double, 5, 1>;
+/// Of a section's wall: see Section.
+constexpr int kUnknowns = 7;
+using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
 /// Of the strength of the node's wall: what is weaker is none.
 constexpr double kLeastStrength = 0.3;
@@ -27,33 +29,37 @@ constexpr double kOnTheWay[] = {0.4, 0.6, 0.8};
 /// for nothing (J. Tukey's biweight).
 constexpr int kRounds = 12;
 constexpr double kBiweight = 4.685, kDeviations = 1.4826;
-/// The longest ellipse, as the ratio of its axes: a longer one is two vessels. Rays of kRayRadii show
+/// The longest section, as the ratio of its axes: a longer one is two vessels. Rays of kRayRadii show
 /// it in full around a circle that fits between its sides.
 constexpr double kMostOblong = 2.5;
-/// Times that the ellipse is moved to its own middle, and by how much of the radius at most in all.
+/// Times that the section is moved to its own middle, and by how much of the radius at most in all.
 constexpr int kMoves = 3;
 constexpr double kMostAside = 0.75;
 /// Sectors around the axis, and how many must have wall points.
 constexpr std::size_t kSectors = 12, kLeastSectors = 8;
-/// Times the wall points of the cylinder: what an ellipse must explain to be believed.
+/// Times the wall points of the cylinder: what a section must explain to be believed.
 constexpr double kMore = 1.25;
 
-/// A wall point in the plane normal to the axis.
+/// A wall point about an axis.
 struct WallPlace {
   Vector3d position;
-  double angle, distance;
+  double angle = 0, distance = 0, along = 0;
 };
 
-/// An ellipse in that plane: the inverse square of the distance of its wall is linear in the sine and
-/// cosine of twice the angle; those of the angle itself move it, to first order.
-struct Ellipse {
-  Vector5d curve = Vector5d::Zero();
+/// An ellipse about that axis, which widens or narrows along it: the inverse square of the distance of
+/// its wall is linear in the sine and cosine of twice the angle; those of the angle itself move it, to
+/// first order; the place along the axis and its square are a taper and a throat.
+struct Section {
+  Unknowns curve = Unknowns::Zero();
 
-  static Vector5d rowAt(double angle) {
-    return {1.0, std::cos(angle), std::sin(angle), std::cos(2 * angle), std::sin(2 * angle)};
+  static Unknowns rowAt(const WallPlace& p) {
+    Unknowns row;
+    row << 1.0, std::cos(p.angle), std::sin(p.angle), std::cos(2 * p.angle), std::sin(2 * p.angle),
+        p.along, p.along * p.along;
+    return row;
   }
-  [[nodiscard]] double wallAt(double angle) const {
-    const double inverse = rowAt(angle).dot(curve);
+  [[nodiscard]] double wallAt(const WallPlace& p) const {
+    const double inverse = rowAt(p).dot(curve);
     return inverse > 0 ? 1.0 / std::sqrt(inverse) : std::numeric_limits<double>::infinity();
   }
   [[nodiscard]] double oblong() const { return std::hypot(curve[3], curve[4]); }
@@ -94,7 +100,7 @@ std::vector<WallPlace> placesAround(const TrackContext& context, const TrackedNo
       return valueAt(node.centre + share * offset) > level;
     });
     if (!isLumen) continue;
-    places.push_back({node.centre + offset, 0, 0});
+    places.push_back({node.centre + offset});
   }
   return places;
 }
@@ -107,36 +113,37 @@ void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<Wall
     const double a = offset.dot(u), b = offset.dot(v);
     p.angle = std::atan2(b, a);
     p.distance = std::hypot(a, b);
+    p.along = offset.dot(axis);
   }
 }
 
-/// The ellipse through most of the places, by least squares of the distance to its wall with Tukey's
+/// The section through most of the places, by least squares of the distance to its wall with Tukey's
 /// weights, from a circle of that radius on.
-Ellipse fitEllipse(const std::vector<WallPlace>& places, double radius) {
-  Ellipse ellipse;
-  ellipse.curve[0] = 1.0 / (radius * radius);
-  for (int round = 0; round < kRounds && ellipse.isValid(); ++round) {
+Section fitWall(const std::vector<WallPlace>& places, double radius) {
+  Section section;
+  section.curve[0] = 1.0 / (radius * radius);
+  for (int round = 0; round < kRounds && section.isValid(); ++round) {
     std::vector<double> residuals;
-    for (const WallPlace& p : places)
-      residuals.push_back(std::abs(p.distance - ellipse.wallAt(p.angle)));
+    for (const WallPlace& p : places) residuals.push_back(std::abs(p.distance - section.wallAt(p)));
     const double scale = std::max(kDeviations * median(residuals), 1e-3 * radius);
-    Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
-    Vector5d right = Vector5d::Zero();
+    Eigen::Matrix<double, kUnknowns, kUnknowns> normal =
+        Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
+    Unknowns right = Unknowns::Zero();
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double t = residuals[i] / (kBiweight * scale);
       if (t >= 1) continue;
       // what a change of the inverse square moves the wall by
-      const double slope = 0.5 * std::pow(ellipse.wallAt(places[i].angle), 3);
+      const double slope = 0.5 * std::pow(section.wallAt(places[i]), 3);
       const double weight = (1 - t * t) * (1 - t * t) * slope * slope;
-      const Vector5d row = Ellipse::rowAt(places[i].angle);
+      const Unknowns row = Section::rowAt(places[i]);
       const double distance = std::max(places[i].distance, 1e-3 * radius);
       normal += weight * row * row.transpose();
       right += weight / (distance * distance) * row;
     }
     normal.diagonal().array() += 1e-9 * normal.trace();
-    ellipse.curve = normal.ldlt().solve(right);
+    section.curve = normal.ldlt().solve(right);
   }
-  return ellipse;
+  return section;
 }
 
 std::size_t sectorsWith(const std::vector<WallPlace>& places) {
@@ -148,10 +155,22 @@ std::size_t sectorsWith(const std::vector<WallPlace>& places) {
   return seen.count();
 }
 
+/// From the nearest node before, to the nearest behind, that is a radius away, or the end: what lies
+/// nearer tells where a fit leant to rather than where the vessel runs.
+Vector3d chordAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
+  const auto isFar = [&](std::size_t i) {
+    return (nodes[i].centre - nodes[n].centre).norm() >= nodes[n].radius;
+  };
+  std::size_t before = n, behind = n;
+  while (before > 0 && !isFar(before)) --before;
+  while (behind + 1 < nodes.size() && !isFar(behind)) ++behind;
+  return nodes[behind].centre - nodes[before].centre;
+}
+
 /// The sectors that the node's own wall points lie in.
 std::size_t sectorsOf(const TrackedNode& node, const Vector3d& axis) {
   std::vector<WallPlace> places;
-  for (const formats::Vec3f& p : node.points) places.push_back({toEigen(p), 0, 0});
+  for (const formats::Vec3f& p : node.points) places.push_back({toEigen(p)});
   measureAbout(node.centre, axis, places);
   return sectorsWith(places);
 }
@@ -164,26 +183,26 @@ std::optional<TrackedNode> fitSection(const TrackContext& context, const Tracked
   if (places.size() < kFewestCandidates) return std::nullopt;
   const auto [u, v] = planeBasis(axis);
   Vector3d centre = node.centre;
-  Ellipse ellipse;
+  Section section;
   for (int move = 0; move < kMoves; ++move) {
     measureAbout(centre, axis, places);
-    ellipse = fitEllipse(places, node.radius);
-    if (!ellipse.isValid()) return std::nullopt;
-    centre += ellipse.middle()[0] * u + ellipse.middle()[1] * v;
+    section = fitWall(places, node.radius);
+    if (!section.isValid()) return std::nullopt;
+    centre += section.middle()[0] * u + section.middle()[1] * v;
     if ((centre - node.centre).norm() > kMostAside * node.radius) return std::nullopt;
   }
   std::erase_if(places, [&](const WallPlace& p) {
-    const double wall = ellipse.wallAt(p.angle);
+    const double wall = section.wallAt(p);
     return std::abs(p.distance - wall) > context.search.band * wall;
   });
   const std::size_t sectors = sectorsWith(places);
-  if (sectors < kLeastSectors || sectors <= sectorsOf(node, axis) ||
+  if (sectors < kLeastSectors || sectors < sectorsOf(node, axis) ||
       static_cast<double>(places.size()) < kMore * static_cast<double>(node.points.size()))
     return std::nullopt;
   TrackedNode out = node;
   out.direction = axis;
   out.centre = centre;
-  out.radius = ellipse.radius();
+  out.radius = section.radius();
   out.points.clear();
   for (const WallPlace& p : places) out.points.push_back(toVec3f(p.position));
   return out;
@@ -197,8 +216,7 @@ void fitSections(const TrackContext& context, std::vector<TrackedNode>& nodes,
     if (node.origin != formats::NodeOrigin::Measured || node.points.empty() ||
         node.inlierRate >= context.options.inlierRate)
       continue;
-    const Vector3d chord =
-        nodes[std::min(i + 1, nodes.size() - 1)].centre - nodes[i > 0 ? i - 1 : 0].centre;
+    const Vector3d chord = chordAt(nodes, i);
     if (!(chord.norm() > 0)) continue;
     if (auto fitted = fitSection(context, node, chord.normalized(), workspace))
       out[i] = std::move(*fitted);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wall of vessels that are not round (docs/method.md, section 1.11).
+// The wall of vessels that are not round, or that taper (docs/method.md, section 1.11).
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace lumen::convert {
 
-/// The wall around a measured node as an ellipse about `axis` (unit): the node with the wall points
-/// that this explains, their mean place across the axis and the radius of a disc of the same area.
-/// Empty where the ellipse explains hardly more than the node's cylinder does, or no more of the
-/// way around, or not even half of it.
+/// The wall around a measured node as an ellipse about `axis` (unit) that may taper along it: the node
+/// with the wall points that this explains, its middle, and the radius of a disc of the same area.
+/// Empty where it explains hardly more than the node's cylinder does, or less of the way around, or
+/// not even two thirds of that.
 std::optional<TrackedNode> fitSection(const TrackContext& context, const TrackedNode& node,
                                       const Eigen::Vector3d& axis, TrackWorkspace& workspace);
 
