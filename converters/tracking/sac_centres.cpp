@@ -17,6 +17,8 @@ constexpr double kCover = 2, kNearby = 1.25;
 /// Centres that are added to one sac, and points of the wall that each must be nearest to, by
 /// power: a node without any would have nothing to say.
 constexpr std::size_t kMostCentres = 32, kFewestOwned = 20;
+/// Places that are looked at in vain or not, for the time it takes.
+constexpr std::size_t kMostTurns = 128;
 /// Voxels: from the nearest voxel outside to the wall.
 constexpr double kRim = 0.5;
 
@@ -58,9 +60,10 @@ private:
 
 }  // namespace
 
-std::vector<SacBall> furtherCentres(const VolumeGeometry& geometry, const SacRegion& region,
+std::vector<SacBall> furtherCentres(const TrackContext& context, const SacRegion& region,
                                     std::span<const Vector3d> wall, std::span<const SacBall> nodes,
                                     double least) {
+  const VolumeGeometry& geometry = context.volume.geometry();
   const Cover cover(geometry, region);
   std::vector<double> missed(wall.size(), kUnseen), power(wall.size(), kUnseen);
   const auto cast = [&](const SacBall& node, double inscribed) {
@@ -75,15 +78,17 @@ std::vector<SacBall> furtherCentres(const VolumeGeometry& geometry, const SacReg
     if (inscribed > 0) cast(node, inscribed);
   }
   std::vector<SacBall> centres;
-  while (centres.size() < kMostCentres && !wall.empty()) {
+  for (std::size_t turn = 0; turn < kMostTurns && centres.size() < kMostCentres; ++turn) {
+    context.progress.check();
     const auto farthest = std::max_element(missed.begin(), missed.end());
-    if (*farthest <= kCover) break;
-    const Vector3d& target = wall[static_cast<std::size_t>(farthest - missed.begin())];
-    *farthest = 0;
+    if (farthest == missed.end() || *farthest <= kCover) break;
+    const Vector3d target = wall[static_cast<std::size_t>(farthest - missed.begin())];
     const auto ball = cover.greatestFor(target, least);
-    if (!ball) continue;
     std::size_t owned = 0;
-    for (std::size_t i = 0; i < wall.size(); ++i) owned += powerAt(wall[i], *ball) < power[i];
+    for (std::size_t i = 0; i < wall.size(); ++i) {
+      if (ball) owned += powerAt(wall[i], *ball) < power[i];
+      if ((wall[i] - target).norm() <= least) missed[i] = 0;  // looked at
+    }
     if (owned < kFewestOwned) continue;
     cast(*ball, ball->radius);
     centres.push_back(*ball);

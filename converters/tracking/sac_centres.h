@@ -13,8 +13,8 @@ namespace lumen::convert {
 /// Balls within a region for the parts of its `wall` that are more than half a radius outside of the
 /// greatest balls around the sac's `nodes`, but for parts that only balls narrower than `least` mm
 /// reach, and such as hardly have a place that is nearer to them than to the nodes, by power. mm,
-/// LPS.
-std::vector<SacBall> furtherCentres(const VolumeGeometry& geometry, const SacRegion& region,
+/// LPS. Throws Error(Cancelled).
+std::vector<SacBall> furtherCentres(const TrackContext& context, const SacRegion& region,
                                     std::span<const Eigen::Vector3d> wall,
                                     std::span<const SacBall> nodes, double least);
 

@@ -78,8 +78,9 @@ private:
 };
 
 /// mm from each voxel of a box to the nearest one whose mark is `target`.
-std::vector<float> distanceTo(const VoxelBox& box, const Vector3d& spacing,
+std::vector<float> distanceTo(const TrackContext& context, const VoxelBox& box,
                               const std::vector<std::uint8_t>& mark, std::uint8_t target) {
+  const Vector3d& spacing = context.volume.geometry().spacing;
   std::vector<double> squared(mark.size());
   for (std::size_t i = 0; i < mark.size(); ++i) squared[i] = mark[i] == target ? 0 : kNoPlace;
   LineTransform transform;
@@ -93,6 +94,7 @@ std::vector<float> distanceTo(const VoxelBox& box, const Vector3d& spacing,
     const VoxelBox lines{Vector3i::Zero(), across};
     line.resize(static_cast<std::size_t>(box.size[axis]));
     for (std::size_t l = 0; l < lines.count(); ++l) {
+      if ((l & kOften) == 0) context.progress.check();
       const std::size_t start = box.place(lines.cell(l));
       for (std::size_t i = 0; i < line.size(); ++i) line[i] = squared[start + i * stride];
       transform.apply(line, spacing[axis]);
@@ -170,13 +172,17 @@ std::vector<std::size_t> deepestIn(const VolumeGeometry& geometry, const SacRegi
                                    std::span<const SacBall> balls) {
   std::vector<std::size_t> out;
   for (const SacBall& ball : balls) {
-    std::size_t best = region.depth.size();
-    for (std::size_t place = 0; place < region.depth.size(); ++place) {
-      const Vector3d at = geometry.worldFromIndex(region.box.index(region.box.cell(place)));
-      if ((at - ball.centre).norm() > 0.5 * ball.radius) continue;
-      if (best == region.depth.size() || region.depth[place] > region.depth[best]) best = place;
+    const SacBall half{ball.centre, 0.5 * ball.radius / kSacReach};
+    const VoxelBox near = boxAround(geometry, {&half, 1});
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < near.count(); ++i) {
+      const Vector3d index = near.index(near.cell(i));
+      const auto place = region.box.at(index);
+      if (!place || (geometry.worldFromIndex(index) - ball.centre).norm() > 0.5 * ball.radius)
+        continue;
+      if (!best || region.depth[*place] > region.depth[*best]) best = place;
     }
-    if (best < region.depth.size()) out.push_back(best);
+    if (best) out.push_back(*best);
   }
   return out;
 }
@@ -278,7 +284,7 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
   region.box = boxAround(geometry, balls);
   if (region.box.count() > kMostInBox) return {};
   region.isSac = lumenIn(context, wallLevel, region.box);
-  region.depth = distanceTo(region.box, geometry.spacing, region.isSac, 0);
+  region.depth = distanceTo(context, region.box, region.isSac, 0);
   const double coarsest = geometry.spacing.maxCoeff();
   const double half = std::max(leastPassage(balls), coarsest);
   std::vector<std::uint8_t> core(region.isSac.size(), kNone);
@@ -290,7 +296,7 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
     if (region.isSac[i] && region.depth[i] > half) core[i] = kDeep;
   }
   flood(region.box, core, kDeep, kJoined, deepestIn(geometry, region, balls));
-  const auto fromCore = distanceTo(region.box, geometry.spacing, core, kJoined);
+  const auto fromCore = distanceTo(context, region.box, core, kJoined);
   bool isEmpty = true;
   for (std::size_t i = 0; i < core.size(); ++i) {
     region.isSac[i] = region.isSac[i] && fromCore[i] < half + kCorner * coarsest;

@@ -202,8 +202,7 @@ void addCentres(const TrackContext& context, const SacRegion& region,
                 const std::vector<Vector3d>& wall, std::span<const SacBall> nodes, double least,
                 const Sac& sac, std::vector<TrackedBranch>& all) {
   TrackWorkspace workspace(context);
-  for (const SacBall& ball :
-       furtherCentres(context.volume.geometry(), region, wall, nodes, least)) {
+  for (const SacBall& ball : furtherCentres(context, region, wall, nodes, least)) {
     auto node = sacNodeAt(context, {ball.centre, ball.radius}, workspace);
     if (!node) continue;
     node->radius = ball.radius;
