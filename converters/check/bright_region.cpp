@@ -111,15 +111,17 @@ std::vector<Reached> grow(const LumenVoxels& lumen, const Levels& levels, Neares
   return reached;
 }
 
-/// Spreads from the voxels of `seeds` to the neighbours that `take(j, seed)` wants.
+/// Spreads from the voxels of `seeds` to the neighbours that take(j, way) wants: the way to them from
+/// the seed, mm along the axes of the grid.
 template <class Take>
 void flood(const VoxelSet& voxels, const std::vector<std::uint32_t>& seeds, Take&& take) {
-  std::deque<std::pair<std::uint32_t, std::uint32_t>> queue;  // a voxel, and the seed it came from
-  for (const std::uint32_t seed : seeds) queue.emplace_back(seed, seed);
+  std::deque<std::pair<std::uint32_t, Eigen::Vector3f>> queue;
+  for (const std::uint32_t seed : seeds) queue.emplace_back(seed, Eigen::Vector3f::Zero());
   for (; !queue.empty(); queue.pop_front()) {
-    const auto [i, seed] = queue.front();
-    voxels.eachBeside(i, [&, from = seed](std::uint32_t j, double) {
-      if (take(j, from)) queue.emplace_back(j, from);
+    const auto [i, here] = queue.front();
+    voxels.eachBeside(i, [&, from = here](std::uint32_t j, const Eigen::Vector3d& way) {
+      const Eigen::Vector3f there = from + way.cast<float>();
+      if (take(j, there)) queue.emplace_back(j, there);
     });
   }
 }
@@ -136,25 +138,25 @@ std::vector<std::uint8_t> wideParts(const BrightRegion& region, double widest) {
       wide[i] = 1;
     }
   if (seeds.empty()) return wide;
-  const double reach = widest + voxels.geometry().voxelSize();
-  flood(voxels, seeds, [&](std::uint32_t j, std::uint32_t seed) {
-    if (wide[j] != 0 || (voxels.position(j) - voxels.position(seed)).norm() > reach) return false;
+  const auto reach = static_cast<float>(widest + voxels.geometry().voxelSize());
+  flood(voxels, seeds, [&](std::uint32_t j, const Eigen::Vector3f& way) {
+    if (wide[j] != 0 || way.norm() > reach) return false;
     wide[j] = 1;
     return true;
   });
-  std::vector<std::uint8_t> behind(voxels.size(), 1);
+  std::vector<std::uint8_t> apart(voxels.size(), 1);
   seeds.clear();
   for (std::size_t i = 0; i < region.rim; ++i)
     if (wide[region.order[i]] == 0) {
       seeds.push_back(region.order[i]);
-      behind[region.order[i]] = 0;
+      apart[region.order[i]] = 0;
     }
-  flood(voxels, seeds, [&](std::uint32_t j, std::uint32_t) {
-    if (wide[j] != 0 || behind[j] == 0) return false;
-    behind[j] = 0;
+  flood(voxels, seeds, [&](std::uint32_t j, const Eigen::Vector3f&) {
+    if (wide[j] != 0 || apart[j] == 0) return false;
+    apart[j] = 0;
     return true;
   });
-  return behind;
+  return apart;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Regions regionsOf(const VoxelSet& set, std::span<const float> depth,
     std::uint32_t deepest = seed;
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (depth[group[i]] > depth[deepest]) deepest = group[i];
-      set.eachBeside(group[i], [&](std::uint32_t j, double) {
+      set.eachBeside(group[i], [&](std::uint32_t j, const Vector3d&) {
         if (free[j] != 0) group.push_back(j);
         free[j] = 0;
       });

@@ -45,7 +45,7 @@ TEST(VoxelSet, FindsItsVoxelsAndTheirNeighbours) {
   EXPECT_EQ(set.find(at(geometry, 1, 1, 0)), VoxelSet::kNone);
   std::vector<std::uint32_t> beside;
   // the end of one row and the beginning of the next are no neighbours
-  set.eachBeside(0, [&](std::uint32_t j, double) { beside.push_back(j); });
+  set.eachBeside(0, [&](std::uint32_t j, const Eigen::Vector3d&) { beside.push_back(j); });
   EXPECT_EQ(beside, std::vector<std::uint32_t>{2});
 }
 
