@@ -37,7 +37,8 @@ bool isRim(const VoxelSet& set, std::uint32_t i, const std::function<bool(std::s
 }  // namespace
 
 // Every voxel learns of the nearest rim voxel from its neighbours, by the way there.
-std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright) {
+std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
+                            const Progress& progress) {
   const auto half = static_cast<float>(0.5 * set.geometry().voxelSize());
   std::vector<float> depths(set.size(), kFar);
   std::vector<Eigen::Vector3f> fromRim(set.size());
@@ -49,6 +50,7 @@ std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::s
       queue.push_back(i);
     }
   for (; !queue.empty(); queue.pop_front()) {
+    if (queue.front() % kCheckEvery == 0) progress.check();
     const Eigen::Vector3f here = fromRim[queue.front()];
     set.eachBeside(queue.front(), [&](std::uint32_t j, const Eigen::Vector3d& way) {
       const Eigen::Vector3f there = here + way.cast<float>();

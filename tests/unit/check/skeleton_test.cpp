@@ -25,7 +25,8 @@ std::size_t at(const VolumeGeometry& geometry, int x, int y, int z) {
 }
 
 std::vector<float> depthsIn(const VoxelSet& set) {
-  return depthsOf(set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; });
+  return depthsOf(
+      set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; }, Progress());
 }
 
 std::vector<SkeletonWay> waysOf(const VoxelSet& set, std::size_t root, std::size_t least) {
