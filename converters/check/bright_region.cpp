@@ -13,6 +13,7 @@
 namespace lumen::convert {
 namespace {
 
+constexpr double kCorner = 1.5;               // radii of a ball: it does not fill a right angle
 constexpr std::size_t kCheckEvery = 1 << 14;  // voxels: well below 100 ms
 
 /// The node nearest to a place, by cells of some voxels: levels vary slowly.
@@ -111,22 +112,27 @@ std::vector<Reached> grow(const LumenVoxels& lumen, const Levels& levels, Neares
   return reached;
 }
 
-/// Spreads from the voxels of `seeds` to the neighbours that `take(j, seed)` wants.
+/// Spreads from the voxels of `seeds` to the neighbours that take(j, way) wants: the way to them from
+/// the seed, mm along the axes of the grid.
 template <class Take>
-void flood(const VoxelSet& voxels, const std::vector<std::uint32_t>& seeds, Take&& take) {
-  std::deque<std::pair<std::uint32_t, std::uint32_t>> queue;  // a voxel, and the seed it came from
-  for (const std::uint32_t seed : seeds) queue.emplace_back(seed, seed);
+void flood(const VoxelSet& voxels, const std::vector<std::uint32_t>& seeds,
+           const Progress& progress, Take&& take) {
+  std::deque<std::pair<std::uint32_t, Eigen::Vector3f>> queue;
+  for (const std::uint32_t seed : seeds) queue.emplace_back(seed, Eigen::Vector3f::Zero());
   for (; !queue.empty(); queue.pop_front()) {
-    const auto [i, seed] = queue.front();
-    voxels.eachBeside(i, [&, from = seed](std::uint32_t j, double) {
-      if (take(j, from)) queue.emplace_back(j, from);
+    const auto [i, here] = queue.front();
+    if (i % kCheckEvery == 0) progress.check();
+    voxels.eachBeside(i, [&, from = here](std::uint32_t j, const Eigen::Vector3d& way) {
+      const Eigen::Vector3f there = from + way.cast<float>();
+      if (take(j, there)) queue.emplace_back(j, there);
     });
   }
 }
 
-/// What balls of radius `widest` reach within the region, and what hangs together with the lumen
-/// only through that.
-std::vector<std::uint8_t> wideParts(const BrightRegion& region, double widest) {
+/// What lies within kCorner of the centres of balls of radius `widest` that the region holds, and what
+/// hangs together with the lumen only through that.
+std::vector<std::uint8_t> wideParts(const BrightRegion& region, double widest,
+                                    const Progress& progress) {
   const VoxelSet& voxels = region.voxels;
   std::vector<std::uint8_t> wide(voxels.size(), 0);
   std::vector<std::uint32_t> seeds;
@@ -136,25 +142,25 @@ std::vector<std::uint8_t> wideParts(const BrightRegion& region, double widest) {
       wide[i] = 1;
     }
   if (seeds.empty()) return wide;
-  const double reach = widest + voxels.geometry().voxelSize();
-  flood(voxels, seeds, [&](std::uint32_t j, std::uint32_t seed) {
-    if (wide[j] != 0 || (voxels.position(j) - voxels.position(seed)).norm() > reach) return false;
+  const auto reach = static_cast<float>(kCorner * widest + voxels.geometry().voxelSize());
+  flood(voxels, seeds, progress, [&](std::uint32_t j, const Eigen::Vector3f& way) {
+    if (wide[j] != 0 || way.norm() > reach) return false;
     wide[j] = 1;
     return true;
   });
-  std::vector<std::uint8_t> behind(voxels.size(), 1);
+  std::vector<std::uint8_t> apart(voxels.size(), 1);
   seeds.clear();
   for (std::size_t i = 0; i < region.rim; ++i)
     if (wide[region.order[i]] == 0) {
       seeds.push_back(region.order[i]);
-      behind[region.order[i]] = 0;
+      apart[region.order[i]] = 0;
     }
-  flood(voxels, seeds, [&](std::uint32_t j, std::uint32_t) {
-    if (wide[j] != 0 || behind[j] == 0) return false;
-    behind[j] = 0;
+  flood(voxels, seeds, progress, [&](std::uint32_t j, const Eigen::Vector3f&) {
+    if (wide[j] != 0 || apart[j] == 0) return false;
+    apart[j] = 0;
     return true;
   });
-  return behind;
+  return apart;
 }
 
 }  // namespace
@@ -180,9 +186,10 @@ BrightRegion growBrightRegion(const LumenVoxels& lumen, const Levels& levels,
     region.node[region.order.back()] = voxel.node;
   }
   progress.check();
-  region.depth = depthsOf(region.voxels, [&](std::size_t i) { return bright[i] != 0; });
+  region.depth = depthsOf(
+      region.voxels, [&](std::size_t i) { return bright[i] != 0; }, progress);
   progress.check();
-  region.wide = wideParts(region, widest);
+  region.wide = wideParts(region, widest, progress);
   return region;
 }
 

@@ -37,7 +37,7 @@ Regions regionsOf(const VoxelSet& set, std::span<const float> depth,
     std::uint32_t deepest = seed;
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (depth[group[i]] > depth[deepest]) deepest = group[i];
-      set.eachBeside(group[i], [&](std::uint32_t j, double) {
+      set.eachBeside(group[i], [&](std::uint32_t j, const Vector3d&) {
         if (free[j] != 0) group.push_back(j);
         free[j] = 0;
       });
@@ -110,9 +110,8 @@ Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progres
   std::vector<std::size_t> all;
   for (const LumenVoxel& voxel : lumen.voxels()) all.push_back(voxel.index);
   const VoxelSet inside(geometry, std::move(all));
-  const std::vector<float> depth =
-      depthsOf(inside, [&](std::size_t i) { return lumen.inside()[i] != 0; });
-  progress.check();
+  const std::vector<float> depth = depthsOf(
+      inside, [&](std::size_t i) { return lumen.inside()[i] != 0; }, progress);
   std::vector<std::size_t> dark;
   std::vector<std::uint32_t> node;
   withVoxels(levels, [&](const auto& value) {
@@ -128,7 +127,8 @@ Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progres
   progress.check();
   const VoxelSet set(geometry, std::move(dark));
   std::vector<std::uint8_t> free(set.size(), 1);
-  const auto depths = depthsOf(set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; });
+  const auto depths = depthsOf(
+      set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; }, progress);
   return regionsOf(set, depths, node, free, kLeastDark);
 }
 

@@ -36,26 +36,28 @@ bool isRim(const VoxelSet& set, std::uint32_t i, const std::function<bool(std::s
 
 }  // namespace
 
-// Every voxel learns of the nearest rim voxel from its neighbours.
-std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright) {
+// Every voxel learns of the nearest rim voxel from its neighbours, by the way there.
+std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
+                            const Progress& progress) {
   const auto half = static_cast<float>(0.5 * set.geometry().voxelSize());
   std::vector<float> depths(set.size(), kFar);
-  std::vector<std::uint32_t> rim(set.size(), VoxelSet::kNone);
+  std::vector<Eigen::Vector3f> fromRim(set.size());
   std::deque<std::uint32_t> queue;
   for (std::uint32_t i = 0; i < set.size(); ++i)
     if (isRim(set, i, isBright)) {
-      rim[i] = i;
+      fromRim[i].setZero();
       depths[i] = half;
       queue.push_back(i);
     }
   for (; !queue.empty(); queue.pop_front()) {
-    const std::uint32_t from = rim[queue.front()];
-    const Eigen::Vector3d wall = set.position(from);
-    set.eachBeside(queue.front(), [&](std::uint32_t j, double) {
-      const float depth = half + static_cast<float>((set.position(j) - wall).norm());
+    if (queue.front() % kCheckEvery == 0) progress.check();
+    const Eigen::Vector3f here = fromRim[queue.front()];
+    set.eachBeside(queue.front(), [&](std::uint32_t j, const Eigen::Vector3d& way) {
+      const Eigen::Vector3f there = here + way.cast<float>();
+      const float depth = half + there.norm();
       if (!(depth < depths[j])) return;
       depths[j] = depth;
-      rim[j] = from;
+      fromRim[j] = there;
       queue.push_back(j);
     });
   }
@@ -80,8 +82,8 @@ void Skeleton::spread(std::uint32_t root, const Progress& progress) {
     queue.pop();
     if (cost > m_cost[i]) continue;
     if (i % kCheckEvery == 0) progress.check();
-    m_set.eachBeside(i, [&, here = i, so = cost](std::uint32_t j, double mm) {
-      reach(j, here, so + static_cast<float>(mm) / (m_depths[j] * m_depths[j]));
+    m_set.eachBeside(i, [&, here = i, so = cost](std::uint32_t j, const Eigen::Vector3d& way) {
+      reach(j, here, so + static_cast<float>(way.norm()) / (m_depths[j] * m_depths[j]));
     });
   }
 }
@@ -104,7 +106,7 @@ void Skeleton::cover(SkeletonWay& way) {
   const double more = kCoverVoxels * m_set.geometry().voxelSize();
   for (const std::uint32_t i : way.voxels)
     m_set.eachWithin(i, kCoverDepths * static_cast<double>(m_depths[i]) + more,
-                     [&](std::uint32_t j, double) {
+                     [&](std::uint32_t j) {
                        way.covered += m_free[j] == kInGroup;
                        if (m_free[j] == kInGroup) m_free[j] = kTaken;
                      });

@@ -22,8 +22,9 @@ struct SkeletonWay {
 
 /// mm from each voxel to the nearest place that is not bright, as `isBright(index)` tells for the
 /// neighbours of the set's voxels. What lies beyond the volume counts as bright. Infinite where all
-/// is bright.
-std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright);
+/// is bright. Throws Error(Cancelled).
+std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
+                            const Progress& progress);
 
 /// Splits connected groups of voxels into ways, as TEASAR does (Sato, Bitter, Bender, Kaufman,
 /// Nakajima: TEASAR: tree-structure extraction algorithm for accurate and robust skeletons, 2000):

@@ -34,22 +34,23 @@ public:
   [[nodiscard]] std::uint32_t find(std::size_t index) const;
   [[nodiscard]] const VolumeGeometry& geometry() const { return m_geometry; }
 
-  /// Calls visit(j, mm away) for each voxel of the set that shares a corner with `i`.
+  /// Calls visit(j, way) for each voxel of the set that shares a corner with `i`: the way there in mm
+  /// along the axes of the grid.
   template <class Visit>
   void eachBeside(std::uint32_t i, Visit&& visit) const {
-    eachInBox(place(i), {1, 1, 1}, [&](std::uint32_t j, double mm) {
-      if (j != i) visit(j, mm);
+    eachInBox(place(i), {1, 1, 1}, [&](std::uint32_t j, const Eigen::Vector3d& way) {
+      if (j != i) visit(j, way);
     });
   }
 
-  /// The same for each voxel of the set within `mm` of `i`, `i` itself too.
+  /// Calls visit(j) for each voxel of the set within `mm` of `i`, `i` itself too.
   template <class Visit>
   void eachWithin(std::uint32_t i, double mm, Visit&& visit) const {
     std::array<int, 3> reach{};
     for (int a = 0; a < 3; ++a)
       reach[static_cast<std::size_t>(a)] = static_cast<int>(mm / m_geometry.spacing[a]);
-    eachInBox(place(i), reach, [&](std::uint32_t j, double away) {
-      if (away <= mm) visit(j, away);
+    eachInBox(place(i), reach, [&](std::uint32_t j, const Eigen::Vector3d& way) {
+      if (way.squaredNorm() <= mm * mm) visit(j);
     });
   }
 
@@ -67,8 +68,8 @@ private:
              j < m_rows[row + 1]; ++j) {
           const int x = static_cast<int>(m_indices[j] - first);
           if (x > highX) break;
-          visit(j, m_geometry.spacing.cwiseProduct(Eigen::Vector3d(x - at[0], y - at[1], z - at[2]))
-                       .norm());
+          visit(j, Eigen::Vector3d(m_geometry.spacing.cwiseProduct(
+                       Eigen::Vector3d(x - at[0], y - at[1], z - at[2]))));
         }
       }
   }

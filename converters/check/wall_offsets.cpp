@@ -137,12 +137,16 @@ void dropFaintEdges(const formats::CenterlineTree& tree, std::vector<WallOffset>
       o.verdict = Verdict::NoEdge;
 }
 
-/// The level above which the background around some samples hardly goes.
-double textureOf(std::span<const WallOffset> offsets) {
-  std::vector<double> beyond;
-  for (const WallOffset& o : offsets)
-    if (o.verdict != Verdict::BesideAnother && o.verdict != Verdict::OutsideVolume)
-      beyond.push_back(o.beyond);
+/// The level above which the background around some samples seldom is. Where most of them have the
+/// lumen beyond as well, as their wall lies inside of it, those with an edge tell of the background.
+double textureTop(std::span<const WallOffset> offsets, double lumen) {
+  std::vector<double> beyond, beyondEdges;
+  for (const WallOffset& o : offsets) {
+    if (o.verdict == Verdict::BesideAnother || o.verdict == Verdict::OutsideVolume) continue;
+    beyond.push_back(o.beyond);
+    if (hasEdge(o)) beyondEdges.push_back(o.beyond);
+  }
+  if (upperMedian(beyond) > lumen) beyond = beyondEdges;
   const double middle = upperMedian(beyond);
   for (double& value : beyond) value = std::abs(value - middle);
   return middle + kTexture * upperMedian(beyond);
@@ -150,15 +154,16 @@ double textureOf(std::span<const WallOffset> offsets) {
 
 /// The medians over the edges in a range; nothing if they are too few.
 std::optional<NodeLevels> levelsOf(std::span<const WallOffset> offsets, std::size_t least) {
-  std::vector<double> halves, faints;
+  std::vector<double> halves, faints, lumens;
   for (const WallOffset& o : offsets) {
     if (!hasEdge(o)) continue;
     halves.push_back(0.5 * (o.inside + o.outside));
     faints.push_back(o.outside + kShareOfBranch * (o.inside - o.outside));
+    lumens.push_back(o.inside - kShareOfBranch * (o.inside - o.outside));
   }
   if (halves.size() < least) return std::nullopt;
-  return NodeLevels{static_cast<float>(upperMedian(halves)),
-                    static_cast<float>(std::max(upperMedian(faints), textureOf(offsets)))};
+  const double faint = std::max(upperMedian(faints), textureTop(offsets, upperMedian(lumens)));
+  return NodeLevels{static_cast<float>(upperMedian(halves)), static_cast<float>(faint)};
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/check/check.h"
+#include "converters/check/overlay.h"
 #include "converters/phantom/phantom.h"
 #include "straight_models.h"
 
@@ -89,6 +90,20 @@ TEST(OpenEnds, ABranchThatStopsShortSaysHowFarTheVesselGoesOn) {
   EXPECT_TRUE(report.missing.vessels[0].atEnd);
   const double coverage = report.shownLength / (report.shownLength + report.missingLength());
   EXPECT_NEAR(coverage, 0.5, 0.1);
+}
+
+TEST(Overlay, MarksWhatIsMissing) {
+  Tube tube;
+  const auto marked = [&] {
+    const Picture picture = drawOverlay(tube.phantom.volume, tube.tree(), tube.report());
+    // above the legend, where the same colour explains itself
+    return std::count_if(picture.pixels.begin(),
+                         picture.pixels.begin() + std::ptrdiff_t{400} * picture.width,
+                         [](const Rgb& p) { return p[0] > 200 && p[1] < 150 && p[2] > 200; });
+  };
+  EXPECT_EQ(marked(), 0);
+  tube.cut(static_cast<std::uint32_t>(tube.tree().nodeCount() / 2));
+  EXPECT_GT(marked(), 50);
 }
 
 TEST(OpenEnds, AreNoneOfAWholeVessel) {

@@ -25,7 +25,8 @@ std::size_t at(const VolumeGeometry& geometry, int x, int y, int z) {
 }
 
 std::vector<float> depthsIn(const VoxelSet& set) {
-  return depthsOf(set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; });
+  return depthsOf(
+      set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; }, Progress());
 }
 
 std::vector<SkeletonWay> waysOf(const VoxelSet& set, std::size_t root, std::size_t least) {
@@ -45,7 +46,7 @@ TEST(VoxelSet, FindsItsVoxelsAndTheirNeighbours) {
   EXPECT_EQ(set.find(at(geometry, 1, 1, 0)), VoxelSet::kNone);
   std::vector<std::uint32_t> beside;
   // the end of one row and the beginning of the next are no neighbours
-  set.eachBeside(0, [&](std::uint32_t j, double) { beside.push_back(j); });
+  set.eachBeside(0, [&](std::uint32_t j, const Eigen::Vector3d&) { beside.push_back(j); });
   EXPECT_EQ(beside, std::vector<std::uint32_t>{2});
 }
 
