@@ -59,7 +59,7 @@ Remark remarkOf(const PrivacyFinding& finding) {
 
 Remark remarkOf(const ClosedWay& way) {
   const std::string code = "CLOSED_EDGE", pointer = "/tree/parent/" + std::to_string(way.node);
-  const std::string message = closedText(way);
+  const std::string message = closedText(way) + "; lumen fit may open it";
   return {code,
           kClosedEdge,
           formats::severityName(formats::Severity::Warning),

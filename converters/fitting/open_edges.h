@@ -8,6 +8,7 @@ namespace lumen::convert {
 
 /// Adds blobs to the models of a fitted case wherever a point that is pushed along an edge of the tree
 /// would leave the lumen: as small ones as make a way of four tenths of the edge's lesser radius.
+/// What stays closed is an edge so long that following does not lead along it; reachabilityOf() tells.
 void openEdges(formats::Case& target);
 
 }  // namespace lumen::convert

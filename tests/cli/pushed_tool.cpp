@@ -38,9 +38,9 @@ public:
   [[nodiscard]] double length() const { return m_along.back(); }
   [[nodiscard]] const blob_node& tip() const { return m_nodes.back(); }
   [[nodiscard]] double leastRadius() const {
-    return std::min_element(m_nodes.begin(), m_nodes.end(), [](const auto& a, const auto& b) {
-             return a.radius < b.radius;
-           })->radius;
+    return std::min_element(m_nodes.begin(), m_nodes.end(),
+                            [](const auto& a, const auto& b) { return a.radius < b.radius; })
+        ->radius;
   }
 
   /// From the tip to a node, along the way; infinite if the node is not on it.
@@ -75,7 +75,7 @@ private:
 
 /// A point in a ball around zero, the same on every machine.
 Point inBall(std::mt19937& random, double radius) {
-  const auto uniform = [&random] { return 2 * (random() / 4294967295.0) - 1; };
+  const auto uniform = [&random] { return 2 * (static_cast<double>(random()) / 4294967295.0) - 1; };
   for (;;) {
     const Point p = {uniform(), uniform(), uniform()};
     if (p[0] * p[0] + p[1] * p[1] + p[2] * p[2] <= 1)
@@ -152,6 +152,32 @@ std::vector<PushedTool> pushToEveryTip(const blob_model* model) {
   std::vector<PushedTool> tools;
   for (const std::uint32_t tip : tips) tools.push_back(push(model, tip, longest / (kPoints - 1)));
   return tools;
+}
+
+std::vector<std::uint32_t> firstClosedNodes(const blob_model* model) {
+  constexpr int kSteps = 64;
+  const std::size_t count = blob_model_describe(model).node_count;
+  std::vector<std::uint32_t> cursors(count), closed;
+  std::vector<bool> isBeyond(count, false);
+  for (std::uint32_t node = 0; node < count; ++node) {
+    const blob_node to = blob_model_node(model, node);
+    const bool isRoot = to.parent < 0;
+    const auto parent = isRoot ? node : static_cast<std::uint32_t>(to.parent);
+    const blob_node from = blob_model_node(model, parent);
+    std::uint32_t& cursor = cursors[node] = isRoot ? node : cursors[parent];
+    bool isOpen = true;
+    for (int i = isRoot ? kSteps : 1; i <= kSteps; ++i) {
+      double p[3];
+      for (int k = 0; k < 3; ++k)
+        p[k] = from.centre[k] + (to.centre[k] - from.centre[k]) * i / kSteps;
+      isOpen = blob_inside(model, BLOB_BLENDED, p, &cursor) != 0 && isOpen;
+    }
+    isBeyond[node] = !isRoot && isBeyond[parent];
+    if (isOpen || isBeyond[node]) continue;
+    isBeyond[node] = true;
+    closed.push_back(node);
+  }
+  return closed;
 }
 
 }  // namespace lumen::test

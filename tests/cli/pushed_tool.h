@@ -30,4 +30,8 @@ struct PushedTool {
 /// it then is outside, it is put back once, by the distance along the normal that libblob answers.
 std::vector<PushedTool> pushToEveryTip(const blob_model* model);
 
+/// The first node on each way from a root that a single point does not get to, pushed straight from
+/// node to node in 64 steps each; ascending.
+std::vector<std::uint32_t> firstClosedNodes(const blob_model* model);
+
 }  // namespace lumen::test

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tool is pushed through cases that were made of volumes, as a simulator does it.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
+#include "formats/case/case_file.h"
 #include "tests/cli/pushed_tool.h"
 #include "tests/cli/run_lumen.h"
+#include "tests/unit/formats/beads.h"
 
 namespace lumen::test {
 
@@ -25,13 +29,13 @@ protected:
     ASSERT_EQ(blob_model_open(path("case.lumen").c_str(), nullptr, &model), BLOB_OK);
     const std::vector<PushedTool> tools = pushToEveryTip(model);
     EXPECT_FALSE(tools.empty());
+    EXPECT_TRUE(firstClosedNodes(model).empty());
     for (const PushedTool& tool : tools) {
-      const std::string tip = "tip " + std::to_string(tool.tip) + " after " +
-                              std::to_string(tool.length) + " mm, worst near node " +
-                              std::to_string(tool.outsideNode) + " at " +
-                              std::to_string(tool.outsideAt[0]) + ", " +
-                              std::to_string(tool.outsideAt[1]) + ", " +
-                              std::to_string(tool.outsideAt[2]);
+      const std::string tip =
+          "tip " + std::to_string(tool.tip) + " after " + std::to_string(tool.length) +
+          " mm, worst near node " + std::to_string(tool.outsideNode) + " at " +
+          std::to_string(tool.outsideAt[0]) + ", " + std::to_string(tool.outsideAt[1]) + ", " +
+          std::to_string(tool.outsideAt[2]);
       EXPECT_LE(tool.outside, 0.1 * voxel) << tip;
       const double radius = blob_model_node(model, tool.tip).radius;
       EXPECT_LE(tool.fromTip, radius) << tip;
@@ -49,6 +53,30 @@ protected:
     pushThrough("volume.nrrd", "seeds.json");
   }
 };
+
+TEST_F(ToolTest, OfOnePointFindsTheSameWaysClosedAsInfo) {
+  // three vessels of radius 1, each with a gap, the second and third hanging on the first
+  formats::Case value = formats::test::noBeads();
+  const auto withGap = [](float gap, float y) {
+    auto places = formats::test::alongX(0, 0.5F, 11, y);
+    for (const auto& place : formats::test::alongX(5 + gap, 0.5F, 11, y)) places.push_back(place);
+    return places;
+  };
+  formats::test::addBeads(value, "a", withGap(2.3F, 0), 1);
+  formats::test::addBeads(value, "b", withGap(1.9F, 1), 1, 0);    // open
+  formats::test::addBeads(value, "c", withGap(2.1F, -1), 1, 20);  // beyond the first
+  formats::test::addBeads(value, "d", withGap(3, 9), 1);
+  ASSERT_TRUE(formats::writeCaseFile(value, path("gaps.lumen")));
+  blob_model* model = nullptr;
+  ASSERT_EQ(blob_model_open(path("gaps.lumen").c_str(), nullptr, &model), BLOB_OK);
+  std::vector<std::uint32_t> told;
+  const Json info = Json::parse(lumen({"info", "gaps.lumen", "--json"}).out);
+  for (const Json& way : info["reachable"]["closed"]) told.push_back(way["node"]);
+  std::sort(told.begin(), told.end());
+  EXPECT_EQ(told, (std::vector<std::uint32_t>{11, 77}));
+  EXPECT_EQ(firstClosedNodes(model), told);
+  blob_model_close(model);
+}
 
 TEST_F(ToolTest, OfTwoHundredPointsArrivesAtEveryTipOfABifurcation) {
   pushThroughPhantom({"bifurcation"});
