@@ -11,10 +11,10 @@ namespace lumen::app {
 namespace {
 
 Json seedRemarks(const std::vector<convert::SeedFailure>& failures) {
-  Json json = Json::array();
+  Json remarks = Json::array();
   for (const auto& failure : failures)
-    json.push_back({{"label", failure.label}, {"reason", failure.reason}});
-  return json;
+    remarks.push_back({{"label", failure.label}, {"reason", failure.reason}});
+  return remarks;
 }
 
 Json endJson(const convert::TrackEnd& end) {
