@@ -53,7 +53,8 @@ std::string endLines(const convert::TrackRemarks& remarks) {
   std::string text;
   for (std::size_t i = 0; i < std::min(open.size(), kMost); ++i) text += endLine(open[i]);
   if (open.size() > kMost)
-    text += "and so on at " + std::to_string(open.size() - kMost) + " more ends; --json lists all\n";
+    text +=
+        "and so on at " + std::to_string(open.size() - kMost) + " more ends; --json lists all\n";
   return text;
 }
 

@@ -167,7 +167,8 @@ BranchStart startNearby(const TrackContext& context, const SeedPoint& click,
     start.nodes = std::move(there.nodes);
     break;
   }
-  if (parent) start.parentNode = static_cast<int>(closestOnChain(parent->nodes, click.position).node);
+  if (parent)
+    start.parentNode = static_cast<int>(closestOnChain(parent->nodes, click.position).node);
   return start;
 }
 

@@ -19,8 +19,8 @@ constexpr double kBeside = 2.5;
 /// Of the distance between its first node and its parent: a tip nearer to that is its start.
 constexpr double kWrongEnd = 0.5;
 
-BranchStart startAtSeed(const TrackContext& context, const SeedBranch& seed, const TrackedBranch* parent,
-                    Random& random, TrackWorkspace& workspace) {
+BranchStart startAtSeed(const TrackContext& context, const SeedBranch& seed,
+                        const TrackedBranch* parent, Random& random, TrackWorkspace& workspace) {
   if (parent) return startChild(context, seed, *parent, random, workspace);
   const auto direction = directionOf(seed);
   return startAtClick(context, seed.points[0], direction.value_or(Vector3d::UnitZ()),
@@ -123,8 +123,8 @@ TrackedBranch trackBranch(const TrackContext& context, const SeedBranch& seed,
   if (isStunted(branch)) {
     BranchStart nearby = startNearby(context, seed.points[0], parent, random, workspace);
     if (!nearby.nodes.empty()) {
-      TrackedBranch other = trackFrom(context, seed, parent, std::move(nearby), finished, random,
-                                      workspace);
+      TrackedBranch other =
+          trackFrom(context, seed, parent, std::move(nearby), finished, random, workspace);
       if (other.nodes.size() > branch.nodes.size()) branch = std::move(other);
     }
   }

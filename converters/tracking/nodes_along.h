@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes along a line that is known to lead through a vessel (docs/method.md, section 1.7).
+// Nodes along a line that is known to lead through a vessel (docs/method.md, section 1.12).
 #pragma once
 
 #include <span>

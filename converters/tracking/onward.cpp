@@ -162,8 +162,7 @@ LumenLevels levelsAt(const TrackContext& context, const Vector3d& click) {
 void addBalls(std::span<const TrackedNode> nodes, const VolumeGeometry& geometry,
               std::vector<Ball>& balls) {
   const double blur = 0.5 * geometry.voxelSize();
-  for (const TrackedNode& node : nodes)
-    balls.push_back({node.centre, kRim * node.radius + blur});
+  for (const TrackedNode& node : nodes) balls.push_back({node.centre, kRim * node.radius + blur});
 }
 
 void goOnward(const TrackContext& context, TrackedBranch& branch, std::span<const Ball> others,
@@ -198,8 +197,8 @@ std::vector<NearbyPlace> placesAround(const TrackContext& context, const Vector3
   outset.closed.assign(others.begin(), others.end());
   std::vector<NearbyPlace> places;
   for (const double voxels : kAround) {
-    const WaysOnward onward = waysOnward(context, levels, outset,
-                                         voxels * context.volume.geometry().voxelSize());
+    const WaysOnward onward =
+        waysOnward(context, levels, outset, voxels * context.volume.geometry().voxelSize());
     for (const double share : kPlaces)
       for (const Way& way : onward.ways) {
         const auto last = static_cast<double>(way.points.size() - 1);

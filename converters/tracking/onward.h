@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where tracks have ended although the lumen goes on: hairpins, kinks, forks, and starts beside the
-// vessel (docs/method.md, section 1.7).
+// vessel (docs/method.md, section 1.12).
 #pragma once
 
 #include <optional>

@@ -27,17 +27,18 @@ struct TrackedNode {
 struct TrackedBranch {
   std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
   std::size_t clickNode = 0;       ///< the one that was fitted at the seed's first point
-  formats::StopReason stopReason = formats::StopReason::Unknown;   ///< at its last node
-  formats::StopReason startReason = formats::StopReason::Unknown;  ///< at its first, if it was tracked
-                                                                   ///< both ways from a click
+  formats::StopReason stopReason = formats::StopReason::Unknown;  ///< at its last node
+  formats::StopReason startReason =
+      formats::StopReason::Unknown;  ///< at its first, if it was tracked
+                                     ///< both ways from a click
   double goesOn = 0;       ///< mm for which the lumen is seen to lead on beyond the last node
   double startGoesOn = 0;  ///< the same beyond the first
-  std::string failure;                    ///< why nothing was tracked
+  std::string failure;     ///< why nothing was tracked
   std::vector<std::string> missedPoints;  ///< a sentence for each further click not reached
   int parentBranch = -1;                  ///< position in the seeds' order; -1: a root
   int parentNode = -1;                    ///< within that branch
-  bool isTail = false;  ///< it took over from its parent what that had of it
-  int trackedBy = -1;   ///< if it has no nodes: the branch that its click lies in
+  bool isTail = false;                    ///< it took over from its parent what that had of it
+  int trackedBy = -1;                     ///< if it has no nodes: the branch that its click lies in
 };
 
 /// Why a seed on a vessel that is tracked already starts no track.

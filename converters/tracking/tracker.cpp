@@ -87,8 +87,8 @@ void remark(const SeedBranch& seed, const TrackedBranch& branch, TrackRemarks& o
     out.missedPoints.push_back({seed.label, missed});
   if (seed.kind != BranchKind::Vessel) return;
   if (branch.parentBranch < 0 && branch.startReason != StopReason::Unknown)
-    out.ends.push_back({seed.label, true, branch.startReason, branch.nodes.front().centre,
-                        branch.startGoesOn});
+    out.ends.push_back(
+        {seed.label, true, branch.startReason, branch.nodes.front().centre, branch.startGoesOn});
   out.ends.push_back(
       {seed.label, false, branch.stopReason, branch.nodes.back().centre, branch.goesOn});
 }

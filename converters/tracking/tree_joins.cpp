@@ -56,7 +56,8 @@ public:
   /// Links to the root, without those from a tail to what it was taken from.
   [[nodiscard]] int levelOf(std::size_t i) const {
     int level = 0;
-    for (; m_branches[i].parentBranch >= 0; i = static_cast<std::size_t>(m_branches[i].parentBranch))
+    for (; m_branches[i].parentBranch >= 0;
+         i = static_cast<std::size_t>(m_branches[i].parentBranch))
       level += m_branches[i].isTail ? 0 : 1;
     return level;
   }

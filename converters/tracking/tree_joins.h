@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // From tracks to trees: tracks go on as far as the lumen does, gaps are filled, children led to their
-// parents (docs/method.md, section 1.7).
+// parents (docs/method.md, section 1.12).
 #pragma once
 
 #include <vector>
 
-#include "converters/tracking/node_fit.h"
 #include "converters/seeds/seeds.h"
+#include "converters/tracking/node_fit.h"
 
 namespace lumen::convert {
 

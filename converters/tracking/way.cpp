@@ -69,8 +69,9 @@ public:
   Stretch at(std::size_t voxel) {
     const std::size_t before = m_search.before(voxel);
     if (before == voxel) return Stretch::Own;
-    m_length[voxel] = m_length[before] +
-                      static_cast<float>((m_search.position(voxel) - m_search.position(before)).norm());
+    m_length[voxel] =
+        m_length[before] +
+        static_cast<float>((m_search.position(voxel) - m_search.position(before)).norm());
     Stretch there = m_stretch[before];
     if (m_isOther[voxel]) {
       if (there == Stretch::Beyond || (there == Stretch::Own && m_length[voxel] > m_outset.through))
@@ -106,9 +107,9 @@ std::vector<std::vector<std::size_t>> groupsOf(const VoxelSearch& search,
   for (const std::size_t voxel : front) {
     std::size_t into = groups.size();
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      const bool touches =
-          std::any_of(groups[g].begin(), groups[g].end(),
-                      [&](std::size_t other) { return search.areNeighbours(voxel, other); });
+      const bool touches = std::any_of(groups[g].begin(), groups[g].end(), [&](std::size_t other) {
+        return search.areNeighbours(voxel, other);
+      });
       if (!touches) continue;
       if (into == groups.size()) {
         into = g;
@@ -191,7 +192,8 @@ WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, co
     const Stretch there = stretches.at(voxel);
     if (there == Stretch::Closed) return Then::GoNoFurther;
     const double length = stretches.lengthTo(voxel);
-    if (there != Stretch::Other) onward.visible = std::max(onward.visible, std::min(length, distance));
+    if (there != Stretch::Other)
+      onward.visible = std::max(onward.visible, std::min(length, distance));
     if (length < distance) return Then::GoOn;
     if (there == Stretch::Own || (there == Stretch::Beyond && stretches.isAhead(voxel)))
       front.push_back(voxel);

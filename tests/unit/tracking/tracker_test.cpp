@@ -213,20 +213,6 @@ TEST(Tracker, ASecondClickOnTheSameVesselIsRefused) {
   EXPECT_EQ(out.result.tree.branches.size(), 1u);
 }
 
-TEST(Tracker, AVesselThatRunsThroughAnotherOneKeepsThePartWithItsClick) {
-  // a cross: the second vessel is tracked both ways, through the first
-  const Volume cross = drawVolume(64, 0.2, [](const Vector3d& p) {
-    return std::min(capsule(p, kLow, kHigh, 0.8),
-                    capsule(p, {0.6, 6.4, 6.4}, {12.2, 6.4, 6.4}, 0.7));
-  });
-  const TrackResult out = trackOne(
-      cross, {seedAt("first", {6.4, 6.4, 2.5}, 0.8), seedAt("second", {10.0, 6.4, 6.4}, 0.7)});
-  ASSERT_EQ(out.result.tree.branches.size(), 2u);
-  const formats::Branch& second = out.result.tree.branches[1];
-  for (std::uint32_t i = second.firstNode; i < second.firstNode + second.nodeCount; ++i)
-    EXPECT_GT(out.result.tree.centre[i].x, 6.4F);
-}
-
 /// The number after `words` in `text`.
 double numberAfter(const std::string& text, const std::string& words) {
   const auto at = text.find(words);
@@ -314,14 +300,6 @@ TEST(Tracker, VoxelsThatAreTooUnevenAreRefusedAtOnce) {
   Volume volume = straightTube(0.6);
   volume.geometry.spacing = {0.001, 0.001, 5};
   EXPECT_THROW(trackOne(volume, {seedAt("tube", {0.03, 0.03, 100})}), Error);
-}
-
-TEST(Tracker, AChildOfAFailedParentNamesIt) {
-  SeedBranch child = seedAt("child", {6.4, 6.4, 6}, 0.6);
-  child.parent = "nothing";
-  const TrackResult out = trackOne(straightTube(0.6), {seedAt("nothing", {2, 2, 2}, 0.6), child});
-  ASSERT_EQ(out.failures.size(), 2u);
-  EXPECT_NE(out.failures[1].reason.find("\"nothing\""), std::string::npos);
 }
 
 TEST(Tracker, TouchingTubesStayApart) {

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+// Starts, ends and joints of tracks (docs/method.md, sections 1.7 and 1.12), on drawn tubes.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "converters/common/vectors.h"
+#include "converters/tracking/way.h"
+#include "formats/case/node_origin.h"
+#include "seeded_tubes.h"
+
+namespace lumen::convert {
+namespace {
+
+using formats::NodeOrigin;
+using formats::StopReason;
+
+using Distance = std::function<double(const Vector3d&)>;
+
+/// The tube around a polyline.
+Distance tubeAlong(std::vector<Vector3d> line, double radius) {
+  return [line = std::move(line), radius](const Vector3d& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < line.size(); ++i)
+      least = std::min(least, capsule(p, line[i - 1], line[i], radius));
+    return least;
+  };
+}
+
+Volume draw(const Distance& distance) {
+  return drawVolume(64, 0.2, distance);
+}
+
+double distanceToTree(const formats::CenterlineTree& tree, const Vector3d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const formats::Vec3f& centre : tree.centre)
+    least = std::min(least, (toEigen(centre) - p).norm());
+  return least;
+}
+
+/// Every edge of a tree is about as long as its cylinders.
+void expectNoLongEdge(const formats::CenterlineTree& tree) {
+  for (std::size_t i = 0; i < tree.nodeCount(); ++i) {
+    if (tree.parent[i] == formats::kNoParent) continue;
+    const auto p = static_cast<std::size_t>(tree.parent[i]);
+    const double height = double{std::max(tree.height[i], tree.height[p])};
+    const double radius = double{std::max(tree.radius[i], tree.radius[p])};
+    EXPECT_LT((toEigen(tree.centre[i]) - toEigen(tree.centre[p])).norm(),
+              1.3 * std::max(height, radius))
+        << "node " << i;
+  }
+}
+
+/// Two legs along z whose axes are 2.4 radii apart, and the half circle between them.
+std::vector<Vector3d> hairpin() {
+  std::vector<Vector3d> line{{5.8, 6.4, 0.6}};
+  for (int i = 0; i <= 12; ++i) {
+    const double a = std::numbers::pi * i / 12;
+    line.emplace_back(6.52 - 0.72 * std::cos(a), 6.4, 10.0 + 0.72 * std::sin(a));
+  }
+  line.emplace_back(7.24, 6.4, 0.6);
+  return line;
+}
+
+TEST(Joins, AHairpinIsPassed) {
+  SeedBranch seed = seedAt("leg", {5.8, 6.4, 2}, 0.6);
+  seed.direction = Vector3d::UnitZ();
+  const TrackResult out = trackOne(draw(tubeAlong(hairpin(), 0.6)), {seed});
+  ASSERT_EQ(out.result.tree.branches.size(), 1u);
+  EXPECT_LT(distanceToTree(out.result.tree, {7.24, 6.4, 3}), 0.5);
+  expectNoLongEdge(out.result.tree);
+}
+
+TEST(Joins, ANarrowVesselOpensIntoAWideOne) {
+  const Vector3d mouth(6.4, 6.4, 5);
+  const Volume volume = draw([&](const Vector3d& p) {
+    return std::min(capsule(p, kLow, mouth, 0.5), capsule(p, {6.4, 6.4, 6.2}, kHigh, 1.5));
+  });
+  SeedBranch seed = seedAt("artery", {6.4, 6.4, 1.5}, 0.5);
+  seed.direction = Vector3d::UnitZ();
+  const TrackResult out = trackOne(volume, {seed});
+  ASSERT_EQ(out.result.tree.branches.size(), 1u);
+  EXPECT_GT(out.result.tree.centre.back().z, 9.0F);
+  EXPECT_NEAR(out.result.tree.radius.back(), 1.5, 0.2);
+}
+
+TEST(Joins, AVesselThatCrossesAnotherGoesOnBeyondIt) {
+  const Volume cross = draw([](const Vector3d& p) {
+    return std::min(capsule(p, kLow, kHigh, 0.8),
+                    capsule(p, {0.6, 6.4, 6.4}, {12.2, 6.4, 6.4}, 0.7));
+  });
+  const TrackResult out = trackOne(
+      cross, {seedAt("first", {6.4, 6.4, 2.5}, 0.8), seedAt("second", {10.0, 6.4, 6.4}, 0.7)});
+  for (const double z : {2.0, 5.0, 8.0, 11.0})
+    EXPECT_LT(distanceToTree(out.result.tree, {6.4, 6.4, z}), 0.6) << z;
+  for (const double x : {2.0, 4.0, 9.0, 11.0})
+    EXPECT_LT(distanceToTree(out.result.tree, {x, 6.4, 6.4}), 0.6) << x;
+}
+
+TEST(Joins, AChildIsLedToTheAxisOfItsParent) {
+  SeedBranch trunk = seedAt("trunk", {6.4, 6.4, 1.5}, 1.2);
+  trunk.direction = Vector3d::UnitZ();
+  SeedBranch child = seedAt("child", {9.5, 6.5, 6.4}, 0.7);
+  child.parent = "trunk";
+  const TrackResult out = trackOne(tee(0.7), {trunk, child});
+  ASSERT_EQ(out.result.tree.branches.size(), 2u);
+  const auto& tree = out.result.tree;
+  const auto first = static_cast<std::size_t>(tree.branches[1].firstNode);
+  const auto at = static_cast<std::size_t>(tree.branches[1].parentNode);
+  EXPECT_LT((toEigen(tree.centre[first]) - toEigen(tree.centre[at])).norm(), 0.8);
+  expectNoLongEdge(tree);
+  EXPECT_EQ(formats::nodeOriginsOf(out.result)[first], NodeOrigin::Bridged);
+  EXPECT_EQ(formats::nodeOriginsOf(out.result).back(), NodeOrigin::Measured);
+}
+
+TEST(Joins, AGapIsFilledWithBridgedNodes) {
+  const Volume volume = draw([](const Vector3d& p) {
+    return std::min(capsule(p, kLow, {6.4, 6.4, 4.6}, 1.0),
+                    capsule(p, {6.4, 6.4, 8.6}, kHigh, 1.0));
+  });
+  SeedBranch seed = seedAt("tube", {6.4, 6.4, 2.5}, 1.0);
+  seed.direction = Vector3d::UnitZ();
+  const TrackResult out = trackOne(volume, {seed});
+  EXPECT_GT(out.result.tree.centre.back().z, 11.0F);
+  expectNoLongEdge(out.result.tree);
+  const auto origins = formats::nodeOriginsOf(out.result);
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    const bool isInGap = out.result.tree.centre[i].z > 6.0F && out.result.tree.centre[i].z < 7.2F;
+    if (isInGap) {
+      EXPECT_EQ(origins[i], NodeOrigin::Bridged) << out.result.tree.centre[i].z;
+    }
+  }
+  EXPECT_GT(std::count(origins.begin(), origins.end(), NodeOrigin::Bridged), 0);
+}
+
+TEST(Joins, AChildOfAParentWithoutATrackIsTracked) {
+  SeedBranch child = seedAt("child", {6.4, 6.4, 6}, 0.6);
+  child.parent = "nothing";
+  const TrackResult out = trackOne(straightTube(0.6), {seedAt("nothing", {2, 2, 2}, 0.6), child});
+  ASSERT_EQ(out.failures.size(), 1u);
+  EXPECT_EQ(out.failures[0].label, "nothing");
+  ASSERT_EQ(out.result.tree.branches.size(), 1u);
+  EXPECT_LT(out.result.tree.centre.front().z, 1.5F);
+  EXPECT_GT(out.result.tree.centre.back().z, 11.0F);
+}
+
+TEST(Joins, AGrandchildHangsOnWhatItsParentShouldHaveHungOn) {
+  SeedBranch trunk = seedAt("trunk", {6.4, 6.4, 1.5}, 1.2);
+  trunk.direction = Vector3d::UnitZ();
+  SeedBranch lost = seedAt("lost", {2, 2, 2}, 0.6), child = seedAt("child", {11, 6.4, 6.4}, 0.7);
+  lost.parent = "trunk";
+  child.parent = "lost";
+  const TrackResult out = trackOne(tee(0.7), {trunk, lost, child});
+  ASSERT_EQ(out.result.tree.branches.size(), 2u);
+  EXPECT_EQ(out.result.tree.branches[1].label, "child");
+  ASSERT_GE(out.result.tree.branches[1].parentNode, 0);
+  const auto at = static_cast<std::size_t>(out.result.tree.branches[1].parentNode);
+  EXPECT_NEAR(out.result.tree.centre[at].z, 6.4, 1.0);
+}
+
+TEST(Joins, ATailIsTheClicksThatNamesIt) {
+  // the parent's track runs on, round the corner, into the vessel that the child's click names
+  const Volume volume = draw(tubeAlong({{3, 6.4, 1}, {3, 6.4, 6.4}, {12, 6.4, 6.4}}, 0.8));
+  SeedBranch parent = seedAt("parent", {3, 6.4, 2}, 0.8);
+  parent.direction = Vector3d::UnitZ();
+  SeedBranch child = seedAt("child", {8, 6.45, 6.4});
+  child.parent = "parent";
+  const TrackResult out = trackOne(volume, {parent, child});
+  EXPECT_TRUE(out.failures.empty());
+  ASSERT_EQ(out.result.tree.branches.size(), 2u);
+  const auto& tree = out.result.tree;
+  const auto first = static_cast<std::size_t>(tree.branches[1].firstNode);
+  EXPECT_NEAR(tree.centre[first].x, 8, 0.8);
+  EXPECT_GT(tree.centre.back().x, 10.5F);
+  EXPECT_EQ(static_cast<std::size_t>(tree.parent[first]), first - 1);
+  expectNoLongEdge(tree);
+}
+
+TEST(Joins, AClickInARoundedEndStartsALittleWayAlong) {
+  SeedBranch seed = seedAt("tube", {6.4, 6.4, 0.2}, 1.0);
+  const TrackResult out =
+      trackOne(draw([](const Vector3d& p) { return capsule(p, {6.4, 6.4, 1.0}, kHigh, 1.0); }),
+               {seed});
+  ASSERT_EQ(out.result.tree.branches.size(), 1u);
+  EXPECT_GT(std::max(out.result.tree.centre.front().z, out.result.tree.centre.back().z), 11.0F);
+}
+
+TEST(Joins, ARootWithTwoClicksRunsToBothEnds) {
+  SeedBranch seed = seedAt("tube", {6.4, 6.4, 5}, 0.8);
+  seed.points.push_back({{6.4, 6.4, 7}, 0.8});
+  const TrackResult out = trackOne(straightTube(0.8), {seed});
+  ASSERT_EQ(out.result.tree.branches.size(), 1u);
+  EXPECT_LT(out.result.tree.centre.front().z, 1.5F);
+  EXPECT_GT(out.result.tree.centre.back().z, 11.0F);
+}
+
+TEST(Joins, ARootThatRunsIntoATreeHangsOnIt) {
+  // the second seed names no parent, and its track comes to the first vessel
+  const TrackResult out = trackOne(
+      tee(0.7), {seedAt("trunk", {6.4, 6.4, 2.5}, 1.2), seedAt("arm", {10.5, 6.4, 6.4}, 0.7)});
+  ASSERT_EQ(out.result.tree.branches.size(), 2u);
+  EXPECT_GE(out.result.tree.branches[1].parentNode, 0);
+  EXPECT_GT(out.result.tree.centre.back().x, 11.0F);
+  expectNoLongEdge(out.result.tree);
+}
+
+TEST(Joins, EndsSayWhyTheyAreThere) {
+  const TrackResult tube = trackOne(straightTube(0.8), {seedAt("tube", {6.4, 6.4, 6}, 0.8)});
+  ASSERT_EQ(tube.ends.size(), 2u);
+  EXPECT_TRUE(tube.ends[0].isStart);
+  EXPECT_FALSE(tube.ends[1].isStart);
+  EXPECT_EQ(tube.ends[0].goesOn, 0);
+  EXPECT_EQ(tube.ends[1].goesOn, 0);
+  EXPECT_LT(tube.ends[0].position.z(), 1.5);
+
+  // beyond the tube lies a slab, which is lumen and no vessel
+  const Volume volume = draw([](const Vector3d& p) {
+    return std::min(capsule(p, kLow, {6.4, 6.4, 8}, 0.6), std::abs(p.z() - 8.6) - 0.5);
+  });
+  SeedBranch seed = seedAt("tube", {6.4, 6.4, 2}, 0.6);
+  seed.direction = Vector3d::UnitZ();
+  const TrackResult out = trackOne(volume, {seed});
+  ASSERT_EQ(out.ends.size(), 1u);
+  EXPECT_NE(out.ends[0].reason, StopReason::LeftVolume);
+  EXPECT_GT(out.ends[0].goesOn, 2.0);
+}
+
+/// What a search for ways needs.
+struct Searched {
+  explicit Searched(const Distance& distance) : volume(draw(distance)) {}
+  Volume volume;
+  BsplineVolume spline{volume};
+  TrackOptions options;
+  Progress silent;
+  TrackContext context{spline, options, 0, silent};
+  LumenLevels levels{1000, 500};
+};
+
+TEST(Ways, KeepToTheLumenRoundACorner) {
+  const Searched searched(tubeAlong({{3, 6.4, 1}, {3, 6.4, 10}, {10, 6.4, 10}}, 0.7));
+  const Goal goal{{10, 6.4, 10}, 0};
+  const auto way = findWay(searched.context, searched.levels, {3, 6.4, 2}, {&goal, 1}, 12);
+  ASSERT_TRUE(way.has_value());
+  EXPECT_LT(way->outside, 0.2);
+  EXPECT_NEAR(way->length, 15, 1.5);
+  for (const Vector3d& p : way->points)
+    EXPECT_LT(tubeAlong({{3, 6.4, 1}, {3, 6.4, 10}, {10, 6.4, 10}}, 0.7)(p), 0.1);
+}
+
+TEST(Ways, ThePreferredGoalIsTakenUnlessAnotherIsMuchNearer) {
+  const Searched searched(tubeAlong({kLow, kHigh}, 0.7));
+  const auto goalOf = [&](double surcharge) {
+    const Goal goals[] = {{{6.4, 6.4, 9}, 0}, {{6.4, 6.4, 4}, surcharge}};
+    return findWay(searched.context, searched.levels, {6.4, 6.4, 6}, goals, 8)->goal;
+  };
+  EXPECT_EQ(goalOf(0), 1u);
+  EXPECT_EQ(goalOf(3), 0u);
+}
+
+TEST(Ways, NoGoalWithinReachIsNoWay) {
+  const Searched searched(tubeAlong({kLow, kHigh}, 0.7));
+  const Goal goal{{6.4, 6.4, 11}, 0};
+  EXPECT_FALSE(findWay(searched.context, searched.levels, {6.4, 6.4, 2}, {&goal, 1}, 4));
+  EXPECT_FALSE(findWay(searched.context, searched.levels, {-40, 6.4, 2}, {&goal, 1}, 4));
+}
+
+TEST(Ways, OnwardThereIsOneToEachArmOfAFork) {
+  const Searched searched([](const Vector3d& p) {
+    return std::min({capsule(p, kLow, {6.4, 6.4, 5}, 0.6),
+                     capsule(p, {6.4, 6.4, 5}, {10, 6.4, 10}, 0.6),
+                     capsule(p, {6.4, 6.4, 5}, {3, 6.4, 10}, 0.6)});
+  });
+  Outset outset;
+  outset.place = {6.4, 6.4, 4};
+  outset.behind.push_back({{6.4, 6.4, 3.5}, 1});
+  outset.closed.push_back({{6.4, 6.4, 2.5}, 1});
+  const WaysOnward onward = waysOnward(searched.context, searched.levels, outset, 5);
+  ASSERT_EQ(onward.ways.size(), 2u);
+  EXPECT_NEAR(onward.visible, 5, 0.3);
+  for (const Way& way : onward.ways) {
+    EXPECT_GT(way.points.back().z(), 6.5);
+    EXPECT_NEAR(way.breadth, 0.6, 0.25);
+  }
+  EXPECT_LT(onward.ways[0].points.back().x() * onward.ways[1].points.back().x(), 6.4 * 6.4);
+}
+
+TEST(Ways, OnwardTheyCrossAnotherVesselOnceAndAhead) {
+  const Searched searched([](const Vector3d& p) {
+    return std::min(capsule(p, kLow, kHigh, 0.6), capsule(p, {1, 6.4, 6}, {12, 6.4, 6}, 0.6));
+  });
+  Outset outset;
+  outset.place = {6.4, 6.4, 4.5};
+  outset.behind.push_back({{6.4, 6.4, 4}, 1});
+  outset.closed.push_back({{6.4, 6.4, 3}, 1});
+  for (double x = 1; x <= 12; x += 0.3) outset.others.push_back({{x, 6.4, 6}, 0.8});
+  outset.through = 2;
+  const WaysOnward onward = waysOnward(searched.context, searched.levels, outset, 5);
+  ASSERT_EQ(onward.ways.size(), 1u);
+  EXPECT_NEAR(onward.ways[0].points.back().x(), 6.4, 0.6);
+  EXPECT_GT(onward.ways[0].points.back().z(), 8.0);
+  outset.through = 0.2;
+  EXPECT_TRUE(waysOnward(searched.context, searched.levels, outset, 5).ways.empty());
+}
+
+}  // namespace
+}  // namespace lumen::convert
