@@ -84,6 +84,23 @@ TEST(OpenEdges, StaysWithinTheTube) {
     }
 }
 
+TEST(OpenEdges, MakesNoBulgeOfAThinVessel) {
+  // of radius 0.2 and T = 0.1 mm, closed by a gap of a tenth of the radius
+  Case value = formats::test::noBeads();
+  auto places = alongX(0, 0.1F, 11);
+  for (const auto& place : alongX(1.42F, 0.1F, 11)) places.push_back(place);
+  addBeads(value, "a", places, 0.2F);
+  ASSERT_GT(missing(value), 1);
+  openEdges(value);
+  EXPECT_EQ(missing(value), 0);
+  const field::BlendedField field = formats::blendedFieldOf(value);
+  for (double x = 1; x <= 1.42; x += 0.02) {
+    const field::Vec wall{x, 0.21, 0};
+    EXPECT_LT(field.blended(wall, field.follow(wall, x < 1.21 ? 10 : 11)).value, field.level())
+        << x;
+  }
+}
+
 TEST(OpenEdges, OpensARootsOwnCentre) {
   Case value = formats::test::noBeads();
   addBeads(value, "a", alongX(0, 0.5F, 5), 1);
