@@ -117,14 +117,16 @@ void drawLabels(Labels& labels, const formats::CenterlineTree& tree, const Check
     const auto at = panel.pixel(geometry.indexFromWorld(way[way.size() / 2].position));
     labels.put(panel, at[0] + 4, at[1] - 9, std::to_string(i + 1), kMissing, kTextScale);
   }
-  const int scale = tree.branches.size() > kManyBranches ? 1 : kTextScale;
+  // large ones to the right, else small ones on any side: those that reach far look like another's
+  const bool few = tree.branches.size() <= kManyBranches;
   for (const formats::Branch& branch : tree.branches) {
     const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
     const auto at = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[last])));
-    const double wide = scale * (6.0 * static_cast<double>(branch.label.size()) + 1);
+    const double wide = 6.0 * static_cast<double>(branch.label.size()) + 1;
+    if (few && labels.put(panel, at[0] + 4, at[1] - 9, branch.label, kLabel, kTextScale)) continue;
     for (const auto& [x, y] : {std::pair{4.0, -4.0}, std::pair{-4.0 - wide, -4.0},
-                               std::pair{-0.5 * wide, 4.0}, std::pair{-0.5 * wide, -9.0 * scale}})
-      if (labels.put(panel, at[0] + x, at[1] + y, branch.label, kLabel, scale)) break;
+                               std::pair{-0.5 * wide, 4.0}, std::pair{-0.5 * wide, -13.0}})
+      if (labels.put(panel, at[0] + x, at[1] + y, branch.label, kLabel, 1)) break;
   }
 }
 
