@@ -92,6 +92,7 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
   convert::TrackResult result = convert::track(volume, placed.seeds, track.options, progress);
   warnOfSeeds(file, " started no track: ", result.failures, progress);
   warnOfSeeds(file, " does not pass through its ", result.missedPoints, progress);
+  warnOfSeeds(file, " is not joined to its parent: ", result.unjoined, progress);
   if (result.result.tree.nodeCount() == 0)
     throw failed(file + ": " +
                  (seeds.size() == 1 ? std::string("its seed")

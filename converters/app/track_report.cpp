@@ -39,6 +39,7 @@ std::string endLine(const convert::TrackEnd& end) {
 Json withRemarks(Json json, const convert::TrackRemarks& remarks) {
   json["failed_seeds"] = seedRemarks(remarks.failures);
   json["missed_points"] = seedRemarks(remarks.missedPoints);
+  json["unjoined"] = seedRemarks(remarks.unjoined);
   json["ends"] = Json::array();
   for (const convert::TrackEnd& end : remarks.ends) json["ends"].push_back(endJson(end));
   return json;

@@ -9,7 +9,7 @@
 
 namespace lumen::app {
 
-/// An answer with the members failed_seeds, missed_points and ends.
+/// An answer with the members failed_seeds, missed_points, unjoined and ends.
 Json withRemarks(Json json, const convert::TrackRemarks& remarks);
 
 /// A line for each end beyond which the lumen is seen to lead on, the longest first, as long as

@@ -163,7 +163,9 @@ BranchStart startNearby(const TrackContext& context, const SeedPoint& click,
       const ChainPoint nearest = closestOnChain(parent->nodes, node.centre);
       if (nearest.distance < kInLumen * nearest.radius) continue;
     }
-    if (stepsFrom(context, node, parent, random, workspace) < kTrialSteps) continue;
+    if (node.inlierRate < context.options.inlierRate ||
+        stepsFrom(context, node, parent, random, workspace) < kTrialSteps)
+      continue;
     start.nodes = std::move(there.nodes);
     break;
   }

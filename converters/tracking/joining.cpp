@@ -2,7 +2,9 @@
 #include "converters/tracking/joining.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -27,6 +29,9 @@ constexpr double kOutside = 0.5;
 /// Of the parent's radius: a way that has come so near to its axis has arrived.
 constexpr double kCore = 0.5;
 
+/// Radii of the child: the longest bridge to its parent's wall where the volume shows no lumen.
+constexpr double kLongestBridge = 12;
+
 /// Radii of the child: so much farther may its named parent be than another branch of that tree.
 constexpr double kSurcharge = 3;
 
@@ -34,6 +39,7 @@ constexpr double kSurcharge = 3;
 struct Line {
   std::vector<Vector3d> points;
   std::size_t goal = 0;
+  bool isSeen = true;  ///< the volume shows it
 };
 
 /// The way through the lumen from a place to one of some goals; straight to the first goal if there
@@ -47,7 +53,7 @@ Line lineTo(const TrackContext& context, const LumenLevels& levels, const Vector
   if (way && way->length < kLongestWay * distance + 2 * radius &&
       way->outside < kOutside * way->length)
     return {std::move(way->points), way->goal};
-  return {{from, straight}, 0};
+  return {{from, straight}, 0, false};
 }
 
 /// Cuts off what a branch has in its parent's core before it leaves the parent's lumen for the first
@@ -64,6 +70,16 @@ void cutInCore(const TrackedBranch& parent, TrackedBranch& branch) {
   cut = std::min(cut, branch.nodes.size() - 1);
   branch.nodes.erase(branch.nodes.begin(), branch.nodes.begin() + static_cast<std::ptrdiff_t>(cut));
   branch.clickNode -= std::min(branch.clickNode, cut);
+}
+
+/// Makes a child a root, and says why.
+void leaveAlone(TrackedBranch& branch, const ChainPoint& parent) {
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(),
+                "its first node lies %.1f mm from it, and the volume shows no lumen between them",
+                parent.distance - parent.radius);
+  branch.unjoined = text.data();
+  branch.parentBranch = branch.parentNode = -1;
 }
 
 bool isGap(const TrackedNode& a, const TrackedNode& b) {
@@ -118,6 +134,10 @@ void joinToParent(const TrackContext& context, std::span<const TrackedBranch> al
   add(branch.parentBranch, 0);
   for (const int index : others) add(index, kSurcharge * first.radius);
   const Line line = lineTo(context, levels, first.centre, goals, first.radius);
+  if (!line.isSeen && straight.distance - straight.radius > kLongestBridge * first.radius) {
+    leaveAlone(branch, straight);
+    return;
+  }
   branch.parentBranch = owner[line.goal];
   const TrackedBranch& parent = at(branch.parentBranch);
   std::vector<Vector3d> outward(line.points.rbegin(), line.points.rend());

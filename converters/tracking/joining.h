@@ -16,7 +16,8 @@ void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random
               TrackWorkspace& workspace);
 
 /// Leads a branch back from its first node to the axis of its parent, by nodes before that one, and
-/// sets the parent's node that they hang on. `others`: branches of the parent's tree; if the way
+/// sets the parent's node that they hang on. A branch far from its parent with no lumen between them
+/// becomes a root, and `unjoined` says so. `others`: branches of the parent's tree; if the way
 /// through the lumen leads to one of these first, that is what the branch hangs on. All by position
 /// in the seeds' order; those that have no nodes are passed over. Throws Error(Cancelled).
 void joinToParent(const TrackContext& context, std::span<const TrackedBranch> all,

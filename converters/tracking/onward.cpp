@@ -142,6 +142,7 @@ bool leadOn(const TrackContext& context, TrackedBranch& branch, std::span<const 
     const double distance = std::max(radii * tip.radius, least);
     WaysOnward onward = waysOnward(context, levels, outset, distance);
     branch.goesOn = onward.visible > kRoundEnd * tip.radius ? onward.visible : 0;
+    if (onward.isAll) return false;
     sortByTurn(onward.ways, courseOf(nodes));
     if (takeWay(context, nodes, onward.ways, random, workspace)) return true;
   }

@@ -34,6 +34,7 @@ struct TrackedBranch {
   double goesOn = 0;       ///< mm for which the lumen is seen to lead on beyond the last node
   double startGoesOn = 0;  ///< the same beyond the first
   std::string failure;     ///< why nothing was tracked
+  std::string unjoined;    ///< why it does not hang on its parent, if it should
   std::vector<std::string> missedPoints;  ///< a sentence for each further click not reached
   int parentBranch = -1;                  ///< position in the seeds' order; -1: a root
   int parentNode = -1;                    ///< within that branch

@@ -86,6 +86,7 @@ void remark(const SeedBranch& seed, const TrackedBranch& branch, TrackRemarks& o
   for (const std::string& missed : branch.missedPoints)
     out.missedPoints.push_back({seed.label, missed});
   if (seed.kind != BranchKind::Vessel) return;
+  if (!branch.unjoined.empty()) out.unjoined.push_back({seed.label, branch.unjoined});
   if (branch.parentBranch < 0 && branch.startReason != StopReason::Unknown)
     out.ends.push_back(
         {seed.label, true, branch.startReason, branch.nodes.front().centre, branch.startGoesOn});

@@ -27,6 +27,7 @@ struct TrackEnd {
 struct TrackRemarks {
   std::vector<SeedFailure> failures;
   std::vector<SeedFailure> missedPoints;  ///< of vessels that were tracked
+  std::vector<SeedFailure> unjoined;      ///< vessels that were tracked, and hang on no parent
   std::vector<TrackEnd> ends;             ///< of the vessels that were tracked, in the seeds' order
 };
 

@@ -21,6 +21,8 @@ using formats::StopReason;
 
 /// Radii of the other vessel within which an end that met it is.
 constexpr double kAtEnd = 1.5;
+/// Cosine of 45 degrees: an end looks at what lies nearer to its direction.
+constexpr double kAhead = 0.7;
 /// Of the other's radius: the most of a root's, whose tip may be where it hangs.
 constexpr double kNoWider = 1.2;
 
@@ -132,31 +134,34 @@ void growTips(const TrackContext& context, const Vessels& vessels,
   trimGrowth(vessels, before);
 }
 
-/// The vessel of another tree that an end of a root has met; -1 if there is none.
-int metAt(const Vessels& vessels, std::size_t root, const TrackedNode& end) {
+/// The vessel of another tree that an end of a root has met, or that it stopped before and looks at;
+/// -1 if there is none. `end` looks outward.
+int metAt(const Vessels& vessels, std::size_t root, const TrackedNode& end, StopReason reason) {
+  if (reason == StopReason::Unknown || reason == StopReason::LeftVolume) return -1;
   int best = -1;
   double nearest = kAtEnd;
   for (const std::size_t i : vessels.members()) {
     if (vessels.rootOf(i) == root) continue;
     const ChainPoint at = closestOnChain(vessels[i].nodes, end.centre);
     if (at.distance >= nearest * at.radius) continue;
+    const double ahead = (at.position - end.centre).dot(end.direction);
+    if (reason != StopReason::MetBranch && ahead < kAhead * at.distance) continue;
     nearest = at.distance / at.radius;
     best = static_cast<int>(i);
   }
   return best;
 }
 
-/// A root that ran into another tree hangs on it; by its tip only if it is not wider there, as a
+/// A root that ran into another tree, or up to its wall, hangs on it; by its tip only if it is not wider there, as a
 /// wide vessel does not come out of a narrow one.
 void tieRoots(const Vessels& vessels) {
   for (const std::size_t i : vessels.members()) {
     TrackedBranch& branch = vessels[i];
     if (branch.parentBranch >= 0) continue;
-    int met = -1;
-    if (branch.startReason == StopReason::MetBranch) met = metAt(vessels, i, branch.nodes.front());
-    if (met < 0 && branch.stopReason == StopReason::MetBranch && !vessels.hasTail(i)) {
+    int met = metAt(vessels, i, reversed(branch.nodes.front()), branch.startReason);
+    if (met < 0 && !vessels.hasTail(i)) {
       const TrackedNode& tip = branch.nodes.back();
-      met = metAt(vessels, i, tip);
+      met = metAt(vessels, i, tip, branch.stopReason);
       if (met < 0) continue;
       const auto& other = vessels[static_cast<std::size_t>(met)];
       if (tip.radius > kNoWider * closestOnChain(other.nodes, tip.centre).radius) continue;
@@ -177,15 +182,17 @@ void placeTails(const Vessels& vessels) {
   }
 }
 
+/// `levels`: of all branches, before any was joined: a child that cannot be joined becomes a root.
 void joinLevel(const TrackContext& context, const Vessels& vessels,
-               const std::vector<TrackedBranch>& branches, int level) {
+               const std::vector<TrackedBranch>& branches, const std::vector<int>& levels,
+               int level) {
   std::vector<std::size_t> due;
   for (const std::size_t i : vessels.members())
-    if (!vessels[i].isTail && vessels.levelOf(i) == level) due.push_back(i);
+    if (!vessels[i].isTail && levels[i] == level) due.push_back(i);
   std::vector<std::vector<int>> others(branches.size());
   for (const std::size_t i : due)
     for (const std::size_t other : vessels.members())
-      if (vessels.levelOf(other) < level && vessels.rootOf(other) == vessels.rootOf(i))
+      if (levels[other] < level && vessels.rootOf(other) == vessels.rootOf(i))
         others[i].push_back(static_cast<int>(other));
   vessels.forEach(Use::Join, due, [&](std::size_t i, Random& random, TrackWorkspace& space) {
     joinToParent(context, branches, others[i], vessels[i], random, space);
@@ -216,11 +223,12 @@ void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
                     fillGaps(context, branches[i], random, space);
                   });
   tieRoots(vessels);
-  int deepest = 0;
-  for (const std::size_t i : vessels.members()) deepest = std::max(deepest, vessels.levelOf(i));
+  std::vector<int> levels(branches.size(), 0);
+  for (const std::size_t i : vessels.members()) levels[i] = vessels.levelOf(i);
   placeTails(vessels);
+  const int deepest = *std::max_element(levels.begin(), levels.end());
   for (int level = 1; level <= deepest; ++level) {
-    joinLevel(context, vessels, branches, level);
+    joinLevel(context, vessels, branches, levels, level);
     placeTails(vessels);
   }
   for (std::size_t i = 0; i < seeds.size(); ++i) {

@@ -43,23 +43,19 @@ constexpr double kMore = 1.25;
 /// A wall point about an axis.
 struct WallPlace {
   Vector3d position;
-  double angle = 0, distance = 0, along = 0;
+  double angle = 0, distance = 0;
+  Unknowns row = Unknowns::Zero();  ///< see Section
 };
 
 /// An ellipse about that axis, which widens or narrows along it: the inverse square of the distance of
 /// its wall is linear in the sine and cosine of twice the angle; those of the angle itself move it, to
-/// first order; the place along the axis and its square are a taper and a throat.
+/// first order; the place along the axis and its square are a taper and a throat. These make the row
+/// of a place.
 struct Section {
   Unknowns curve = Unknowns::Zero();
 
-  static Unknowns rowAt(const WallPlace& p) {
-    Unknowns row;
-    row << 1.0, std::cos(p.angle), std::sin(p.angle), std::cos(2 * p.angle), std::sin(2 * p.angle),
-        p.along, p.along * p.along;
-    return row;
-  }
   [[nodiscard]] double wallAt(const WallPlace& p) const {
-    const double inverse = rowAt(p).dot(curve);
+    const double inverse = p.row.dot(curve);
     return inverse > 0 ? 1.0 / std::sqrt(inverse) : std::numeric_limits<double>::infinity();
   }
   [[nodiscard]] double oblong() const { return std::hypot(curve[3], curve[4]); }
@@ -100,20 +96,22 @@ std::vector<WallPlace> placesAround(const TrackContext& context, const TrackedNo
       return valueAt(node.centre + share * offset) > level;
     });
     if (!isLumen) continue;
-    places.push_back({node.centre + offset});
+    places.emplace_back().position = node.centre + offset;
   }
   return places;
 }
 
-/// Angles and distances about an axis.
+/// Angles, distances and rows about an axis.
 void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<WallPlace>& places) {
   const auto [u, v] = planeBasis(axis);
   for (WallPlace& p : places) {
     const Vector3d offset = p.position - centre;
     const double a = offset.dot(u), b = offset.dot(v);
     p.angle = std::atan2(b, a);
-    p.distance = std::hypot(a, b);
-    p.along = offset.dot(axis);
+    p.distance = std::sqrt(a * a + b * b);
+    const double along = offset.dot(axis);
+    const double c = p.distance > 0 ? a / p.distance : 1, s = p.distance > 0 ? b / p.distance : 0;
+    p.row << 1.0, c, s, c * c - s * s, 2 * s * c, along, along * along;
   }
 }
 
@@ -133,9 +131,9 @@ Section fitWall(const std::vector<WallPlace>& places, double radius) {
       const double t = residuals[i] / (kBiweight * scale);
       if (t >= 1) continue;
       // what a change of the inverse square moves the wall by
-      const double slope = 0.5 * std::pow(section.wallAt(places[i]), 3);
+      const double wall = section.wallAt(places[i]), slope = 0.5 * wall * wall * wall;
       const double weight = (1 - t * t) * (1 - t * t) * slope * slope;
-      const Unknowns row = Section::rowAt(places[i]);
+      const Unknowns& row = places[i].row;
       const double distance = std::max(places[i].distance, 1e-3 * radius);
       normal += weight * row * row.transpose();
       right += weight / (distance * distance) * row;
@@ -170,7 +168,7 @@ Vector3d chordAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
 /// The sectors that the node's own wall points lie in.
 std::size_t sectorsOf(const TrackedNode& node, const Vector3d& axis) {
   std::vector<WallPlace> places;
-  for (const formats::Vec3f& p : node.points) places.push_back({toEigen(p)});
+  for (const formats::Vec3f& p : node.points) places.emplace_back().position = toEigen(p);
   measureAbout(node.centre, axis, places);
   return sectorsWith(places);
 }

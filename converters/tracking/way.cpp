@@ -17,9 +17,6 @@ namespace {
 using Eigen::Vector3d;
 using Then = VoxelSearch::Then;
 
-/// Cosine of 60 degrees: a vessel that crosses another hardly turns.
-constexpr double kCrossing = 0.5;
-
 /// Passes of smoothing of a way along lattice edges.
 constexpr int kSmoothing = 6;
 
@@ -84,9 +81,7 @@ public:
     return m_stretch[voxel] = there;
   }
   [[nodiscard]] double lengthTo(std::size_t voxel) const { return double{m_length[voxel]}; }
-  [[nodiscard]] bool isAhead(std::size_t voxel) const {
-    return along(voxel) > kCrossing * (m_search.position(voxel) - m_outset.place).norm();
-  }
+  [[nodiscard]] bool isAhead(std::size_t voxel) const { return along(voxel) > 0; }
 
 private:
   [[nodiscard]] double along(std::size_t voxel) const {
@@ -195,6 +190,7 @@ WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, co
     if (there != Stretch::Other)
       onward.visible = std::max(onward.visible, std::min(length, distance));
     if (length < distance) return Then::GoOn;
+    onward.isAll = false;
     if (there == Stretch::Own || (there == Stretch::Beyond && stretches.isAhead(voxel)))
       front.push_back(voxel);
     return Then::GoNoFurther;

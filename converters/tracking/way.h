@@ -50,11 +50,12 @@ struct Outset {
 struct WaysOnward {
   std::vector<Way> ways;  ///< one to each part of the lumen at that distance, the cheapest first
   double visible = 0;     ///< mm along the lumen to its farthest place, at most the distance
+  bool isAll = true;      ///< nothing leads farther than the distance, not even in another vessel
 };
 
 /// The ways within the lumen to everything that is `distance` mm of way from a place: where the
 /// lumen forks there are several, where it ends before there is none. Those through another vessel
-/// lead within 60 degrees of the direction. Throws Error(Cancelled).
+/// end ahead of the place. Throws Error(Cancelled).
 WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, const Outset& outset,
                       double distance);
 

@@ -118,8 +118,8 @@ TEST(Joins, AChildIsLedToTheAxisOfItsParent) {
 
 TEST(Joins, AGapIsFilledWithBridgedNodes) {
   const Volume volume = draw([](const Vector3d& p) {
-    return std::min(capsule(p, kLow, {6.4, 6.4, 4.6}, 1.0),
-                    capsule(p, {6.4, 6.4, 8.6}, kHigh, 1.0));
+    return std::min(capsule(p, kLow, {6.4, 6.4, 5.0}, 1.0),
+                    capsule(p, {6.4, 6.4, 8.2}, kHigh, 1.0));
   });
   SeedBranch seed = seedAt("tube", {6.4, 6.4, 2.5}, 1.0);
   seed.direction = Vector3d::UnitZ();
@@ -128,7 +128,7 @@ TEST(Joins, AGapIsFilledWithBridgedNodes) {
   expectNoLongEdge(out.result.tree);
   const auto origins = formats::nodeOriginsOf(out.result);
   for (std::size_t i = 0; i < origins.size(); ++i) {
-    const bool isInGap = out.result.tree.centre[i].z > 6.0F && out.result.tree.centre[i].z < 7.2F;
+    const bool isInGap = out.result.tree.centre[i].z > 6.4F && out.result.tree.centre[i].z < 6.8F;
     if (isInGap) {
       EXPECT_EQ(origins[i], NodeOrigin::Bridged) << out.result.tree.centre[i].z;
     }
@@ -162,28 +162,28 @@ TEST(Joins, AGrandchildHangsOnWhatItsParentShouldHaveHungOn) {
 }
 
 TEST(Joins, ATailIsTheClicksThatNamesIt) {
-  // the parent's track runs on, round the corner, into the vessel that the child's click names
-  const Volume volume = draw(tubeAlong({{3, 6.4, 1}, {3, 6.4, 6.4}, {12, 6.4, 6.4}}, 0.8));
-  SeedBranch parent = seedAt("parent", {3, 6.4, 2}, 0.8);
+  // the parent's track runs on into the vessel that the child's click names
+  SeedBranch parent = seedAt("parent", {6.4, 6.4, 2}, 0.8);
   parent.direction = Vector3d::UnitZ();
-  SeedBranch child = seedAt("child", {8, 6.45, 6.4});
+  SeedBranch child = seedAt("child", {6.4, 6.45, 7});
   child.parent = "parent";
-  const TrackResult out = trackOne(volume, {parent, child});
+  const TrackResult out = trackOne(straightTube(0.8), {parent, child});
   EXPECT_TRUE(out.failures.empty());
   ASSERT_EQ(out.result.tree.branches.size(), 2u);
   const auto& tree = out.result.tree;
   const auto first = static_cast<std::size_t>(tree.branches[1].firstNode);
-  EXPECT_NEAR(tree.centre[first].x, 8, 0.8);
-  EXPECT_GT(tree.centre.back().x, 10.5F);
+  EXPECT_NEAR(tree.centre[first].z, 7, 0.8);
+  EXPECT_GT(tree.centre.back().z, 11.0F);
   EXPECT_EQ(static_cast<std::size_t>(tree.parent[first]), first - 1);
   expectNoLongEdge(tree);
 }
 
 TEST(Joins, AClickInARoundedEndStartsALittleWayAlong) {
   SeedBranch seed = seedAt("tube", {6.4, 6.4, 0.2}, 1.0);
-  const TrackResult out =
-      trackOne(draw([](const Vector3d& p) { return capsule(p, {6.4, 6.4, 1.0}, kHigh, 1.0); }),
-               {seed});
+  const TrackResult out = trackOne(draw([](const Vector3d& p) {
+                                     return capsule(p, {6.4, 6.4, 1.0}, kHigh, 1.0);
+                                   }),
+                                   {seed});
   ASSERT_EQ(out.result.tree.branches.size(), 1u);
   EXPECT_GT(std::max(out.result.tree.centre.front().z, out.result.tree.centre.back().z), 11.0F);
 }
@@ -216,9 +216,10 @@ TEST(Joins, EndsSayWhyTheyAreThere) {
   EXPECT_EQ(tube.ends[1].goesOn, 0);
   EXPECT_LT(tube.ends[0].position.z(), 1.5);
 
-  // beyond the tube lies a slab, which is lumen and no vessel
+  // beyond the tube lies a ball, which is lumen and no tube
   const Volume volume = draw([](const Vector3d& p) {
-    return std::min(capsule(p, kLow, {6.4, 6.4, 8}, 0.6), std::abs(p.z() - 8.6) - 0.5);
+    return std::min(capsule(p, kLow, {6.4, 6.4, 6}, 0.6),
+                    (p - Vector3d(6.4, 6.4, 8.3)).norm() - 2.5);
   });
   SeedBranch seed = seedAt("tube", {6.4, 6.4, 2}, 0.6);
   seed.direction = Vector3d::UnitZ();
