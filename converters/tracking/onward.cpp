@@ -30,7 +30,7 @@ constexpr double kThrough = 3;
 /// Nodes at a tip that tell the levels of its lumen.
 constexpr std::size_t kLevelNodes = 12;
 /// Of the last radius: the range of that of a way's end.
-constexpr double kNarrowest = 0.4, kWidest = 1.5;
+constexpr double kNarrowest = 0.6, kWidest = 1.5;
 /// Of the nodes along a way: the share that must have been fitted, and how many of the last.
 constexpr double kFitted = 0.3;
 constexpr std::size_t kLastFitted = 3;
@@ -119,6 +119,7 @@ bool takeWay(const TrackContext& context, std::vector<TrackedNode>& nodes,
     const double end = std::clamp(way.breadth, kNarrowest * radius, kWidest * radius);
     auto found = nodesAlong(context, way.points, radius, end, nullptr, random, workspace);
     if (!isVessel(nodes, found)) {
+      if (way.breadth < kWidest * radius) continue;
       auto last = fitEnd(context, way, random, workspace);
       if (!last) continue;
       found.push_back(std::move(*last));
