@@ -28,6 +28,7 @@ constexpr double kOnTheWay[] = {0.4, 0.6, 0.8};
 /// Rounds of reweighting, and the robust width (in standard deviations) beyond which a point counts
 /// for nothing (J. Tukey's biweight).
 constexpr int kRounds = 12;
+constexpr double kConverged = 1e-3;  // of the unknowns, from round to round
 constexpr double kBiweight = 4.685, kDeviations = 1.4826;
 /// The longest section, as the ratio of its axes: a longer one is two vessels. Rays of kRayRadii show
 /// it in full around a circle that fits between its sides.
@@ -43,7 +44,8 @@ constexpr double kMore = 1.25;
 /// A wall point about an axis.
 struct WallPlace {
   Vector3d position;
-  double angle = 0, distance = 0, along = 0;
+  double angle = 0, distance = 0;
+  Unknowns row = Unknowns::Zero();  ///< of the section's unknowns; see Section
 };
 
 /// An ellipse about that axis, which widens or narrows along it: the inverse square of the distance of
@@ -52,14 +54,14 @@ struct WallPlace {
 struct Section {
   Unknowns curve = Unknowns::Zero();
 
-  static Unknowns rowAt(const WallPlace& p) {
+  static Unknowns rowAt(double angle, double along) {
     Unknowns row;
-    row << 1.0, std::cos(p.angle), std::sin(p.angle), std::cos(2 * p.angle), std::sin(2 * p.angle),
-        p.along, p.along * p.along;
+    row << 1.0, std::cos(angle), std::sin(angle), std::cos(2 * angle), std::sin(2 * angle), along,
+        along * along;
     return row;
   }
   [[nodiscard]] double wallAt(const WallPlace& p) const {
-    const double inverse = rowAt(p).dot(curve);
+    const double inverse = p.row.dot(curve);
     return inverse > 0 ? 1.0 / std::sqrt(inverse) : std::numeric_limits<double>::infinity();
   }
   [[nodiscard]] double oblong() const { return std::hypot(curve[3], curve[4]); }
@@ -113,7 +115,7 @@ void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<Wall
     const double a = offset.dot(u), b = offset.dot(v);
     p.angle = std::atan2(b, a);
     p.distance = std::hypot(a, b);
-    p.along = offset.dot(axis);
+    p.row = Section::rowAt(p.angle, offset.dot(axis));
   }
 }
 
@@ -123,25 +125,30 @@ Section fitWall(const std::vector<WallPlace>& places, double radius) {
   Section section;
   section.curve[0] = 1.0 / (radius * radius);
   for (int round = 0; round < kRounds && section.isValid(); ++round) {
-    std::vector<double> residuals;
-    for (const WallPlace& p : places) residuals.push_back(std::abs(p.distance - section.wallAt(p)));
+    std::vector<double> walls, residuals;
+    for (const WallPlace& p : places) {
+      walls.push_back(section.wallAt(p));
+      residuals.push_back(std::abs(p.distance - walls.back()));
+    }
     const double scale = std::max(kDeviations * median(residuals), 1e-3 * radius);
-    Eigen::Matrix<double, kUnknowns, kUnknowns> normal =
-        Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
+    Eigen::Matrix<double, kUnknowns, kUnknowns> normal;
+    normal.setZero();
     Unknowns right = Unknowns::Zero();
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double t = residuals[i] / (kBiweight * scale);
       if (t >= 1) continue;
       // what a change of the inverse square moves the wall by
-      const double slope = 0.5 * std::pow(section.wallAt(places[i]), 3);
+      const double slope = 0.5 * walls[i] * walls[i] * walls[i];
       const double weight = (1 - t * t) * (1 - t * t) * slope * slope;
-      const Unknowns row = Section::rowAt(places[i]);
       const double distance = std::max(places[i].distance, 1e-3 * radius);
-      normal += weight * row * row.transpose();
-      right += weight / (distance * distance) * row;
+      normal += weight * places[i].row * places[i].row.transpose();
+      right += weight / (distance * distance) * places[i].row;
     }
     normal.diagonal().array() += 1e-9 * normal.trace();
-    section.curve = normal.ldlt().solve(right);
+    const Unknowns next = normal.ldlt().solve(right);
+    const bool isDone = (next - section.curve).norm() < kConverged * section.curve.norm();
+    section.curve = next;
+    if (isDone) break;
   }
   return section;
 }
