@@ -27,8 +27,8 @@ constexpr double kLeastStrength = 0.3;
 constexpr double kOnTheWay[] = {0.4, 0.6, 0.8};
 /// Rounds of reweighting, and the robust width (in standard deviations) beyond which a point counts
 /// for nothing (J. Tukey's biweight).
-constexpr int kRounds = 12;
-constexpr double kConverged = 1e-3;  // of the unknowns, from round to round
+constexpr int kReweightings = 12;
+constexpr double kStands = 1e-3;  // of the unknowns, from round to round
 constexpr double kBiweight = 4.685, kDeviations = 1.4826;
 /// The longest section, as the ratio of its axes: a longer one is two vessels. Rays of kRayRadii show
 /// it in full around a circle that fits between its sides.
@@ -124,7 +124,7 @@ void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<Wall
 Section fitWall(const std::vector<WallPlace>& places, double radius) {
   Section section;
   section.curve[0] = 1.0 / (radius * radius);
-  for (int round = 0; round < kRounds && section.isValid(); ++round) {
+  for (int round = 0; round < kReweightings && section.isValid(); ++round) {
     std::vector<double> walls, residuals;
     for (const WallPlace& p : places) {
       walls.push_back(section.wallAt(p));
@@ -146,7 +146,7 @@ Section fitWall(const std::vector<WallPlace>& places, double radius) {
     }
     normal.diagonal().array() += 1e-9 * normal.trace();
     const Unknowns next = normal.ldlt().solve(right);
-    const bool isDone = (next - section.curve).norm() < kConverged * section.curve.norm();
+    const bool isDone = (next - section.curve).norm() < kStands * section.curve.norm();
     section.curve = next;
     if (isDone) break;
   }
