@@ -37,7 +37,7 @@ constexpr double kLevelReach = 2.5;
 /// Voxels: a half level that is nearer to the steepest fall than that is not told from it.
 constexpr double kLopsided = 0.05;
 /// Of the radius: the most that the half level moves a wall.
-constexpr double kMostShift = 0.1;
+constexpr double kMostLopsided = 0.1;
 constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // of the Gaussian exp(-x^2/2)
 
 /// The last partial denominator of the continued fraction: it has converged to all digits for the
@@ -242,7 +242,7 @@ std::optional<WallShape> measureWalls(const BsplineVolume& volume,
 void correctWalls(TrackedBranch& branch, formats::BranchKind kind, const WallShape& shape) {
   for (TrackedNode& node : branch.nodes) {
     const bool vessel = kind == formats::BranchKind::Vessel;
-    const double most = kMostShift * node.radius;
+    const double most = kMostLopsided * node.radius;
     const double seen = node.radius + std::clamp(shape.halfLevel, -most, most);
     const double radius =
         vessel ? cylinderRadius(seen, shape.pointSpread) : ballRadius(seen, shape.pointSpread);

@@ -18,13 +18,13 @@ namespace {
 using Eigen::Vector3d;
 
 /// Times the radius of the vessel on either side: a wider node is swollen (as in section 1.5).
-constexpr double kSwollen = 1.5;
+constexpr double kSwollenOnBoth = 1.5;
 /// Of the node's radius: how far to either side the vessel tells what is expected. A bulge that is
 /// longer than it is wide is expected, then.
 constexpr double kSide = 4;
 /// The fewest nodes on a side, and of the expected radius: how far aside a new fit may lie.
-constexpr std::size_t kLeastNodes = 3;
-constexpr double kMostAside = 1.0;
+constexpr std::size_t kFewestBeside = 3;
+constexpr double kMostOffLine = 1.0;
 /// Of random numbers: far from those of tracking.
 constexpr std::uint64_t kFirstStream = std::uint64_t{1} << 32;
 
@@ -41,7 +41,7 @@ std::optional<double> radiusBeside(const std::vector<TrackedNode>& nodes, std::s
     i = next;
     if (nodes[i].origin == formats::NodeOrigin::Measured) radii.push_back(nodes[i].radius);
   }
-  if (radii.size() < kLeastNodes) return std::nullopt;
+  if (radii.size() < kFewestBeside) return std::nullopt;
   return median(std::move(radii));
 }
 
@@ -53,7 +53,8 @@ std::optional<double> expectedInstead(const TrackContext& context,
     return std::nullopt;
   const auto before = radiusBeside(nodes, n, false, kSide * node.radius);
   const auto after = radiusBeside(nodes, n, true, kSide * node.radius);
-  if (!before || !after || node.radius <= kSwollen * std::max(*before, *after)) return std::nullopt;
+  if (!before || !after || node.radius <= kSwollenOnBoth * std::max(*before, *after))
+    return std::nullopt;
   return 0.5 * (*before + *after);
 }
 
@@ -72,8 +73,8 @@ void replaceRun(const TrackContext& context, std::vector<TrackedNode>& nodes, st
     const double radius = expected[n];
     NodeFit fit = fitNode(context, {place, direction, radius, true, 0.5 * step},
                           leastInlierRate(context.options), random, workspace);
-    if (fit.node && fit.node->radius <= kSwollen * radius &&
-        (fit.node->centre - place).norm() <= kMostAside * radius) {
+    if (fit.node && fit.node->radius <= kSwollenOnBoth * radius &&
+        (fit.node->centre - place).norm() <= kMostOffLine * radius) {
       nodes[n] = std::move(*fit.node);
       continue;
     }

@@ -27,7 +27,8 @@ constexpr double kLeastStrength = 0.3;
 constexpr double kOnTheWay[] = {0.4, 0.6, 0.8};
 /// Rounds of reweighting, and the robust width (in standard deviations) beyond which a point counts
 /// for nothing (J. Tukey's biweight).
-constexpr int kRounds = 12;
+constexpr int kReweightings = 12;
+constexpr double kStands = 1e-3;  // of the unknowns, from round to round
 constexpr double kBiweight = 4.685, kDeviations = 1.4826;
 /// The longest section, as the ratio of its axes: a longer one is two vessels. Rays of kRayRadii show
 /// it in full around a circle that fits between its sides.
@@ -44,16 +45,21 @@ constexpr double kMore = 1.25;
 struct WallPlace {
   Vector3d position;
   double angle = 0, distance = 0;
-  Unknowns row = Unknowns::Zero();  ///< see Section
+  Unknowns row = Unknowns::Zero();  ///< of the section's unknowns; see Section
 };
 
 /// An ellipse about that axis, which widens or narrows along it: the inverse square of the distance of
 /// its wall is linear in the sine and cosine of twice the angle; those of the angle itself move it, to
-/// first order; the place along the axis and its square are a taper and a throat. These make the row
-/// of a place.
+/// first order; the place along the axis and its square are a taper and a throat.
 struct Section {
   Unknowns curve = Unknowns::Zero();
 
+  static Unknowns rowAt(double angle, double along) {
+    Unknowns row;
+    row << 1.0, std::cos(angle), std::sin(angle), std::cos(2 * angle), std::sin(2 * angle), along,
+        along * along;
+    return row;
+  }
   [[nodiscard]] double wallAt(const WallPlace& p) const {
     const double inverse = p.row.dot(curve);
     return inverse > 0 ? 1.0 / std::sqrt(inverse) : std::numeric_limits<double>::infinity();
@@ -96,22 +102,20 @@ std::vector<WallPlace> placesAround(const TrackContext& context, const TrackedNo
       return valueAt(node.centre + share * offset) > level;
     });
     if (!isLumen) continue;
-    places.emplace_back().position = node.centre + offset;
+    places.push_back({node.centre + offset});
   }
   return places;
 }
 
-/// Angles, distances and rows about an axis.
+/// Angles and distances about an axis.
 void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<WallPlace>& places) {
   const auto [u, v] = planeBasis(axis);
   for (WallPlace& p : places) {
     const Vector3d offset = p.position - centre;
     const double a = offset.dot(u), b = offset.dot(v);
     p.angle = std::atan2(b, a);
-    p.distance = std::sqrt(a * a + b * b);
-    const double along = offset.dot(axis);
-    const double c = p.distance > 0 ? a / p.distance : 1, s = p.distance > 0 ? b / p.distance : 0;
-    p.row << 1.0, c, s, c * c - s * s, 2 * s * c, along, along * along;
+    p.distance = std::hypot(a, b);
+    p.row = Section::rowAt(p.angle, offset.dot(axis));
   }
 }
 
@@ -120,26 +124,31 @@ void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<Wall
 Section fitWall(const std::vector<WallPlace>& places, double radius) {
   Section section;
   section.curve[0] = 1.0 / (radius * radius);
-  for (int round = 0; round < kRounds && section.isValid(); ++round) {
-    std::vector<double> residuals;
-    for (const WallPlace& p : places) residuals.push_back(std::abs(p.distance - section.wallAt(p)));
+  for (int round = 0; round < kReweightings && section.isValid(); ++round) {
+    std::vector<double> walls, residuals;
+    for (const WallPlace& p : places) {
+      walls.push_back(section.wallAt(p));
+      residuals.push_back(std::abs(p.distance - walls.back()));
+    }
     const double scale = std::max(kDeviations * median(residuals), 1e-3 * radius);
-    Eigen::Matrix<double, kUnknowns, kUnknowns> normal =
-        Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
+    Eigen::Matrix<double, kUnknowns, kUnknowns> normal;
+    normal.setZero();
     Unknowns right = Unknowns::Zero();
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double t = residuals[i] / (kBiweight * scale);
       if (t >= 1) continue;
       // what a change of the inverse square moves the wall by
-      const double wall = section.wallAt(places[i]), slope = 0.5 * wall * wall * wall;
+      const double slope = 0.5 * walls[i] * walls[i] * walls[i];
       const double weight = (1 - t * t) * (1 - t * t) * slope * slope;
-      const Unknowns& row = places[i].row;
       const double distance = std::max(places[i].distance, 1e-3 * radius);
-      normal += weight * row * row.transpose();
-      right += weight / (distance * distance) * row;
+      normal += weight * places[i].row * places[i].row.transpose();
+      right += weight / (distance * distance) * places[i].row;
     }
     normal.diagonal().array() += 1e-9 * normal.trace();
-    section.curve = normal.ldlt().solve(right);
+    const Unknowns next = normal.ldlt().solve(right);
+    const bool isDone = (next - section.curve).norm() < kStands * section.curve.norm();
+    section.curve = next;
+    if (isDone) break;
   }
   return section;
 }
@@ -168,7 +177,7 @@ Vector3d chordAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
 /// The sectors that the node's own wall points lie in.
 std::size_t sectorsOf(const TrackedNode& node, const Vector3d& axis) {
   std::vector<WallPlace> places;
-  for (const formats::Vec3f& p : node.points) places.emplace_back().position = toEigen(p);
+  for (const formats::Vec3f& p : node.points) places.push_back({toEigen(p)});
   measureAbout(node.centre, axis, places);
   return sectorsWith(places);
 }
