@@ -7,6 +7,7 @@
 #include "converters/app/file_access.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
+#include "converters/app/value_checks.h"
 #include "converters/check/check.h"
 #include "converters/check/overlay.h"
 #include "converters/common/vectors.h"
@@ -238,25 +239,19 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    app.add_option("VOLUME", m_input, formatTitles(canReadVolume))->required()->configurable(false);
-    app.add_option("CASE", m_case, "The case that was made from it")
-        ->required()
-        ->configurable(false);
+    addFile(app, "VOLUME", m_input, formatTitles(canReadVolume));
+    addFile(app, "CASE", m_case, "The case that was made from it");
     addVolumeOptions(app, m_volume);
-    app.add_option("--overlay", m_overlay,
-                   "Also write projections of the volume with the tree, as PNG")
-        ->type_name("FILE")
-        ->configurable(false);
-    app.add_option("--mask", m_mask,
-                   "Also write the lumen as a volume of labels, 1 for the first branch: " +
-                       formatEndings(canWriteVolume))
-        ->type_name("FILE")
-        ->configurable(false);
+    addFile(app, "--overlay", m_overlay,
+            "Also write projections of the volume with the tree, as PNG");
+    addFile(app, "--mask", m_mask,
+            "Also write the lumen as a volume of labels, 1 for the first branch: " +
+                formatEndings(canWriteVolume));
     app.add_option("--point-spread", m_pointSpread,
                    "Blur of the volume, a standard deviation in mm: it displaces the edges of thin "
                    "vessels; 0 takes them as they are seen [what the case records, else 0]")
         ->type_name("MM")
-        ->check(CLI::NonNegativeNumber);
+        ->check(numberIn({0, 1000}));
     app.add_option("--from", m_from, "Format of VOLUME, whatever its name")->type_name("F");
   }
 

@@ -72,6 +72,20 @@ void cutInCore(const TrackedBranch& parent, TrackedBranch& branch) {
   branch.clickNode -= std::min(branch.clickNode, cut);
 }
 
+/// A way that comes to a branch behind its first node would lead back along the branch: cuts off the
+/// way from there on, and what the branch has before.
+void cutDetour(std::vector<TrackedNode>& way, TrackedBranch& branch) {
+  for (std::size_t w = 0; w < way.size(); ++w) {
+    const ChainPoint at = closestOnChain(branch.nodes, way[w].centre);
+    if (at.node == 0 || at.distance > kCore * at.radius) continue;
+    way.resize(w);
+    branch.nodes.erase(branch.nodes.begin(),
+                       branch.nodes.begin() + static_cast<std::ptrdiff_t>(at.node));
+    branch.clickNode -= std::min(branch.clickNode, at.node);
+    return;
+  }
+}
+
 /// Makes a child a root, and says why.
 void leaveAlone(TrackedBranch& branch, const ChainPoint& parent) {
   std::array<char, 128> text{};
@@ -146,6 +160,7 @@ void joinToParent(const TrackContext& context, std::span<const TrackedBranch> al
   outward.front() = parent.nodes[root.node].centre;
   auto way = nodesAlong(context, outward, std::min(first.radius, root.radius), first.radius,
                         &parent, random, workspace);
+  cutDetour(way, branch);
   branch.clickNode += way.size();
   branch.nodes.insert(branch.nodes.begin(), std::make_move_iterator(way.begin()),
                       std::make_move_iterator(way.end()));
