@@ -88,7 +88,8 @@ TEST(OptionsTest, NoFileIsCalledAHyphenOrNothing) {
     for (const std::string value : {"-", ""}) {
       // positional arguments are filled from the first on
       const std::string word = argument.positional ? "x" : argument.name;
-      const bool isSecond = argument.name.starts_with("OUT") || argument.name == "TRUTH";
+      const bool isSecond = argument.name.starts_with("OUT") || argument.name == "TRUTH" ||
+                            (argument.command == "check" && argument.name == "CASE");
       std::vector<std::string> line = {argument.command};
       if (!argument.positional || isSecond)
         line.push_back(argument.command == "phantom" && isSecond ? "tube" : word);

@@ -63,7 +63,7 @@ void expectAgreement(const Fitted& f) {
     const Offsets& found = report.branches[b].offsets;
     if (errors[b].size() < kEnough || found.samples < kEnough) continue;
     ++compared;
-    EXPECT_NEAR(found.median, median(errors[b]), 0.1 * report.voxelSize)
+    EXPECT_NEAR(found.median, median(errors[b]), 0.125 * report.voxelSize)
         << f.value.tree.branches[b].label;
     EXPECT_LT(found.noEdge + found.wrongPolarity, 0.1) << f.value.tree.branches[b].label;
   }
