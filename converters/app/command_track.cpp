@@ -2,6 +2,7 @@
 // lumen track: a volume and seeds to a tree with wall points.
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
 #include "converters/app/track_report.h"
