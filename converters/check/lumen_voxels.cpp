@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include "converters/common/vectors.h"
 
@@ -78,7 +77,7 @@ LumenVoxels::LumenVoxels(const formats::CenterlineTree& tree, const field::Blend
   });
   std::vector<Claim> all;
   for (const auto& some : claims) all.insert(all.end(), some.begin(), some.end());
-  tbb::parallel_sort(all.begin(), all.end(), [](const Claim& a, const Claim& b) {
+  std::sort(all.begin(), all.end(), [](const Claim& a, const Claim& b) {
     return std::tie(a.index, a.power, a.node) < std::tie(b.index, b.power, b.node);
   });
   for (const Claim& claim : all) {
