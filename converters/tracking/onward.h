@@ -18,7 +18,7 @@ namespace lumen::convert {
 void addBalls(std::span<const TrackedNode> nodes, const VolumeGeometry& geometry,
               std::vector<Ball>& balls);
 
-/// Goes on from the tip of a track that found no cylinder or turned back: along each way that the
+/// Goes on from the tip of a track that found no cylinder, turned back, or met another vessel: along each way that the
 /// lumen leads on by, the straightest first, until one holds nodes like those before; from there as
 /// usual. `others`: where it must not go. Writes the stop reason, and to `goesOn` how far the lumen
 /// can be seen to lead on beyond the tip. Every round makes the track longer, so that it ends.
