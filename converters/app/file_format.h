@@ -10,8 +10,8 @@
 
 #include "converters/app/file_content.h"
 #include "converters/common/progress.h"
-#include "converters/mesh/polygonise.h"
 #include "converters/mesh/write_options.h"
+#include "converters/surface/polygonise.h"
 #include "converters/volume/read_volume.h"
 #include "formats/case/case.h"
 #include "formats/case/case_file.h"

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "converters/app/report.h"
-#include "converters/mesh/cell_size.h"
+#include "converters/surface/cell_size.h"
 #include "formats/container/printable.h"
 
 namespace lumen::app {

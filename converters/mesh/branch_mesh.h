@@ -9,10 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace lumen::convert {
+#include "converters/mesh/surface_mesh.h"
 
-using Float3 = std::array<float, 3>;
-using Triangle = std::array<std::uint32_t, 3>;
+namespace lumen::convert {
 
 /// What the mesh of a branch lacks of its surface.
 struct BranchLosses {

@@ -23,6 +23,6 @@ endforeach()
 
 add_executable(lumen_patient_fits ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/patient_fits.cpp)
 target_link_libraries(lumen_patient_fits PRIVATE
-  lumen_reproduce lumen_tracking lumen_phantom lumen_mesh lumen_terminal)
+  lumen_reproduce lumen_tracking lumen_phantom lumen_surface lumen_terminal)
 
 include(${CMAKE_CURRENT_LIST_DIR}/tracking.cmake)

@@ -1,6 +1,6 @@
 lumen_test(check_test
   LABELS threads
-  LIBS lumen_check lumen_fitting lumen_phantom lumen_surface lumen_tracking lumen_tube_tree
+  LIBS lumen_check lumen_fitting lumen_phantom lumen_surface_projection lumen_tracking lumen_tube_tree
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/ideal_edge_test.cpp

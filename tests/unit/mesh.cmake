@@ -3,19 +3,14 @@ find_package(draco REQUIRED)
 find_package(TinyGLTF REQUIRED)
 lumen_test(mesh_test
   LABELS threads
-  LIBS lumen_mesh OpenMeshCore draco::draco TinyGLTF::TinyGLTF
+  LIBS lumen_mesh lumen_surface OpenMeshCore draco::draco TinyGLTF::TinyGLTF
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/marching_cubes_table_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/marching_cubes_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/node_field_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/patch_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/polygonise_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_mesh_test.cpp)
 
 # The Khronos validator finds no error and no warning in our files. It needs `npm ci` in tests/gltf; without
 # it the test fails.
 add_executable(gltf_samples ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/gltf_samples.cpp)
-target_link_libraries(gltf_samples PRIVATE lumen_mesh)
+target_link_libraries(gltf_samples PRIVATE lumen_surface)
 find_program(NODE_EXECUTABLE NAMES node nodejs)
 set(gltf_folder ${CMAKE_CURRENT_BINARY_DIR}/gltf_validator_files)
 add_test(NAME GltfValidator.SamplesAreWritten COMMAND gltf_samples ${gltf_folder})

@@ -8,7 +8,7 @@ add_executable(query_bench
   ${folder}/query_bench.cpp
   ${folder}/report.cpp
   ${folder}/surfaces.cpp)
-target_link_libraries(query_bench PRIVATE lumen_mesh lumen_case lumen::blob_static OpenMeshCore OpenMeshTools lumen_options)
+target_link_libraries(query_bench PRIVATE lumen_surface lumen_case lumen::blob_static OpenMeshCore OpenMeshTools lumen_options)
 
 # A rival's headers are not held to our warnings.
 function(lumen_bench_rival name file)

@@ -7,7 +7,7 @@
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
-#include "converters/mesh/polygonise.h"
+#include "converters/surface/polygonise.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case_file.h"
 #include "method.h"

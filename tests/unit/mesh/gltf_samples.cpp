@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
-#include "converters/mesh/polygonise.h"
 #include "converters/mesh/write_gltf.h"
+#include "converters/surface/polygonise.h"
 #include "synthetic.h"
 
 namespace {

@@ -11,12 +11,13 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/mesh/patch.h"
+#include "converters/mesh/branch_mesh.h"
+#include "converters/surface/patch.h"
 
 namespace lumen::test {
 
-inline convert::Patch toPatch(const convert::BranchMesh& mesh) {
-  convert::Patch patch;
+inline convert::TriangleMesh toPatch(const convert::BranchMesh& mesh) {
+  convert::TriangleMesh patch;
   for (const convert::Float3& p : mesh.position) patch.position.emplace_back(p[0], p[1], p[2]);
   patch.triangle = mesh.triangle;
   return patch;
@@ -30,7 +31,7 @@ struct MeshFacts {
   std::set<std::uint32_t> boundary;  ///< vertices of boundary edges
 };
 
-inline MeshFacts factsOf(const convert::Patch& patch) {
+inline MeshFacts factsOf(const convert::TriangleMesh& patch) {
   MeshFacts facts;
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed;
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/mesh/node_field.h"
+#include "converters/surface/node_field.h"
 #include "formats/case/case.h"
 #include "formats/case/topology.h"
 

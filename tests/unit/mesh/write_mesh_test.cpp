@@ -13,9 +13,9 @@
 #include <tiny_gltf.h>
 
 #include "converters/common/error.h"
-#include "converters/mesh/polygonise.h"
 #include "converters/mesh/write_gltf.h"
 #include "converters/mesh/write_plain.h"
+#include "converters/surface/polygonise.h"
 #include "open_mesh.h"
 #include "synthetic.h"
 

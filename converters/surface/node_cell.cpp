@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/node_cell.h"
+#include "converters/surface/node_cell.h"
 
 #include <algorithm>
 

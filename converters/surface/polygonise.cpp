@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/polygonise.h"
+#include "converters/surface/polygonise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 #include "converters/common/error.h"
 #include "converters/common/surface_projection.h"
 #include "converters/common/vectors.h"
-#include "converters/mesh/cell_size.h"
-#include "converters/mesh/marching_cubes.h"
-#include "converters/mesh/node_cell.h"
-#include "converters/mesh/node_field.h"
+#include "converters/surface/cell_size.h"
+#include "converters/surface/marching_cubes.h"
+#include "converters/surface/node_cell.h"
+#include "converters/surface/node_field.h"
 #include "formats/case/case_field.h"
 #include "formats/case/topology.h"
 #include "formats/view/text_rules.h"
@@ -35,7 +35,7 @@ constexpr double kSnap = 1e-4;
 constexpr double kMaxShift = 0.5;
 
 struct NodePatch {
-  Patch patch;
+  TriangleMesh patch;
   std::vector<Float3> normal;
   bool hasModel = false, isMissed = false;
   std::size_t lostTriangles = 0;
@@ -133,7 +133,7 @@ const HalfSpace* planeThrough(const std::vector<HalfSpace>& spaces, const Eigen:
 // where a model draws a wall within the lumen of its neighbours, triangles are dropped; how many, is
 // returned.
 std::size_t moveOntoSurface(const Source& source, std::uint32_t node, const NodeCell& cell,
-                            double snap, Patch& patch) {
+                            double snap, TriangleMesh& patch) {
   const double radius = source.value.tree.radius[node];
   const auto move = [&](Eigen::Vector3d& p, const HalfSpace* plane) {
     const auto found = projectOnSurface(source.surface, p, node, radius,
@@ -157,7 +157,8 @@ std::size_t moveOntoSurface(const Source& source, std::uint32_t node, const Node
   });
 }
 
-std::vector<Float3> outwardNormals(const Source& source, std::uint32_t node, const Patch& patch) {
+std::vector<Float3> outwardNormals(const Source& source, std::uint32_t node,
+                                   const TriangleMesh& patch) {
   const Eigen::Vector3d centre = toEigen(source.value.tree.centre[node]);
   std::vector<Float3> normals;
   normals.reserve(patch.position.size());
@@ -175,8 +176,9 @@ std::vector<Float3> outwardNormals(const Source& source, std::uint32_t node, con
 }
 
 // The surface of the node's own model around its lumen, before it is cut.
-Patch polygoniseModel(const formats::Case& source, std::uint32_t node, const NodeField& field,
-                      const std::vector<HalfSpace>& spaces, double cell) {
+TriangleMesh polygoniseModel(const formats::Case& source, std::uint32_t node,
+                             const NodeField& field, const std::vector<HalfSpace>& spaces,
+                             double cell) {
   const formats::CenterlineTree& tree = source.tree;
   const Eigen::Vector3d centre = toEigen(tree.centre[node]);
   const double radius = tree.radius[node];
@@ -200,7 +202,7 @@ NodePatch polygoniseNode(const Source& source, std::uint32_t node, double voxel)
   std::vector<HalfSpace> spaces = cell->radical;
   spaces.insert(spaces.end(), cell->ends.begin(), cell->ends.end());
   NodePatch result;
-  Patch& patch = result.patch;
+  TriangleMesh& patch = result.patch;
   patch = polygoniseModel(source.value, node, field, spaces, size);
   result.hasModel = true;
   result.isMissed = patch.triangle.empty();

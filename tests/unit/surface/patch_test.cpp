@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/patch.h"
+#include "converters/surface/patch.h"
 
 #include <gtest/gtest.h>
 
-#include "mesh_facts.h"
+#include "../mesh/mesh_facts.h"
 
 namespace lumen::convert {
 namespace {
 
 // The tetrahedron with corners at the origin and at 1 on each axis: volume 1/6.
-Patch tetrahedron() {
+TriangleMesh tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
 
 TEST(Clip, LeavesTheInnerPartWithItsNewVerticesOnThePlane) {
-  Patch patch = tetrahedron();
+  TriangleMesh patch = tetrahedron();
   clip(patch, {Eigen::Vector3d::UnitX(), 0.5}, 0);
   const test::MeshFacts facts = test::factsOf(patch);
   EXPECT_EQ(facts.badEdges, 0U);
@@ -29,27 +29,27 @@ TEST(Clip, LeavesTheInnerPartWithItsNewVerticesOnThePlane) {
 }
 
 TEST(Clip, KeepsAPatchThatLiesInside) {
-  Patch patch = tetrahedron();
+  TriangleMesh patch = tetrahedron();
   clip(patch, {Eigen::Vector3d::UnitX(), 1}, 0);
   EXPECT_EQ(patch.position.size(), 4U);
   EXPECT_EQ(patch.triangle.size(), 4U);
 }
 
 TEST(Clip, DropsAPatchThatLiesOutside) {
-  Patch patch = tetrahedron();
+  TriangleMesh patch = tetrahedron();
   clip(patch, {Eigen::Vector3d::UnitX(), -0.5}, 0);
   EXPECT_TRUE(patch.position.empty());
   EXPECT_TRUE(patch.triangle.empty());
 }
 
 TEST(Clip, AVertexWithinTheSnapIsOnThePlane) {
-  Patch patch = tetrahedron();
+  TriangleMesh patch = tetrahedron();
   clip(patch, {Eigen::Vector3d::UnitX(), 0.999}, 0.01);
   EXPECT_EQ(patch.triangle.size(), 4U);  // uncut
 }
 
 TEST(DropFarParts, KeepsAPartWithOneVertexNearEnough) {
-  Patch patch = tetrahedron();
+  TriangleMesh patch = tetrahedron();
   dropFarParts(patch, {-2, 0, 0}, 2);  // the origin is 2 away, the others farther
   EXPECT_EQ(patch.triangle.size(), 4U);
   dropFarParts(patch, {-2, 0, 0}, 1.9);
@@ -60,8 +60,8 @@ TEST(DropFarParts, KeepsAPartWithOneVertexNearEnough) {
 TEST(RoundToFloat, JoinsVerticesThatBecomeOneAndKeepsTheSurfaceClosed) {
   // Vertex 4 splits the edge from 1 to 2 and lies 1e-12 from vertex 1, a thousandth of what a float
   // resolves.
-  Patch patch{{{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}, {2 - 1e-12, 1 + 1e-12, 1}},
-              {{0, 2, 4}, {0, 4, 1}, {0, 1, 3}, {0, 3, 2}, {1, 4, 3}, {4, 2, 3}}};
+  TriangleMesh patch{{{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}, {2 - 1e-12, 1 + 1e-12, 1}},
+                     {{0, 2, 4}, {0, 4, 1}, {0, 1, 3}, {0, 3, 2}, {1, 4, 3}, {4, 2, 3}}};
   EXPECT_EQ(test::factsOf(patch).boundaryEdges, 0U);
   roundToFloat(patch);
   EXPECT_EQ(patch.position.size(), 4U);
@@ -70,7 +70,7 @@ TEST(RoundToFloat, JoinsVerticesThatBecomeOneAndKeepsTheSurfaceClosed) {
 }
 
 TEST(SeparateFans, SplitsAVertexWhereTwoSurfacesTouch) {
-  Patch patch = tetrahedron();
+  TriangleMesh patch = tetrahedron();
   for (const Eigen::Vector3d& p :
        {Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, -1)})
     patch.position.push_back(p);
@@ -85,7 +85,7 @@ TEST(SeparateFans, SplitsAVertexWhereTwoSurfacesTouch) {
 
 TEST(SeparateFans, CutsAnEdgeOfFourTriangles) {
   // Two tetrahedra on either side of a common edge from 0 to 3.
-  Patch patch = tetrahedron();
+  TriangleMesh patch = tetrahedron();
   patch.position.push_back({-1, 0, 0});
   patch.position.push_back({0, -1, 0});
   for (const Triangle& t :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/patch.h"
+#include "converters/surface/patch.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "converters/mesh/disjoint_sets.h"
+#include "converters/common/disjoint_sets.h"
 
 namespace lumen::convert {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::uint64_t edgeKey(std::uint32_t from, std::uint32_t to) {
   return static_cast<std::uint64_t>(from) << 32 | to;
 }
 
-void dropUnusedVertices(Patch& patch) {
+void dropUnusedVertices(TriangleMesh& patch) {
   std::vector<std::uint32_t> newIndex(patch.position.size(), kNone);
   for (const Triangle& t : patch.triangle)
     for (const std::uint32_t v : t) newIndex[v] = 0;
@@ -36,7 +36,7 @@ void dropUnusedVertices(Patch& patch) {
 // Cuts triangles by one plane; `distance` grows with the vertices that the cuts add.
 class Clipper {
 public:
-  Clipper(Patch& patch, std::vector<double> distance)
+  Clipper(TriangleMesh& patch, std::vector<double> distance)
       : m_patch(patch), m_distance(std::move(distance)) {}
 
   void cut() {
@@ -92,7 +92,7 @@ private:
     return found->second;
   }
 
-  Patch& m_patch;
+  TriangleMesh& m_patch;
   std::vector<double> m_distance;
   std::unordered_map<std::uint64_t, std::uint32_t> m_cut;
 };
@@ -137,7 +137,7 @@ private:
 };
 
 // Corners of one fan are in one set.
-DisjointSets findFans(const Patch& patch) {
+DisjointSets findFans(const TriangleMesh& patch) {
   const DirectedEdges edges(patch.triangle, patch.position.size());
   const auto corners = static_cast<std::uint32_t>(3 * patch.triangle.size());
   DisjointSets fans(corners);
@@ -154,7 +154,7 @@ DisjointSets findFans(const Patch& patch) {
 
 }  // namespace
 
-void clip(Patch& patch, const HalfSpace& space, double snap) {
+void clip(TriangleMesh& patch, const HalfSpace& space, double snap) {
   std::vector<double> distance(patch.position.size());
   bool outside = false;
   for (std::size_t v = 0; v < distance.size(); ++v) {
@@ -167,7 +167,7 @@ void clip(Patch& patch, const HalfSpace& space, double snap) {
   dropUnusedVertices(patch);
 }
 
-void dropFarParts(Patch& patch, const Eigen::Vector3d& centre, double distance) {
+void dropFarParts(TriangleMesh& patch, const Eigen::Vector3d& centre, double distance) {
   DisjointSets parts(patch.position.size());
   for (const Triangle& t : patch.triangle) {
     parts.join(t[0], t[1]);
@@ -181,7 +181,7 @@ void dropFarParts(Patch& patch, const Eigen::Vector3d& centre, double distance) 
   dropUnusedVertices(patch);
 }
 
-void roundToFloat(Patch& patch) {
+void roundToFloat(TriangleMesh& patch) {
   // Through memory: gcc 12 drops a conversion to float and back that stays in a register.
   std::vector<Eigen::Vector3f> rounded;
   rounded.reserve(patch.position.size());
@@ -198,7 +198,7 @@ void roundToFloat(Patch& patch) {
   dropUnusedVertices(patch);
 }
 
-void separateFans(Patch& patch) {
+void separateFans(TriangleMesh& patch) {
   DisjointSets fans = findFans(patch);
   // The first fan of a vertex, by the number of its first corner, keeps the vertex.
   std::vector<std::uint32_t> owner(patch.position.size(), kNone);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/marching_cubes.h"
+#include "converters/surface/marching_cubes.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "converters/mesh/disjoint_sets.h"
-#include "converters/mesh/marching_cubes_table.h"
+#include "converters/common/disjoint_sets.h"
+#include "converters/surface/marching_cubes_table.h"
 
 namespace lumen::convert {
 namespace {
@@ -94,7 +94,7 @@ public:
     m_vertexOnEdge.assign(3 * grid.value.size(), kNoVertex);
   }
 
-  Patch run() {
+  TriangleMesh run() {
     for (int z = 0; z + 1 < m_grid.rowsZ; ++z)
       for (int y = 0; y + 1 < m_grid.rowsY; ++y) alongRow(y, z);
     return std::move(m_patch);
@@ -177,7 +177,7 @@ private:
   std::vector<std::uint32_t> m_vertexOnEdge;  ///< by the sample at the edge's start, and its axis
   std::array<const SampleGrid::Row*, 4> m_row{};
   int m_y = 0, m_z = 0;
-  Patch m_patch;
+  TriangleMesh m_patch;
 };
 
 }  // namespace
@@ -199,8 +199,8 @@ std::vector<SampleState> markLumen(const SampleGrid& grid, double level,
   return state;
 }
 
-Patch marchingCubes(const SampleGrid& grid, std::span<const SampleState> state,
-                    const Crossing& crossing) {
+TriangleMesh marchingCubes(const SampleGrid& grid, std::span<const SampleState> state,
+                           const Crossing& crossing) {
   return Extraction(grid, state, crossing).run();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/cell_size.h"
+#include "converters/surface/cell_size.h"
 
 #include <algorithm>
 #include <array>

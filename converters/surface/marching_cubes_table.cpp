@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/marching_cubes_table.h"
+#include "converters/surface/marching_cubes_table.h"
 
 #include <algorithm>
 #include <limits>

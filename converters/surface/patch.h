@@ -7,15 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "converters/mesh/branch_mesh.h"
+#include "converters/mesh/triangle_mesh.h"
 
 namespace lumen::convert {
-
-/// An indexed triangle mesh, mm, LPS; triangles counter-clockwise seen from outside.
-struct Patch {
-  std::vector<Eigen::Vector3d> position;
-  std::vector<Triangle> triangle;
-};
 
 /// The points X with normal . X <= offset; the normal has unit length and points out.
 struct HalfSpace {
@@ -29,17 +23,17 @@ struct HalfSpace {
 /// Cuts away what lies outside `space`. Triangles that share a cut edge share its new vertex. A
 /// vertex closer to the plane than `snap` counts as lying on it, so no sliver thinner than that is
 /// left.
-void clip(Patch& patch, const HalfSpace& space, double snap);
+void clip(TriangleMesh& patch, const HalfSpace& space, double snap);
 
 /// Drops the connected parts that have no vertex within `distance` of `centre`, mm.
-void dropFarParts(Patch& patch, const Eigen::Vector3d& centre, double distance);
+void dropFarParts(TriangleMesh& patch, const Eigen::Vector3d& centre, double distance);
 
 /// Rounds positions to floats, joins the ends of edges that rounding made equal, and drops the
 /// triangles that this flattened and the vertices that no triangle uses.
-void roundToFloat(Patch& patch);
+void roundToFloat(TriangleMesh& patch);
 
 /// Gives every vertex but one fan of triangles: where several fans meet in a point, and along edges
 /// that have not exactly two opposite triangles, each fan gets a vertex of its own.
-void separateFans(Patch& patch);
+void separateFans(TriangleMesh& patch);
 
 }  // namespace lumen::convert

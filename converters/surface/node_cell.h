@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "converters/mesh/patch.h"
+#include "converters/surface/patch.h"
 #include "formats/case/case.h"
 #include "formats/case/topology.h"
 

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/mesh/patch.h"
+#include "converters/surface/patch.h"
 
 namespace lumen::convert {
 
@@ -52,7 +52,7 @@ using Crossing =
 /// Marching cubes around the samples marked Inside. Cells that lack a sample are left out. The
 /// result is an oriented 2-manifold, with a boundary only at cells that were left out; no two of
 /// its vertices coincide.
-Patch marchingCubes(const SampleGrid& grid, std::span<const SampleState> state,
-                    const Crossing& crossing);
+TriangleMesh marchingCubes(const SampleGrid& grid, std::span<const SampleState> state,
+                           const Crossing& crossing);
 
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/polygonise.h"
+#include "converters/surface/polygonise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/mesh/cell_size.h"
+#include "../mesh/mesh_facts.h"
+#include "../mesh/synthetic.h"
 #include "converters/mesh/write_gltf.h"
+#include "converters/surface/cell_size.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case_field.h"
-#include "mesh_facts.h"
-#include "synthetic.h"
 
 namespace lumen::convert {
 namespace {
@@ -27,7 +27,7 @@ std::vector<BranchMesh> meshesOf(const formats::Case& source, double cell = 0) {
   return polygonise(source, {cell}, progress);
 }
 
-Patch onlyPatch(const formats::Case& source) {
+TriangleMesh onlyPatch(const formats::Case& source) {
   const auto meshes = meshesOf(source);
   EXPECT_EQ(meshes.size(), 1U);
   return toPatch(meshes[0]);
@@ -40,7 +40,7 @@ double offAxis(const Eigen::Vector3d& p) {
 TEST(Polygonise, ABlobIsASphere) {
   constexpr double kWidth = 0.5, kCell = 0.2;
   const double radius = formats::isoRadius(formats::Kernel::Cauchy, 0.2, kWidth, 0.1);
-  const Patch patch = onlyPatch(test::sphereCase(radius, kWidth));
+  const TriangleMesh patch = onlyPatch(test::sphereCase(radius, kWidth));
   const Eigen::Vector3d centre(0.03F, 0.05F, 0.07F);
   for (const Eigen::Vector3d& p : patch.position)
     EXPECT_NEAR((p - centre).norm(), radius, 1e-3 * kCell);
@@ -68,7 +68,7 @@ TEST(Polygonise, NormalsPointOutwardWithUnitLength) {
 
 TEST(Polygonise, PatchesOfATubeMeetOnTheRadicalPlanesAndItsEndsAreFlat) {
   // Nodes at x = 0.03 + i: planes halfway; ends half a height (1) beyond the last nodes.
-  const Patch patch = onlyPatch(test::tubeCase(4));
+  const TriangleMesh patch = onlyPatch(test::tubeCase(4));
   const test::MeshFacts facts = factsOf(patch);
   EXPECT_EQ(facts.badEdges, 0U);
   std::set<std::ptrdiff_t> found;
@@ -89,7 +89,7 @@ TEST(Polygonise, PatchesOfATubeMeetOnTheRadicalPlanesAndItsEndsAreFlat) {
 }
 
 TEST(Polygonise, ATubeHasItsRadius) {
-  const Patch patch = onlyPatch(test::tubeCase(8));
+  const TriangleMesh patch = onlyPatch(test::tubeCase(8));
   for (const Eigen::Vector3d& p : patch.position)
     if (p.x() > 2 && p.x() < 5.5) {
       EXPECT_NEAR(offAxis(p), 1.0, 0.03);
@@ -147,14 +147,14 @@ TEST(Polygonise, VerticesLieOnTheBlendedSurface) {
 // Blobs beyond the vessel's end, as a fit may leave them, do not lengthen it.
 TEST(Polygonise, CutsAVesselsFreeEndAndLeavesAnAneurysmsDome) {
   formats::Case source = test::tubeCase(5);
-  const auto highest = [](const Patch& patch) {
+  const auto highest = [](const TriangleMesh& patch) {
     double x = -1e9;
     for (const Eigen::Vector3d& p : patch.position) x = std::max(x, p.x());
     return x;
   };
   EXPECT_NEAR(highest(onlyPatch(source)), 4.03 + 1.0, 1e-4);
   source.tree.branches[0].kind = formats::BranchKind::Aneurysm;
-  const Patch whole = onlyPatch(source);
+  const TriangleMesh whole = onlyPatch(source);
   EXPECT_GT(highest(whole), 4.03 + 1.2);
 }
 
@@ -182,7 +182,7 @@ TEST(Polygonise, DropsWhatDoesNotHangTogetherWithTheNodesLumen) {
   source.models->offset = {0, 2};
   source.models->centre.push_back({0.03F, 4.05F, 0.07F});
   source.models->width.push_back(0.43F);
-  const Patch patch = onlyPatch(source);
+  const TriangleMesh patch = onlyPatch(source);
   EXPECT_EQ(factsOf(patch).euler, 2);
   for (const Eigen::Vector3d& p : patch.position) EXPECT_LT(p.y(), 2);
 }

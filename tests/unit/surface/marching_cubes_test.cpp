@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/marching_cubes.h"
+#include "converters/surface/marching_cubes.h"
 
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "../mesh/mesh_facts.h"
 #include "converters/common/random.h"
-#include "mesh_facts.h"
 
 namespace lumen::convert {
 namespace {
@@ -65,7 +65,7 @@ TEST(MarchingCubes, NoiseGivesAClosedManifoldAndMeetsAllCases) {
   const SampleGrid grid = noise(kSize, 1);
   EXPECT_EQ(differentCases(grid, kSize), 256U);
   const auto state = allInside(grid);
-  Patch patch = marchingCubes(grid, state, straight);
+  TriangleMesh patch = marchingCubes(grid, state, straight);
   const test::MeshFacts facts = test::factsOf(patch);
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
@@ -79,7 +79,7 @@ TEST(MarchingCubes, OneInsideSampleIsAnOctahedron) {
   const SampleGrid grid =
       cubeGrid(3, [](int x, int y, int z) { return x == 1 && y == 1 && z == 1 ? 1.0 : -1.0; });
   const auto state = allInside(grid);
-  const Patch patch = marchingCubes(grid, state, straight);
+  const TriangleMesh patch = marchingCubes(grid, state, straight);
   EXPECT_EQ(patch.position.size(), 6U);
   EXPECT_EQ(patch.triangle.size(), 8U);
   // Half-diagonals of 1/2: volume (4/3) a^3 = 1/6.
@@ -91,7 +91,7 @@ TEST(MarchingCubes, ASurfaceThroughSamplesKeepsItsVerticesApart) {
     return x == 1 && y == 1 && z == 1 ? 1.0 : (x < 3 && y < 3 && z < 3 ? 0.0 : -1.0);
   });
   const auto state = allInside(grid);
-  const Patch patch = marchingCubes(grid, state, straight);
+  const TriangleMesh patch = marchingCubes(grid, state, straight);
   for (std::size_t a = 0; a < patch.position.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       EXPECT_GT((patch.position[a] - patch.position[b]).norm(), 1e-5);
@@ -106,7 +106,7 @@ double twoBalls(int x, int y, int z) {
 TEST(MarkLumen, KeepsOnlyWhatHangsTogetherWithTheSeed) {
   const SampleGrid grid = cubeGrid(14, twoBalls);
   const auto state = markLumen(grid, 0, {3.2, 4, 4}, 1);
-  const Patch patch = marchingCubes(grid, state, straight);
+  const TriangleMesh patch = marchingCubes(grid, state, straight);
   const test::MeshFacts facts = test::factsOf(patch);
   EXPECT_EQ(facts.euler, 2);
   for (const Eigen::Vector3d& p : patch.position) EXPECT_LT(p.x(), 5.5);

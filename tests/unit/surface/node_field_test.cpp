@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/node_field.h"
+#include "converters/surface/node_field.h"
 
 #include <array>
 #include <cmath>

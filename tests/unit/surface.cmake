@@ -1,0 +1,10 @@
+find_package(OpenMesh REQUIRED)
+lumen_test(surface_test
+  LABELS threads
+  LIBS lumen_surface OpenMeshCore
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_table_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/node_field_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/patch_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp)
