@@ -23,7 +23,7 @@ field::Vec toVec(const Eigen::Vector3d& p) {
 
 SheetField::SheetField(const formats::Case& source, const field::BlendedField& field,
                        const SheetOptions& options)
-    : m_source(source), m_field(field), m_options(options) {
+    : m_source(source), m_field(field), m_options(options), m_edges(source.tree) {
   findTouchingNodes(source.tree, kTouchingReach + options.offsetShare,
                     options.gap + 2 * options.offset, m_touchingOffset, m_touching);
 }
@@ -91,49 +91,66 @@ void SheetField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node
   }
 }
 
-SheetSample SheetField::combine(const Eigen::Vector3d& point, std::uint32_t node, const Wall& own,
-                                const Wall* other) const {
-  (void)point;
-  const double offset = m_options.offset + m_options.offsetShare * radius(node);
-  SheetSample sample{own.distance - offset, own.gradient, node, false};
-  if (other == nullptr) return sample;
-  const double apart = 0.5 * (own.distance - other->distance + m_options.gap);
-  if (apart <= sample.distance) return sample;
-  const Eigen::Vector3d gradient = own.gradient - other->gradient;
-  const double slope = gradient.norm();
-  if (!(slope > 1e-3)) return sample;  // no way leads from the one to the other
-  return {2 * apart / slope, gradient / slope, node, true};
+SheetField::Axis SheetField::axisOf(const Eigen::Vector3d& point, std::uint32_t node) const {
+  const Eigen::Vector3d centre = Eigen::Map<const Eigen::Vector3d>(m_field.centre(node));
+  const Eigen::Vector3d out = point - centre;
+  const double r = radius(node);
+  Axis best{out.norm() / r, r, out};
+  for (const std::uint32_t next : m_edges.of(node)) {
+    const Eigen::Vector3d along = Eigen::Map<const Eigen::Vector3d>(m_field.centre(next)) - centre;
+    const double square = along.squaredNorm();
+    if (!(square > 0)) continue;
+    const double t = std::clamp(out.dot(along) / square, 0.0, 1.0);
+    const double between = r + t * (radius(next) - r);
+    const Eigen::Vector3d away = out - t * along;
+    const double share = away.norm() / between;
+    if (share < best.share) best = {share, between, away};
+  }
+  if (best.share > 0) best.gradient /= best.share * best.radius;
+  return best;
+}
+
+void SheetField::separate(SheetSample& sample, const Axis& own, const Axis& other) const {
+  const double harmonic = 1 / (1 / own.radius + 1 / other.radius);
+  const double apart = (own.share - other.share) * harmonic + 0.5 * m_options.gap;
+  if (apart <= sample.distance) return;
+  const Eigen::Vector3d gradient =
+      harmonic * (own.gradient / own.radius - other.gradient / other.radius);
+  const double slope = std::max(gradient.norm(), 1e-3);
+  sample.distance = apart;
+  sample.gradient = gradient / slope;
+  sample.isSeparated = true;
+}
+
+SheetSample SheetField::sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const {
+  const Wall wall = wallOf(point, node);
+  return {wall.distance - m_options.offset - m_options.offsetShare * radius(node), wall.gradient,
+          node, false};
 }
 
 SheetSample SheetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
   const std::uint32_t here = m_field.follow(toVec(point), node);
-  const Wall own = wallOf(point, here);
-  Wall nearest;
-  bool isTouched = false;
+  SheetSample sample = sampleOf(point, here);
+  std::optional<Axis> own;
   eachOtherSheet(point, here, [&](std::uint32_t other) {
-    const Wall wall = wallOf(point, other);
-    if (isTouched && wall.distance >= nearest.distance) return;
-    nearest = wall;
-    isTouched = true;
+    if (!own) own = axisOf(point, here);
+    separate(sample, *own, axisOf(point, other));
   });
-  return combine(point, here, own, isTouched ? &nearest : nullptr);
+  return sample;
 }
 
 SheetSample SheetField::deepest(const Eigen::Vector3d& point, std::uint32_t node) const {
   const std::uint32_t here = m_field.follow(toVec(point), node);
-  Wall best = wallOf(point, here), second;
-  std::uint32_t bestNode = here;
-  bool isTouched = false;
+  std::uint32_t best = here;
+  std::optional<double> least;
   eachOtherSheet(point, here, [&](std::uint32_t other) {
-    Wall wall = wallOf(point, other);
-    if (wall.distance < best.distance) {
-      std::swap(wall, best);
-      bestNode = other;
-    }
-    if (!isTouched || wall.distance < second.distance) second = wall;
-    isTouched = true;
+    if (!least) least = axisOf(point, here).share;
+    const double share = axisOf(point, other).share;
+    if (share >= *least) return;
+    least = share;
+    best = other;
   });
-  return combine(point, bestNode, best, isTouched ? &second : nullptr);
+  return least ? at(point, best) : sampleOf(point, here);
 }
 
 std::optional<SheetField::Foot> SheetField::project(const Eigen::Vector3d& start,
