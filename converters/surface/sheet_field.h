@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,7 +45,8 @@ struct SheetSample {
 ///
 /// where a' and r' are those of the other sheet that gives most. So where two lumens overlap each
 /// ends half a gap before the place that is as far from both axes, and no vessel loses its axis to
-/// a wider one.
+/// a wider one. Within a quarter of a radius of its axis the node of the greater index goes first,
+/// so that neither is severed where two axes cross.
 ///
 /// Never changed after construction: any number of threads may ask.
 class SheetField {
@@ -104,8 +106,11 @@ private:
   [[nodiscard]] Wall wallOf(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] bool isLeast(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] Axis axisOf(const Eigen::Vector3d& point, std::uint32_t node) const;
-  /// `sample` kept off a sheet with another axis.
-  void separate(SheetSample& sample, const Axis& own, const Axis& other) const;
+  /// `sample` kept off the sheet of node `other`.
+  void separate(SheetSample& sample, const Eigen::Vector3d& point, std::uint32_t other) const;
+  /// Two sheets' axes, for comparison: what goes first is nearer within its core.
+  [[nodiscard]] std::pair<Axis, Axis> axesOf(const Eigen::Vector3d& point, std::uint32_t a,
+                                             std::uint32_t b) const;
   [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const;
   /// The nodes besides `node` that a sheet of the point ends at, one for each sheet.
   template <class Visit>
