@@ -11,9 +11,9 @@ namespace {
 constexpr int kMaxSteps = 40;         // three to five near the wall; the rest is for long ways
 constexpr double kTolerance = 1e-4;   // of the radius
 constexpr double kLongestStep = 0.3;  // of the radius: far from the wall h is not straight
-constexpr double kFarthest = 0.5;      // of the radius: a surface beyond is another one
-constexpr double kCore = 0.25;         // of the radius: around its axis, where one sheet goes first
-constexpr double kLeastSlope = 0.05;   // of the way between two axes that run side by side
+constexpr double kFarthest = 0.5;     // of the radius: a surface beyond is another one
+constexpr double kCore = 0.25;        // of the radius: around its axis, where one sheet goes first
+constexpr double kLeastSlope = 0.05;  // of the way between two axes that run side by side
 constexpr double kVanished = 1e-12;   // of the level: below, f says nothing about the wall
 // How far apart, in sums of radii, nodes are whose walls may touch: a model reaches beyond its ball.
 constexpr double kTouchingReach = 1.5;
@@ -39,7 +39,8 @@ SheetField::Wall SheetField::wallOf(const Eigen::Vector3d& point, std::uint32_t 
   const Eigen::Vector3d out = point - Eigen::Map<const Eigen::Vector3d>(m_field.centre(node));
   if (!(f.value > kVanished * level) || !(slope > 0)) {
     const double distance = out.norm();
-    const Eigen::Vector3d away = distance > 0 ? Eigen::Vector3d(out / distance) : Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d away =
+        distance > 0 ? Eigen::Vector3d(out / distance) : Eigen::Vector3d::UnitX();
     return {f.value > level ? -r : std::max(distance - r, 1e-3 * r), away};
   }
   const field::LevelTransform here = field::levelTransform(m_field.kernel(), f.value, slope);
@@ -85,9 +86,8 @@ void SheetField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node
     const std::uint32_t other = m_touching[e];
     if (count == kMost) return;
     if (!isLeast(point, other) || areOneSheet(point, node, other)) continue;
-    const bool isKnown = std::any_of(seen.begin(), seen.begin() + count, [&](std::uint32_t k) {
-      return areOneSheet(point, k, other);
-    });
+    const bool isKnown = std::any_of(seen.begin(), seen.begin() + count,
+                                     [&](std::uint32_t k) { return areOneSheet(point, k, other); });
     if (isKnown) continue;
     seen[count++] = other;
     visit(other);
@@ -147,8 +147,7 @@ SheetSample SheetField::sampleOf(const Eigen::Vector3d& point, std::uint32_t nod
 
 SheetSample SheetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
   SheetSample sample = sampleOf(point, m_field.follow(toVec(point), node));
-  eachOtherSheet(point, sample.node,
-                 [&](std::uint32_t other) { separate(sample, point, other); });
+  eachOtherSheet(point, sample.node, [&](std::uint32_t other) { separate(sample, point, other); });
   return sample;
 }
 

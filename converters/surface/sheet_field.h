@@ -30,7 +30,7 @@ struct SheetOptions {
 struct SheetSample {
   double distance = 0;  ///< to the surface, about, mm; negative inside
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
-  std::uint32_t node = 0;    ///< at which following the point ends
+  std::uint32_t node = 0;                              ///< at which following the point ends
   bool isSeparated = false;  ///< here the surface keeps off another vessel and is not f = T
 };
 
@@ -70,6 +70,11 @@ public:
   [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
                                std::uint32_t to) const;
 
+  /// Distance of a point from the axis at a node, as a share of the radius there.
+  [[nodiscard]] double axisShare(const Eigen::Vector3d& point, std::uint32_t node) const {
+    return axisOf(point, node).share;
+  }
+
   /// Whether another vessel may be near a node.
   [[nodiscard]] bool mayTouch(std::uint32_t node) const {
     return m_touchingOffset[node] < m_touchingOffset[node + 1];
@@ -99,8 +104,8 @@ private:
   };
   /// The way from the axis at a sheet's node: along tree edges, radii in between are linear.
   struct Axis {
-    double share = 0;   ///< of the radius
-    double radius = 1;  ///< at the foot
+    double share = 0;                                    ///< of the radius
+    double radius = 1;                                   ///< at the foot
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, away from the axis
   };
   [[nodiscard]] Wall wallOf(const Eigen::Vector3d& point, std::uint32_t node) const;
