@@ -47,18 +47,18 @@ AdaptiveLattice::Neighbour AdaptiveLattice::neighbour(const LatticeCube& cube, i
   return {Kind::Coarser, static_cast<std::uint32_t>(at->second)};
 }
 
-const LatticeCube* AdaptiveLattice::cubeAt(const Eigen::Vector3d& point) const {
+std::uint32_t AdaptiveLattice::cubeAt(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d steps = (point - m_origin) / m_step;
-  if (!(steps.minCoeff() >= 0) || !(steps.maxCoeff() < kMaxPosition)) return nullptr;
+  if (!(steps.minCoeff() >= 0) || !(steps.maxCoeff() < kMaxPosition)) return kNone;
   const Position position{static_cast<std::int32_t>(steps.x()),
                           static_cast<std::int32_t>(steps.y()),
                           static_cast<std::int32_t>(steps.z())};
   for (std::int32_t size = 2; size <= m_largest; size *= 2) {
     const auto at = m_index.find(keyOf(position, size));
     if (at != m_index.end() && at->second >= 0)
-      return &m_cubes[static_cast<std::size_t>(at->second)];
+      return static_cast<std::uint32_t>(at->second);
   }
-  return nullptr;
+  return kNone;
 }
 
 // Makes the leaves: level by level from the coarsest, then the balance.
@@ -245,7 +245,7 @@ private:
       const auto at = m_lattice.m_index.find(AdaptiveLattice::keyOf(corner, wider));
       if (at == m_lattice.m_index.end() || at->second < 0) continue;
       const LatticeCube cube = m_lattice.m_cubes[static_cast<std::size_t>(at->second)];
-      at->second = -1;
+      m_lattice.m_index[AdaptiveLattice::keyOf(corner, wider)] = -1;
       for (int octant = 0; octant < 8; ++octant) addLeaf(childOf(cube, octant));
       if (wider > 4 * size) splitWiderAt(corner, size);
       return;

@@ -100,7 +100,7 @@ std::vector<TreeLumen> joinTrees(SampledLattice& lattice, const SheetField& fiel
     ++opened;
   }
   if (opened > 0) {
-    lattice.findSplitEdges();
+    lattice.update();
     lumens = lumensOf(lattice);
     for (std::uint32_t i = 0; i < at.size(); ++i) at[i] = places.at(i);
   }

@@ -19,7 +19,25 @@ SampledLattice::SampledLattice(const SheetField& field, double share, Progress& 
     m_isInside[i] = sample.distance < 0 && !isOutermost(v);
   });
   progress.check();
+  update();
+}
+
+void SampledLattice::update() {
+  gatherTetrahedra();
   findSplitEdges();
+}
+
+void SampledLattice::gatherTetrahedra() {
+  const std::size_t count = m_lattice.cubes().size();
+  m_tetrahedra.assign((count + kBlock - 1) / kBlock, {});
+  tbb::parallel_for(std::size_t{0}, m_tetrahedra.size(), [&](std::size_t block) {
+    const std::size_t last = std::min(count, (block + 1) * kBlock);
+    for (std::size_t cube = block * kBlock; cube < last; ++cube)
+      m_vertices.eachTetrahedron(static_cast<std::uint32_t>(cube), [&](const Tetrahedron& t) {
+        if (isInside(t[0]) || isInside(t[1]) || isInside(t[2]) || isInside(t[3]))
+          m_tetrahedra[block].push_back(t);
+      });
+  });
 }
 
 bool SampledLattice::isOneLumen(std::uint32_t u, std::uint32_t v) const {
@@ -50,8 +68,9 @@ void SampledLattice::findSplitEdges() {
 }
 
 std::vector<std::uint32_t> SampledLattice::verticesAround(const Eigen::Vector3d& point) const {
-  const LatticeCube* cube = m_lattice.cubeAt(point);
-  return cube == nullptr ? std::vector<std::uint32_t>() : m_vertices.verticesOf(*cube);
+  const std::uint32_t cube = m_lattice.cubeAt(point);
+  if (cube == AdaptiveLattice::kNone) return {};
+  return m_vertices.verticesOf(cube);
 }
 
 }  // namespace lumen::convert

@@ -36,11 +36,12 @@ public:
 
   /// Changes what is inside, whatever the field says.
   void setInside(std::uint32_t vertex, bool isInside) { m_isInside[vertex] = isInside ? 1 : 0; }
-  /// Makes a vertex inside, of a sheet; findSplitEdges() is due then.
+  /// Makes a vertex inside, of a sheet; update() is due then.
   void force(std::uint32_t vertex, const SheetSample& sample);
+  void update();
   /// The edges with both ends inside that are not joined.
   [[nodiscard]] const SplitEdges& split() const { return m_split; }
-  void findSplitEdges();
+
 
   /// Whether the edge between two vertices that are inside is not split.
   [[nodiscard]] bool areJoined(std::uint32_t u, std::uint32_t v) const {
@@ -50,26 +51,22 @@ public:
   /// The vertices of the cube that holds a point: its centre, and its corners. Empty outside.
   [[nodiscard]] std::vector<std::uint32_t> verticesAround(const Eigen::Vector3d& point) const;
 
-  /// Calls work(block, tetrahedron) for all tetrahedra, blocks side by side; the tetrahedra of a
-  /// block come in one order. There are blockCount() blocks.
+  /// Calls work(block, tetrahedron) for all tetrahedra that had a vertex inside when the lattice was
+  /// sampled or forced, blocks side by side; the tetrahedra of a block come in one order. There are
+  /// blockCount() blocks.
   template <class Work>
   void eachTetrahedron(const Work& work) const {
-    tbb::parallel_for(std::size_t{0}, blockCount(), [&](std::size_t block) {
-      const std::size_t last = std::min(m_lattice.cubes().size(), (block + 1) * kBlock);
-      for (std::size_t cube = block * kBlock; cube < last; ++cube)
-        m_vertices.eachTetrahedron(static_cast<std::uint32_t>(cube),
-                                   [&](const Tetrahedron& t) { work(block, t); });
+    tbb::parallel_for(std::size_t{0}, m_tetrahedra.size(), [&](std::size_t block) {
+      for (const Tetrahedron& t : m_tetrahedra[block]) work(block, t);
     });
   }
   /// The same one after another.
   template <class Visit>
   void eachTetrahedronInTurn(const Visit& visit) const {
-    for (std::uint32_t cube = 0; cube < m_lattice.cubes().size(); ++cube)
-      m_vertices.eachTetrahedron(cube, visit);
+    for (const std::vector<Tetrahedron>& block : m_tetrahedra)
+      for (const Tetrahedron& t : block) visit(t);
   }
-  [[nodiscard]] std::size_t blockCount() const {
-    return (m_lattice.cubes().size() + kBlock - 1) / kBlock;
-  }
+  [[nodiscard]] std::size_t blockCount() const { return m_tetrahedra.size(); }
 
   template <class T>
   static std::vector<T> joined(const std::vector<std::vector<T>>& parts) {
@@ -80,6 +77,8 @@ public:
 
 private:
   static constexpr std::size_t kBlock = 1024;  // cubes that one thread takes at a time
+  void gatherTetrahedra();
+  void findSplitEdges();
   [[nodiscard]] bool isOneLumen(std::uint32_t u, std::uint32_t v) const;
 
   const SheetField& m_field;
@@ -88,6 +87,7 @@ private:
   std::vector<double> m_distance;
   std::vector<std::uint32_t> m_node;
   std::vector<std::uint8_t> m_isInside;
+  std::vector<std::vector<Tetrahedron>> m_tetrahedra;  // by blocks of cubes
   SplitEdges m_split{{}, 0};
   std::vector<bool> m_isOnSplit;
 };
