@@ -20,7 +20,7 @@ namespace {
 constexpr std::int32_t kMaxPosition = 1 << 19;  // keys have 19 bits an axis
 constexpr std::size_t kMaxCubes = std::size_t{1} << 25;
 constexpr double kReach = 2.4;   // radii from its centre to which a node's model is followed
-constexpr double kNear = 1.6;    // radii within which a node says how fine the lattice is
+constexpr double kNear = 1.35;   // radii within which a node says how fine the lattice is
 constexpr double kSafety = 1.5;  // the distance is an estimate: of half a cube's diagonal
 constexpr double kHalfDiagonal = 0.8660254037844386;
 
@@ -153,15 +153,21 @@ private:
     return cubes;
   }
 
+  // From a node's centre to the nearest point of a cube, mm.
+  [[nodiscard]] double distanceTo(const LatticeCube& cube, std::uint32_t node) const {
+    const double half = 0.5 * edgeOf(cube);
+    const Eigen::Vector3d way = (toEigen(m_tree.centre[node]) - middleOf(cube)).cwiseAbs();
+    return (way.array() - half).max(0.0).matrix().norm();
+  }
+
   // Keeps the nodes that reach the cube; the one of least power at its centre becomes its node.
   void chooseNodes(Cube& cube) const {
     const Eigen::Vector3d middle = middleOf(cube.cube);
-    const double half = kHalfDiagonal * edgeOf(cube.cube);
     double least = INFINITY;
     std::erase_if(cube.near, [&](std::uint32_t i) {
+      if (distanceTo(cube.cube, i) > reachOf(i)) return true;
       const double square = (toEigen(m_tree.centre[i]) - middle).squaredNorm();
-      const double reach = reachOf(i) + half, r = m_tree.radius[i];
-      if (square > reach * reach) return true;
+      const double r = m_tree.radius[i];
       if (square - r * r < least) {
         least = square - r * r;
         cube.cube.node = i;
@@ -176,13 +182,11 @@ private:
     double thinnest = INFINITY;
     for (const std::uint32_t i : cube.near) {
       const double r = m_tree.radius[i];
-      const double near =
-          (kNear + m_field.options().offsetShare) * r + m_field.options().offset + half;
-      if ((toEigen(m_tree.centre[i]) - middle).squaredNorm() < near * near)
-        thinnest = std::min(thinnest, r);
+      const double near = (kNear + m_field.options().offsetShare) * r + m_field.options().offset;
+      if (r < thinnest && distanceTo(cube.cube, i) < near) thinnest = r;
     }
     if (edge <= m_share * thinnest || cube.cube.size <= 2) return true;
-    if (edge > thinnest) return false;
+    if (edge > 2 * thinnest) return false;  // a vessel might be missed
     return std::abs(m_field.deepest(middle, cube.cube.node).distance) > kSafety * half;
   }
 
