@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,12 +28,22 @@ struct SheetOptions {
 struct SheetSample {
   double distance = 0;  ///< to the surface, about, mm; negative inside
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
-  std::uint32_t node = 0;                              ///< at which following the point ends
+  std::uint32_t node = 0;    ///< at which following the point ends
   bool isSeparated = false;  ///< here the surface keeps off another vessel and is not f = T
 };
 
-/// The signed distance to the surface of a case, for a point reached along the tree (docs/method.md,
-/// section 5). Never changed after construction: any number of threads may ask.
+/// The signed distance to the surface of a case, for a point reached along the tree.
+///
+/// A *sheet* of a point is a node that following a cursor can end at, with the nodes that blend
+/// with it there: two vessels that touch are two sheets. With d the distance to a sheet's wall and
+/// d' the least to another sheet's, the surface is the zero of
+///
+///     g = max(d - offset, (d - d' + gap) / 2),
+///
+/// so where two lumens overlap each ends half a gap before the place that is as deep in both
+/// (docs/method.md, section 5). d is the one-evaluation distance of section 4.2.
+///
+/// Never changed after construction: any number of threads may ask.
 class SheetField {
 public:
   /// `source` has models and, with `field`, must stay.
@@ -41,6 +52,23 @@ public:
 
   /// For a cursor that begins at `node` and follows.
   [[nodiscard]] SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const;
+
+  /// For the sheet of a point that has the least distance, of the one that following from `node`
+  /// leads to and those that touch it.
+  [[nodiscard]] SheetSample deepest(const Eigen::Vector3d& point, std::uint32_t node) const;
+
+  /// Whether two cursors that have followed a point are on one sheet of it.
+  [[nodiscard]] bool areOneSheet(const Eigen::Vector3d& point, std::uint32_t a,
+                                 std::uint32_t b) const;
+
+  /// Whether a cursor at node `from` that follows to the point gets onto the sheet of node `to`.
+  [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
+                               std::uint32_t to) const;
+
+  /// Whether another vessel may be near a node.
+  [[nodiscard]] bool mayTouch(std::uint32_t node) const {
+    return m_touchingOffset[node] < m_touchingOffset[node + 1];
+  }
 
   /// The point of the surface that Newton's method reaches from `start`, within 1e-4 of the local
   /// radius; `sample` is what at() says there. With `plane`, a unit vector, it stays in the plane
@@ -59,9 +87,29 @@ public:
   [[nodiscard]] const SheetOptions& options() const { return m_options; }
 
 private:
+  /// Distance to the wall f = T, and where it grows.
+  struct Wall {
+    double distance = 0;
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  };
+  [[nodiscard]] Wall wallOf(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] bool isLeast(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] SheetSample combine(const Eigen::Vector3d& point, std::uint32_t node,
+                                    const Wall& own, const Wall* other) const;
+  /// The nodes besides `node` that a sheet of the point ends at, one for each sheet.
+  template <class Visit>
+  void eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node, Visit&& visit) const;
+
   const formats::Case& m_source;
   const field::BlendedField& m_field;
   SheetOptions m_options;
+  std::vector<std::uint32_t> m_touchingOffset, m_touching;  ///< CSR over nodes
 };
+
+/// For each node, in CSR form, the nodes whose lumen may touch its own although they are not near
+/// along the tree: their centres are closer than `reach` times the sum of both radii plus `margin`
+/// mm, and the way along the tree is longer than 1.3 times that distance. Symmetric, ascending.
+void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
+                       std::vector<std::uint32_t>& offset, std::vector<std::uint32_t>& node);
 
 }  // namespace lumen::convert
