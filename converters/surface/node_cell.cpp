@@ -1,51 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/surface/node_cell.h"
 
-#include <algorithm>
-
 #include "converters/common/vectors.h"
+#include "converters/surface/end_planes.h"
 
 namespace lumen::convert {
 namespace {
-
-constexpr int kContinuedWithin = 2;  // edges: how near a node must be to continue a vessel
 
 bool hasModel(const formats::Case& source, std::uint32_t node) {
   return source.models->offset[node] < source.models->offset[node + 1];
 }
 
-// The first or last node of the branch that has a model.
-std::uint32_t endOfModels(const formats::Case& source, const formats::Branch& branch, bool last) {
-  for (std::uint32_t i = 0; i < branch.nodeCount; ++i) {
-    const std::uint32_t node = branch.firstNode + (last ? branch.nodeCount - 1 - i : i);
-    if (hasModel(source, node)) return node;
-  }
-  return branch.firstNode;
-}
-
-// True if one of `nodes` lies within 60 degrees of `direction`, seen from `node`.
-bool isContinued(const formats::Case& source, std::uint32_t node, const Eigen::Vector3d& direction,
-                 const std::vector<std::uint32_t>& nodes) {
-  const Eigen::Vector3d centre = toEigen(source.tree.centre[node]);
-  return std::any_of(nodes.begin(), nodes.end(), [&](std::uint32_t other) {
-    const Eigen::Vector3d away = toEigen(source.tree.centre[other]) - centre;
-    return other != node && hasModel(source, other) && away.dot(direction) > 0.5 * away.norm();
-  });
-}
-
-void addFreeEnds(const formats::Case& source, std::uint32_t node,
-                 const std::vector<std::uint32_t>& nodes, std::vector<HalfSpace>& spaces) {
-  const formats::CenterlineTree& tree = source.tree;
-  const formats::Branch& branch = tree.branches[tree.branch[node]];
-  if (branch.kind == formats::BranchKind::Aneurysm) return;
-  const Eigen::Vector3d along = toEigen(tree.direction[node]).normalized();
-  const double reach = 0.5 * double{std::max(tree.height[node], tree.radius[node])};
+void addFreeEnds(const formats::Case& source, const formats::Neighbours& edges, std::uint32_t node,
+                 std::vector<HalfSpace>& spaces) {
   for (const bool last : {false, true}) {
-    if (!last && branch.parentNode != formats::kNoParent) continue;
-    if (node != endOfModels(source, branch, last)) continue;
-    const Eigen::Vector3d outward = last ? along : Eigen::Vector3d(-along);
-    if (isContinued(source, node, outward, nodes)) continue;
-    spaces.push_back({outward, outward.dot(toEigen(tree.centre[node])) + reach});
+    const auto end = freeEnd(source, edges, source.tree.branch[node], last);
+    if (end && end->node == node)
+      spaces.push_back({end->normal, end->normal.dot(toEigen(source.tree.centre[node])) +
+                                         reachOfEnd(source.tree, node)});
   }
 }
 
@@ -69,7 +41,7 @@ std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Nei
       return std::nullopt;  // two nodes in one place: the wider one draws, or else the first
     }
   }
-  addFreeEnds(source, node, edges.within(node, kContinuedWithin), cell.ends);
+  addFreeEnds(source, edges, node, cell.ends);
   return cell;
 }
 

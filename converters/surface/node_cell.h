@@ -25,11 +25,7 @@ struct NodeCell {
 /// as the blended field has them, that have a model: it is where following a point ends at the
 /// node.
 ///
-/// A free end of a vessel (before the first node of a root branch, after the last node of any) is
-/// cut at the flat end of the node's cylinder, where its points end: beyond, models flare and taper
-/// by a quarter of the radius within a third of a height. Half a radius is always kept. An
-/// aneurysm's dome is wall that was seen and stays whole, and so does an end that another node
-/// continues.
+/// It is cut flat at free ends (end_planes.h).
 std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Neighbours& edges,
                                  std::span<const std::uint32_t> neighbours, std::uint32_t node);
 

@@ -8,3 +8,10 @@ lumen_test(surface_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/node_field_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/patch_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp)
+
+# Ends of closed surfaces.
+lumen_test(ends_test
+  LIBS lumen_surface
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/ends_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp)

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/surface/flat_region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "converters/common/error.h"
+#include "converters/surface/length.h"
+
+namespace lumen::convert {
+namespace {
+
+Loop2 circle(double radius, int corners, double sign = 1) {
+  Loop2 loop;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = sign * 2 * M_PI * i / corners;
+    loop.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return loop;
+}
+
+struct Facts {
+  double area = 0, leastAngle = 180;
+  std::size_t boundaryEdges = 0;
+  std::ptrdiff_t euler = 0;
+};
+
+Facts factsOf(const FlatMesh& mesh) {
+  Facts facts;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const Triangle& t : mesh.triangle)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector2d a = mesh.point[t[(i + 1) % 3]] - mesh.point[t[i]];
+      const Eigen::Vector2d b = mesh.point[t[(i + 2) % 3]] - mesh.point[t[i]];
+      const double cross = a.x() * b.y() - a.y() * b.x();
+      EXPECT_GT(cross, 0);
+      facts.area += cross / 6;
+      facts.leastAngle = std::min(facts.leastAngle, std::atan2(cross, a.dot(b)) * 180 / M_PI);
+      ++edges[{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])}];
+    }
+  for (const auto& entry : edges) {
+    EXPECT_LE(entry.second, 2);
+    facts.boundaryEdges += entry.second == 1 ? 1 : 0;
+  }
+  facts.euler = static_cast<std::ptrdiff_t>(mesh.point.size()) -
+                static_cast<std::ptrdiff_t>(edges.size()) +
+                static_cast<std::ptrdiff_t>(mesh.triangle.size());
+  return facts;
+}
+
+TEST(TriangulateRegion, OfADiscIsNearlyEquilateral) {
+  const Loop2 loop = circle(1, 40);
+  const FlatMesh mesh = triangulateRegion(loop, {}, 2 * M_PI / 40);
+  const Facts facts = factsOf(mesh);
+  EXPECT_NEAR(facts.area, areaOf(loop), 1e-12);
+  EXPECT_EQ(facts.boundaryEdges, 40U);
+  EXPECT_EQ(facts.euler, 1);
+  EXPECT_GT(facts.leastAngle, 30);
+  EXPECT_GT(mesh.point.size(), 150U);  // pi / (0.866 * 0.157^2) = 147, and the rim's 40
+}
+
+TEST(TriangulateRegion, FollowsLoopsThatAreNotConvex) {
+  Loop2 star;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 2 * M_PI * i / 24, radius = i % 2 == 0 ? 1 : 0.3;
+    star.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  const Facts facts = factsOf(triangulateRegion(star, {}, 0.2));
+  EXPECT_NEAR(facts.area, areaOf(star), 1e-12);
+  EXPECT_EQ(facts.boundaryEdges, 24U);
+  EXPECT_EQ(facts.euler, 1);
+}
+
+TEST(TriangulateRegion, TakesPointsOnOneLine) {
+  const Loop2 square{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+  const Facts facts = factsOf(triangulateRegion(square, {}, 10));
+  EXPECT_NEAR(facts.area, 4, 1e-12);
+  EXPECT_EQ(facts.boundaryEdges, 8U);
+}
+
+TEST(TriangulateRegion, LeavesOutHoles) {
+  const Loop2 outer = circle(1, 50);
+  Loop2 hole = circle(0.6, 30, -1);
+  for (Eigen::Vector2d& p : hole) p.x() += 0.25;
+  const Facts facts = factsOf(triangulateRegion(outer, {hole}, 0.125));
+  EXPECT_NEAR(facts.area, areaOf(outer) + areaOf(hole), 1e-12);
+  EXPECT_EQ(facts.boundaryEdges, 80U);
+  EXPECT_EQ(facts.euler, 0);
+}
+
+TEST(TriangulateRegion, RefusesLoopsThatCross) {
+  EXPECT_TRUE(triangulateRegion({{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {}, 1).triangle.empty());
+  EXPECT_TRUE(triangulateRegion(circle(1, 8, -1), {}, 1).triangle.empty());  // clockwise
+  EXPECT_TRUE(triangulateRegion(circle(1, 8), {circle(1.1, 8, -1)}, 1).triangle.empty());
+  EXPECT_FALSE(isSimple({{0, 0}, {2, 0}, {1, 0}, {1, 1}}));  // back along itself
+  EXPECT_TRUE(isSimple({{0, 0}, {1, 0}, {2, 0}, {1, 1}}));
+}
+
+TEST(Length, IsInMillimetresOrRadii) {
+  EXPECT_EQ(parseLength("0.5", "--thickness"), (Length{0.5, 0}));
+  EXPECT_EQ(parseLength("12mm", "--extend"), (Length{12, 0}));
+  EXPECT_EQ(parseLength("0.2r", "--thickness"), (Length{0, 0.2}));
+  EXPECT_EQ((Length{1, 2}.at(3)), 7);
+  EXPECT_EQ(parseEndLength("5r", "--extend"), (EndLength{"", {0, 5}}));
+  EXPECT_EQ(parseEndLength("a=b=5r", "--extend"), (EndLength{"a=b", {0, 5}}));
+}
+
+TEST(Length, SaysWhatItFoundAndExpected) {
+  for (const char* text :
+       {"", "r", "-1r", "0", "nan", "inf", "5 r", "5cm", "1e999", "5rr", "0x5"}) {
+    try {
+      parseLength(text, "--extend");
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::Usage);
+      EXPECT_NE(std::string(error.what()).find("--extend: found \"" + std::string(text) + "\""),
+                std::string::npos);
+    }
+  }
+  EXPECT_THROW(parseEndLength("=5r", "--extend"), Error);
+}
+
+}  // namespace
+}  // namespace lumen::convert
