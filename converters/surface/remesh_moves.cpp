@@ -96,6 +96,9 @@ int valenceError(const Mesh& mesh, Mesh::VertexHandle v, int change) {
 }  // namespace
 
 void splitLong(RemeshMesh& mesh) {
+  double mx=0,mt=1e9; for (auto e : mesh.edges()) { if(!std::isfinite(mesh.lengthOf(e))) std::printf("bad length\n"); mx=std::max(mx,mesh.lengthOf(e)); mt=std::min(mt,mesh.targetOf(e)); }
+  std::printf("edges %zu longest %g least target %g\n", mesh.n_edges(), mx, mt);
+
   for (std::size_t i = 0; i < mesh.n_edges(); ++i) {
     const Mesh::EdgeHandle edge(static_cast<int>(i));
     if (mesh.status(edge).deleted() || mesh.is_boundary(edge)) continue;

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "formats/case/case.h"
+#include "formats/case/topology.h"
 #include "formats/field/blended_field.h"
 
 namespace lumen::convert {
@@ -27,12 +29,24 @@ struct SheetOptions {
 struct SheetSample {
   double distance = 0;  ///< to the surface, about, mm; negative inside
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
-  std::uint32_t node = 0;        ///< at which following the point ends
-  bool isSeparated = false;      ///< here the surface keeps off another vessel and is not f = T
+  std::uint32_t node = 0;    ///< at which following the point ends
+  bool isSeparated = false;  ///< here the surface keeps off another vessel and is not f = T
 };
 
-/// The signed distance to the surface of a case, for a point reached along the tree (docs/method.md,
-/// section 5). Never changed after construction: any number of threads may ask.
+/// The signed distance to the surface of a case, for a point reached along the tree.
+///
+/// A *sheet* of a point is a node that following a cursor can end at, with the nodes that blend
+/// with it there: two vessels that touch are two sheets. With d the distance to a sheet's wall (the
+/// one-evaluation distance of docs/method.md, section 4.2) and a the distance to its axis, as a
+/// share of the radius r there, the surface is the zero of
+///
+///     g = max(d - offset, (a - a') / (1/r + 1/r') + gap/2)
+///
+/// where a' and r' are those of the other sheet that gives most. So where two lumens overlap each
+/// ends half a gap before the place that is as far from both axes, and no vessel loses its axis to
+/// a wider one.
+///
+/// Never changed after construction: any number of threads may ask.
 class SheetField {
 public:
   /// `source` has models and, with `field`, must stay.
@@ -41,6 +55,23 @@ public:
 
   /// For a cursor that begins at `node` and follows.
   [[nodiscard]] SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const;
+
+  /// For the sheet of a point whose axis is the nearest in radii, of the one that following from
+  /// `node` leads to and those that touch it.
+  [[nodiscard]] SheetSample deepest(const Eigen::Vector3d& point, std::uint32_t node) const;
+
+  /// Whether two cursors that have followed a point are on one sheet of it.
+  [[nodiscard]] bool areOneSheet(const Eigen::Vector3d& point, std::uint32_t a,
+                                 std::uint32_t b) const;
+
+  /// Whether a cursor at node `from` that follows to the point gets onto the sheet of node `to`.
+  [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
+                               std::uint32_t to) const;
+
+  /// Whether another vessel may be near a node.
+  [[nodiscard]] bool mayTouch(std::uint32_t node) const {
+    return m_touchingOffset[node] < m_touchingOffset[node + 1];
+  }
 
   /// The point of the surface that Newton's method reaches from `start`, within 1e-4 of the local
   /// radius; `sample` is what at() says there. With `plane`, a unit vector, it stays in the plane
@@ -59,9 +90,38 @@ public:
   [[nodiscard]] const SheetOptions& options() const { return m_options; }
 
 private:
+  /// Distance to the wall f = T, and where it grows.
+  struct Wall {
+    double distance = 0;
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  };
+  /// The way from the axis at a sheet's node: along tree edges, radii in between are linear.
+  struct Axis {
+    double share = 0;   ///< of the radius
+    double radius = 1;  ///< at the foot
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, away from the axis
+  };
+  [[nodiscard]] Wall wallOf(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] bool isLeast(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] Axis axisOf(const Eigen::Vector3d& point, std::uint32_t node) const;
+  /// `sample` kept off a sheet with another axis.
+  void separate(SheetSample& sample, const Axis& own, const Axis& other) const;
+  [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const;
+  /// The nodes besides `node` that a sheet of the point ends at, one for each sheet.
+  template <class Visit>
+  void eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node, Visit&& visit) const;
+
   const formats::Case& m_source;
   const field::BlendedField& m_field;
   SheetOptions m_options;
+  formats::Neighbours m_edges;
+  std::vector<std::uint32_t> m_touchingOffset, m_touching;  ///< CSR over nodes
 };
+
+/// For each node, in CSR form, the nodes whose lumen may touch its own although they are not near
+/// along the tree: their centres are closer than `reach` times the sum of both radii plus `margin`
+/// mm, and the way along the tree is longer than 1.3 times that distance. Symmetric, ascending.
+void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
+                       std::vector<std::uint32_t>& offset, std::vector<std::uint32_t>& node);
 
 }  // namespace lumen::convert

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The closed surface of a case, topologically right and roughly in place.
+#pragma once
+
+#include <cstddef>
+
+#include "converters/common/progress.h"
+#include "converters/surface/case_surface.h"
+#include "converters/surface/sheet_field.h"
+
+namespace lumen::convert {
+
+/// What extraction found besides the surface.
+struct ExtractionReport {
+  std::size_t components = 0;     ///< closed surfaces, one for each connected tree if all is well
+  std::size_t droppedParts = 0;   ///< closed surfaces that belong to no tree, or lie within another
+};
+
+/// A closed, oriented 2-manifold around each connected tree of a case that has models
+/// (docs/method.md, section 5): marching tetrahedra on a lattice whose edges are about `share` local
+/// radii. Two sheets that are inside at the ends of one edge and not joined along it have both
+/// their walls on it, so vessels that touch share no vertex. Vertices are within a few per cent of
+/// a radius of the field's surface; ends bulge as the field does. All triangles are in group 0.
+CaseSurface extractSurface(const SheetField& field, double share, ExtractionReport& report,
+                           Progress& progress);
+
+}  // namespace lumen::convert
