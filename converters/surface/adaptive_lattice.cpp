@@ -17,11 +17,11 @@
 namespace lumen::convert {
 namespace {
 
-constexpr std::int32_t kMaxPosition = 1 << 19;      // keys have 19 bits an axis
+constexpr std::int32_t kMaxPosition = 1 << 19;  // keys have 19 bits an axis
 constexpr std::size_t kMaxCubes = std::size_t{1} << 25;
-constexpr double kReach = 2.4;        // radii from its centre to which a node's model is followed
-constexpr double kNear = 1.6;         // radii within which a node says how fine the lattice is
-constexpr double kSafety = 1.5;       // the distance is an estimate: of half a cube's diagonal
+constexpr double kReach = 2.4;   // radii from its centre to which a node's model is followed
+constexpr double kNear = 1.6;    // radii within which a node says how fine the lattice is
+constexpr double kSafety = 1.5;  // the distance is an estimate: of half a cube's diagonal
 constexpr double kHalfDiagonal = 0.8660254037844386;
 
 }  // namespace
@@ -47,12 +47,29 @@ AdaptiveLattice::Neighbour AdaptiveLattice::neighbour(const LatticeCube& cube, i
   return {Kind::Coarser, static_cast<std::uint32_t>(at->second)};
 }
 
+const LatticeCube* AdaptiveLattice::cubeAt(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d steps = (point - m_origin) / m_step;
+  if (!(steps.minCoeff() >= 0) || !(steps.maxCoeff() < kMaxPosition)) return nullptr;
+  const Position position{static_cast<std::int32_t>(steps.x()),
+                          static_cast<std::int32_t>(steps.y()),
+                          static_cast<std::int32_t>(steps.z())};
+  for (std::int32_t size = 2; size <= m_largest; size *= 2) {
+    const auto at = m_index.find(keyOf(position, size));
+    if (at != m_index.end() && at->second >= 0)
+      return &m_cubes[static_cast<std::size_t>(at->second)];
+  }
+  return nullptr;
+}
+
 // Makes the leaves: level by level from the coarsest, then the balance.
 class LatticeBuilder {
 public:
   LatticeBuilder(AdaptiveLattice& lattice, const SheetField& field, double share,
                  Progress& progress)
-      : m_lattice(lattice), m_field(field), m_tree(field.source().tree), m_share(share),
+      : m_lattice(lattice),
+        m_field(field),
+        m_tree(field.source().tree),
+        m_share(share),
         m_progress(progress) {}
 
   void run() {
@@ -76,7 +93,8 @@ private:
 
   static Error tooFine() {
     return invalidInput(
-        "the case is too large for the lattice that its thinnest vessels need; expected less than " +
+        "the case is too large for the lattice that its thinnest vessels need; expected less "
+        "than " +
         std::to_string(kMaxCubes) + " cubes");
   }
 
@@ -84,7 +102,9 @@ private:
     return (kReach + m_field.options().offsetShare) * m_tree.radius[node] +
            0.5 * m_tree.height[node] + m_field.options().offset;
   }
-  [[nodiscard]] double edgeOf(const LatticeCube& cube) const { return cube.size * m_lattice.m_step; }
+  [[nodiscard]] double edgeOf(const LatticeCube& cube) const {
+    return cube.size * m_lattice.m_step;
+  }
   [[nodiscard]] Eigen::Vector3d middleOf(const LatticeCube& cube) const {
     const std::int32_t half = cube.size / 2;
     return m_lattice.place({cube.corner[0] + half, cube.corner[1] + half, cube.corner[2] + half});
@@ -156,7 +176,8 @@ private:
     double thinnest = INFINITY;
     for (const std::uint32_t i : cube.near) {
       const double r = m_tree.radius[i];
-      const double near = (kNear + m_field.options().offsetShare) * r + m_field.options().offset + half;
+      const double near =
+          (kNear + m_field.options().offsetShare) * r + m_field.options().offset + half;
       if ((toEigen(m_tree.centre[i]) - middle).squaredNorm() < near * near)
         thinnest = std::min(thinnest, r);
     }

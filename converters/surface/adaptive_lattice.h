@@ -35,6 +35,9 @@ public:
     return m_origin + m_step * Eigen::Vector3d(position[0], position[1], position[2]);
   }
 
+  /// The leaf that holds a point; null outside.
+  [[nodiscard]] const LatticeCube* cubeAt(const Eigen::Vector3d& point) const;
+
   enum class Kind : std::uint8_t { None, Same, Coarser, Finer };
   struct Neighbour {
     Kind kind = Kind::None;

@@ -19,6 +19,13 @@ Position centreOf(const LatticeCube& cube) {
   return {cube.corner[0] + half, cube.corner[1] + half, cube.corner[2] + half};
 }
 
+Position cornerOf(const LatticeCube& cube, int corner) {
+  Position p = cube.corner;
+  for (std::size_t a = 0; a < 3; ++a)
+    if ((corner >> a & 1) != 0) p[a] += cube.size;
+  return p;
+}
+
 Position faceCentre(const LatticeCube& cube, int side) {
   Position p = centreOf(cube);
   p[static_cast<std::size_t>(side / 2)] += side % 2 == 0 ? -cube.size / 2 : cube.size / 2;
@@ -46,12 +53,7 @@ LatticeVertices::LatticeVertices(const AdaptiveLattice& lattice) : m_lattice(lat
   for (std::uint32_t i = 0; i < lattice.cubes().size(); ++i) {
     const LatticeCube& cube = lattice.cubes()[i];
     add(centreOf(cube), i);
-    for (int corner = 0; corner < 8; ++corner) {
-      Position p = cube.corner;
-      for (std::size_t a = 0; a < 3; ++a)
-        if ((corner >> a & 1) != 0) p[a] += cube.size;
-      add(p, i);
-    }
+    for (int corner = 0; corner < 8; ++corner) add(cornerOf(cube, corner), i);
     for (int side = 0; side < 6; ++side) {
       const AdaptiveLattice::Neighbour next = lattice.neighbour(cube, side);
       if (next.kind == AdaptiveLattice::Kind::Coarser) add(faceCentre(cube, side), i);
@@ -75,6 +77,12 @@ std::uint32_t LatticeVertices::add(const Position& position, std::uint32_t cube)
 std::uint32_t LatticeVertices::find(const Position& position) const {
   const auto at = m_index.find(keyOf(position));
   return at == m_index.end() ? kNone : at->second;
+}
+
+std::vector<std::uint32_t> LatticeVertices::verticesOf(const LatticeCube& cube) const {
+  std::vector<std::uint32_t> vertices{find(centreOf(cube))};
+  for (int corner = 0; corner < 8; ++corner) vertices.push_back(find(cornerOf(cube, corner)));
+  return vertices;
 }
 
 void LatticeVertices::orient(Tetrahedron& t) const {
@@ -108,7 +116,8 @@ std::size_t LatticeVertices::collect(std::uint32_t index,
     const bool hasOther = next.kind != Kind::None;
     const std::uint32_t other =
         hasOther ? find(centreOf(m_lattice.cubes()[next.cube])) : std::uint32_t{kNone};
-    const std::uint32_t middle = next.kind == Kind::Same ? std::uint32_t{kNone} : find(faceCentre(cube, side));
+    const std::uint32_t middle =
+        next.kind == Kind::Same ? std::uint32_t{kNone} : find(faceCentre(cube, side));
     const std::array<Position, 4> corners = faceCorners(cube, side);
     for (std::size_t e = 0; e < 4; ++e) {
       const Position &p = corners[e], &q = corners[(e + 1) % 4];

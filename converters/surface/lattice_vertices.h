@@ -30,6 +30,8 @@ public:
   [[nodiscard]] const LatticeCube& cubeOf(std::uint32_t vertex) const {
     return m_lattice.cubes()[m_cube[vertex]];
   }
+  /// The centre of a cube, and its corners.
+  [[nodiscard]] std::vector<std::uint32_t> verticesOf(const LatticeCube& cube) const;
   /// Whether it lies on the outside of the lattice.
   [[nodiscard]] bool isOutermost(std::uint32_t vertex) const { return m_isOutermost[vertex]; }
 

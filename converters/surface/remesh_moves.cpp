@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace lumen::convert {
 namespace {
@@ -14,6 +16,7 @@ using Mesh = RemeshMesh;
 // The thresholds of M. Botsch and L. Kobbelt, A remeshing approach to multiresolution modeling,
 // 2004: a split or a collapse brings an edge nearer to its target.
 constexpr double kLong = 4.0 / 3.0, kShort = 4.0 / 5.0;
+constexpr int kSplitSweeps = 4;         // each halves: enough for edges of sixteen targets
 constexpr double kRelaxation = 0.8;    // of the way to the middle
 constexpr double kLongestMove = 0.5;   // of the target, in one step
 constexpr double kDrift = 0.05;        // of the target: a smaller move leaves the surface by 2e-5 r
@@ -95,14 +98,18 @@ int valenceError(const Mesh& mesh, Mesh::VertexHandle v, int change) {
 
 }  // namespace
 
+// The longest first: in another order, thin triangles can breed long edges for ever.
 void splitLong(RemeshMesh& mesh) {
-  double mx=0,mt=1e9; for (auto e : mesh.edges()) { if(!std::isfinite(mesh.lengthOf(e))) std::printf("bad length\n"); mx=std::max(mx,mesh.lengthOf(e)); mt=std::min(mt,mesh.targetOf(e)); }
-  std::printf("edges %zu longest %g least target %g\n", mesh.n_edges(), mx, mt);
-
-  for (std::size_t i = 0; i < mesh.n_edges(); ++i) {
-    const Mesh::EdgeHandle edge(static_cast<int>(i));
-    if (mesh.status(edge).deleted() || mesh.is_boundary(edge)) continue;
-    while (mesh.lengthOf(edge) > kLong * mesh.targetOf(edge)) mesh.splitEdge(edge);
+  std::vector<std::pair<double, int>> tooLong;
+  for (int sweep = 0; sweep < kSplitSweeps; ++sweep) {
+    tooLong.clear();
+    for (const Mesh::EdgeHandle edge : mesh.edges()) {
+      const double share = mesh.lengthOf(edge) / mesh.targetOf(edge);
+      if (share > kLong && !mesh.is_boundary(edge)) tooLong.emplace_back(-share, edge.idx());
+    }
+    std::sort(tooLong.begin(), tooLong.end());
+    for (const auto& [share, edge] : tooLong) mesh.splitEdge(Mesh::EdgeHandle(edge));
+    if (tooLong.empty()) return;
   }
 }
 

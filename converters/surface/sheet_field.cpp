@@ -11,6 +11,9 @@ namespace {
 constexpr int kMaxSteps = 40;         // three to five near the wall; the rest is for long ways
 constexpr double kTolerance = 1e-4;   // of the radius
 constexpr double kLongestStep = 0.3;  // of the radius: far from the wall h is not straight
+constexpr double kFarthest = 0.5;     // of the radius: a surface beyond is another one
+constexpr double kCore = 0.25;        // of the radius: around its axis, where one sheet goes first
+constexpr double kLeastSlope = 0.05;  // of the way between two axes that run side by side
 constexpr double kVanished = 1e-12;   // of the level: below, f says nothing about the wall
 // How far apart, in sums of radii, nodes are whose walls may touch: a model reaches beyond its ball.
 constexpr double kTouchingReach = 1.5;
@@ -36,7 +39,8 @@ SheetField::Wall SheetField::wallOf(const Eigen::Vector3d& point, std::uint32_t 
   const Eigen::Vector3d out = point - Eigen::Map<const Eigen::Vector3d>(m_field.centre(node));
   if (!(f.value > kVanished * level) || !(slope > 0)) {
     const double distance = out.norm();
-    const Eigen::Vector3d away = distance > 0 ? Eigen::Vector3d(out / distance) : Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d away =
+        distance > 0 ? Eigen::Vector3d(out / distance) : Eigen::Vector3d::UnitX();
     return {f.value > level ? -r : std::max(distance - r, 1e-3 * r), away};
   }
   const field::LevelTransform here = field::levelTransform(m_field.kernel(), f.value, slope);
@@ -82,9 +86,8 @@ void SheetField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node
     const std::uint32_t other = m_touching[e];
     if (count == kMost) return;
     if (!isLeast(point, other) || areOneSheet(point, node, other)) continue;
-    const bool isKnown = std::any_of(seen.begin(), seen.begin() + count, [&](std::uint32_t k) {
-      return areOneSheet(point, k, other);
-    });
+    const bool isKnown = std::any_of(seen.begin(), seen.begin() + count,
+                                     [&](std::uint32_t k) { return areOneSheet(point, k, other); });
     if (isKnown) continue;
     seen[count++] = other;
     visit(other);
@@ -110,13 +113,27 @@ SheetField::Axis SheetField::axisOf(const Eigen::Vector3d& point, std::uint32_t 
   return best;
 }
 
-void SheetField::separate(SheetSample& sample, const Axis& own, const Axis& other) const {
+std::pair<SheetField::Axis, SheetField::Axis> SheetField::axesOf(const Eigen::Vector3d& point,
+                                                                 std::uint32_t a,
+                                                                 std::uint32_t b) const {
+  std::pair<Axis, Axis> axes{axisOf(point, a), axisOf(point, b)};
+  Axis& first = a > b ? axes.first : axes.second;
+  if (first.share < kCore) {
+    first.share -= 1 - first.share / kCore;
+    first.gradient *= 1 + 1 / kCore;
+  }
+  return axes;
+}
+
+void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
+                          std::uint32_t node) const {
+  const auto [own, other] = axesOf(point, sample.node, node);
   const double harmonic = 1 / (1 / own.radius + 1 / other.radius);
-  const double apart = (own.share - other.share) * harmonic + 0.5 * m_options.gap;
-  if (apart <= sample.distance) return;
   const Eigen::Vector3d gradient =
       harmonic * (own.gradient / own.radius - other.gradient / other.radius);
-  const double slope = std::max(gradient.norm(), 1e-3);
+  const double slope = std::max(gradient.norm(), kLeastSlope);
+  const double apart = (own.share - other.share) * harmonic / slope + 0.5 * m_options.gap;
+  if (apart <= sample.distance) return;
   sample.distance = apart;
   sample.gradient = gradient / slope;
   sample.isSeparated = true;
@@ -129,28 +146,21 @@ SheetSample SheetField::sampleOf(const Eigen::Vector3d& point, std::uint32_t nod
 }
 
 SheetSample SheetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
-  const std::uint32_t here = m_field.follow(toVec(point), node);
-  SheetSample sample = sampleOf(point, here);
-  std::optional<Axis> own;
-  eachOtherSheet(point, here, [&](std::uint32_t other) {
-    if (!own) own = axisOf(point, here);
-    separate(sample, *own, axisOf(point, other));
-  });
+  SheetSample sample = sampleOf(point, m_field.follow(toVec(point), node));
+  eachOtherSheet(point, sample.node, [&](std::uint32_t other) { separate(sample, point, other); });
   return sample;
 }
 
 SheetSample SheetField::deepest(const Eigen::Vector3d& point, std::uint32_t node) const {
   const std::uint32_t here = m_field.follow(toVec(point), node);
   std::uint32_t best = here;
-  std::optional<double> least;
+  bool isAlone = true;
   eachOtherSheet(point, here, [&](std::uint32_t other) {
-    if (!least) least = axisOf(point, here).share;
-    const double share = axisOf(point, other).share;
-    if (share >= *least) return;
-    least = share;
-    best = other;
+    isAlone = false;
+    const auto [nearest, next] = axesOf(point, best, other);
+    if (next.share < nearest.share) best = other;
   });
-  return least ? at(point, best) : sampleOf(point, here);
+  return isAlone ? sampleOf(point, here) : at(point, best);
 }
 
 std::optional<SheetField::Foot> SheetField::project(const Eigen::Vector3d& start,
@@ -169,6 +179,7 @@ std::optional<SheetField::Foot> SheetField::project(const Eigen::Vector3d& start
     const double longest = kLongestStep * r;
     const double way = std::clamp(-foot.sample.distance / std::sqrt(square), -longest, longest);
     foot.position += way / std::sqrt(square) * along;
+    if ((foot.position - start).squaredNorm() > kFarthest * kFarthest * r * r) return std::nullopt;
   }
   return std::nullopt;
 }

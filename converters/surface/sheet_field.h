@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,7 +30,7 @@ struct SheetOptions {
 struct SheetSample {
   double distance = 0;  ///< to the surface, about, mm; negative inside
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
-  std::uint32_t node = 0;    ///< at which following the point ends
+  std::uint32_t node = 0;                              ///< at which following the point ends
   bool isSeparated = false;  ///< here the surface keeps off another vessel and is not f = T
 };
 
@@ -44,7 +45,8 @@ struct SheetSample {
 ///
 /// where a' and r' are those of the other sheet that gives most. So where two lumens overlap each
 /// ends half a gap before the place that is as far from both axes, and no vessel loses its axis to
-/// a wider one.
+/// a wider one. Within a quarter of a radius of its axis the node of the greater index goes first,
+/// so that neither is severed where two axes cross.
 ///
 /// Never changed after construction: any number of threads may ask.
 class SheetField {
@@ -67,6 +69,11 @@ public:
   /// Whether a cursor at node `from` that follows to the point gets onto the sheet of node `to`.
   [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
                                std::uint32_t to) const;
+
+  /// Distance of a point from the axis at a node, as a share of the radius there.
+  [[nodiscard]] double axisShare(const Eigen::Vector3d& point, std::uint32_t node) const {
+    return axisOf(point, node).share;
+  }
 
   /// Whether another vessel may be near a node.
   [[nodiscard]] bool mayTouch(std::uint32_t node) const {
@@ -97,15 +104,18 @@ private:
   };
   /// The way from the axis at a sheet's node: along tree edges, radii in between are linear.
   struct Axis {
-    double share = 0;   ///< of the radius
-    double radius = 1;  ///< at the foot
+    double share = 0;                                    ///< of the radius
+    double radius = 1;                                   ///< at the foot
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, away from the axis
   };
   [[nodiscard]] Wall wallOf(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] bool isLeast(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] Axis axisOf(const Eigen::Vector3d& point, std::uint32_t node) const;
-  /// `sample` kept off a sheet with another axis.
-  void separate(SheetSample& sample, const Axis& own, const Axis& other) const;
+  /// `sample` kept off the sheet of node `other`.
+  void separate(SheetSample& sample, const Eigen::Vector3d& point, std::uint32_t other) const;
+  /// Two sheets' axes, for comparison: what goes first is nearer within its core.
+  [[nodiscard]] std::pair<Axis, Axis> axesOf(const Eigen::Vector3d& point, std::uint32_t a,
+                                             std::uint32_t b) const;
   [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const;
   /// The nodes besides `node` that a sheet of the point ends at, one for each sheet.
   template <class Visit>
