@@ -26,8 +26,7 @@ bool flipBest(Mesh& mesh, Mesh::FaceHandle face) {
   for (const Mesh::EdgeHandle edge : mesh.fe_range(face)) {
     if (!mesh.mayFlip(edge)) continue;
     const Mesh::Outcome outcome = mesh.afterFlip(edge);
-    if (outcome.isTurned || outcome.quality <= kGain * outcome.before ||
-        outcome.quality <= quality)
+    if (outcome.isTurned || outcome.quality <= kGain * outcome.before || outcome.quality <= quality)
       continue;
     quality = outcome.quality;
     best = edge;

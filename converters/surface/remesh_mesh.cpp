@@ -224,21 +224,21 @@ bool RemeshMesh::mayFlip(EdgeHandle edge) const {
 
 RemeshMesh::Outcome RemeshMesh::afterFlip(EdgeHandle edge) const {
   const HalfedgeHandle h = halfedge_handle(edge, 0);
-  const VertexHandle from = from_vertex_handle(h), to = to_vertex_handle(h),
-                     left = opposite_vh(h), right = opposite_he_opposite_vh(h);
+  const VertexHandle from = from_vertex_handle(h), to = to_vertex_handle(h), left = opposite_vh(h),
+                     right = opposite_he_opposite_vh(h);
   const std::uint32_t group = data(face_handle(h)).group;
-  const auto cornersAt = [&](const std::array<VertexHandle, 3>& v) -> Corners {
-    return {point(v[0]), point(v[1]), point(v[2])};
+  const auto cornersAt = [&](const std::array<VertexHandle, 3>& v) {
+    return Corners{point(v[0]), point(v[1]), point(v[2])};
   };
-  using Face = std::array<VertexHandle, 3>;
-  const Face old0{from, to, left}, old1{to, from, right}, new0{from, right, left},
+  using Corner = std::array<VertexHandle, 3>;
+  const Corner old0{from, to, left}, old1{to, from, right}, new0{from, right, left},
       new1{to, left, right};
   Outcome outcome{false, 4, 4, 0};
-  for (const Face& v : {old0, old1})
+  for (const Corner& v : {old0, old1})
     outcome.before = std::min(outcome.before, qualityOf(cornersAt(v), outward(group, v)));
   // Of the faces before, the better one: a flip may not leave one that looks worse than it.
   const Eigen::Vector3d n0 = normalOf(cornersAt(old0)), n1 = normalOf(cornersAt(old1));
-  for (const Face& v : {new0, new1}) {
+  for (const Corner& v : {new0, new1}) {
     const Eigen::Vector3d out = outward(group, v), normal = normalOf(cornersAt(v));
     const Eigen::Vector3d& worse = n0.dot(out) < n1.dot(out) ? n0 : n1;
     if (isTurned(normal, worse, out)) outcome.isTurned = true;
@@ -251,8 +251,7 @@ RemeshMesh::Outcome RemeshMesh::afterFlip(EdgeHandle edge) const {
 
 RemeshMesh::VertexHandle RemeshMesh::splitEdge(EdgeHandle edge) {
   const HalfedgeHandle h = halfedge_handle(edge, 0), back = opposite_halfedge_handle(h);
-  const VertexHandle from = from_vertex_handle(h), to = to_vertex_handle(h),
-                     left = opposite_vh(h);
+  const VertexHandle from = from_vertex_handle(h), to = to_vertex_handle(h), left = opposite_vh(h);
   const std::uint32_t groupLeft = data(face_handle(h)).group,
                       groupRight = data(face_handle(back)).group;
   const bool isRim = data(edge).isRim;

@@ -16,15 +16,15 @@ using Mesh = RemeshMesh;
 // The thresholds of M. Botsch and L. Kobbelt, A remeshing approach to multiresolution modeling,
 // 2004: a split or a collapse brings an edge nearer to its target.
 constexpr double kLong = 4.0 / 3.0, kShort = 4.0 / 5.0;
-constexpr int kSplitSweeps = 4;         // each halves: enough for edges of sixteen targets
+constexpr int kSplitSweeps = 4;        // each halves: enough for edges of sixteen targets
 constexpr double kRelaxation = 0.8;    // of the way to the middle
 constexpr double kLongestMove = 0.5;   // of the target, in one step
 constexpr double kDrift = 0.05;        // of the target: a smaller move leaves the surface by 2e-5 r
 constexpr double kFieldStep = 0.3;     // of the radius: farther off, f is not straight
 constexpr double kChordInSlit = 0.25;  // of the gap
 constexpr double kFinest = 0.2;        // of the target, at a slit
-constexpr double kFlipAngle = 0.5;     // radians: flips for valence leave no angle under 29 degrees,
-                                       // unless it was there before
+constexpr double kFlipAngle = 0.5;  // radians: flips for valence leave no angle under 29 degrees,
+                                    // unless it was there before
 
 std::optional<Eigen::Vector3d> planeOf(const Mesh& mesh, Mesh::VertexHandle v) {
   const auto& here = mesh.data(v);
@@ -180,8 +180,7 @@ void relax(RemeshMesh& mesh) {
 bool settle(RemeshMesh& mesh, RemeshMesh::VertexHandle v) {
   auto& here = mesh.data(v);
   const auto plane = here.kind == VertexKind::Rim ? planeOf(mesh, v) : std::nullopt;
-  const auto foot =
-      mesh.rules().field.project(mesh.point(v), here.node, plane ? &*plane : nullptr);
+  const auto foot = mesh.rules().field.project(mesh.point(v), here.node, plane ? &*plane : nullptr);
   here.isOffField = !foot;
   if (!foot) return false;
   mesh.set_point(v, foot->position);
@@ -216,8 +215,7 @@ bool refineSlits(RemeshMesh& mesh) {
     const double sag = std::abs(middle.distance);
     if (!(sag > allowed)) continue;
     // The sag of a chord grows with the square of its length.
-    const double wanted =
-        mesh.lengthOf(edge) * std::max(kFinest, std::sqrt(allowed / sag));
+    const double wanted = mesh.lengthOf(edge) * std::max(kFinest, std::sqrt(allowed / sag));
     for (const Mesh::VertexHandle v : {from, to}) {
       if (mesh.data(v).kind == VertexKind::Locked || mesh.data(v).target <= wanted) continue;
       mesh.data(v).target = wanted;

@@ -23,8 +23,8 @@ struct PieceVertex {
   std::uint32_t node = 0;                              ///< of its cursor
   std::uint32_t home = kNewVertex;                     ///< its index in the whole surface
   bool isSeparated = false;                            ///< as SheetSample says
-  bool isOffField = false;  ///< the field had no surface near by
-  bool isBoundary = false;  ///< of the piece, so that it was not touched
+  bool isOffField = false;                             ///< the field had no surface near by
+  bool isBoundary = false;                             ///< of the piece, so that it was not touched
 };
 
 /// A manifold with boundary. Vertices of the boundary are not touched, and no edge is made between

@@ -17,14 +17,16 @@ std::size_t pieceSize(std::size_t triangles) {
 }
 
 // Directed edges of the piece that have no opposite one, as pairs (from, to), sorted.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> openEdges(std::span<const Triangle> triangles) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> openEdges(
+    std::span<const Triangle> triangles) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> all, open;
   all.reserve(3 * triangles.size());
   for (const Triangle& t : triangles)
     for (std::size_t i = 0; i < 3; ++i) all.emplace_back(t[i], t[(i + 1) % 3]);
   std::sort(all.begin(), all.end());
   for (const auto& [from, to] : all)
-    if (!std::binary_search(all.begin(), all.end(), std::pair(to, from))) open.emplace_back(from, to);
+    if (!std::binary_search(all.begin(), all.end(), std::pair(to, from)))
+      open.emplace_back(from, to);
   return open;
 }
 
@@ -40,8 +42,7 @@ std::vector<std::uint32_t> pinchedVertices(std::span<const Triangle> triangles) 
   const auto open = openEdges(triangles);
   std::vector<std::uint32_t> pinched;
   for (std::size_t i = 1; i < open.size(); ++i)
-    if (open[i].first == open[i - 1].first &&
-        (pinched.empty() || pinched.back() != open[i].first))
+    if (open[i].first == open[i - 1].first && (pinched.empty() || pinched.back() != open[i].first))
       pinched.push_back(open[i].first);
   return pinched;
 }

@@ -14,7 +14,7 @@ namespace lumen::convert {
 /// A surface with what remeshing knows of each vertex.
 struct RemeshState {
   CaseSurface& surface;
-  std::vector<double> target;             ///< as PieceVertex has it, and so on
+  std::vector<double> target;  ///< as PieceVertex has it, and so on
   std::vector<Eigen::Vector3d> gradient;
   std::vector<std::uint8_t> isSeparated, isOffField, isBoundary;
 };

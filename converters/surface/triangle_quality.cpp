@@ -37,8 +37,7 @@ TriangleQuality triangleQuality(const TriangleMesh& mesh, std::span<const double
   quality.triangles = mesh.triangle.size();
   std::vector<double> angles, ratios;
   for (const Triangle& t : mesh.triangle) {
-    const double angle =
-        leastAngle(mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]);
+    const double angle = leastAngle(mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]);
     angles.push_back(angle * 180 / std::numbers::pi);
     if (angle < kSharpAngle) ++quality.sharp;
     for (std::size_t i = 0; i < 3 && !target.empty(); ++i) {

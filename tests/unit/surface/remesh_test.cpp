@@ -36,7 +36,9 @@ formats::Case forkCase() {
 }
 
 // A ring: a parent, and a child that a link joins to it again.
-CaseSurface roughFork(const FieldOfCase& of) { return test::closedSurface(of, 0.15, 0.3); }
+CaseSurface roughFork(const FieldOfCase& of) {
+  return test::closedSurface(of, 0.15, 0.3);
+}
 
 void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
   const test::MeshFacts facts = factsOf(surface.mesh);
@@ -53,8 +55,7 @@ void expectClosed(const CaseSurface& surface, std::ptrdiff_t euler) {
 
 TriangleQuality qualityOf(const CaseSurface& surface, const FieldOfCase& of,
                           const EdgeLength& edge = {}) {
-  const TriangleQuality q =
-      triangleQuality(surface.mesh, targetLengths(surface, of.sheet, edge));
+  const TriangleQuality q = triangleQuality(surface.mesh, targetLengths(surface, of.sheet, edge));
   std::printf("triangles %zu, median %.1f, least %.1f, sharp %zu, edges %.2f (%.2f to %.2f)\n",
               q.triangles, q.medianAngle, q.leastAngle, q.sharp, q.edgeMedian, q.edgeLow,
               q.edgeHigh);
