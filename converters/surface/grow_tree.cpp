@@ -9,8 +9,8 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kCore = 0.35;          // of the radius: what is grown first, along the axes
-constexpr std::size_t kDepths = 64;     // steps from the axis to the wall
+constexpr double kCore = 0.35;       // of the radius: what is grown first, along the axes
+constexpr std::size_t kDepths = 64;  // steps from the axis to the wall
 
 using Tetrahedron = SampledLattice::Tetrahedron;
 
@@ -62,7 +62,8 @@ private:
   void gather(const std::vector<std::uint32_t>& lumens, std::uint32_t lumen) {
     std::vector<std::vector<Tetrahedron>> found(m_lattice.blockCount());
     m_lattice.eachTetrahedron([&](std::size_t block, const Tetrahedron& t) {
-      const auto inside = std::count_if(t.begin(), t.end(), [&](auto v) { return lumens[v] == lumen; });
+      const auto inside =
+          std::count_if(t.begin(), t.end(), [&](auto v) { return lumens[v] == lumen; });
       if (inside < 2) return;
       found[block].push_back({m_local[t[0]], m_local[t[1]], m_local[t[2]], m_local[t[3]]});
     });
@@ -126,7 +127,8 @@ private:
   [[nodiscard]] std::size_t priority(std::uint32_t v) const {
     const std::uint32_t vertex = m_vertex[v], node = m_lattice.node(vertex);
     if (m_field.axisShare(m_lattice.place(vertex), node) < kCore) return 0;
-    const double depth = std::clamp(1 + m_lattice.distance(vertex) / m_field.radius(node), 0.0, 1.0);
+    const double depth =
+        std::clamp(1 + m_lattice.distance(vertex) / m_field.radius(node), 0.0, 1.0);
     return 1 + static_cast<std::size_t>(depth * static_cast<double>(kDepths));
   }
 
@@ -161,7 +163,8 @@ private:
     double least = 0;
     for (std::uint32_t v = 0; v < m_vertex.size(); ++v) {
       if (m_isGrown[v]) continue;
-      const double share = m_field.axisShare(m_lattice.place(m_vertex[v]), m_lattice.node(m_vertex[v]));
+      const double share =
+          m_field.axisShare(m_lattice.place(m_vertex[v]), m_lattice.node(m_vertex[v]));
       if ((best != kOther && share >= least) || !link(v).isBridge()) continue;
       best = v;
       least = share;

@@ -40,7 +40,8 @@ void openEdge(SampledLattice& lattice, const SheetField& field, std::uint32_t fr
   for (int i = 0; i <= count; ++i) {
     const double t = static_cast<double>(i) / count;
     for (const std::uint32_t v : lattice.verticesAround(a + t * (b - a)))
-      if (!lattice.isOutermost(v)) lattice.force(v, field.at(lattice.place(v), t < 0.5 ? from : to));
+      if (!lattice.isOutermost(v))
+        lattice.force(v, field.at(lattice.place(v), t < 0.5 ? from : to));
   }
 }
 

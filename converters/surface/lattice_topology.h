@@ -18,10 +18,10 @@ std::vector<std::uint32_t> lumensOf(const SampledLattice& lattice);
 
 /// A connected component of the centerline tree.
 struct TreeLumen {
-  std::uint32_t node = 0;    ///< the first node
-  std::size_t links = 0;     ///< how many loops its edges and links close
-  std::uint32_t start = 0;   ///< a vertex in its lumen, at the first node
-  std::uint32_t lumen = 0;   ///< as lumensOf() names it
+  std::uint32_t node = 0;   ///< the first node
+  std::size_t links = 0;    ///< how many loops its edges and links close
+  std::uint32_t start = 0;  ///< a vertex in its lumen, at the first node
+  std::uint32_t lumen = 0;  ///< as lumensOf() names it
 };
 
 /// Opens the tree edges along which no lumen leads from end to end, by a way as wide as a cube, and

@@ -27,12 +27,16 @@ public:
   SampledLattice(const SheetField& field, double share, Progress& progress);
 
   [[nodiscard]] std::size_t size() const { return m_vertices.size(); }
-  [[nodiscard]] Eigen::Vector3d place(std::uint32_t vertex) const { return m_vertices.place(vertex); }
+  [[nodiscard]] Eigen::Vector3d place(std::uint32_t vertex) const {
+    return m_vertices.place(vertex);
+  }
   /// Of the vertex' sheet, mm; negative inside.
   [[nodiscard]] double distance(std::uint32_t vertex) const { return m_distance[vertex]; }
   [[nodiscard]] std::uint32_t node(std::uint32_t vertex) const { return m_node[vertex]; }
   [[nodiscard]] bool isInside(std::uint32_t vertex) const { return m_isInside[vertex] != 0; }
-  [[nodiscard]] bool isOutermost(std::uint32_t vertex) const { return m_vertices.isOutermost(vertex); }
+  [[nodiscard]] bool isOutermost(std::uint32_t vertex) const {
+    return m_vertices.isOutermost(vertex);
+  }
 
   /// Changes what is inside, whatever the field says.
   void setInside(std::uint32_t vertex, bool isInside) { m_isInside[vertex] = isInside ? 1 : 0; }
