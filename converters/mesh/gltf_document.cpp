@@ -66,8 +66,8 @@ int GltfDocument::addView(std::span<const unsigned char> bytes, json view) {
   return add("bufferViews", std::move(view));
 }
 
-int GltfDocument::addCodedView(std::span<const unsigned char> coded, std::size_t size,
-                               json view, json coding) {
+int GltfDocument::addCodedView(std::span<const unsigned char> coded, std::size_t size, json view,
+                               json coding) {
   m_bytes.resize(aligned(m_bytes.size()));
   m_decodedSize = aligned(m_decodedSize);
   checkSize(std::max(m_bytes.size() + coded.size(), m_decodedSize + size));
@@ -88,8 +88,8 @@ int GltfDocument::addVertices(VertexStream& stream) {
   if (!m_meshopt) return addView(stream.bytes, std::move(view));
   const MeshoptStream coded = encodeVertices(stream);
   json coding = {{"byteStride", stream.stride},
-                           {"count", stream.bytes.size() / stream.stride},
-                           {"mode", "ATTRIBUTES"}};
+                 {"count", stream.bytes.size() / stream.stride},
+                 {"mode", "ATTRIBUTES"}};
   if (coded.isExponential) coding["filter"] = "EXPONENTIAL";
   return addCodedView(coded.bytes, stream.bytes.size(), std::move(view), std::move(coding));
 }

@@ -14,10 +14,10 @@ namespace lumen::convert {
 struct MeshPart {
   std::uint32_t branch = 0;  ///< index into the surface's labels; 0 for all if they stay together
   std::uint32_t group = 0;   ///< index into the surface's groups
-  bool isFlat = false;                ///< an inlet or an outlet
+  bool isFlat = false;       ///< an inlet or an outlet
   std::vector<std::uint32_t> vertex;  ///< of the surface, each once
-  std::vector<Float3> normal;         ///< of each `vertex`: of a flat part its own, else the surface's
-  std::vector<Triangle> triangle;     ///< indices into `vertex`
+  std::vector<Float3> normal;      ///< of each `vertex`: of a flat part its own, else the surface's
+  std::vector<Triangle> triangle;  ///< indices into `vertex`
 };
 
 /// Those that have faces, by branch and then by group. A face belongs to the branch of two of its

@@ -56,7 +56,8 @@ void orderForDrawing(MeshPart& part) {
     result.vertex[place[v]] = part.vertex[v];
     result.normal[place[v]] = part.normal[v];
   }
-  for (std::size_t i = 0; i < ordered.size(); ++i) result.triangle[i / 3][i % 3] = place[ordered[i]];
+  for (std::size_t i = 0; i < ordered.size(); ++i)
+    result.triangle[i / 3][i % 3] = place[ordered[i]];
   part = std::move(result);
 }
 
@@ -81,8 +82,7 @@ std::vector<unsigned char> encodeTriangles(std::span<const std::uint32_t> index,
                                            std::size_t vertices) {
   meshopt_encodeIndexVersion(kIndexVersion);
   std::vector<unsigned char> bytes(meshopt_encodeIndexBufferBound(index.size(), vertices));
-  bytes.resize(
-      meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), index.data(), index.size()));
+  bytes.resize(meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), index.data(), index.size()));
   return bytes;
 }
 

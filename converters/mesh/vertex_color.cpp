@@ -29,9 +29,9 @@ constexpr std::array<Rgb, 7> kHues = {{
 /// IEC 61966-2-1: from sRGB, 0 .. 255, to linear light.
 std::uint16_t linear(double value) {
   const double s = value / 255;
-  const double light =
-      s <= 0.04045 ? s / 12.92
-                   : field::repeatableExp(2.4 * field::repeatableLog((s + 0.055) / 1.055));
+  const double light = s <= 0.04045
+                           ? s / 12.92
+                           : field::repeatableExp(2.4 * field::repeatableLog((s + 0.055) / 1.055));
   return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(light, 0.0, 1.0)));
 }
 
@@ -45,6 +45,15 @@ Color viridis(double share) {
   return color;
 }
 
+// Where a value lies between the ends of a scale. Radii go with their logarithm: those of one tree
+// differ by a factor of up to a hundred.
+double shareOf(double value, const ColorScale& scale) {
+  const double low = scale.low, high = scale.high;
+  if (!(high > low)) return 0;
+  if (scale.by != ColorBy::Radius || !(low > 0)) return (value - low) / (high - low);
+  return field::repeatableLog(value / low) / field::repeatableLog(high / low);
+}
+
 Color hue(std::uint32_t branch) {
   const Rgb& rgb = kHues[branch % kHues.size()];
   return {linear(rgb[0]), linear(rgb[1]), linear(rgb[2]), 65535};
@@ -55,7 +64,8 @@ Color hue(std::uint32_t branch) {
 ColorScale scaleOf(const SurfaceMesh& surface, ColorBy by) {
   if (by == ColorBy::Confidence && surface.confidence.empty() && !surface.position.empty())
     throw invalidInput(
-        "--color confidence: the case says of no node how much of its wall was found, as cases that "
+        "--color confidence: the case says of no node how much of its wall was found, as cases "
+        "that "
         "were not tracked do not; expected branch or radius");
   if (by != ColorBy::Radius || surface.radius.empty()) return {by, 0, 1};
   const auto [low, high] = std::minmax_element(surface.radius.begin(), surface.radius.end());
@@ -70,9 +80,7 @@ std::vector<Color> colorsOf(const SurfaceMesh& surface, const ColorScale& scale)
   if (scale.by == ColorBy::Branch || scale.by == ColorBy::None) return colors;
   const std::span<const float> values =
       scale.by == ColorBy::Radius ? surface.radius : surface.confidence;
-  const double width = scale.high > scale.low ? double{scale.high} - double{scale.low} : 1;
-  for (const float value : values)
-    colors.push_back(viridis((double{value} - double{scale.low}) / width));
+  for (const float value : values) colors.push_back(viridis(shareOf(double{value}, scale)));
   return colors;
 }
 

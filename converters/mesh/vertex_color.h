@@ -26,8 +26,8 @@ struct ColorScale {
 /// confidence. Throws Error(InvalidInput) if there are no such values.
 ColorScale scaleOf(const SurfaceMesh& surface, ColorBy by);
 
-/// The colour of each vertex: viridis for radius and confidence, from dark blue to yellow; one of
-/// seven hues for a branch, the same again for the seventh after it. All can be told apart with any
+/// The colour of each vertex: viridis, from dark blue to yellow, for confidence, and for radius by
+/// its logarithm; one of seven hues for a branch, the same again for the seventh after it. All can be told apart with any
 /// kind of colour vision.
 std::vector<Color> colorsOf(const SurfaceMesh& surface, const ColorScale& scale);
 

@@ -49,8 +49,8 @@ std::vector<VertexStream> streamsOf(const SurfaceMesh& surface, std::span<const 
     streams.push_back(streamOf({"_CONFIDENCE", kFloat, 1, false, 4, kShareExponent}, parts,
                                of(surface.confidence)));
   if (scale.by != ColorBy::None)
-    streams.push_back(streamOf({"COLOR_0", kUnsignedShort, 4, true, 8, 0}, parts,
-                               of(colorsOf(surface, scale))));
+    streams.push_back(
+        streamOf({"COLOR_0", kUnsignedShort, 4, true, 8, 0}, parts, of(colorsOf(surface, scale))));
   return streams;
 }
 

@@ -18,12 +18,12 @@ constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 
 /// One attribute of all vertices of a list of parts, one part after another.
 struct VertexStream {
-  std::string name;               ///< POSITION, NORMAL, COLOR_0, _RADIUS, ...
-  int componentType = kFloat;     ///< or kUnsignedShort
-  std::size_t components = 1;     ///< 1, 3 or 4
-  bool isNormalized = false;      ///< 65535 means 1
-  std::size_t stride = 4;         ///< bytes of a vertex: a multiple of four, the rest zero
-  int exponent = 0;               ///< floats may be rounded to multiples of 2^exponent
+  std::string name;            ///< POSITION, NORMAL, COLOR_0, _RADIUS, ...
+  int componentType = kFloat;  ///< or kUnsignedShort
+  std::size_t components = 1;  ///< 1, 3 or 4
+  bool isNormalized = false;   ///< 65535 means 1
+  std::size_t stride = 4;      ///< bytes of a vertex: a multiple of four, the rest zero
+  int exponent = 0;            ///< floats may be rounded to multiples of 2^exponent
   std::vector<unsigned char> bytes{};
 };
 

@@ -77,7 +77,8 @@ json meshExtras(const SurfaceMesh& surface, const std::vector<VertexStream>& str
   if (scale.by == ColorBy::None) return extras;
   json color = {{"map", colorMapName(scale.by)}};
   if (scale.by == ColorBy::Branch) color["by"] = "branch";
-  if (scale.by == ColorBy::Radius) color.update({{"by", "radius"}, {"unit", "mm"}});
+  if (scale.by == ColorBy::Radius)
+    color.update({{"by", "radius"}, {"unit", "mm"}, {"scale", "logarithmic"}});
   if (scale.by == ColorBy::Confidence) color["by"] = "confidence";
   if (scale.by != ColorBy::Branch) color["range"] = {scale.low, scale.high};
   extras["color"] = std::move(color);

@@ -61,8 +61,8 @@ std::string element(const std::string& attributes, Bytes data) {
 template <class T>
 std::string dataArray(const char* type, const char* name, std::size_t components,
                       const std::vector<T>& values) {
-  return element(std::string("type=\"") + type + "\" Name=\"" + name +
-                     "\" NumberOfComponents=\"" + std::to_string(components) + "\"",
+  return element(std::string("type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                     std::to_string(components) + "\"",
                  std::as_bytes(std::span(values)));
 }
 
@@ -93,8 +93,7 @@ std::string pointData(const SurfaceMesh& surface) {
                     dataArray("Float32", "Normals", 3, surface.normal) +
                     dataArray("Float32", "Radius", 1, surface.radius) +
                     dataArray("Int32", "Branch", 1, branch);
-  if (!surface.confidence.empty())
-    out += dataArray("Float32", "Confidence", 1, surface.confidence);
+  if (!surface.confidence.empty()) out += dataArray("Float32", "Confidence", 1, surface.confidence);
   return out + "</PointData>\n";
 }
 
@@ -125,8 +124,7 @@ std::string encodeVtp(const SurfaceMesh& surface) {
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n" +
-         fieldData(surface) + "<Piece NumberOfPoints=\"" +
-         std::to_string(surface.position.size()) +
+         fieldData(surface) + "<Piece NumberOfPoints=\"" + std::to_string(surface.position.size()) +
          "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
          std::to_string(surface.triangle.size()) + "\">\n" + pointData(surface) +
          cellData(surface) + "<Points>\n" + dataArray("Float32", "Points", 3, surface.position) +
