@@ -137,12 +137,17 @@ void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
   sample.distance = apart;
   sample.gradient = gradient / slope;
   sample.isSeparated = true;
+  sample.other = node;
 }
 
 SheetSample SheetField::sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const {
   const Wall wall = wallOf(point, node);
-  return {wall.distance - m_options.offset - m_options.offsetShare * radius(node), wall.gradient,
-          node, false};
+  SheetSample sample;
+  sample.distance = wall.distance - m_options.offset - m_options.offsetShare * radius(node);
+  sample.gradient = wall.gradient;
+  sample.node = node;
+  sample.wall = wall.distance;
+  return sample;
 }
 
 SheetSample SheetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {

@@ -32,6 +32,8 @@ struct SheetSample {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
   std::uint32_t node = 0;                              ///< at which following the point ends
   bool isSeparated = false;  ///< here the surface keeps off another vessel and is not f = T
+  double wall = 0;           ///< distance to f = T, about, mm; negative inside
+  std::uint32_t other = 0;   ///< where isSeparated: the node of the other vessel
 };
 
 /// The signed distance to the surface of a case, for a point reached along the tree.

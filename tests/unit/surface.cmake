@@ -7,7 +7,8 @@ lumen_test(surface_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/node_field_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/patch_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/remesh_test.cpp)
 
 # Ends of closed surfaces.
 lumen_test(ends_test
@@ -15,5 +16,3 @@ lumen_test(ends_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/ends_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp)
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/remesh_test.cpp)
