@@ -13,7 +13,7 @@ namespace {
 
 using Mesh = RemeshMesh;
 
-constexpr double kMendBelow = 1.2 * kSharpAngle;  // positions are rounded to floats when written
+constexpr double kMendBelow = 0.095;  // positions are rounded to floats when written
 constexpr int kRounds = 12;
 constexpr int kSplits = 2;
 constexpr double kLongestMade = 2;  // of the target: a longer edge is no cure

@@ -2,6 +2,7 @@
 #include "converters/surface/remesh_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "converters/surface/triangle_quality.h"
 
@@ -12,7 +13,21 @@ constexpr double kLargestTurn = 0.5;    // cosine: 60 degrees from where a face 
 constexpr std::uint32_t kRimEdges = 8;  // of a rim, at least
 
 Eigen::Vector3d normalOf(const RemeshMesh::Corners& c) {
-  return (c[1] - c[0]).cross(c[2] - c[0]).normalized();
+  return (c[1] - c[0]).cross(c[2] - c[0]);
+}
+
+// The vectors may have any length.
+double cosine(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0 ? a.dot(b) / lengths : -1;
+}
+
+// True if a face of the normal looks away from `outward`, and further than `before` did.
+bool isTurned(const Eigen::Vector3d& normal, const RemeshMesh::Corners& before,
+              const Eigen::Vector3d& outward) {
+  if (outward.isZero(0)) return cosine(normal, normalOf(before)) < kLargestTurn;
+  const double now = cosine(normal, outward);
+  return now < kLargestTurn && now < cosine(normalOf(before), outward);
 }
 
 }  // namespace
@@ -113,14 +128,11 @@ RemeshMesh::Corners RemeshMesh::cornersOf(FaceHandle face) const {
 Eigen::Vector3d RemeshMesh::outward(std::uint32_t group,
                                     const std::array<VertexHandle, 3>& vertices) const {
   if (const auto& plane = m_rules.plane[group]) return *plane;
-  const Eigen::Vector3d sum =
-      data(vertices[0]).gradient + data(vertices[1]).gradient + data(vertices[2]).gradient;
-  const double length = sum.norm();
-  return length > 1e-6 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return data(vertices[0]).gradient + data(vertices[1]).gradient + data(vertices[2]).gradient;
 }
 
 double RemeshMesh::qualityOf(const Corners& c, const Eigen::Vector3d& outward) const {
-  return (c[1] - c[0]).cross(c[2] - c[0]).dot(outward) < 0 ? 0 : leastAngle(c[0], c[1], c[2]);
+  return (c[1] - c[0]).cross(c[2] - c[0]).dot(outward) < 0 ? 0 : squaredSine(c[0], c[1], c[2]);
 }
 
 double RemeshMesh::qualityOf(FaceHandle face) const {
@@ -139,13 +151,6 @@ double RemeshMesh::starQuality(VertexHandle vertex, const Eigen::Vector3d& posit
   return least;
 }
 
-bool RemeshMesh::isTurned(const Eigen::Vector3d& normal, const Eigen::Vector3d& before,
-                          const Eigen::Vector3d& outward) const {
-  if (outward.isZero()) return normal.dot(before) < kLargestTurn;
-  const double cosine = normal.dot(outward);
-  return cosine < kLargestTurn && cosine < before.dot(outward);
-}
-
 bool RemeshMesh::mayMove(VertexHandle vertex, const Eigen::Vector3d& position) const {
   for (const FaceHandle face : vf_range(vertex)) {
     const auto v = verticesOf(face);
@@ -153,7 +158,7 @@ bool RemeshMesh::mayMove(VertexHandle vertex, const Eigen::Vector3d& position) c
     Corners moved = c;
     for (std::size_t i = 0; i < 3; ++i)
       if (v[i] == vertex) moved[i] = position;
-    if (isTurned(normalOf(moved), normalOf(c), outward(data(face).group, v))) return false;
+    if (isTurned(normalOf(moved), c, outward(data(face).group, v))) return false;
   }
   return true;
 }
@@ -191,7 +196,7 @@ RemeshMesh::Outcome RemeshMesh::afterCollapse(HalfedgeHandle h) const {
         moved[i] = point(kept);
       }
     const Eigen::Vector3d out = outward(group, v);
-    if (isTurned(normalOf(moved), normalOf(c), out)) outcome.isTurned = true;
+    if (isTurned(normalOf(moved), c, out)) outcome.isTurned = true;
     outcome.quality = std::min(outcome.quality, qualityOf(moved, out));
   }
   for (const VertexHandle w : vv_range(gone))
@@ -236,12 +241,11 @@ RemeshMesh::Outcome RemeshMesh::afterFlip(EdgeHandle edge) const {
   Outcome outcome{false, 4, 4, 0};
   for (const Corner& v : {old0, old1})
     outcome.before = std::min(outcome.before, qualityOf(cornersAt(v), outward(group, v)));
-  // Of the faces before, the better one: a flip may not leave one that looks worse than it.
-  const Eigen::Vector3d n0 = normalOf(cornersAt(old0)), n1 = normalOf(cornersAt(old1));
+  // Neither new face may look worse than the worse of the two before.
+  const Corners before0 = cornersAt(old0), before1 = cornersAt(old1);
   for (const Corner& v : {new0, new1}) {
     const Eigen::Vector3d out = outward(group, v), normal = normalOf(cornersAt(v));
-    const Eigen::Vector3d& worse = n0.dot(out) < n1.dot(out) ? n0 : n1;
-    if (isTurned(normal, worse, out)) outcome.isTurned = true;
+    if (isTurned(normal, before0, out) && isTurned(normal, before1, out)) outcome.isTurned = true;
     outcome.quality = std::min(outcome.quality, qualityOf(cornersAt(v), out));
   }
   outcome.longest =

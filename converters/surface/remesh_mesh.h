@@ -36,6 +36,7 @@ struct RemeshTraits : OpenMesh::DefaultTraits {
     double drift = 0;  // along the surface since it was last moved onto the field, mm
     std::uint32_t node = 0;
     std::uint32_t home = kNewVertex;
+    int valence = 0;        // while flipToSix() runs
     std::uint32_t end = 0;  // the group of the flat end, of kinds Flat and Rim; 0: none
     VertexKind kind = VertexKind::Wall;
     bool isSeparated = false;
@@ -63,10 +64,10 @@ public:
   [[nodiscard]] std::array<VertexHandle, 3> verticesOf(FaceHandle face) const;
   [[nodiscard]] Corners cornersOf(FaceHandle face) const;
 
-  /// Where a face of these vertices should look, unit: zero if nobody knows.
+  /// Where a face of these vertices should look, of any length: zero if nobody knows.
   [[nodiscard]] Eigen::Vector3d outward(std::uint32_t group,
                                         const std::array<VertexHandle, 3>& vertices) const;
-  /// The least angle of a face, radians; 0 if it is turned away from where it should look.
+  /// The squared sine of a face's least angle; 0 if it is turned away from where it should look.
   [[nodiscard]] double qualityOf(FaceHandle face) const;
   [[nodiscard]] double qualityOf(const Corners& corners, const Eigen::Vector3d& outward) const;
   /// The least quality of the faces around a vertex, as if it were at `position`.
@@ -95,8 +96,6 @@ public:
 
 private:
   void findKinds();
-  [[nodiscard]] bool isTurned(const Eigen::Vector3d& normal, const Eigen::Vector3d& before,
-                              const Eigen::Vector3d& outward) const;
   const PieceRules& m_rules;
   std::vector<std::uint32_t> m_rimEdges;  ///< of each group
 };

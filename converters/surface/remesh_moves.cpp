@@ -19,12 +19,13 @@ constexpr double kLong = 4.0 / 3.0, kShort = 4.0 / 5.0;
 constexpr int kSplitSweeps = 4;        // each halves: enough for edges of sixteen targets
 constexpr double kRelaxation = 0.8;    // of the way to the middle
 constexpr double kLongestMove = 0.5;   // of the target, in one step
+constexpr double kSmallMove = 0.01;    // of the target: not worth a look at the faces around
 constexpr double kDrift = 0.05;        // of the target: a smaller move leaves the surface by 2e-5 r
 constexpr double kFieldStep = 0.3;     // of the radius: farther off, f is not straight
 constexpr double kChordInSlit = 0.25;  // of the gap
 constexpr double kFinest = 0.2;        // of the target, at a slit
-constexpr double kFlipAngle = 0.5;  // radians: flips for valence leave no angle under 29 degrees,
-                                    // unless it was there before
+constexpr double kFlipQuality = 0.25;  // flips for valence leave no angle under 30 degrees, unless
+                                       // it was there before
 
 std::optional<Eigen::Vector3d> planeOf(const Mesh& mesh, Mesh::VertexHandle v) {
   const auto& here = mesh.data(v);
@@ -89,11 +90,19 @@ void stepOntoField(Mesh& mesh, Mesh::VertexHandle v) {
   mesh.data(v).drift = 0;
 }
 
-// How far the valences of two vertices are from six; of the boundary nobody knows them.
+// How far the valence of a vertex will be from six; of the boundary nobody knows it.
 int valenceError(const Mesh& mesh, Mesh::VertexHandle v, int change) {
-  if (mesh.is_boundary(v)) return 0;
-  const int error = static_cast<int>(mesh.valence(v)) + change - 6;
-  return error * error;
+  const int error = mesh.data(v).valence + change - 6;
+  return mesh.is_boundary(v) ? 0 : error * error;
+}
+
+// Where the angles across an edge sum up to more than 180 degrees, the other diagonal is better.
+bool isDelaunay(const Mesh& mesh, Mesh::EdgeHandle edge) {
+  const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
+  const auto &a = mesh.point(mesh.from_vertex_handle(h)), &b = mesh.point(mesh.to_vertex_handle(h));
+  const auto &c = mesh.point(mesh.opposite_vh(h)), &d = mesh.point(mesh.opposite_he_opposite_vh(h));
+  const Eigen::Vector3d ca = a - c, cb = b - c, da = a - d, db = b - d;
+  return ca.dot(cb) * da.cross(db).norm() + da.dot(db) * ca.cross(cb).norm() >= 0;
 }
 
 }  // namespace
@@ -134,8 +143,10 @@ void collapseShort(RemeshMesh& mesh) {
 }
 
 void flipToSix(RemeshMesh& mesh) {
+  for (const Mesh::VertexHandle v : mesh.vertices())
+    mesh.data(v).valence = static_cast<int>(mesh.valence(v));
   for (const Mesh::EdgeHandle edge : mesh.edges()) {
-    if (!mesh.mayFlip(edge)) continue;
+    if (mesh.is_boundary(edge)) continue;
     const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
     const Mesh::VertexHandle from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h),
                              left = mesh.opposite_vh(h), right = mesh.opposite_he_opposite_vh(h);
@@ -143,16 +154,18 @@ void flipToSix(RemeshMesh& mesh) {
                     valenceError(mesh, left, 0) + valenceError(mesh, right, 0);
     const int then = valenceError(mesh, from, -1) + valenceError(mesh, to, -1) +
                      valenceError(mesh, left, 1) + valenceError(mesh, right, 1);
-    if (then >= now) continue;
+    if (then >= now || !mesh.mayFlip(edge)) continue;
     const Mesh::Outcome outcome = mesh.afterFlip(edge);
-    if (!outcome.isTurned && outcome.quality >= std::min(outcome.before, kFlipAngle))
-      mesh.flip(edge);
+    if (outcome.isTurned || outcome.quality < std::min(outcome.before, kFlipQuality)) continue;
+    mesh.flip(edge);
+    for (const Mesh::VertexHandle v : {from, to}) --mesh.data(v).valence;
+    for (const Mesh::VertexHandle v : {left, right}) ++mesh.data(v).valence;
   }
 }
 
 void flipForAngles(RemeshMesh& mesh) {
   for (const Mesh::EdgeHandle edge : mesh.edges()) {
-    if (!mesh.mayFlip(edge)) continue;
+    if (mesh.is_boundary(edge) || isDelaunay(mesh, edge) || !mesh.mayFlip(edge)) continue;
     const Mesh::Outcome outcome = mesh.afterFlip(edge);
     if (!outcome.isTurned && outcome.quality > outcome.before) mesh.flip(edge);
   }
@@ -172,6 +185,7 @@ void relax(RemeshMesh& mesh) {
       move -= move.dot(normal) * normal;
     }
     const double length = move.norm(), longest = kLongestMove * here.target;
+    if (length < kSmallMove * here.target) continue;
     if (length > longest) move *= longest / length;
     moveTowards(mesh, v, move);
   }

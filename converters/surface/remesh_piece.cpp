@@ -6,8 +6,8 @@
 namespace lumen::convert {
 namespace {
 
-constexpr int kIterations = 4;
-constexpr int kLastRelaxations = 3;  // without a change of lengths
+constexpr int kIterations = 3;
+constexpr int kLastRelaxations = 2;  // without a change of lengths
 
 void remeshToTargets(RemeshMesh& mesh, const Progress& progress) {
   for (int iteration = 0; iteration < kIterations; ++iteration) {

@@ -21,15 +21,16 @@ double nth(std::vector<double>& values, double share) {
 
 }  // namespace
 
-double leastAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+double squaredSine(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a, bc = c - b, ca = a - c;
-  const double twiceArea = ab.cross(ca).norm();
-  // The least angle lies across the shortest edge: sin = 2 A / (product of the other two).
   const double p = ab.squaredNorm(), q = bc.squaredNorm(), r = ca.squaredNorm();
-  const double least = std::min({p, q, r});
-  const double others = std::sqrt(p * q * r / std::max(least, 1e-300));
-  if (!(least > 0) || !(others > 0)) return 0;
-  return std::asin(std::min(1.0, twiceArea / others));
+  // It lies across the shortest edge: sin = 2 A / (product of the other two).
+  const double others = p < q ? (p < r ? q * r : p * q) : (q < r ? p * r : p * q);
+  return others > 0 ? ab.cross(ca).squaredNorm() / others : 0;
+}
+
+double leastAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  return std::asin(std::min(1.0, std::sqrt(squaredSine(a, b, c))));
 }
 
 TriangleQuality triangleQuality(const TriangleMesh& mesh, std::span<const double> target) {

@@ -12,6 +12,10 @@ namespace lumen::convert {
 /// A triangle with a smaller angle is a sliver that solvers stumble over, radians (15 degrees).
 constexpr double kSharpAngle = 0.2617993877991494;
 
+/// The squared sine of a triangle's least angle, which is never above 60 degrees: it grows with that
+/// and costs no root. 0 if the triangle has no area.
+double squaredSine(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
 /// The least angle of a triangle, radians; 0 if it has no area.
 double leastAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 

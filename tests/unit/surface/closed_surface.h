@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,15 +20,15 @@ namespace lumen::test {
 
 /// A case with what asks about its surface.
 struct FieldOfCase {
-  formats::Case source;
+  std::unique_ptr<const formats::Case> kept;
+  const formats::Case& source;
   field::BlendedField blended;
   convert::SheetField sheet;
   explicit FieldOfCase(formats::Case given, double gap = 0.02)
-      : source(std::move(given)),
+      : kept(std::make_unique<formats::Case>(std::move(given))),
+        source(*kept),
         blended(formats::blendedFieldOf(source)),
         sheet(source, blended, {gap, 0, 0}) {}
-  FieldOfCase(const FieldOfCase&) = delete;
-  FieldOfCase& operator=(const FieldOfCase&) = delete;
 };
 
 /// f - T at a point, with the cursor at the node of least power and what follows from it.
