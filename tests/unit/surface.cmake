@@ -15,4 +15,6 @@ lumen_test(ends_test
   LIBS lumen_surface
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/ends_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extension_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/thick_wall_test.cpp)
