@@ -7,4 +7,5 @@ lumen_test(surface_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/node_field_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/patch_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/to_surface_mesh_test.cpp)
