@@ -18,3 +18,4 @@ lumen_test(ends_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extension_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/thick_wall_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/to_surface_mesh_test.cpp)

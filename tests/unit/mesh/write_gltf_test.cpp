@@ -68,6 +68,17 @@ TEST(GltfVertices, HaveNoConfidenceWhereItIsUnknown) {
   EXPECT_THROW(gltfOf(surface, {.color = ColorBy::Confidence}), Error);
 }
 
+TEST(GltfVertices, HaveNoBranchWhereSixteenBitsCannotCountThem) {
+  const auto has = [](std::size_t branches) {
+    std::vector<std::string> labels;
+    for (std::size_t b = 0; b < branches; ++b) labels.push_back(std::to_string(b));
+    const tinygltf::Model model = loadGltf(gltfOf(cappedTube(labels)));
+    return model.meshes.at(0).primitives.at(0).attributes.contains("_BRANCH");
+  };
+  EXPECT_TRUE(has(65536));
+  EXPECT_FALSE(has(65537));
+}
+
 TEST(GltfMeshes, AreOneForEachBranchOnRequest) {
   const SurfaceMesh surface = cappedTube({"low", "none of it", "high"});
   const tinygltf::Model model = loadGltf(gltfOf(surface, {.per = MeshPer::Branch}));
