@@ -5,6 +5,7 @@
 #include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
+#include "converters/app/surface_report.h"
 #include "converters/app/track_report.h"
 #include "converters/app/value_checks.h"
 #include "converters/fitting/fit.h"
@@ -52,8 +53,8 @@ public:
     context.progress.check();
     const std::optional<Reach> reach = reachOf(value, context.progress);
     warnOfClosed(reach, context.progress);
-    to.writeCase(value, m_output, m_outputOptions, context.progress);
-    report(value, reach, context);
+    const auto surface = to.writeCase(value, m_output, m_outputOptions, context.progress);
+    report(value, reach, surface, context);
     return 0;
   }
 
@@ -86,13 +87,15 @@ private:
   }
 
   void report(const formats::Case& value, const std::optional<Reach>& reach,
-              const Context& context) {
+              const std::optional<convert::SurfaceReport>& surface, const Context& context) {
     if (context.common.json) {
       Json json = caseSummary(value);
       json["reachable"] = reachJson(reach);
+      json["surface"] = surfaceJson(surface, value);
       answerJson(withRemarks(std::move(json), m_remarks));
     } else if (!context.common.quiet) {
-      answer(caseLine(m_output, value) + reachLine(reach) + endLines(m_remarks));
+      answer(caseLine(m_output, value) + reachLine(reach) + surfaceLines(surface, value) +
+             endLines(m_remarks));
     }
   }
 

@@ -39,9 +39,10 @@ void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
 }
 
 template <formats::CaseEncoding encoding>
-void writeCaseAs(const formats::Case& value, const fs::path& file, const OutputOptions& options,
-                 Progress&) {
+std::optional<convert::SurfaceReport> writeCaseAs(const formats::Case& value, const fs::path& file,
+                                                  const OutputOptions& options, Progress&) {
   writeCase(value, file, encoding, options.encoding);
+  return std::nullopt;
 }
 
 using Levels = std::vector<convert::SurfaceMesh>;
@@ -62,10 +63,12 @@ std::string encodePlain(const Levels& levels, const convert::WriteMeshOptions&) 
 /// coarser levels of detail too.
 template <std::string (*encode)(const Levels&, const convert::WriteMeshOptions&),
           bool hasLevels = false>
-void writeMeshAs(const formats::Case& value, const fs::path& file, const OutputOptions& options,
-                 Progress& progress) {
-  const Levels levels = meshOfCase(value, file, options, hasLevels ? options.levels : 1, progress);
-  writeText(encode(levels, options.mesh), file);
+std::optional<convert::SurfaceReport> writeMeshAs(const formats::Case& value, const fs::path& file,
+                                                  const OutputOptions& options,
+                                                  Progress& progress) {
+  CaseMesh mesh = meshOfCase(value, file, options, hasLevels, progress);
+  writeText(encode(mesh.levels, options.mesh), file);
+  return std::move(mesh.report);
 }
 
 constexpr auto kGlb = writeMeshAs<encodeGltf<true>, true>;

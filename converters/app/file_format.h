@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "converters/app/file_content.h"
 #include "converters/common/progress.h"
 #include "converters/mesh/write_options.h"
+#include "converters/surface/closed_surface.h"
 #include "converters/surface/polygonise.h"
 #include "converters/volume/read_volume.h"
 #include "formats/case/case.h"
@@ -23,10 +25,10 @@ enum class FormatKind { Volume, Case, Mesh };
 /// How a case is written; each format takes what concerns it.
 struct OutputOptions {
   formats::EncodeOptions encoding;
-  convert::PolygoniseOptions polygonise;
+  convert::PolygoniseOptions polygonise;   ///< of patches
+  convert::ClosedSurfaceOptions surface;   ///< of the closed surface
   convert::WriteMeshOptions mesh;
   bool patches = false;  ///< the surface in pieces
-  int levels = 1;        ///< of detail, where a format has them
 };
 
 /// One row. A function that is null says what the format cannot do; each throws lumen::Error with
@@ -38,8 +40,10 @@ struct FileFormat {
   using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
                                                        const convert::ReadVolumeOptions&,
                                                        const Progress&);
-  using CaseWriter = void (*)(const formats::Case&, const std::filesystem::path&,
-                              const OutputOptions&, Progress&);
+  /// What it returns is null unless a closed surface was made.
+  using CaseWriter = std::optional<convert::SurfaceReport> (*)(const formats::Case&,
+                                                               const std::filesystem::path&,
+                                                               const OutputOptions&, Progress&);
   using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
 
   std::string_view name;   ///< as --from and --to take it

@@ -3,20 +3,26 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "converters/app/file_format.h"
 #include "converters/common/progress.h"
 #include "converters/mesh/surface_mesh.h"
+#include "converters/surface/closed_surface.h"
 #include "formats/case/case.h"
 
 namespace lumen::app {
 
-/// The surface, and `levels` - 1 coarser ones behind it, all with the same groups and labels. Warns
-/// of what the mesh in `file` lacks.
-std::vector<convert::SurfaceMesh> meshOfCase(const formats::Case& value,
-                                             const std::filesystem::path& file,
-                                             const OutputOptions& options, int levels,
-                                             Progress& progress);
+struct CaseMesh {
+  /// The surface, and coarser ones behind it, all with the same groups and labels.
+  std::vector<convert::SurfaceMesh> levels;
+  std::optional<convert::SurfaceReport> report;  ///< of a closed surface
+};
+
+/// The surface as the options say; one level unless `hasLevels`. Warns of what the mesh in `file`
+/// lacks.
+CaseMesh meshOfCase(const formats::Case& value, const std::filesystem::path& file,
+                    const OutputOptions& options, bool hasLevels, Progress& progress);
 
 }  // namespace lumen::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/options.h"
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -294,8 +295,58 @@ void addFitOptions(CLI::App& app, FitArguments& fit) {
   group.addScaled("--min-width", o.minWidth, "Drop blobs narrower than this", "0.1 voxel");
 }
 
+namespace {
+
+void setEdge(convert::EdgeLength& edge, const std::string& text) {
+  const convert::Length length = convert::parseLength(text, "--edge");
+  edge.share = length.radii;
+  if (length.mm > 0) edge.minimum = edge.maximum = length.mm;
+}
+
+/// The closed surface.
+void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
+  Group group(app, "Mesh");
+  const auto addLength = [&](const std::string& name, std::function<void(const std::string&)> set,
+                             const std::string& help) {
+    return app.add_option_function<std::string>(name, std::move(set), help)
+        ->type_name("LENGTH")
+        ->group("Mesh");
+  };
+  addLength("--edge", [&](const std::string& text) { setEdge(surface.edge, text); },
+            "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
+      ->default_str("0.25r");
+  group.add("--edge-min", surface.edge.minimum, "MM", "Least length of edges")->check(kNotNegative);
+  app.add_option("--edge-max", surface.edge.maximum, "Greatest length of edges")
+      ->type_name("MM")
+      ->group("Mesh")
+      ->check(kPositive);
+  group.addScaled("--gap", surface.gap, "What touching vessels keep between them",
+                  "0.1 voxels, or 0.05 of the least radius");
+  group.addFlag("--open", surface.open, "Leave the flat ends of vessels open");
+  app.add_option_function<std::vector<std::string>>(
+         "--extend",
+         [&](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts)
+             surface.extend.push_back(convert::parseEndLength(text, "--extend"));
+         },
+         "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
+      ->type_name("[LABEL=]LENGTH")
+      ->group("Mesh");
+  addLength("--thickness",
+            [&](const std::string& text) {
+              surface.thickness = convert::parseLength(text, "--thickness");
+            },
+            "A solid wall of this thickness around the lumen, such as 0.5 (mm) or 0.2r");
+  group.add("--max-error", surface.maxError, "MM",
+            "Drop triangles as long as the surface stays within this distance; 0: none")
+      ->check(kNotNegative);
+}
+
+}  // namespace
+
 void addMeshOptions(CLI::App& app, OutputOptions& output) {
   convert::WriteMeshOptions& mesh = output.mesh;
+  addSurfaceOptions(app, output.surface);
   Group group(app, "Mesh");
   group.addFlag(
       "--patches", output.patches,
@@ -303,11 +354,11 @@ void addMeshOptions(CLI::App& app, OutputOptions& output) {
       "not joined");
   group
       .add("--cell", output.polygonise.cell, "MM",
-           "Edge of a marching-cubes cell; 0: the voxel size")
+           "With --patches: edge of a marching-cubes cell; 0: the voxel size")
       ->check(kNotNegative);
   group
-      .add("--lod", output.levels, "N",
-           "Levels of detail in one glTF, each with edges twice as long (MSFT_lod)")
+      .add("--lod", output.surface.levels, "N",
+           "Levels of detail in one glTF, each with a quarter of the triangles (MSFT_lod)")
       ->check(within(1, 8));
   group.addChoice("--mesh-per", mesh.per, kMeshPer, "glTF: one mesh, or one for each branch");
   group.addChoice("--color", mesh.color, kColorBy,

@@ -2,15 +2,19 @@
 #include "converters/surface/closed_surface.h"
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <iterator>
 #include <utility>
 
 #include "converters/common/error.h"
 #include "converters/surface/cut_ends.h"
+#include "converters/surface/end_planes.h"
 #include "converters/surface/extract.h"
+#include "converters/surface/flow_extension.h"
 #include "converters/surface/overlaps.h"
 #include "converters/surface/remesh.h"
-#include "converters/surface/surface_values.h"
+#include "converters/surface/thick_wall.h"
+#include "converters/surface/to_surface_mesh.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::convert {
@@ -33,27 +37,53 @@ public:
         m_options(options),
         m_progress(progress),
         m_blended(formats::blendedFieldOf(source)),
-        m_field(source, m_blended, {gapOf(source, options), 0, 0}) {
-    m_result.report.gap = m_field.options().gap;
-  }
+        m_field(source, m_blended, {gapOf(source, options), 0, 0}) {}
 
   ClosedSurface run() {
-    CaseSurface lumen = extract(m_field);
-    noteEnds(cutEnds(lumen, m_field, m_progress));
-    refine(lumen, m_field);
-    m_result.report.overlaps = overlapsOf(lumen, m_field);
-    if (m_options.open) openEnds(lumen);
-    m_result.levels.push_back(surfaceMeshOf(lumen, m_source));
+    m_result.report.gap = m_field.options().gap;
+    CaseSurface surface = m_options.thickness ? wall() : lumen();
+    SurfaceReport& report = m_result.report;
+    std::vector<std::string> said = extendEnds(surface, m_source, m_options.extend);
+    std::move(said.begin(), said.end(), std::back_inserter(report.messages));
+    if (m_options.open && !m_options.thickness) openEnds(surface);
+    m_result.levels.push_back(toSurfaceMesh(surface, m_field, m_progress));
+    report.vertices = surface.mesh.position.size();
+    report.triangles = surface.mesh.triangle.size();
     return std::move(m_result);
   }
 
 private:
-  CaseSurface extract(const SheetField& field) {
+  CaseSurface lumen() {
+    CaseSurface surface = extract(m_field, m_result.report);
+    noteEnds(cutEnds(surface, m_field, m_progress));
+    refine(surface, m_field);
+    m_result.report.overlaps = overlapsOf(surface, m_field);
+    return surface;
+  }
+
+  // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each
+  // and its lumen.
+  CaseSurface wall() {
+    const SheetField around(m_source, m_blended,
+                            {m_field.options().gap / 3, m_options.thickness->mm,
+                             m_options.thickness->radii});
+    CaseSurface inner = extract(m_field, m_result.report);
+    SurfaceReport ofOuter;
+    CaseSurface outer = extract(around, ofOuter);
+    const std::array<FieldSurface, 2> both{{{&inner, &m_field}, {&outer, &around}}};
+    noteEnds(cutEnds(both, endPlanes(m_source), m_progress));
+    refine(inner, m_field);
+    refine(outer, around);
+    m_result.report.overlaps = overlapsOf(inner, m_field);
+    return thickWall(inner, outer, m_source);
+  }
+
+  CaseSurface extract(const SheetField& field, SurfaceReport& report) {
     ExtractionReport found;
     CaseSurface surface = extractSurface(field, kLatticeShare, found, m_progress);
-    m_result.report.trees = found.trees;
-    m_result.report.openedEdges = found.openedEdges;
-    m_result.report.cuts = std::move(found.cuts);
+    report.trees = found.trees;
+    report.openedEdges = found.openedEdges;
+    report.cuts = std::move(found.cuts);
     return surface;
   }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "converters/common/progress.h"
 #include "converters/mesh/surface_mesh.h"
 #include "converters/surface/length.h"
@@ -39,6 +41,7 @@ struct Overlap {
 struct SurfaceReport {
   double gap = 0;               ///< mm
   std::size_t trees = 0;        ///< closed surfaces, one for each connected tree
+  std::size_t vertices = 0, triangles = 0;  ///< of the finest level
   std::size_t flatEnds = 0, roundedEnds = 0;
   std::size_t openedEdges = 0;  ///< tree edges that the field closes
   std::vector<Eigen::Vector3d> cuts;  ///< where a lumen that runs into itself was cut

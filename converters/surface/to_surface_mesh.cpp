@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
 
 #include "converters/surface/vessel_values.h"
@@ -14,8 +14,6 @@
 namespace lumen::convert {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-// Vertices between two looks at whether the user has cancelled.
 constexpr std::size_t kBatch = 256;
 
 Float3 toFloat3(const Eigen::Vector3d& v) {
@@ -23,25 +21,27 @@ Float3 toFloat3(const Eigen::Vector3d& v) {
   return {f.x(), f.y(), f.z()};
 }
 
-/// Of each vertex the end that all of its triangles are of, as an index into the ends; kNone if there
-/// is none, or if that end is not flat.
-std::vector<std::uint32_t> flatEnds(const CaseSurface& surface) {
-  std::vector<std::uint32_t> endOfGroup(surface.groups.size(), kNone);
-  for (std::uint32_t e = 0; e < surface.ends.size(); ++e) {
-    const std::uint32_t group = surface.ends[e].group;
-    const FaceKind kind = surface.groups[group].kind;
-    if (kind == FaceKind::Inlet || kind == FaceKind::Outlet) endOfGroup[group] = e;
-  }
-  constexpr std::uint32_t kUnseen = kNone - 1;
-  std::vector<std::uint32_t> end(surface.mesh.position.size(), kUnseen);
-  for (std::size_t f = 0; f < surface.mesh.triangle.size(); ++f) {
-    const std::uint32_t own = endOfGroup[surface.group[f]];
-    for (const std::uint32_t v : surface.mesh.triangle[f])
-      end[v] = end[v] == kUnseen || end[v] == own ? own : kNone;
-  }
-  for (std::uint32_t& e : end)
-    if (e == kUnseen) e = kNone;
-  return end;
+/// Sums of the normals of triangles, by their areas: first of the wall, then, where there is none, of
+// ends.
+std::vector<Eigen::Vector3d> normalsOf(const CaseSurface& surface) {
+  const std::vector<Eigen::Vector3d>& position = surface.mesh.position;
+  std::vector<Eigen::Vector3d> normal(position.size(), Eigen::Vector3d::Zero());
+  std::vector<bool> hasWall(position.size(), false);
+  for (const bool ends : {false, true})
+    for (std::size_t i = 0; i < surface.mesh.triangle.size(); ++i) {
+      const Triangle& t = surface.mesh.triangle[i];
+      const bool isWall = surface.groups[surface.group[i]].kind == FaceKind::Wall;
+      if (isWall == ends) continue;
+      const Eigen::Vector3d area =
+          (position[t[1]] - position[t[0]]).cross(position[t[2]] - position[t[0]]);
+      for (const std::uint32_t v : t) {
+        if (ends && hasWall[v]) continue;
+        normal[v] += area;
+        if (!ends) hasWall[v] = true;
+      }
+    }
+  for (Eigen::Vector3d& n : normal) n = n.norm() > 0 ? n.normalized() : Eigen::Vector3d::UnitZ();
+  return normal;
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field,
                           Progress& progress) {
   const formats::CenterlineTree& tree = field.source().tree;
   const formats::Neighbours edges(tree);
-  const std::vector<std::uint32_t> end = flatEnds(surface);
+  const std::vector<Eigen::Vector3d> normal = normalsOf(surface);
   const std::vector<Eigen::Vector3d>& position = surface.mesh.position;
   SurfaceMesh result;
   result.triangle = surface.mesh.triangle;
@@ -65,11 +65,9 @@ SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field,
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
     if (v % kBatch == 0) progress.check();
     const std::uint32_t node = surface.node[v];
-    const Eigen::Vector3d normal = end[v] != kNone ? surface.ends[end[v]].normal
-                                                   : field.at(position[v], node).gradient;
     const VesselValues values = vesselAt(tree, edges, position[v], node);
     result.position[v] = toFloat3(position[v]);
-    result.normal[v] = toFloat3(normal);
+    result.normal[v] = toFloat3(normal[v]);
     result.radius[v] = values.radius;
     result.branch[v] = tree.branch[node];
     if (values.confidence) result.confidence[v] = *values.confidence;
