@@ -129,8 +129,7 @@ bool refineWhereFar(RemeshMesh& mesh, double maxError) {
     const RemeshMesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
     const RemeshMesh::VertexHandle v = mesh.from_vertex_handle(h);
     if (mesh.isInPlane(edge) && !mesh.data(edge).isRim) continue;
-    if (isFar(0.5 * (mesh.point(v) + mesh.point(mesh.to_vertex_handle(h))), v))
-      far.push_back(edge);
+    if (isFar(0.5 * (mesh.point(v) + mesh.point(mesh.to_vertex_handle(h))), v)) far.push_back(edge);
   }
   for (const RemeshMesh::FaceHandle face : mesh.faces()) {
     if (mesh.rules().plane[mesh.data(face).group]) continue;

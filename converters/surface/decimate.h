@@ -13,8 +13,8 @@ namespace lumen::convert {
 
 /// When decimation ends: at whichever comes first.
 struct DecimateOptions {
-  double maxError = 0;         ///< mm, from the field; 0: no bound
-  std::size_t triangles = 0;   ///< as few as this
+  double maxError = 0;        ///< mm, from the field; 0: no bound
+  std::size_t triangles = 0;  ///< as few as this
 };
 
 /// Collapses edges by M. Garland and P. Heckbert, Surface simplification using quadric error

@@ -36,7 +36,9 @@ void expectClosed(const CaseSurface& surface) {
   EXPECT_GT(facts.volume, 0);
 }
 
-double offAxis(const Eigen::Vector3d& p) { return std::hypot(p.y() - 0.05, p.z() - 0.07); }
+double offAxis(const Eigen::Vector3d& p) {
+  return std::hypot(p.y() - 0.05, p.z() - 0.07);
+}
 
 // Of a sphere of radius 1, triangles with edges of 0.4 are within 1 - sqrt(1 - 0.4^2 / 3).
 TEST(SurfaceError, OfATriangulatedSphereIsItsSagitta) {
