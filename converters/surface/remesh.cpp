@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
@@ -17,17 +18,10 @@ namespace {
 
 constexpr int kSeamRings = 5;  // what a boundary that could not move has left uneven
 constexpr int kMendRings = 4;
-constexpr int kMendRounds = 3;
+constexpr int kStretchRings = 10;  // six may leave the field
+constexpr int kStretchRounds = 2;
 constexpr double kMendBelow = 1.2 * kSharpAngle;  // as in each piece
 constexpr double kFieldStep = 0.5;  // of the radius: more is no distance from the wall
-
-PieceRules rulesOf(const CaseSurface& surface, const SheetField& field) {
-  PieceRules rules{field, {}};
-  rules.plane.resize(surface.groups.size());
-  for (const SurfaceEnd& end : surface.ends)
-    if (surface.groups[end.group].kind != FaceKind::Cap) rules.plane[end.group] = end.normal;
-  return rules;
-}
 
 // Asks the field about every vertex, and moves those of the wall by one step onto it.
 void moveOntoField(RemeshState& state, const PieceRules& rules) {
@@ -71,10 +65,20 @@ double leastAngleOf(const TriangleMesh& mesh, const Triangle& t) {
   return leastAngle(mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]);
 }
 
-std::vector<std::uint8_t> sharpVertices(const TriangleMesh& mesh, double below) {
+// The corners of triangles that are sharp, or look into the lumen.
+std::vector<std::uint8_t> sharpVertices(const RemeshState& state, const PieceRules& rules) {
+  const TriangleMesh& mesh = state.surface.mesh;
   std::vector<std::uint8_t> sharp(mesh.position.size(), 0);
-  for (const Triangle& t : mesh.triangle)
-    if (leastAngleOf(mesh, t) < below) sharp[t[0]] = sharp[t[1]] = sharp[t[2]] = 1;
+  for (std::size_t f = 0; f < mesh.triangle.size(); ++f) {
+    const Triangle& t = mesh.triangle[f];
+    const auto &a = mesh.position[t[0]], &b = mesh.position[t[1]], &c = mesh.position[t[2]];
+    const auto& plane = rules.plane[state.surface.group[f]];
+    const Eigen::Vector3d outward =
+        plane ? *plane
+              : Eigen::Vector3d(state.gradient[t[0]] + state.gradient[t[1]] + state.gradient[t[2]]);
+    if (leastAngle(a, b, c) < kMendBelow || (b - a).cross(c - a).dot(outward) < 0)
+      sharp[t[0]] = sharp[t[1]] = sharp[t[2]] = 1;
+  }
   return sharp;
 }
 
@@ -107,9 +111,11 @@ RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLen
   workOn(state, piecesByNode(surface), rules, PieceWork::Remesh, progress);
   workOn(state, piecesAround(surface.mesh, state.isBoundary, kSeamRings), rules, PieceWork::Remesh,
          progress);
-  for (int round = 0; round < kMendRounds; ++round)
-    workOn(state, piecesAround(surface.mesh, sharpVertices(surface.mesh, kMendBelow), kMendRings),
-           rules, PieceWork::Mend, progress);
+  workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kMendRings), rules,
+         PieceWork::Mend, progress);
+  for (int round = 0; round < kStretchRounds; ++round)
+    workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kStretchRings), rules,
+           PieceWork::Stretch, progress);
   return reportOf(state, rules);
 }
 

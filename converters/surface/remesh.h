@@ -17,7 +17,7 @@ struct RemeshReport {
   std::size_t sharp = 0;     ///< triangles with an angle under kSharpAngle
 };
 
-/// Gives `surface` triangles whose edges follow `edge` (docs/method.md, section 5.2): edges are
+/// Gives `surface` triangles whose edges follow `edge` (docs/method.md, section 5, Triangles): edges are
 /// split, collapsed and flipped, vertices relaxed along the surface and moved onto the field.
 /// Topology and groups stay as they are: vertices of a rim stay on it, those of a flat end in its
 /// plane. Each vertex keeps a node from which a cursor follows to it. The same result on any number

@@ -15,7 +15,8 @@ using Mesh = RemeshMesh;
 
 constexpr double kMendBelow = 0.095;  // positions are rounded to floats when written
 constexpr int kRounds = 12;
-constexpr int kSplits = 2;
+// Where the field has no smooth surface, such as where it jumps from one model to the next.
+constexpr int kStretchSteps = 30, kStretchRings = 6, kStretchPasses = 3;
 constexpr double kLongestMade = 2;  // of the target: a longer edge is no cure
 constexpr double kGain = 1.0001;    // else it could go round in circles by rounding
 
@@ -48,7 +49,7 @@ bool collapseBest(Mesh& mesh, Mesh::FaceHandle face) {
       quality = outcome.quality;
       best = h;
     }
-  if (best) mesh.collapseEdge(*best);
+  if (best) mesh.collapse(*best);
   return best.has_value();
 }
 
@@ -114,32 +115,81 @@ bool needsMending(const Mesh& mesh, Mesh::FaceHandle face) {
   return mesh.qualityOf(face) < kMendBelow;
 }
 
-// Where nothing else helps: a new vertex on the longest edge gives the others more freedom.
-void splitLongest(Mesh& mesh, Mesh::FaceHandle face) {
-  Mesh::EdgeHandle longest;
-  for (const Mesh::EdgeHandle edge : mesh.fe_range(face))
-    if (!longest.is_valid() || mesh.lengthOf(edge) > mesh.lengthOf(longest)) longest = edge;
-  if (mesh.is_boundary(longest) || mesh.data(longest).isRim) return;
-  const Mesh::VertexHandle v = mesh.splitEdge(longest);
-  if (mesh.data(v).kind == VertexKind::Wall) settle(mesh, v);
+std::vector<Mesh::FaceHandle> facesToMend(const Mesh& mesh) {
+  std::vector<Mesh::FaceHandle> bad;
+  for (const Mesh::FaceHandle face : mesh.faces())
+    if (needsMending(mesh, face)) bad.push_back(face);
+  return bad;
+}
+
+// The wall's vertices within some rings of the faces, in the order of their handles.
+std::vector<Mesh::VertexHandle> wallAround(const Mesh& mesh,
+                                           const std::vector<Mesh::FaceHandle>& faces, int rings) {
+  std::vector<std::uint8_t> marked(mesh.n_vertices(), 0);
+  const auto mark = [&](Mesh::VertexHandle v) -> std::uint8_t& {
+    return marked[static_cast<std::size_t>(v.idx())];
+  };
+  for (const Mesh::FaceHandle face : faces)
+    for (const Mesh::VertexHandle v : mesh.verticesOf(face)) mark(v) = 1;
+  for (int ring = 1; ring <= rings; ++ring)
+    for (const Mesh::VertexHandle v : mesh.vertices()) {
+      if (mark(v) != ring) continue;
+      for (const Mesh::VertexHandle w : mesh.vv_range(v))
+        if (mark(w) == 0) mark(w) = static_cast<std::uint8_t>(ring + 1);
+    }
+  std::vector<Mesh::VertexHandle> found;
+  for (const Mesh::VertexHandle v : mesh.vertices())
+    if (mark(v) != 0 && mesh.data(v).kind == VertexKind::Wall) found.push_back(v);
+  return found;
+}
+
+// Takes vertices off the field and stretches the wall between the others like a membrane.
+void stretch(Mesh& mesh, const std::vector<Mesh::VertexHandle>& vertices) {
+  for (int step = 0; step < kStretchSteps; ++step)
+    for (const Mesh::VertexHandle v : vertices) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double count = 0;
+      for (const Mesh::VertexHandle w : mesh.vv_range(v)) {
+        sum += mesh.point(w);
+        ++count;
+      }
+      mesh.set_point(v, sum / count);
+    }
+  for (const Mesh::VertexHandle v : vertices) {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for (const Mesh::FaceHandle face : mesh.vf_range(v)) {
+      const auto c = mesh.cornersOf(face);
+      normal += (c[1] - c[0]).cross(c[2] - c[0]);
+    }
+    if (normal.norm() > 0) mesh.data(v).gradient = normal.normalized();
+    mesh.data(v).isOffField = true;
+  }
 }
 
 }  // namespace
 
 void mendFaces(RemeshMesh& mesh, const Progress& progress) {
-  for (int round = 0, splits = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     progress.check();
-    std::vector<Mesh::FaceHandle> bad;
-    for (const Mesh::FaceHandle face : mesh.faces())
-      if (needsMending(mesh, face)) bad.push_back(face);
-    if (bad.empty()) return;
     bool any = false;
-    for (const Mesh::FaceHandle face : bad)
+    for (const Mesh::FaceHandle face : facesToMend(mesh))
       if (!mesh.status(face).deleted() && needsMending(mesh, face)) any |= mendFace(mesh, face);
-    if (any) continue;
-    if (++splits > kSplits) return;
-    for (const Mesh::FaceHandle face : bad)
-      if (needsMending(mesh, face)) splitLongest(mesh, face);
+    if (!any) return;
+  }
+}
+
+void stretchFolds(RemeshMesh& mesh, const Progress& progress) {
+  for (int rings = 2; rings <= kStretchRings; ++rings) {
+    const auto bad = facesToMend(mesh);
+    if (bad.empty()) return;
+    stretch(mesh, wallAround(mesh, bad, rings));
+    for (int i = 0; i < kStretchPasses; ++i) {
+      collapseShort(mesh);
+      splitLong(mesh);
+      flipForAngles(mesh);
+      relax(mesh);
+    }
+    mendFaces(mesh, progress);
   }
 }
 

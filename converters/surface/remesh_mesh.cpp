@@ -125,6 +125,21 @@ RemeshMesh::Corners RemeshMesh::cornersOf(FaceHandle face) const {
   return {point(v[0]), point(v[1]), point(v[2])};
 }
 
+RemeshMesh::EdgeHandle RemeshMesh::longestOf(FaceHandle face) const {
+  EdgeHandle longest;
+  for (const EdgeHandle edge : fe_range(face))
+    if (!longest.is_valid() || lengthOf(edge) > lengthOf(longest)) longest = edge;
+  return longest;
+}
+
+bool RemeshMesh::isInPlane(EdgeHandle edge) const {
+  for (const unsigned side : {0U, 1U}) {
+    const FaceHandle face = face_handle(halfedge_handle(edge, side));
+    if (face.is_valid() && m_rules.plane[data(face).group]) return true;
+  }
+  return false;
+}
+
 Eigen::Vector3d RemeshMesh::outward(std::uint32_t group,
                                     const std::array<VertexHandle, 3>& vertices) const {
   if (const auto& plane = m_rules.plane[group]) return *plane;
@@ -205,7 +220,7 @@ RemeshMesh::Outcome RemeshMesh::afterCollapse(HalfedgeHandle h) const {
   return outcome;
 }
 
-void RemeshMesh::collapseEdge(HalfedgeHandle h) {
+void RemeshMesh::collapse(HalfedgeHandle h) {
   const HalfedgeHandle back = opposite_halfedge_handle(h);
   if (data(edge_handle(h)).isRim)
     for (const HalfedgeHandle side : {h, back}) --m_rimEdges[data(face_handle(side)).group];
@@ -218,7 +233,7 @@ void RemeshMesh::collapseEdge(HalfedgeHandle h) {
     const bool isRim = data(a).isRim || data(b).isRim;
     data(a).isRim = data(b).isRim = isRim;
   }
-  collapse(h);
+  TriMesh_ArrayKernelT::collapse(h);
 }
 
 bool RemeshMesh::mayFlip(EdgeHandle edge) const {
@@ -276,6 +291,7 @@ RemeshMesh::VertexHandle RemeshMesh::splitEdge(EdgeHandle edge) {
   made.drift = made.target;
   made.node = a.node;
   made.isSeparated = a.isSeparated || b.isSeparated;
+  made.isOffField = a.isOffField && b.isOffField;
   const std::uint32_t flat = m_rules.plane[groupLeft] ? groupLeft : groupRight;
   if (m_rules.plane[flat]) made.end = flat;
   made.kind = isRim ? VertexKind::Rim : made.end != 0 ? VertexKind::Flat : VertexKind::Wall;

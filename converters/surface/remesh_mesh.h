@@ -63,6 +63,9 @@ public:
   [[nodiscard]] double targetOf(EdgeHandle edge) const;
   [[nodiscard]] std::array<VertexHandle, 3> verticesOf(FaceHandle face) const;
   [[nodiscard]] Corners cornersOf(FaceHandle face) const;
+  [[nodiscard]] EdgeHandle longestOf(FaceHandle face) const;
+  /// True if both faces are of the same flat end, or one is.
+  [[nodiscard]] bool isInPlane(EdgeHandle edge) const;
 
   /// Where a face of these vertices should look, of any length: zero if nobody knows.
   [[nodiscard]] Eigen::Vector3d outward(std::uint32_t group,
@@ -86,7 +89,8 @@ public:
     double longest = 0;     ///< edge that would be made, over its target
   };
   [[nodiscard]] Outcome afterCollapse(HalfedgeHandle h) const;
-  void collapseEdge(HalfedgeHandle h);
+  /// As OpenMesh's, whose decimater calls it too, and keeps count of rims.
+  void collapse(HalfedgeHandle h);
 
   [[nodiscard]] bool mayFlip(EdgeHandle edge) const;
   [[nodiscard]] Outcome afterFlip(EdgeHandle edge) const;

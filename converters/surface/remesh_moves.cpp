@@ -80,6 +80,7 @@ void take(Mesh& mesh, Mesh::VertexHandle v, const SheetSample& sample) {
 }
 
 void stepOntoField(Mesh& mesh, Mesh::VertexHandle v) {
+  if (mesh.data(v).isOffField) return;
   const SheetField& field = mesh.rules().field;
   const SheetSample sample = field.at(mesh.point(v), mesh.data(v).node);
   if (sample.gradient.isZero()) return;
@@ -138,7 +139,7 @@ void collapseShort(RemeshMesh& mesh) {
       quality = outcome.quality;
       best = h;
     }
-    if (best) mesh.collapseEdge(*best);
+    if (best) mesh.collapse(*best);
   }
 }
 
@@ -193,6 +194,7 @@ void relax(RemeshMesh& mesh) {
 
 bool settle(RemeshMesh& mesh, RemeshMesh::VertexHandle v) {
   auto& here = mesh.data(v);
+  if (here.isOffField) return false;
   const auto plane = here.kind == VertexKind::Rim ? planeOf(mesh, v) : std::nullopt;
   const auto foot = mesh.rules().field.project(mesh.point(v), here.node, plane ? &*plane : nullptr);
   here.isOffField = !foot;

@@ -37,4 +37,7 @@ bool refineSlits(RemeshMesh& mesh);
 /// Works on sharp and folded faces until there are none or nothing helps.
 void mendFaces(RemeshMesh& mesh, const Progress& progress);
 
+/// Where mendFaces() has left some: takes the wall around them off the field, and stretches it.
+void stretchFolds(RemeshMesh& mesh, const Progress& progress);
+
 }  // namespace lumen::convert

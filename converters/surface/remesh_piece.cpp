@@ -38,6 +38,7 @@ void remeshPiece(Piece& piece, const PieceRules& rules, PieceWork work, const Pr
   RemeshMesh mesh(piece, rules);
   if (work == PieceWork::Remesh) remeshToTargets(mesh, progress);
   mendFaces(mesh, progress);
+  if (work == PieceWork::Stretch) stretchFolds(mesh, progress);
   mesh.garbage_collection();
   piece = mesh.toPiece();
 }

@@ -44,7 +44,8 @@ struct PieceRules {
 
 enum class PieceWork : std::uint8_t {
   Remesh,  ///< to the target lengths
-  Mend     ///< only triangles that are sharp or folded
+  Mend,    ///< only triangles that are sharp or folded
+  Stretch  ///< and where that does not help, off the field
 };
 
 /// Does the work in place; vertices that went are gone, new ones are at the end.

@@ -103,6 +103,14 @@ void dropUnused(RemeshState& state) {
 
 }  // namespace
 
+PieceRules rulesOf(const CaseSurface& surface, const SheetField& field) {
+  PieceRules rules{field, {}};
+  rules.plane.resize(surface.groups.size());
+  for (const SurfaceEnd& end : surface.ends)
+    if (surface.groups[end.group].kind != FaceKind::Cap) rules.plane[end.group] = end.normal;
+  return rules;
+}
+
 std::vector<TriangleList> piecesByNode(const CaseSurface& surface) {
   const auto& triangles = surface.mesh.triangle;
   const auto keyOf = [&](std::uint32_t t) {

@@ -19,6 +19,9 @@ struct RemeshState {
   std::vector<std::uint8_t> isSeparated, isOffField, isBoundary;
 };
 
+/// The rules of a surface: which of its groups are flat.
+PieceRules rulesOf(const CaseSurface& surface, const SheetField& field);
+
 using TriangleList = std::vector<std::uint32_t>;
 
 /// Divides all triangles by ranges of cursor nodes into pieces of about 20 000, fewer if there

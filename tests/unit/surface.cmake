@@ -4,6 +4,7 @@ lumen_test(surface_test
   LIBS lumen_surface OpenMeshCore
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extract_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/decimate_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_table_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/node_field_test.cpp

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/surface/decimate.h"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "../mesh/mesh_facts.h"
+#include "../mesh/synthetic.h"
+#include "closed_surface.h"
+#include "converters/surface/levels_of_detail.h"
+#include "converters/surface/remesh.h"
+
+namespace lumen::convert {
+namespace {
+
+using test::factsOf;
+using test::FieldOfCase;
+
+CaseSurface fineTube(const FieldOfCase& of) {
+  CaseSurface surface = test::closedSurface(of, 0.25, 0);
+  test::cutFlat(surface, of, "inlet", {0.03, 0.05, 0.07}, {-1, 0, 0});
+  test::cutFlat(surface, of, "outlet", {5.03, 0.05, 0.07}, {1, 0, 0});
+  Progress progress;
+  remesh(surface, of.sheet, {0.1}, progress);
+  return surface;
+}
+
+void expectClosed(const CaseSurface& surface) {
+  const test::MeshFacts facts = factsOf(surface.mesh);
+  EXPECT_EQ(facts.boundaryEdges, 0U);
+  EXPECT_EQ(facts.badEdges, 0U);
+  EXPECT_EQ(facts.euler, 2);
+  EXPECT_GT(facts.volume, 0);
+}
+
+double offAxis(const Eigen::Vector3d& p) {
+  return std::hypot(p.y() - 0.05, p.z() - 0.07);
+}
+
+// Of a sphere of radius 1, triangles with edges of 0.4 are within 1 - sqrt(1 - 0.4^2 / 3).
+TEST(SurfaceError, OfATriangulatedSphereIsItsSagitta) {
+  const FieldOfCase of(test::sphereCase(1.0, 0.43));
+  CaseSurface surface = test::closedSurface(of, 0.3, 0);
+  Progress progress;
+  remesh(surface, of.sheet, {0.4}, progress);
+  double sagitta = 0;
+  const double radius = (surface.mesh.position[0] - Eigen::Vector3d(0.03, 0.05, 0.07)).norm();
+  for (const Triangle& t : surface.mesh.triangle) {
+    const auto& p = surface.mesh.position;
+    const Eigen::Vector3d middle = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
+    sagitta = std::max(sagitta, radius - (middle - Eigen::Vector3d(0.03, 0.05, 0.07)).norm());
+  }
+  EXPECT_NEAR(surfaceError(surface, of.sheet).largest, sagitta, 0.05 * sagitta);
+}
+
+class DecimateTo : public testing::TestWithParam<double> {};
+
+TEST_P(DecimateTo, StaysWithinTheErrorAndSaysIt) {
+  const double maxError = GetParam();
+  const FieldOfCase of(test::tubeCase(6));
+  CaseSurface surface = fineTube(of);
+  const std::size_t before = surface.mesh.triangle.size();
+  Progress progress;
+  const SurfaceError error = decimate(surface, of.sheet, {maxError}, progress);
+  expectClosed(surface);
+  EXPECT_LT(surface.mesh.triangle.size(), before / 2);
+  EXPECT_LE(error.largest, maxError);
+  EXPECT_EQ(error.largest, surfaceError(surface, of.sheet).largest);
+  // The wall is nearly a cylinder: its points, however they are taken, are no farther from it.
+  for (std::size_t t = 0; t < surface.group.size(); ++t) {
+    if (surface.group[t] != 0) continue;
+    const auto& p = surface.mesh.position;
+    const Triangle& c = surface.mesh.triangle[t];
+    const Eigen::Vector3d inside = 0.2 * p[c[0]] + 0.3 * p[c[1]] + 0.5 * p[c[2]];
+    EXPECT_NEAR(offAxis(inside), 1.0, 0.03 + 1.2 * maxError);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Errors, DecimateTo, testing::Values(0.01, 0.03, 0.1));
+
+TEST(Decimate, KeepsGroupsAndTheirPlanes) {
+  const FieldOfCase of(test::tubeCase(6));
+  CaseSurface surface = fineTube(of);
+  Progress progress;
+  decimate(surface, of.sheet, {0.1}, progress);
+  std::set<std::uint32_t> found(surface.group.begin(), surface.group.end());
+  EXPECT_EQ(found, (std::set<std::uint32_t>{0, 1, 2}));
+  for (std::size_t t = 0; t < surface.group.size(); ++t) {
+    if (surface.group[t] == 0) continue;
+    const SurfaceEnd& end = surface.ends[surface.group[t] - 1];
+    for (const std::uint32_t v : surface.mesh.triangle[t])
+      EXPECT_NEAR(end.normal.dot(surface.mesh.position[v] - end.centre), 0, 1e-9);
+  }
+}
+
+TEST(LevelsOfDetail, HaveAQuarterOfTheTrianglesEach) {
+  const FieldOfCase of(test::tubeCase(6));
+  Progress progress;
+  const auto levels = levelsOfDetail(fineTube(of), of.sheet, 3, progress);
+  ASSERT_EQ(levels.size(), 3U);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    expectClosed(levels[i].surface);
+    if (i == 0) continue;
+    const auto triangles = static_cast<double>(levels[i].surface.mesh.triangle.size());
+    const auto finer = static_cast<double>(levels[i - 1].surface.mesh.triangle.size());
+    EXPECT_NEAR(triangles / finer, 0.25, 0.02);
+    EXPECT_GT(levels[i].error.largest, levels[i - 1].error.largest);
+    EXPECT_LT(levels[i].error.largest, 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace lumen::convert
