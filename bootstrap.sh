@@ -18,7 +18,7 @@ TEXT
 packages=(
   build-essential cmake ninja-build ccache git ca-certificates
   libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
-  libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libzstd-dev libpng-dev
+  libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   libgtest-dev libbenchmark-dev libcgal-dev
 )
@@ -145,8 +145,8 @@ install_validator() {
 
 install_test_packages() {
   have_node || packages+=(nodejs npm)
-  # the JSON answers against their schemas, and what judges the manual page
-  packages+=(python3-jsonschema groff-base mandoc)
+  # the JSON answers against their schemas, what judges the manual page, and what reads VTP
+  packages+=(python3-jsonschema groff-base mandoc python3-vtk9)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev emscripten python3-numpy)
   install_packages "${packages[@]}" "$@"

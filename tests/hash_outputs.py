@@ -37,7 +37,7 @@ SMALL = ["tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dro
          "hairpin", "right-angle", "fading", "thick-slices"]
 FULL = ["bifurcation", "kissing"]  # the phantoms that every format and option is tried on
 KERNELS = ["gaussian", "quartic", "soft-object"]
-MESHES = ["glb", "gltf", "obj", "stl", "ply"]
+MESHES = ["glb", "gltf", "vtp", "obj", "stl", "ply"]
 SIGNATURE = b"\x8cLUMEN\r\n\x1a\n"
 
 
@@ -143,6 +143,9 @@ def convert_case(folder):
         folder.run(f"to-{mesh}", "convert", "case.lumen", f"mesh.{mesh}", "--json")
     for mesh in ("glb", "gltf"):
         folder.run(f"to-draco-{mesh}", "convert", "case.lumen", f"draco.{mesh}", "--draco")
+    folder.run("to-meshopt", "convert", "case.lumen", "meshopt.glb", "--meshopt", "--lod", "2", "--mesh-per", "branch")
+    folder.run("to-colors", "convert", "case.lumen", "colors.glb", "--color", "radius")
+    folder.run("to-solids", "convert", "case.lumen", "solids.stl", "--stl-solids")
     folder.run("to-fine-ply", "convert", "case.lumen", "fine.ply", "--cell", "0.1")
 
 

@@ -21,14 +21,14 @@ public:
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
-           "  lumen convert head.lumen head.glb --draco";
+           "  lumen convert head.lumen head.glb --color radius";
   }
 
   void bind(CLI::App& app) override {
     addFile(app, "INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + ") or case");
     addFile(app, "OUTPUT", m_output,
-            "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of each " +
-                "branch and no more, " + formatEndings(canWriteMesh));
+            "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of the " +
+                "vessels and no more, " + formatEndings(canWriteMesh));
     app.add_option("--from", m_from, "Format of INPUT, whatever its name")->type_name("F");
     app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
     addVolumeOptions(app, m_volume);

@@ -5,12 +5,13 @@
 #include <system_error>
 
 #include "converters/app/file_access.h"
-#include "converters/app/loss_report.h"
+#include "converters/app/mesh_of_case.h"
 #include "converters/app/suggestion.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
 #include "converters/mesh/write_gltf.h"
 #include "converters/mesh/write_plain.h"
+#include "converters/mesh/write_vtp.h"
 #include "converters/volume/write_volume.h"
 
 namespace lumen::app {
@@ -43,32 +44,35 @@ void writeCaseAs(const formats::Case& value, const fs::path& file, const OutputO
   writeCase(value, file, encoding, options.encoding);
 }
 
-using Meshes = std::vector<convert::BranchMesh>;
+using Levels = std::vector<convert::SurfaceMesh>;
 
-std::string encodeGlb(const Meshes& meshes, const convert::WriteMeshOptions& options) {
-  return convert::encodeGltf(meshes, true, options);
+template <bool binary>
+std::string encodeGltf(const Levels& levels, const convert::WriteMeshOptions& options) {
+  return convert::encodeGltf(levels, binary, options);
 }
-std::string encodeGltfText(const Meshes& meshes, const convert::WriteMeshOptions& options) {
-  return convert::encodeGltf(meshes, false, options);
+std::string encodeStl(const Levels& levels, const convert::WriteMeshOptions& options) {
+  return convert::encodeStl(levels.front(), options.stlSolids);
 }
-template <std::string (*encode)(const Meshes&)>
-std::string encodePlain(const Meshes& meshes, const convert::WriteMeshOptions&) {
-  return encode(meshes);
+template <std::string (*encode)(const convert::SurfaceMesh&)>
+std::string encodePlain(const Levels& levels, const convert::WriteMeshOptions&) {
+  return encode(levels.front());
 }
 
-/// The writer of a mesh format: the case's surface as triangles, encoded.
-template <std::string (*encode)(const Meshes&, const convert::WriteMeshOptions&)>
+/// The writer of a mesh format: the case's surface as triangles, encoded. `hasLevels`: it takes
+/// coarser levels of detail too.
+template <std::string (*encode)(const Levels&, const convert::WriteMeshOptions&),
+          bool hasLevels = false>
 void writeMeshAs(const formats::Case& value, const fs::path& file, const OutputOptions& options,
                  Progress& progress) {
-  const Meshes meshes = convert::polygonise(value, options.polygonise, progress);
-  progress.check();
-  const double cell = convert::cellOf(value, options.polygonise);
-  reportLosses(meshes, file.string(), cell, progress);
-  writeText(encode(meshes, options.mesh), file);
+  const Levels levels = meshOfCase(value, file, options, hasLevels ? options.levels : 1, progress);
+  writeText(encode(levels, options.mesh), file);
 }
 
+constexpr auto kGlb = writeMeshAs<encodeGltf<true>, true>;
+constexpr auto kGltf = writeMeshAs<encodeGltf<false>, true>;
+constexpr auto kVtp = writeMeshAs<encodePlain<convert::encodeVtp>>;
 constexpr auto kObj = writeMeshAs<encodePlain<convert::encodeObj>>;
-constexpr auto kStl = writeMeshAs<encodePlain<convert::encodeStl>>;
+constexpr auto kStl = writeMeshAs<encodeStl>;
 constexpr auto kPly = writeMeshAs<encodePlain<convert::encodePly>>;
 
 // clang-format off
@@ -81,8 +85,9 @@ std::vector<FileFormat> makeTable() {
       {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
       // meshes
-      {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = writeMeshAs<encodeGlb>},
-      {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"}, .writeCase = writeMeshAs<encodeGltfText>},
+      {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = kGlb},
+      {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"}, .writeCase = kGltf},
+      {.name = "vtp", .title = "VTP", .kind = Mesh, .endings = {".vtp"}, .writeCase = kVtp},
       {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"}, .writeCase = kObj},
       {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .writeCase = kStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},

@@ -25,6 +25,8 @@ struct OutputOptions {
   formats::EncodeOptions encoding;
   convert::PolygoniseOptions polygonise;
   convert::WriteMeshOptions mesh;
+  bool patches = false;  ///< the surface in pieces
+  int levels = 1;        ///< of detail, where a format has them
 };
 
 /// One row. A function that is null says what the format cannot do; each throws lumen::Error with

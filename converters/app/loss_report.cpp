@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "converters/app/report.h"
 #include "converters/surface/cell_size.h"
@@ -14,16 +15,17 @@ namespace lumen::app {
 
 namespace {
 
-using convert::BranchMesh;
+using convert::BranchLosses;
+using convert::Patches;
 
 /// "branch "a" has", "branches "a", "b" and 7 more have".
-std::string subject(const std::vector<const BranchMesh*>& meshes) {
+std::string subject(const std::vector<std::string>& labels) {
   constexpr std::size_t kNamed = 5;
-  std::string text = meshes.size() == 1 ? "branch" : "branches";
-  for (std::size_t i = 0; i < std::min(meshes.size(), kNamed); ++i)
-    text += (i == 0 ? " \"" : ", \"") + formats::printable(meshes[i]->label) + "\"";
-  if (meshes.size() > kNamed) text += " and " + std::to_string(meshes.size() - kNamed) + " more";
-  return text + (meshes.size() == 1 ? " has" : " have");
+  std::string text = labels.size() == 1 ? "branch" : "branches";
+  for (std::size_t i = 0; i < std::min(labels.size(), kNamed); ++i)
+    text += (i == 0 ? " \"" : ", \"") + formats::printable(labels[i]) + "\"";
+  if (labels.size() > kNamed) text += " and " + std::to_string(labels.size() - kNamed) + " more";
+  return text + (labels.size() == 1 ? " has" : " have");
 }
 
 /// Two digits, rounded down.
@@ -43,13 +45,14 @@ std::string advice(double thinnest, double cell, const std::string& promise) {
          " or less " + promise;
 }
 
-std::string missingText(const std::vector<BranchMesh>& meshes, double cell) {
-  std::vector<const BranchMesh*> coarse, bare;
+std::string missingText(const Patches& patches, double cell) {
+  std::vector<std::string> coarse, bare;
   double thinnest = INFINITY;
-  for (const BranchMesh& mesh : meshes) {
-    if (!mesh.triangle.empty()) continue;
-    (mesh.losses.any() ? coarse : bare).push_back(&mesh);
-    if (mesh.losses.any()) thinnest = std::min(thinnest, mesh.losses.thinnest);
+  for (std::size_t b = 0; b < patches.losses.size(); ++b) {
+    const BranchLosses& losses = patches.losses[b];
+    if (losses.triangles > 0) continue;
+    (losses.any() ? coarse : bare).push_back(patches.surface.labels[b]);
+    if (losses.any()) thinnest = std::min(thinnest, losses.thinnest);
   }
   std::string text;
   if (!coarse.empty())
@@ -60,16 +63,17 @@ std::string missingText(const std::vector<BranchMesh>& meshes, double cell) {
   return text;
 }
 
-std::string holesText(const std::vector<BranchMesh>& meshes, double cell) {
-  std::vector<const BranchMesh*> torn;
+std::string holesText(const Patches& patches, double cell) {
+  std::vector<std::string> torn;
   std::size_t nodes = 0, triangles = 0;
   double thinnest = INFINITY;
-  for (const BranchMesh& mesh : meshes) {
-    if (mesh.triangle.empty() || !mesh.losses.any()) continue;
-    torn.push_back(&mesh);
-    nodes += mesh.losses.missedNodes;
-    triangles += mesh.losses.lostTriangles;
-    thinnest = std::min(thinnest, mesh.losses.thinnest);
+  for (std::size_t b = 0; b < patches.losses.size(); ++b) {
+    const BranchLosses& losses = patches.losses[b];
+    if (losses.triangles == 0 || !losses.any()) continue;
+    torn.push_back(patches.surface.labels[b]);
+    nodes += losses.missedNodes;
+    triangles += losses.lostTriangles;
+    thinnest = std::min(thinnest, losses.thinnest);
   }
   if (torn.empty()) return "";
   return subject(torn) + " holes (" + counted(nodes, "node", "nodes") + " without surface, " +
@@ -79,9 +83,9 @@ std::string holesText(const std::vector<BranchMesh>& meshes, double cell) {
 
 }  // namespace
 
-void reportLosses(const std::vector<BranchMesh>& meshes, const std::string& file, double cell,
+void reportLosses(const Patches& patches, const std::string& file, double cell,
                   Progress& progress) {
-  for (const std::string& text : {missingText(meshes, cell), holesText(meshes, cell)})
+  for (const std::string& text : {missingText(patches, cell), holesText(patches, cell)})
     if (!text.empty()) progress.warn(formats::printable(file) + ": " + text);
 }
 

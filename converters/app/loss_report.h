@@ -3,17 +3,16 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "converters/common/progress.h"
-#include "converters/mesh/branch_mesh.h"
+#include "converters/surface/polygonise.h"
 
 namespace lumen::app {
 
 /// Warns of branches that have no surface in `file`, and of those with holes: where cells of `cell`
 /// mm were too coarse for them, with cells that would do. That a mesh holds the
 /// surface and nothing else is no loss.
-void reportLosses(const std::vector<convert::BranchMesh>& meshes, const std::string& file,
-                  double cell, Progress& progress);
+void reportLosses(const convert::Patches& patches, const std::string& file, double cell,
+                  Progress& progress);
 
 }  // namespace lumen::app

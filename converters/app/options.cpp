@@ -43,6 +43,15 @@ const std::map<std::string, convert::SeedSystem> kSeedSystems = {
     {"ras", convert::SeedSystem::Ras},
     {"voxel", convert::SeedSystem::Voxel}};
 
+/// What --mesh-per and --color take; without the option it is the first value of its type.
+const std::map<std::string, convert::MeshPer> kMeshPer = {{"whole", convert::MeshPer::Whole},
+                                                          {"branch", convert::MeshPer::Branch}};
+const std::map<std::string, convert::ColorBy> kColorBy = {
+    {"none", convert::ColorBy::None},
+    {"branch", convert::ColorBy::Branch},
+    {"radius", convert::ColorBy::Radius},
+    {"confidence", convert::ColorBy::Confidence}};
+
 CLI::Validator within(int low, int high) {
   return wholeIn(low, high);
 }
@@ -70,6 +79,22 @@ public:
   }
   CLI::Option* addFlag(const std::string& name, bool& value, const std::string& help) {
     return m_app.add_flag(name, value, help)->group(m_title);
+  }
+  /// One of the words of `named`, of which the value that the variable holds is the default.
+  template <class T>
+  CLI::Option* addChoice(const std::string& name, T& value, const std::map<std::string, T>& named,
+                         const std::string& help) {
+    std::string word;
+    for (const auto& [known, meaning] : named)
+      if (meaning == value) word = known;
+    return m_app
+        .add_option_function<std::string>(
+            name, [&value, &named](const std::string& found) { value = named.at(found); },
+            help + ": " + alternatives(wordsOf(named)))
+        ->type_name("WORD")
+        ->group(m_title)
+        ->default_str(word)
+        ->check(oneOf(wordsOf(named)));
   }
 
 private:
@@ -270,19 +295,40 @@ void addFitOptions(CLI::App& app, FitArguments& fit) {
 }
 
 void addMeshOptions(CLI::App& app, OutputOptions& output) {
+  convert::WriteMeshOptions& mesh = output.mesh;
   Group group(app, "Mesh");
+  group.addFlag(
+      "--patches", output.patches,
+      "Give the surface in pieces, one group of faces for each branch, which meet but are "
+      "not joined");
   group
       .add("--cell", output.polygonise.cell, "MM",
            "Edge of a marching-cubes cell; 0: the voxel size")
       ->check(kNotNegative);
-  group.addFlag("--draco", output.mesh.draco,
-                "Compress glTF with KHR_draco_mesh_compression; not for the f3d of Debian 12, "
-                "which crashes on any such file");
   group
-      .add("--draco-position-bits", output.mesh.dracoPositionBits, "N",
-           "Bits of a position in a branch's bounding box")
+      .add("--lod", output.levels, "N",
+           "Levels of detail in one glTF, each with edges twice as long (MSFT_lod)")
+      ->check(within(1, 8));
+  group.addChoice("--mesh-per", mesh.per, kMeshPer, "glTF: one mesh, or one for each branch");
+  group.addChoice("--color", mesh.color, kColorBy,
+                  "glTF: colours of vertices, which all kinds of colour vision tell apart");
+  group.addFlag("--stl-solids", mesh.stlSolids,
+                "Write STL as text with one named solid for each group of faces, as OpenFOAM takes "
+                "it");
+  CLI::Option* meshopt = group.addFlag(
+      "--meshopt", mesh.meshopt,
+      "Compress glTF with EXT_meshopt_compression, to a micrometre; not for the f3d of "
+      "Debian 12, which crashes on any such file");
+  group
+      .addFlag("--draco", mesh.draco,
+               "Compress glTF with KHR_draco_mesh_compression; not for the f3d of Debian 12, "
+               "which crashes on any such file")
+      ->excludes(meshopt);
+  group
+      .add("--draco-position-bits", mesh.dracoPositionBits, "N",
+           "Bits of a position in the bounding box of the mesh")
       ->check(within(1, 30));
-  group.add("--draco-normal-bits", output.mesh.dracoNormalBits, "N", "Bits of a normal")
+  group.add("--draco-normal-bits", mesh.dracoNormalBits, "N", "Bits of a normal")
       ->check(within(2, 30));
 }
 

@@ -1,44 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/mesh/draco_mesh.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
 #include <draco/compression/decode.h>
-#include <draco/compression/encode.h>
+#include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 
 #include "converters/common/error.h"
+#include "converters/mesh/mesh_parts.h"
 
 namespace lumen::convert {
 namespace {
 
-int addAttribute(draco::Mesh& target, draco::GeometryAttribute::Type type, std::uint32_t vertices) {
-  draco::GeometryAttribute attribute;
-  attribute.Init(type, nullptr, 3, draco::DT_FLOAT32, false, 3 * sizeof(float), 0);
-  return target.AddAttribute(attribute, true, vertices);
+// Of radii and confidences, within their range.
+constexpr int kValueBits = 12;
+
+draco::GeometryAttribute::Type typeOf(const VertexStream& stream) {
+  if (stream.name == "POSITION") return draco::GeometryAttribute::POSITION;
+  if (stream.name == "NORMAL") return draco::GeometryAttribute::NORMAL;
+  if (stream.name == "COLOR_0") return draco::GeometryAttribute::COLOR;
+  return draco::GeometryAttribute::GENERIC;
 }
 
-struct DracoInput {
-  draco::Mesh mesh;
-  int position = 0, normal = 0;  // attribute indices
-};
+// Gives the index of the attribute.
+int addAttribute(draco::Mesh& target, const DracoPart& part, const VertexStream& stream) {
+  const bool isFloat = stream.componentType == kFloat;
+  const auto components = static_cast<std::int8_t>(stream.components);
+  draco::GeometryAttribute attribute;
+  attribute.Init(typeOf(stream), nullptr, components,
+                 isFloat ? draco::DT_FLOAT32 : draco::DT_UINT16, stream.isNormalized,
+                 components * (isFloat ? 4 : 2), 0);
+  const int index = target.AddAttribute(attribute, true, static_cast<std::uint32_t>(part.count));
+  for (std::uint32_t v = 0; v < part.count; ++v)
+    target.attribute(index)->SetAttributeValue(
+        draco::AttributeValueIndex(v), stream.bytes.data() + (part.first + v) * stream.stride);
+  return index;
+}
 
-void fill(const BranchMesh& mesh, DracoInput& input) {
-  const auto vertices = static_cast<std::uint32_t>(mesh.position.size());
-  input.mesh.set_num_points(vertices);
-  input.position = addAttribute(input.mesh, draco::GeometryAttribute::POSITION, vertices);
-  input.normal = addAttribute(input.mesh, draco::GeometryAttribute::NORMAL, vertices);
-  for (std::uint32_t v = 0; v < vertices; ++v) {
-    const draco::AttributeValueIndex at(v);
-    input.mesh.attribute(input.position)->SetAttributeValue(at, mesh.position[v].data());
-    input.mesh.attribute(input.normal)->SetAttributeValue(at, mesh.normal[v].data());
-  }
-  input.mesh.SetNumFaces(mesh.triangle.size());
-  for (std::uint32_t f = 0; f < mesh.triangle.size(); ++f) {
+void addFaces(draco::Mesh& target, std::span<const Triangle> triangles) {
+  target.SetNumFaces(triangles.size());
+  for (std::uint32_t f = 0; f < triangles.size(); ++f) {
     draco::Mesh::Face face;
-    for (std::size_t i = 0; i < 3; ++i) face[i] = draco::PointIndex(mesh.triangle[f][i]);
-    input.mesh.SetFace(draco::FaceIndex(f), face);
+    for (std::size_t i = 0; i < 3; ++i) face[i] = draco::PointIndex(triangles[f][i]);
+    target.SetFace(draco::FaceIndex(f), face);
   }
 }
 
@@ -57,7 +64,7 @@ void measureDecoded(DracoMesh& coded) {
   if (!decoded.ok())
     throw failed("Draco cannot read back a mesh: " + decoded.status().error_msg_string());
   const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
-  const auto* position = mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(coded.positionId));
+  const auto* position = mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(coded.id.front()));
   coded.vertices = mesh->num_points();
   coded.triangles = mesh->num_faces();
   for (draco::PointIndex i(0); i < mesh->num_points(); ++i) {
@@ -70,22 +77,32 @@ void measureDecoded(DracoMesh& coded) {
 
 }  // namespace
 
-DracoMesh encodeDraco(const BranchMesh& mesh, const WriteMeshOptions& options) {
+DracoMesh encodeDraco(const DracoPart& part, const DracoGrid& grid,
+                      const WriteMeshOptions& options) {
   checkBits(options.dracoPositionBits, 1, "position");
   checkBits(options.dracoNormalBits, 2, "normal");
-  DracoInput input;
-  fill(mesh, input);
-  draco::Encoder encoder;
+  draco::Mesh mesh;
+  mesh.set_num_points(static_cast<std::uint32_t>(part.count));
+  addFaces(mesh, part.triangle);
+  std::vector<int> index;
+  for (const VertexStream& stream : part.streams) index.push_back(addAttribute(mesh, part, stream));
+  draco::ExpertEncoder encoder(mesh);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, options.dracoPositionBits);
-  encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, options.dracoNormalBits);
+  for (std::size_t s = 0; s < index.size(); ++s) {
+    const VertexStream& stream = part.streams[s];
+    if (stream.name == "POSITION")
+      encoder.SetAttributeExplicitQuantization(index[s], options.dracoPositionBits, 3,
+                                               grid.origin.data(), grid.range);
+    else if (stream.componentType == kFloat)
+      encoder.SetAttributeQuantization(
+          index[s], stream.name == "NORMAL" ? options.dracoNormalBits : kValueBits);
+  }
   draco::EncoderBuffer buffer;
-  const draco::Status status = encoder.EncodeMeshToBuffer(input.mesh, &buffer);
+  const draco::Status status = encoder.EncodeToBuffer(&buffer);
   if (!status.ok()) throw failed("Draco cannot code a mesh: " + status.error_msg_string());
   DracoMesh coded;
   coded.bytes.assign(buffer.data(), buffer.data() + buffer.size());
-  coded.positionId = static_cast<int>(input.mesh.attribute(input.position)->unique_id());
-  coded.normalId = static_cast<int>(input.mesh.attribute(input.normal)->unique_id());
+  for (const int i : index) coded.id.push_back(static_cast<int>(mesh.attribute(i)->unique_id()));
   measureDecoded(coded);
   return coded;
 }

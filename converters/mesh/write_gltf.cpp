@@ -1,183 +1,291 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF 2.0 through tinygltf, and KHR_draco_mesh_compression through Draco.
-#define TINYGLTF_NO_INCLUDE_STB_IMAGE
-#define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
+// glTF 2.0 with KHR_draco_mesh_compression, EXT_meshopt_compression and MSFT_lod.
 #include "converters/mesh/write_gltf.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
-#include <limits>
-#include <sstream>
-
-#include <tiny_gltf.h>
+#include <map>
+#include <vector>
 
 #include "converters/common/error.h"
 #include "converters/mesh/draco_mesh.h"
+#include "converters/mesh/face_kind.h"
+#include "converters/mesh/gltf_document.h"
+#include "converters/mesh/mesh_parts.h"
+#include "converters/mesh/meshopt_codec.h"
+#include "converters/mesh/vertex_color.h"
+#include "converters/mesh/vertex_streams.h"
 
 namespace lumen::convert {
+
+using nlohmann::json;
+
 namespace {
 
-constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
-
-// Appends `bytes`, four-byte aligned, as a view; gives its index.
-int addView(tinygltf::Model& model, const void* bytes, std::size_t size, int target) {
-  std::vector<unsigned char>& data = model.buffers[0].data;
-  data.resize((data.size() + 3) / 4 * 4);
-  tinygltf::BufferView view;
-  view.buffer = 0;
-  view.byteOffset = data.size();
-  view.byteLength = size;
-  view.target = target;
-  const auto* first = static_cast<const unsigned char*>(bytes);
-  data.insert(data.end(), first, first + size);
-  if (data.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw unsupported("the mesh needs over 2 GiB of glTF buffer; expected less: try --draco");
-  model.bufferViews.push_back(std::move(view));
-  return static_cast<int>(model.bufferViews.size()) - 1;
-}
-
-int addAccessor(tinygltf::Model& model, int view, int componentType, int type, std::size_t count) {
-  tinygltf::Accessor accessor;
-  accessor.bufferView = view;
-  accessor.componentType = componentType;
-  accessor.type = type;
-  accessor.count = count;
-  model.accessors.push_back(std::move(accessor));
-  return static_cast<int>(model.accessors.size()) - 1;
-}
-
-template <class Index>
-int addIndices(tinygltf::Model& model, const std::vector<std::uint32_t>& index, int componentType) {
-  const std::vector<Index> packed(index.begin(), index.end());
-  const int view = addView(model, packed.data(), packed.size() * sizeof(Index),
-                           TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-  return addAccessor(model, view, componentType, TINYGLTF_TYPE_SCALAR, packed.size());
-}
-
-int addVectors(tinygltf::Model& model, const std::vector<Float3>& vectors) {
-  const int view =
-      addView(model, vectors.data(), vectors.size() * sizeof(Float3), TINYGLTF_TARGET_ARRAY_BUFFER);
-  return addAccessor(model, view, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                     vectors.size());
-}
-
-void setBounds(tinygltf::Accessor& accessor, const Float3& low, const Float3& high) {
-  accessor.minValues.assign(low.begin(), low.end());
-  accessor.maxValues.assign(high.begin(), high.end());
-}
-
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kLod = "MSFT_lod";
 // Index 65535 is the primitive restart value of 16-bit indices, which glTF forbids.
 constexpr std::size_t kMaxShortVertices = 65535;
+// Each level is for half the height on the screen that the one before is for; the last for all below.
+constexpr double kLodCoverage = 0.5;
 
-tinygltf::Primitive plainPrimitive(tinygltf::Model& model, const BranchMesh& mesh) {
-  std::vector<std::uint32_t> index;
-  index.reserve(3 * mesh.triangle.size());
-  for (const Triangle& t : mesh.triangle) index.insert(index.end(), t.begin(), t.end());
-  Float3 low = mesh.position.front(), high = low;
-  for (const Float3& p : mesh.position) extendBox(p, low, high);
-  tinygltf::Primitive primitive;
-  primitive.attributes["POSITION"] = addVectors(model, mesh.position);
-  setBounds(model.accessors.back(), low, high);
-  primitive.attributes["NORMAL"] = addVectors(model, mesh.normal);
-  primitive.indices =
-      mesh.position.size() <= kMaxShortVertices
-          ? addIndices<std::uint16_t>(model, index, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
-          : addIndices<std::uint32_t>(model, index, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
-  return primitive;
+// One level while it is written.
+struct Level {
+  const SurfaceMesh& surface;
+  std::vector<MeshPart> parts;
+  std::vector<VertexStream> streams;
+};
+
+json rootNode() {
+  return {
+      {"name", "LPS_mm_to_glTF_m"},
+      {"matrix", kGltfFromLps},
+      {"extras",
+       {{"frame", "LPS: +x left, +y posterior, +z superior"},
+        {"unit", "mm"},
+        {"matrix",
+         "to glTF: metres, +x left, +y superior, +z anterior; apply its inverse to come back to "
+         "LPS mm"}}}};
 }
 
-tinygltf::Primitive dracoPrimitive(tinygltf::Model& model, const BranchMesh& mesh,
-                                   const WriteMeshOptions& options) {
-  const DracoMesh coded = encodeDraco(mesh, options);
-  constexpr int kNoView = -1, kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT;
-  tinygltf::Primitive primitive;
-  const int position = addAccessor(model, kNoView, kFloat, TINYGLTF_TYPE_VEC3, coded.vertices);
-  setBounds(model.accessors.back(), coded.low, coded.high);
-  primitive.attributes["POSITION"] = position;
-  primitive.attributes["NORMAL"] =
-      addAccessor(model, kNoView, kFloat, TINYGLTF_TYPE_VEC3, coded.vertices);
-  const bool isShort = coded.vertices <= kMaxShortVertices;
-  primitive.indices = addAccessor(
-      model, kNoView,
-      isShort ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-      TINYGLTF_TYPE_SCALAR, 3 * coded.triangles);
-  const int view = addView(model, coded.bytes.data(), coded.bytes.size(), 0);
-  tinygltf::Value::Object attributes, extension;
-  attributes["POSITION"] = tinygltf::Value(coded.positionId);
-  attributes["NORMAL"] = tinygltf::Value(coded.normalId);
-  extension["bufferView"] = tinygltf::Value(view);
-  extension["attributes"] = tinygltf::Value(attributes);
-  primitive.extensions[kDracoExtension] = tinygltf::Value(extension);
-  return primitive;
-}
-
-tinygltf::Material wallMaterial() {
-  tinygltf::Material material;
-  material.name = "vessel wall";
-  material.pbrMetallicRoughness.baseColorFactor = {0.5, 0.05, 0.05, 1.0};
-  material.pbrMetallicRoughness.metallicFactor = 0.0;
-  material.pbrMetallicRoughness.roughnessFactor = 0.6;
-  material.doubleSided = true;  // the ends are open, and the inside of the wall shows
+// The wall is arterial red, and the lumen that an end shows darker; white where vertices have colours.
+json materialOf(FaceKind kind, bool isOpen, bool isColored) {
+  const bool isWall = kind == FaceKind::Wall;
+  const json color = isColored ? json{1.0, 1.0, 1.0, 1.0}
+                     : isWall  ? json{0.5, 0.05, 0.05, 1.0}
+                               : json{0.2, 0.01, 0.02, 1.0};
+  json material = {{"name", isWall ? "vessel wall" : faceKindName(kind)},
+                   {"pbrMetallicRoughness",
+                    {{"baseColorFactor", color},
+                     {"metallicFactor", 0.0},
+                     {"roughnessFactor", isWall ? 0.45 : 0.7}}}};
+  if (isOpen) material["doubleSided"] = true;  // the inside of the wall shows
   return material;
 }
 
-tinygltf::Node rootNode() {
-  tinygltf::Node root;
-  root.name = "LPS_mm_to_glTF_m";
-  root.matrix.assign(kGltfFromLps.begin(), kGltfFromLps.end());
-  tinygltf::Value::Object frame;
-  frame["frame"] = tinygltf::Value(std::string("LPS: +x left, +y posterior, +z superior"));
-  frame["unit"] = tinygltf::Value(std::string("mm"));
-  frame["matrix"] =
-      tinygltf::Value(std::string("to glTF: metres, +x left, +y superior, +z anterior; apply its "
-                                  "inverse to come back to LPS mm"));
-  root.extras = tinygltf::Value(frame);
-  return root;
+json meshExtras(const SurfaceMesh& surface, const std::vector<VertexStream>& streams,
+                const ColorScale& scale) {
+  const std::map<std::string, const char*> meanings = {{"POSITION", "mm, LPS"},
+                                                       {"_RADIUS", "mm"},
+                                                       {"_BRANCH", "index into branches"},
+                                                       {"_CONFIDENCE", "0 to 1"}};
+  json extras = {{"branches", surface.labels}};
+  for (const VertexStream& stream : streams)
+    if (const auto found = meanings.find(stream.name); found != meanings.end())
+      extras["attributes"][stream.name] = found->second;
+  if (scale.by == ColorBy::None) return extras;
+  json color = {{"map", colorMapName(scale.by)}};
+  if (scale.by == ColorBy::Branch) color["by"] = "branch";
+  if (scale.by == ColorBy::Radius)
+    color.update({{"by", "radius"}, {"unit", "mm"}, {"scale", "logarithmic"}});
+  if (scale.by == ColorBy::Confidence) color["by"] = "confidence";
+  if (scale.by != ColorBy::Branch) color["range"] = {scale.low, scale.high};
+  extras["color"] = std::move(color);
+  return extras;
 }
 
-tinygltf::Model emptyModel(bool draco) {
-  tinygltf::Model model;
-  model.asset.version = "2.0";
-  model.asset.generator = "lumen " LUMEN_VERSION;
-  model.nodes.push_back(rootNode());
-  model.scenes.emplace_back().nodes = {0};
-  model.defaultScene = 0;
-  model.buffers.resize(1);
-  if (draco) {
-    model.extensionsUsed = {kDracoExtension};
-    model.extensionsRequired = {kDracoExtension};
-  }
-  return model;
+json accessorOf(const VertexStream& stream, std::size_t count) {
+  json accessor = {{"componentType", stream.componentType},
+                   {"count", count},
+                   {"type", stream.components == 1   ? "SCALAR"
+                            : stream.components == 3 ? "VEC3"
+                                                     : "VEC4"}};
+  if (stream.isNormalized) accessor["normalized"] = true;
+  return accessor;
 }
+
+void setBounds(json& accessor, const Float3& low, const Float3& high) {
+  accessor["min"] = low;
+  accessor["max"] = high;
+}
+
+Float3 positionAt(const VertexStream& positions, std::size_t vertex) {
+  Float3 p;
+  std::memcpy(p.data(), positions.bytes.data() + vertex * positions.stride, sizeof p);
+  return p;
+}
+
+json indexAccessor(std::size_t count, bool isShort) {
+  return {{"componentType", isShort ? kUnsignedShort : kUnsignedInt},
+          {"count", count},
+          {"type", "SCALAR"}};
+}
+
+// The primitives of a level's parts, which share a buffer view for each attribute.
+std::vector<json> plainPrimitives(GltfDocument& document, Level& level) {
+  std::vector<std::uint32_t> index;
+  std::size_t most = 0, vertices = 0;
+  for (const MeshPart& part : level.parts) {
+    for (const Triangle& t : part.triangle) index.insert(index.end(), t.begin(), t.end());
+    most = std::max(most, part.vertex.size());
+  }
+  const bool isShort = most <= kMaxShortVertices;
+  const std::size_t indexSize = isShort ? 2 : 4;
+  std::vector<int> views;
+  for (VertexStream& stream : level.streams) views.push_back(document.addVertices(stream));
+  const int indexView = document.addIndices(index, most, isShort);
+  std::vector<json> primitives;
+  std::size_t indices = 0;
+  for (const MeshPart& part : level.parts) {
+    json primitive;
+    for (std::size_t s = 0; s < views.size(); ++s) {
+      const VertexStream& stream = level.streams[s];
+      json accessor = accessorOf(stream, part.vertex.size());
+      accessor["bufferView"] = views[s];
+      accessor["byteOffset"] = vertices * stream.stride;
+      if (stream.name == "POSITION") {
+        Float3 low = positionAt(stream, vertices), high = low;
+        for (std::size_t v = 0; v < part.vertex.size(); ++v)
+          extendBox(positionAt(stream, vertices + v), low, high);
+        setBounds(accessor, low, high);
+      }
+      primitive["attributes"][stream.name] = document.add("accessors", std::move(accessor));
+    }
+    json accessor = indexAccessor(3 * part.triangle.size(), isShort);
+    accessor["bufferView"] = indexView;
+    accessor["byteOffset"] = indices * indexSize;
+    primitive["indices"] = document.add("accessors", std::move(accessor));
+    vertices += part.vertex.size();
+    indices += 3 * part.triangle.size();
+    primitives.push_back(std::move(primitive));
+  }
+  return primitives;
+}
+
+// The cube around all levels.
+DracoGrid gridOf(std::span<const SurfaceMesh> levels) {
+  Float3 low = levels.front().position.empty() ? Float3{} : levels.front().position.front();
+  Float3 high = low;
+  for (const SurfaceMesh& level : levels)
+    for (const Float3& p : level.position) extendBox(p, low, high);
+  DracoGrid grid{low, 0};
+  for (std::size_t a = 0; a < 3; ++a) grid.range = std::max(grid.range, high[a] - low[a]);
+  if (!(grid.range > 0)) grid.range = 1;
+  return grid;
+}
+
+std::vector<json> dracoPrimitives(GltfDocument& document, const Level& level, const DracoGrid& grid,
+                                  const WriteMeshOptions& options) {
+  std::vector<json> primitives;
+  std::size_t first = 0;
+  for (const MeshPart& part : level.parts) {
+    const DracoMesh coded =
+        encodeDraco({level.streams, first, part.vertex.size(), part.triangle}, grid, options);
+    json primitive, extension;
+    for (std::size_t s = 0; s < level.streams.size(); ++s) {
+      const VertexStream& stream = level.streams[s];
+      json accessor = accessorOf(stream, coded.vertices);
+      if (stream.name == "POSITION") setBounds(accessor, coded.low, coded.high);
+      primitive["attributes"][stream.name] = document.add("accessors", std::move(accessor));
+      extension["attributes"][stream.name] = coded.id[s];
+    }
+    primitive["indices"] = document.add(
+        "accessors", indexAccessor(3 * coded.triangles, coded.vertices <= kMaxShortVertices));
+    extension["bufferView"] = document.addBytes(coded.bytes);
+    primitive["extensions"][kDraco] = std::move(extension);
+    primitives.push_back(std::move(primitive));
+    first += part.vertex.size();
+  }
+  if (!level.parts.empty()) document.useExtension(kDraco, true);
+  return primitives;
+}
+
+// Writes the levels of one surface; holds what they share.
+class Scene {
+public:
+  Scene(std::span<const SurfaceMesh> levels, const WriteMeshOptions& options)
+      : m_document(options.meshopt),
+        m_options(options),
+        m_first(levels.front()),
+        m_scale(scaleOf(m_first, options.color)),
+        m_grid(gridOf(levels)),
+        m_isOpen(!isClosed(m_first)) {
+    m_document.content["asset"] = {{"version", "2.0"}, {"generator", "lumen " LUMEN_VERSION}};
+    m_document.content["scene"] = 0;
+    m_document.add("scenes", {{"nodes", json::array({0})}});
+    m_document.add("nodes", rootNode());
+    for (const SurfaceMesh& level : levels) addLevel(level);
+    for (const auto& [branch, nodes] : m_nodes) link(nodes);
+  }
+
+  std::string write(bool binary) { return m_document.write(binary); }
+
+private:
+  void addLevel(const SurfaceMesh& surface) {
+    Level level{surface, partsOf(surface, m_options.per), {}};
+    if (!m_options.draco)
+      for (MeshPart& part : level.parts) orderForDrawing(part);
+    level.streams = streamsOf(surface, level.parts, m_scale);
+    if (level.parts.empty()) return;
+    const std::vector<json> primitives = m_options.draco
+                                             ? dracoPrimitives(m_document, level, m_grid, m_options)
+                                             : plainPrimitives(m_document, level);
+    for (std::size_t i = 0; i < primitives.size();) {
+      const std::uint32_t branch = level.parts[i].branch;
+      json mesh = {{"name", nameOf(branch)},
+                   {"extras", meshExtras(surface, level.streams, m_scale)}};
+      for (; i < primitives.size() && level.parts[i].branch == branch; ++i)
+        mesh["primitives"].push_back(finished(primitives[i], level.parts[i].group));
+      const int node = m_document.add(
+          "nodes", {{"name", nameOf(branch)}, {"mesh", m_document.add("meshes", std::move(mesh))}});
+      m_nodes[branch].push_back(node);
+    }
+  }
+
+  std::string nameOf(std::uint32_t branch) const {
+    return m_options.per == MeshPer::Branch ? m_first.labels[branch] : "vessels";
+  }
+
+  json finished(json primitive, std::uint32_t index) {
+    const FaceGroup& group = m_first.groups[index];
+    primitive["mode"] = 4;
+    primitive["material"] = materialFor(group.kind);
+    primitive["extras"] = {
+        {"name", group.name}, {"number", index + 1}, {"kind", faceKindName(group.kind)}};
+    return primitive;
+  }
+
+  int materialFor(FaceKind kind) {
+    const auto [found, isNew] = m_materials.try_emplace(kind, 0);
+    if (isNew)
+      found->second =
+          m_document.add("materials", materialOf(kind, m_isOpen, m_options.color != ColorBy::None));
+    return found->second;
+  }
+
+  // The nodes of one mesh in all levels.
+  void link(const std::vector<int>& nodes) {
+    json& all = m_document.content["nodes"];
+    all[0]["children"].push_back(nodes.front());
+    if (nodes.size() == 1) return;
+    m_document.useExtension(kLod, false);
+    json& first = all[static_cast<std::size_t>(nodes.front())];
+    first["extensions"][kLod]["ids"] = std::vector<int>(nodes.begin() + 1, nodes.end());
+    json coverage;
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+      coverage.push_back(std::pow(kLodCoverage, static_cast<double>(i)));
+    coverage.push_back(0.0);
+    first["extras"]["MSFT_screencoverage"] = std::move(coverage);
+  }
+
+  GltfDocument m_document;
+  const WriteMeshOptions& m_options;
+  const SurfaceMesh& m_first;
+  ColorScale m_scale;
+  DracoGrid m_grid;
+  bool m_isOpen;
+  std::map<FaceKind, int> m_materials;
+  std::map<std::uint32_t, std::vector<int>> m_nodes;  // of each mesh, in the order of levels
+};
 
 }  // namespace
 
-std::string encodeGltf(const std::vector<BranchMesh>& meshes, bool binary,
+std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
                        const WriteMeshOptions& options) {
-  const auto hasFaces = [](const BranchMesh& branch) { return !branch.triangle.empty(); };
-  const bool any = std::any_of(meshes.begin(), meshes.end(), hasFaces);
-  tinygltf::Model model = emptyModel(options.draco && any);
-  for (const BranchMesh& branch : meshes) {
-    if (!hasFaces(branch)) continue;
-    tinygltf::Primitive primitive =
-        options.draco ? dracoPrimitive(model, branch, options) : plainPrimitive(model, branch);
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = 0;
-    tinygltf::Mesh mesh;
-    mesh.name = branch.label;
-    mesh.primitives.push_back(std::move(primitive));
-    tinygltf::Node node;
-    node.name = branch.label;
-    node.mesh = static_cast<int>(model.meshes.size());
-    model.meshes.push_back(std::move(mesh));
-    model.nodes[0].children.push_back(static_cast<int>(model.nodes.size()));
-    model.nodes.push_back(std::move(node));
-  }
-  if (any) model.materials.push_back(wallMaterial());
-  if (!any) model.buffers.clear();
-  std::ostringstream stream;
-  if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, !binary, binary))
-    throw failed("tinygltf could not write the scene");
-  return std::move(stream).str();
+  if (options.draco && options.meshopt)
+    throw Error(ErrorKind::Usage, "--draco and --meshopt: found both, expected one of them");
+  return Scene(levels, options).write(binary);
 }
 
 }  // namespace lumen::convert

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
-#include <vector>
 
-#include "converters/mesh/branch_mesh.h"
+#include "converters/mesh/surface_mesh.h"
 #include "converters/mesh/write_options.h"
 
 namespace lumen::convert {
@@ -18,11 +18,20 @@ constexpr std::array<double, 16> kGltfFromLps = {0.001, 0,     0,      0,  //
                                                  0,     0.001, 0,      0,  //
                                                  0,     0,     0,      1};
 
-/// glTF 2.0: one mesh and one node per branch that has triangles, named by its label, in LPS
-/// millimetres below a root node whose matrix is kGltfFromLps. GLB if `binary`, otherwise JSON with
-/// its buffer in a data URI. Throws Error(Unsupported) above 2 GiB of vertex data, and
-/// Error(Failed) if Draco refuses a mesh.
-std::string encodeGltf(const std::vector<BranchMesh>& meshes, bool binary,
+/// glTF 2.0: a surface, finest first where there are several levels of detail, which must have the
+/// same labels and groups. GLB if `binary`, otherwise JSON with its buffer in a data URI.
+///
+/// Below a root node whose matrix is kGltfFromLps there is one node with one mesh, in LPS
+/// millimetres, or one for each branch, named by its label. A mesh has one primitive for each group
+/// of faces, whose `extras` say its name, number and kind; its vertices are its own, so that flat
+/// ends have edges, and lie exactly where those of its neighbours do. Vertices have the attributes
+/// that streamsOf() lists; a mesh's `extras` say their units, the branches' labels, and what colours
+/// mean. Coarser levels are nodes outside of the scene that MSFT_lod names.
+///
+/// Throws Error(Unsupported) above 2 GiB of vertex data, Error(InvalidInput) if there is nothing to
+/// colour by, Error(Usage) for options that exclude one another, and Error(Failed) if Draco refuses
+/// a mesh.
+std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
                        const WriteMeshOptions& options);
 
 }  // namespace lumen::convert

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 namespace lumen::convert {
+
+enum class MeshPer : std::uint8_t { Whole, Branch };
+enum class ColorBy : std::uint8_t { None, Branch, Radius, Confidence };
 
 /// What a mesh format may be asked for; each takes what concerns it.
 struct WriteMeshOptions {
-  bool draco = false;          ///< glTF only: KHR_draco_mesh_compression
-  int dracoPositionBits = 14;  ///< quantisation of a branch's bounding box, 1 .. 30
-  int dracoNormalBits = 10;    ///< quantisation of a normal, 2 .. 30
+  bool stlSolids = false;  ///< STL: text, with one solid for each group of faces
+
+  // glTF only
+  MeshPer per = MeshPer::Whole;   ///< one mesh, or one for each branch
+  ColorBy color = ColorBy::None;  ///< what COLOR_0 shows
+  bool meshopt = false;           ///< EXT_meshopt_compression; not with `draco`
+  bool draco = false;             ///< KHR_draco_mesh_compression
+  int dracoPositionBits = 16;     ///< quantisation of the surface's bounding box, 1 .. 30
+  int dracoNormalBits = 10;       ///< quantisation of a normal, 2 .. 30
 };
 
 }  // namespace lumen::convert

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// OBJ, STL and PLY. OpenMesh's writers take one mesh and no comment: they could not name the
-// branches, nor say the unit and the frame.
+// OBJ, STL and PLY. OpenMesh's writers take one mesh and no comment: they could not name groups of
+// faces, nor say the unit and the frame.
 #include "converters/mesh/write_plain.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <set>
 
 #include <Eigen/Geometry>
 
 #include "converters/common/error.h"
+#include "converters/mesh/mesh_parts.h"
+#include "converters/mesh/plain_names.h"
 
 namespace lumen::convert {
 namespace {
@@ -48,29 +50,8 @@ void putLine(std::string& out, const char* keyword, const Float3& v) {
   out += '\n';
 }
 
-std::string objName(const std::string& label, std::set<std::string>& taken) {
-  std::string name = label.empty() ? "branch" : label;
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) <= ' ' || c == 0x7f) c = '_';
-  const std::string stem = name;
-  for (int n = 2; !taken.insert(name).second; ++n) name = stem + "_" + std::to_string(n);
-  return name;
-}
-
-std::size_t countVertices(const std::vector<BranchMesh>& meshes) {
-  std::size_t count = 0;
-  for (const BranchMesh& m : meshes) count += m.position.size();
-  return count;
-}
-
-std::size_t countFaces(const std::vector<BranchMesh>& meshes) {
-  std::size_t count = 0;
-  for (const BranchMesh& m : meshes) count += m.triangle.size();
-  return count;
-}
-
 // Unit; zero for a triangle without area. Edges in floats, the rest in doubles, summed from x to z.
-Float3 faceNormal(const BranchMesh& mesh, const Triangle& t) {
+Float3 faceNormal(const SurfaceMesh& mesh, const Triangle& t) {
   const auto at = [&](std::size_t i) { return Eigen::Vector3f(mesh.position[t[i]].data()); };
   const Eigen::Vector3d first = (at(1) - at(0)).cast<double>();
   const Eigen::Vector3d second = (at(2) - at(0)).cast<double>();
@@ -87,79 +68,113 @@ void checkCount(std::size_t count, const char* format) {
                     " holds at most 2147483647");
 }
 
-}  // namespace
+constexpr const char* kFrame = "millimetres, LPS: +x left, +y posterior, +z superior";
 
-std::string encodeObj(const std::vector<BranchMesh>& meshes) {
-  std::string out =
-      "# lumen " LUMEN_VERSION "\n# millimetres, LPS: +x left, +y posterior, +z superior\n";
-  std::set<std::string> taken;
-  std::size_t base = 1;
-  for (const BranchMesh& branch : meshes) {
-    if (branch.triangle.empty()) continue;
-    out += "o " + objName(branch.label, taken) + "\n";
-    for (const Float3& p : branch.position) putLine(out, "v", p);
-    for (const Float3& n : branch.normal) putLine(out, "vn", n);
-    for (const Triangle& t : branch.triangle) {
-      out += 'f';
-      for (const std::uint32_t v : t) {
-        out += ' ';
-        putNumber(out, base + v);
-        out += "//";
-        putNumber(out, base + v);
-      }
-      out += '\n';
-    }
-    base += branch.position.size();
-  }
-  return out;
+void putCorner(std::string& out, std::size_t vertex, std::size_t normal) {
+  out += ' ';
+  putNumber(out, vertex + 1);
+  out += "//";
+  putNumber(out, normal + 1);
 }
 
-std::string encodeStl(const std::vector<BranchMesh>& meshes) {
-  const std::size_t faces = countFaces(meshes);
-  checkCount(faces, "STL");
-  std::string out =
-      "lumen " LUMEN_VERSION ", binary STL, mm, LPS (+x left, +y posterior, +z superior)";
+std::string encodeBinaryStl(const SurfaceMesh& surface) {
+  const std::size_t faces = surface.triangle.size();
+  std::string out = "lumen " LUMEN_VERSION ", binary STL, mm, SPACE=LPS (+x left, +y posterior)";
   out.resize(80, ' ');
   out.reserve(84 + 50 * faces);
   put(out, static_cast<std::uint32_t>(faces));
-  for (const BranchMesh& branch : meshes) {
-    for (const Triangle& t : branch.triangle) {
-      putVector(out, faceNormal(branch, t));
-      for (const std::uint32_t v : t) putVector(out, branch.position[v]);
-      put(out, std::uint16_t{0});
-    }
+  for (const Triangle& t : surface.triangle) {
+    putVector(out, faceNormal(surface, t));
+    for (const std::uint32_t v : t) putVector(out, surface.position[v]);
+    put(out, std::uint16_t{0});
   }
   return out;
 }
 
-std::string encodePly(const std::vector<BranchMesh>& meshes) {
-  const std::size_t vertices = countVertices(meshes), faces = countFaces(meshes);
-  checkCount(std::max(vertices, faces), "PLY");
-  std::string out = "ply\nformat binary_little_endian 1.0\ncomment lumen " LUMEN_VERSION
-                    "\ncomment millimetres, LPS: +x left, +y posterior, +z superior\n";
-  for (std::size_t b = 0; b < meshes.size(); ++b) {
-    std::set<std::string> taken;
-    out += "comment branch " + std::to_string(b) + " " + objName(meshes[b].label, taken) + "\n";
+std::string encodeSolids(const SurfaceMesh& surface) {
+  const std::vector<std::string> names = distinct(namesOf(surface.groups), openFoamWord);
+  std::string out;
+  for (const MeshPart& part : partsOf(surface, MeshPer::Whole)) {
+    out += "solid " + names[part.group] + "\n";
+    for (const Triangle& local : part.triangle) {
+      const Triangle t{part.vertex[local[0]], part.vertex[local[1]], part.vertex[local[2]]};
+      putLine(out, "facet normal", faceNormal(surface, t));
+      out += "outer loop\n";
+      for (const std::uint32_t v : t) putLine(out, "vertex", surface.position[v]);
+      out += "endloop\nendfacet\n";
+    }
+    out += "endsolid " + names[part.group] + "\n";
   }
-  out += "element vertex " + std::to_string(vertices) + "\n";
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
+  return out.empty() ? "solid empty\nendsolid empty\n" : out;
+}
+
+std::string plyHeader(const SurfaceMesh& surface) {
+  std::string out =
+      "ply\nformat binary_little_endian 1.0\ncomment lumen " LUMEN_VERSION "\ncomment ";
+  out += kFrame;
+  out += "\ncomment SPACE=LPS\n";
+  const std::vector<std::string> groups = distinct(namesOf(surface.groups), oneWord);
+  const std::vector<std::string> labels = distinct(surface.labels, oneWord);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    out += "comment group " + std::to_string(g + 1) + " " + groups[g] + "\n";
+  for (std::size_t b = 0; b < labels.size(); ++b)
+    out += "comment branch " + std::to_string(b) + " " + labels[b] + "\n";
+  out += "element vertex " + std::to_string(surface.position.size()) + "\n";
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "radius"})
     out += std::string("property float ") + name + "\n";
-  out += "element face " + std::to_string(faces) +
-         "\nproperty list uchar int vertex_indices\nproperty int branch\nend_header\n";
-  out.reserve(out.size() + 24 * vertices + 17 * faces);
-  for (const BranchMesh& branch : meshes)
-    for (std::size_t v = 0; v < branch.position.size(); ++v) {
-      putVector(out, branch.position[v]);
-      putVector(out, branch.normal[v]);
+  if (!surface.confidence.empty()) out += "property float confidence\n";
+  out += "property int branch\nelement face " + std::to_string(surface.triangle.size()) +
+         "\nproperty list uchar int vertex_indices\nproperty int group\nend_header\n";
+  return out;
+}
+
+}  // namespace
+
+std::string encodeObj(const SurfaceMesh& surface) {
+  std::string out = "# lumen " LUMEN_VERSION "\n# ";
+  out += kFrame;
+  out += "\n# SPACE=LPS\n";
+  for (const Float3& p : surface.position) putLine(out, "v", p);
+  for (const Float3& n : surface.normal) putLine(out, "vn", n);
+  const std::vector<std::string> names = distinct(namesOf(surface.groups), oneWord);
+  std::size_t normals = surface.normal.size();
+  for (const MeshPart& part : partsOf(surface, MeshPer::Whole)) {
+    out += "g " + names[part.group] + "\n";
+    if (part.isFlat)
+      for (const Float3& n : part.normal) putLine(out, "vn", n);
+    for (const Triangle& t : part.triangle) {
+      out += 'f';
+      for (const std::uint32_t v : t)
+        putCorner(out, part.vertex[v], part.isFlat ? normals + v : part.vertex[v]);
+      out += '\n';
     }
-  std::int32_t base = 0;
-  for (std::size_t b = 0; b < meshes.size(); ++b) {
-    for (const Triangle& t : meshes[b].triangle) {
-      put(out, std::uint8_t{3});
-      for (const std::uint32_t v : t) put(out, base + static_cast<std::int32_t>(v));
-      put(out, static_cast<std::int32_t>(b));
-    }
-    base += static_cast<std::int32_t>(meshes[b].position.size());
+    if (part.isFlat) normals += part.normal.size();
+  }
+  return out;
+}
+
+std::string encodeStl(const SurfaceMesh& surface, bool solids) {
+  if (solids) return encodeSolids(surface);
+  checkCount(surface.triangle.size(), "STL");
+  return encodeBinaryStl(surface);
+}
+
+std::string encodePly(const SurfaceMesh& surface) {
+  const std::size_t vertices = surface.position.size(), faces = surface.triangle.size();
+  checkCount(std::max(vertices, faces), "PLY");
+  std::string out = plyHeader(surface);
+  out.reserve(out.size() + 36 * vertices + 17 * faces);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    putVector(out, surface.position[v]);
+    putVector(out, surface.normal[v]);
+    put(out, surface.radius[v]);
+    if (!surface.confidence.empty()) put(out, surface.confidence[v]);
+    put(out, static_cast<std::int32_t>(surface.branch[v]));
+  }
+  for (std::size_t f = 0; f < faces; ++f) {
+    put(out, std::uint8_t{3});
+    for (const std::uint32_t v : surface.triangle[f]) put(out, static_cast<std::int32_t>(v));
+    put(out, static_cast<std::int32_t>(surface.group[f]) + 1);
   }
   return out;
 }

@@ -17,11 +17,11 @@
 namespace lumen::convert {
 namespace {
 
-constexpr std::int32_t kMaxPosition = 1 << 19;      // keys have 19 bits an axis
+constexpr std::int32_t kMaxPosition = 1 << 19;  // keys have 19 bits an axis
 constexpr std::size_t kMaxCubes = std::size_t{1} << 25;
-constexpr double kReach = 2.4;        // radii from its centre to which a node's model is followed
-constexpr double kNear = 1.6;         // radii within which a node says how fine the lattice is
-constexpr double kSafety = 1.5;       // the distance is an estimate: of half a cube's diagonal
+constexpr double kReach = 2.4;   // radii from its centre to which a node's model is followed
+constexpr double kNear = 1.35;   // radii within which a node says how fine the lattice is
+constexpr double kSafety = 1.5;  // the distance is an estimate: of half a cube's diagonal
 constexpr double kHalfDiagonal = 0.8660254037844386;
 
 }  // namespace
@@ -47,12 +47,29 @@ AdaptiveLattice::Neighbour AdaptiveLattice::neighbour(const LatticeCube& cube, i
   return {Kind::Coarser, static_cast<std::uint32_t>(at->second)};
 }
 
+std::uint32_t AdaptiveLattice::cubeAt(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d steps = (point - m_origin) / m_step;
+  if (!(steps.minCoeff() >= 0) || !(steps.maxCoeff() < kMaxPosition)) return kNone;
+  const Position position{static_cast<std::int32_t>(steps.x()),
+                          static_cast<std::int32_t>(steps.y()),
+                          static_cast<std::int32_t>(steps.z())};
+  for (std::int32_t size = 2; size <= m_largest; size *= 2) {
+    const auto at = m_index.find(keyOf(position, size));
+    if (at != m_index.end() && at->second >= 0)
+      return static_cast<std::uint32_t>(at->second);
+  }
+  return kNone;
+}
+
 // Makes the leaves: level by level from the coarsest, then the balance.
 class LatticeBuilder {
 public:
   LatticeBuilder(AdaptiveLattice& lattice, const SheetField& field, double share,
                  Progress& progress)
-      : m_lattice(lattice), m_field(field), m_tree(field.source().tree), m_share(share),
+      : m_lattice(lattice),
+        m_field(field),
+        m_tree(field.source().tree),
+        m_share(share),
         m_progress(progress) {}
 
   void run() {
@@ -76,7 +93,8 @@ private:
 
   static Error tooFine() {
     return invalidInput(
-        "the case is too large for the lattice that its thinnest vessels need; expected less than " +
+        "the case is too large for the lattice that its thinnest vessels need; expected less "
+        "than " +
         std::to_string(kMaxCubes) + " cubes");
   }
 
@@ -84,7 +102,9 @@ private:
     return (kReach + m_field.options().offsetShare) * m_tree.radius[node] +
            0.5 * m_tree.height[node] + m_field.options().offset;
   }
-  [[nodiscard]] double edgeOf(const LatticeCube& cube) const { return cube.size * m_lattice.m_step; }
+  [[nodiscard]] double edgeOf(const LatticeCube& cube) const {
+    return cube.size * m_lattice.m_step;
+  }
   [[nodiscard]] Eigen::Vector3d middleOf(const LatticeCube& cube) const {
     const std::int32_t half = cube.size / 2;
     return m_lattice.place({cube.corner[0] + half, cube.corner[1] + half, cube.corner[2] + half});
@@ -133,15 +153,21 @@ private:
     return cubes;
   }
 
+  // From a node's centre to the nearest point of a cube, mm.
+  [[nodiscard]] double distanceTo(const LatticeCube& cube, std::uint32_t node) const {
+    const double half = 0.5 * edgeOf(cube);
+    const Eigen::Vector3d way = (toEigen(m_tree.centre[node]) - middleOf(cube)).cwiseAbs();
+    return (way.array() - half).max(0.0).matrix().norm();
+  }
+
   // Keeps the nodes that reach the cube; the one of least power at its centre becomes its node.
   void chooseNodes(Cube& cube) const {
     const Eigen::Vector3d middle = middleOf(cube.cube);
-    const double half = kHalfDiagonal * edgeOf(cube.cube);
     double least = INFINITY;
     std::erase_if(cube.near, [&](std::uint32_t i) {
+      if (distanceTo(cube.cube, i) > reachOf(i)) return true;
       const double square = (toEigen(m_tree.centre[i]) - middle).squaredNorm();
-      const double reach = reachOf(i) + half, r = m_tree.radius[i];
-      if (square > reach * reach) return true;
+      const double r = m_tree.radius[i];
       if (square - r * r < least) {
         least = square - r * r;
         cube.cube.node = i;
@@ -156,12 +182,11 @@ private:
     double thinnest = INFINITY;
     for (const std::uint32_t i : cube.near) {
       const double r = m_tree.radius[i];
-      const double near = (kNear + m_field.options().offsetShare) * r + m_field.options().offset + half;
-      if ((toEigen(m_tree.centre[i]) - middle).squaredNorm() < near * near)
-        thinnest = std::min(thinnest, r);
+      const double near = (kNear + m_field.options().offsetShare) * r + m_field.options().offset;
+      if (r < thinnest && distanceTo(cube.cube, i) < near) thinnest = r;
     }
     if (edge <= m_share * thinnest || cube.cube.size <= 2) return true;
-    if (edge > thinnest) return false;
+    if (edge > 2 * thinnest) return false;  // a vessel might be missed
     return std::abs(m_field.deepest(middle, cube.cube.node).distance) > kSafety * half;
   }
 
@@ -224,7 +249,7 @@ private:
       const auto at = m_lattice.m_index.find(AdaptiveLattice::keyOf(corner, wider));
       if (at == m_lattice.m_index.end() || at->second < 0) continue;
       const LatticeCube cube = m_lattice.m_cubes[static_cast<std::size_t>(at->second)];
-      at->second = -1;
+      m_lattice.m_index[AdaptiveLattice::keyOf(corner, wider)] = -1;
       for (int octant = 0; octant < 8; ++octant) addLeaf(childOf(cube, octant));
       if (wider > 4 * size) splitWiderAt(corner, size);
       return;

@@ -4,8 +4,9 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
+
+#include <tsl/robin_map.h>
 
 #include "converters/common/progress.h"
 #include "converters/surface/sheet_field.h"
@@ -18,6 +19,14 @@ struct LatticeCube {
   std::array<std::int32_t, 3> corner{};  ///< the least
   std::int32_t size = 0;
   std::uint32_t node = 0;  ///< of the tree: a cursor's start for points of the cube
+};
+
+/// Spreads keys that are packed coordinates.
+struct LatticeHash {
+  std::size_t operator()(std::uint64_t key) const {
+    key *= 0x9E3779B97F4A7C15ULL;  // of the golden ratio: D. Knuth, *Sorting and searching*, 6.4
+    return key ^ key >> 32;
+  }
 };
 
 /// An octree's leaves. Two that share a face, an edge or a corner differ at most by a factor of two.
@@ -35,6 +44,10 @@ public:
     return m_origin + m_step * Eigen::Vector3d(position[0], position[1], position[2]);
   }
 
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  /// The index of the leaf that holds a point, or kNone.
+  [[nodiscard]] std::uint32_t cubeAt(const Eigen::Vector3d& point) const;
+
   enum class Kind : std::uint8_t { None, Same, Coarser, Finer };
   struct Neighbour {
     Kind kind = Kind::None;
@@ -51,7 +64,7 @@ private:
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
   double m_step = 1;  ///< mm
   std::vector<LatticeCube> m_cubes;
-  std::unordered_map<std::uint64_t, std::int32_t> m_index;  ///< of a leaf, or -1: has children
+  tsl::robin_map<std::uint64_t, std::int32_t, LatticeHash> m_index;  ///< of a leaf, or -1: has children
   std::int32_t m_largest = 2;
 };
 

@@ -3,177 +3,132 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <unordered_map>
 #include <utility>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "converters/common/disjoint_sets.h"
-#include "converters/surface/adaptive_lattice.h"
-#include "converters/surface/lattice_vertices.h"
+#include "converters/surface/lattice_topology.h"
 #include "converters/surface/marching_tetrahedra.h"
+#include "converters/surface/sampled_lattice.h"
 
 namespace lumen::convert {
 namespace {
 
-constexpr std::size_t kBlock = 1024;  // cubes that one thread takes at a time
-constexpr double kNearEnd = 0.03;     // of an edge: crossings keep off its ends
-
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
+constexpr double kNearEnd = 0.03;  // of an edge: crossings keep off its ends
 
 class Extraction {
 public:
-  Extraction(const SheetField& field, double share, Progress& progress)
-      : m_field(field), m_lattice(field, share, progress), m_vertices(m_lattice), m_progress(progress) {}
+  Extraction(const SheetField& field, double share, ExtractionReport& report, Progress& progress)
+      : m_field(field), m_report(report), m_progress(progress), m_lattice(field, share, progress) {}
 
   CaseSurface run() {
-    sampleField();
+    m_lumens = lumensOf(m_lattice);
+    m_trees = joinTrees(m_lattice, m_field, m_lumens, m_report.openedEdges);
+    m_report.trees = m_trees.size();
     m_progress.check();
-    const SplitEdges split(splitEdges(), static_cast<std::uint32_t>(m_vertices.size()));
+    march();
+    bool isGrown = false;
+    for (const TreeLumen& tree : m_trees) {
+      if (tree.lumen == kOutside || eulerOf(tree.lumen) == 2 - 2 * std::ptrdiff_t(tree.links))
+        continue;
+      m_progress.check();
+      const auto cuts = growTree(m_lattice, m_field, tree, m_lumens);
+      m_report.cuts.insert(m_report.cuts.end(), cuts.begin(), cuts.end());
+      isGrown = true;
+    }
+    if (isGrown) march();
     m_progress.check();
-    return assemble(march(split), split);
+    return assemble();
   }
 
 private:
-  void sampleField() {
-    m_distance.resize(m_vertices.size());
-    m_node.resize(m_vertices.size());
-    tbb::parallel_for(std::size_t{0}, m_vertices.size(), [&](std::size_t i) {
-      const auto v = static_cast<std::uint32_t>(i);
-      const SheetSample sample = m_field.deepest(m_vertices.place(v), m_vertices.cubeOf(v).node);
-      m_node[i] = sample.node;
-      m_distance[i] = m_vertices.isOutermost(v) ? std::abs(sample.distance) : sample.distance;
+  void march() {
+    std::vector<std::vector<CrossingTriangle>> found(m_lattice.blockCount());
+    const auto inside = [&](std::uint32_t v) { return m_lattice.isInside(v); };
+    m_lattice.eachTetrahedron([&](std::size_t block, const SampledLattice::Tetrahedron& t) {
+      marchTetrahedron(t, m_lattice.split(), inside, found[block]);
     });
+    m_triangles = SampledLattice::joined(found);
+    m_crossings.clear();
+    m_crossings.reserve(m_triangles.size() * 3);
+    for (const CrossingTriangle& t : m_triangles)
+      m_crossings.insert(m_crossings.end(), t.begin(), t.end());
+    std::sort(m_crossings.begin(), m_crossings.end());
+    m_crossings.erase(std::unique(m_crossings.begin(), m_crossings.end()), m_crossings.end());
   }
 
-  [[nodiscard]] bool isInside(std::uint32_t vertex) const { return m_distance[vertex] < 0; }
-
-  // Whether a cursor gets from the one end to the other: both are inside.
-  [[nodiscard]] bool areJoined(std::uint32_t u, std::uint32_t v) const {
-    const std::uint32_t a = m_node[u], b = m_node[v];
-    if (a == b || !m_field.mayTouch(a) || !m_field.mayTouch(b)) return true;
-    return m_field.isReached(m_vertices.place(v), a, b) || m_field.isReached(m_vertices.place(u), b, a);
+  // Of the closed surfaces around a lumen: each edge is that of two triangles.
+  [[nodiscard]] std::ptrdiff_t eulerOf(std::uint32_t lumen) const {
+    const auto isOf = [&](const Crossing& c) { return m_lumens[c.inside] == lumen; };
+    const auto vertices = std::count_if(m_crossings.begin(), m_crossings.end(), isOf);
+    const auto triangles = std::count_if(m_triangles.begin(), m_triangles.end(),
+                                         [&](const CrossingTriangle& t) { return isOf(t[0]); });
+    return vertices - triangles / 2;
   }
 
-  // Calls work(block, first, last) for blocks of cubes.
-  template <class Work>
-  std::size_t eachBlock(const Work& work) const {
-    const std::size_t count = m_lattice.cubes().size(), blocks = (count + kBlock - 1) / kBlock;
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      work(block, block * kBlock, std::min(count, (block + 1) * kBlock));
-    });
-    return blocks;
-  }
-  [[nodiscard]] std::size_t blockCount() const {
-    return (m_lattice.cubes().size() + kBlock - 1) / kBlock;
-  }
-
-  std::vector<Edge> splitEdges() const {
-    std::vector<std::vector<Edge>> found(blockCount());
-    eachBlock([&](std::size_t block, std::size_t first, std::size_t last) {
-      for (std::size_t cube = first; cube < last; ++cube) {
-        if (!m_field.mayTouch(m_lattice.cubes()[cube].node)) continue;
-        m_vertices.eachTetrahedron(static_cast<std::uint32_t>(cube), [&](const auto& t) {
-          for (std::size_t i = 0; i < 4; ++i)
-            for (std::size_t j = i + 1; j < 4; ++j)
-              if (isInside(t[i]) && isInside(t[j]) && !areJoined(t[i], t[j]))
-                found[block].push_back(std::minmax(t[i], t[j]));
-        });
-      }
-    });
-    return joined(found);
-  }
-
-  std::vector<CrossingTriangle> march(const SplitEdges& split) const {
-    std::vector<std::vector<CrossingTriangle>> found(blockCount());
-    eachBlock([&](std::size_t block, std::size_t first, std::size_t last) {
-      const auto inside = [&](std::uint32_t v) { return isInside(v); };
-      for (std::size_t cube = first; cube < last; ++cube)
-        m_vertices.eachTetrahedron(static_cast<std::uint32_t>(cube), [&](const auto& t) {
-          marchTetrahedron(t, split, inside, found[block]);
-        });
-    });
-    return joined(found);
-  }
-
-  template <class T>
-  static std::vector<T> joined(const std::vector<std::vector<T>>& parts) {
-    std::vector<T> all;
-    for (const std::vector<T>& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-  }
-
-  // Numbers the crossings and places them.
-  CaseSurface assemble(const std::vector<CrossingTriangle>& triangles, const SplitEdges& split) const {
-    std::vector<Crossing> crossings;
-    crossings.reserve(triangles.size() * 3);
-    for (const CrossingTriangle& t : triangles) crossings.insert(crossings.end(), t.begin(), t.end());
-    std::sort(crossings.begin(), crossings.end());
-    crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
+  CaseSurface assemble() const {
     CaseSurface surface;
     surface.groups = {{"wall", FaceKind::Wall}};
-    surface.mesh.triangle.resize(triangles.size());
-    surface.group.assign(triangles.size(), 0);
-    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
+    surface.mesh.triangle.resize(m_triangles.size());
+    surface.group.assign(m_triangles.size(), 0);
+    tbb::parallel_for(std::size_t{0}, m_triangles.size(), [&](std::size_t i) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = std::lower_bound(crossings.begin(), crossings.end(), triangles[i][k]);
-        surface.mesh.triangle[i][k] = static_cast<std::uint32_t>(at - crossings.begin());
+        const auto at = std::lower_bound(m_crossings.begin(), m_crossings.end(), m_triangles[i][k]);
+        surface.mesh.triangle[i][k] = static_cast<std::uint32_t>(at - m_crossings.begin());
       }
     });
-    surface.mesh.position.resize(crossings.size());
-    surface.node.resize(crossings.size());
-    tbb::parallel_for(std::size_t{0}, crossings.size(), [&](std::size_t i) {
-      place(crossings[i], split, surface.mesh.position[i], surface.node[i]);
+    surface.mesh.position.resize(m_crossings.size());
+    surface.node.resize(m_crossings.size());
+    tbb::parallel_for(std::size_t{0}, m_crossings.size(), [&](std::size_t i) {
+      place(m_crossings[i], surface.mesh.position[i], surface.node[i]);
     });
     return surface;
   }
 
-  // Where the wall of the sheet at the inside end crosses the edge: two steps of the false position.
-  void place(const Crossing& crossing, const SplitEdges& split, Eigen::Vector3d& position,
-             std::uint32_t& node) const {
-    const Eigen::Vector3d in = m_vertices.place(crossing.inside);
-    Eigen::Vector3d out;
-    if (crossing.outside < split.firstPoint()) {
-      out = m_vertices.place(crossing.outside);
-    } else {
-      const auto& [u, v] = split.edgeOf(crossing.outside);
-      out = 0.5 * (m_vertices.place(u) + m_vertices.place(v));
-      if (u == crossing.inside) out = m_vertices.place(v);
-      if (v == crossing.inside) out = m_vertices.place(u);
+  [[nodiscard]] Eigen::Vector3d farEnd(const Crossing& crossing) const {
+    if (crossing.outside < m_lattice.size()) return m_lattice.place(crossing.outside);
+    const auto& [u, v] = m_lattice.split().edgeOf(crossing.outside);
+    if (u == crossing.inside) return m_lattice.place(v);
+    if (v == crossing.inside) return m_lattice.place(u);
+    return 0.5 * (m_lattice.place(u) + m_lattice.place(v));
+  }
+
+  // Where the wall of the sheet at the inside end crosses the edge, by the false position.
+  void place(const Crossing& crossing, Eigen::Vector3d& position, std::uint32_t& node) const {
+    constexpr int kSteps = 2;
+    const Eigen::Vector3d in = m_lattice.place(crossing.inside), out = farEnd(crossing);
+    node = m_lattice.node(crossing.inside);
+    double low = 0, high = 1, atLow = m_lattice.distance(crossing.inside);
+    double atHigh = m_field.at(out, node).distance, t = 0.5;
+    if (atHigh > 0) {
+      const auto straight = [&] { return low + (high - low) * atLow / (atLow - atHigh); };
+      for (int step = 0; step < kSteps; ++step) {
+        t = straight();
+        const double distance = m_field.at(in + t * (out - in), node).distance;
+        (distance < 0 ? low : high) = t;
+        (distance < 0 ? atLow : atHigh) = distance;
+      }
+      t = std::clamp(straight(), kNearEnd, 1 - kNearEnd);
     }
-    node = m_node[crossing.inside];
-    double low = 0, high = 1, atLow = m_distance[crossing.inside];
-    SheetSample sample = m_field.at(out, node);
-    double atHigh = sample.distance, t = 0.5;
-    for (int step = 0; step < 2 && atHigh > 0; ++step) {
-      t = low + (high - low) * atLow / (atLow - atHigh);
-      sample = m_field.at(in + t * (out - in), node);
-      (sample.distance < 0 ? low : high) = t;
-      (sample.distance < 0 ? atLow : atHigh) = sample.distance;
-    }
-    if (atHigh > 0) t = low + (high - low) * atLow / (atLow - atHigh);
-    t = std::clamp(t, kNearEnd, 1 - kNearEnd);
     position = in + t * (out - in);
     node = m_field.at(position, node).node;
   }
 
   const SheetField& m_field;
-  AdaptiveLattice m_lattice;
-  LatticeVertices m_vertices;
+  ExtractionReport& m_report;
   Progress& m_progress;
-  std::vector<double> m_distance;     // of the deepest sheet, mm
-  std::vector<std::uint32_t> m_node;  // that sheet's
+  SampledLattice m_lattice;
+  std::vector<std::uint32_t> m_lumens;
+  std::vector<TreeLumen> m_trees;
+  std::vector<CrossingTriangle> m_triangles;
+  std::vector<Crossing> m_crossings;  // ascending
 };
 
 }  // namespace
 
 CaseSurface extractSurface(const SheetField& field, double share, ExtractionReport& report,
                            Progress& progress) {
-  CaseSurface surface = Extraction(field, share, progress).run();
-  (void)report;
-  return surface;
+  return Extraction(field, share, report, progress).run();
 }
 
 }  // namespace lumen::convert

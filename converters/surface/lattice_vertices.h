@@ -4,8 +4,9 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
+
+#include <tsl/robin_map.h>
 
 #include "converters/surface/adaptive_lattice.h"
 
@@ -30,6 +31,8 @@ public:
   [[nodiscard]] const LatticeCube& cubeOf(std::uint32_t vertex) const {
     return m_lattice.cubes()[m_cube[vertex]];
   }
+  /// The centre of a cube, and its corners.
+  [[nodiscard]] std::vector<std::uint32_t> verticesOf(std::uint32_t cube) const;
   /// Whether it lies on the outside of the lattice.
   [[nodiscard]] bool isOutermost(std::uint32_t vertex) const { return m_isOutermost[vertex]; }
 
@@ -45,16 +48,23 @@ public:
 private:
   using Position = AdaptiveLattice::Position;
   static constexpr std::uint32_t kNone = UINT32_MAX;
+  /// A cube's own.
+  struct Own {
+    std::uint32_t centre = 0;
+    std::array<std::uint32_t, 8> corner{};
+  };
   std::uint32_t add(const Position& position, std::uint32_t cube);
   [[nodiscard]] std::uint32_t find(const Position& position) const;
   std::size_t collect(std::uint32_t cube, std::array<Tetrahedron, 96>& found) const;
+  [[nodiscard]] std::uint32_t middleOf(std::uint32_t cube, unsigned from, unsigned to) const;
   void orient(Tetrahedron& t) const;
 
   const AdaptiveLattice& m_lattice;
+  std::vector<Own> m_own;  ///< of each cube
   std::vector<Position> m_position;
   std::vector<std::uint32_t> m_cube;
   std::vector<bool> m_isOutermost;
-  std::unordered_map<std::uint64_t, std::uint32_t> m_index;
+  tsl::robin_map<std::uint64_t, std::uint32_t, LatticeHash> m_index;
 };
 
 }  // namespace lumen::convert

@@ -55,7 +55,8 @@ namespace detail {
 inline void marchUnsplit(const std::array<std::uint32_t, 4>& t, unsigned inside,
                          std::vector<CrossingTriangle>& out) {
   // even permutations that put one vertex, or the pair that is inside, first
-  static constexpr std::uint8_t kFirst[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
+  static constexpr std::uint8_t kFirst[4][4] = {
+      {0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
   static constexpr std::uint8_t kPair[6][5] = {{0b0011, 0, 1, 2, 3}, {0b0101, 0, 2, 3, 1},
                                                {0b1001, 0, 3, 1, 2}, {0b0110, 1, 2, 0, 3},
                                                {0b1010, 1, 3, 2, 0}, {0b1100, 2, 3, 0, 1}};
@@ -64,8 +65,7 @@ inline void marchUnsplit(const std::array<std::uint32_t, 4>& t, unsigned inside,
   };
   for (unsigned v = 0; v < 4; ++v) {
     const auto& p = kFirst[v];
-    if (inside == 1U << v)
-      out.push_back({cross(p[0], p[1]), cross(p[0], p[2]), cross(p[0], p[3])});
+    if (inside == 1U << v) out.push_back({cross(p[0], p[1]), cross(p[0], p[2]), cross(p[0], p[3])});
     if (inside == (15U ^ 1U << v))
       out.push_back({cross(p[1], p[0]), cross(p[3], p[0]), cross(p[2], p[0])});
   }

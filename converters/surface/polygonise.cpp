@@ -15,6 +15,7 @@
 #include "converters/surface/marching_cubes.h"
 #include "converters/surface/node_cell.h"
 #include "converters/surface/node_field.h"
+#include "converters/surface/vessel_values.h"
 #include "formats/case/case_field.h"
 #include "formats/case/topology.h"
 #include "formats/view/text_rules.h"
@@ -223,15 +224,42 @@ void count(const NodePatch& part, double radius, BranchLosses& losses) {
     losses.thinnest = losses.thinnest == 0 ? radius : std::min(losses.thinnest, radius);
 }
 
-void append(const NodePatch& part, BranchMesh& mesh) {
+void append(const Source& source, const NodePatch& part, std::uint32_t node, SurfaceMesh& mesh) {
   const auto base = static_cast<std::uint32_t>(mesh.position.size());
+  const std::uint32_t branch = source.value.tree.branch[node];
   for (const Eigen::Vector3d& p : part.patch.position) {
     const Eigen::Vector3f q = p.cast<float>();
     mesh.position.push_back({q.x(), q.y(), q.z()});
+    const VesselValues values = vesselAt(source.value.tree, source.edges, p, node);
+    mesh.radius.push_back(values.radius);
+    if (values.confidence) mesh.confidence.push_back(*values.confidence);
   }
   mesh.normal.insert(mesh.normal.end(), part.normal.begin(), part.normal.end());
+  mesh.branch.resize(mesh.position.size(), branch);
   for (const Triangle& t : part.patch.triangle)
     mesh.triangle.push_back({base + t[0], base + t[1], base + t[2]});
+  mesh.group.resize(mesh.triangle.size(), branch);
+}
+
+Patches join(const Source& source, std::vector<NodePatch>& parts, Progress& progress) {
+  const formats::CenterlineTree& tree = source.value.tree;
+  Patches result;
+  for (const formats::Branch& branch : tree.branches) {
+    result.surface.groups.push_back({branch.label, FaceKind::Wall});
+    result.surface.labels.push_back(branch.label);
+  }
+  result.losses.resize(tree.branches.size());
+  for (std::uint32_t node = 0; node < parts.size(); ++node) {
+    progress.check();
+    append(source, parts[node], node, result.surface);
+    BranchLosses& losses = result.losses[tree.branch[node]];
+    count(parts[node], double(tree.radius[node]), losses);
+    losses.triangles += parts[node].patch.triangle.size();
+    parts[node] = {};
+  }
+  if (result.surface.position.size() > std::numeric_limits<std::uint32_t>::max())
+    throw cellTooSmall(source.value.metadata.voxelSize.value_or(0));
+  return result;
 }
 
 }  // namespace
@@ -248,33 +276,21 @@ double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
   return cell;
 }
 
-std::vector<BranchMesh> polygonise(const formats::Case& source, const PolygoniseOptions& options,
-                                   Progress& progress) {
+Patches polygonise(const formats::Case& source, const PolygoniseOptions& options,
+                   Progress& progress) {
   const double cell = cellOf(source, options);
   checkCell(source, cell);
-  const formats::CenterlineTree& tree = source.tree;
-  const formats::Neighbours edges(tree);
+  const formats::Neighbours edges(source.tree);
   const field::BlendedField surface = formats::blendedFieldOf(source);
   const Source all{source, edges, surface};
-  std::vector<NodePatch> parts(tree.nodeCount());
+  std::vector<NodePatch> parts(source.tree.nodeCount());
   progress.begin("mesh", parts.size());
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
     progress.check();
     parts[i] = polygoniseNode(all, static_cast<std::uint32_t>(i), cell);
     progress.advance();
   });
-  std::vector<BranchMesh> result(tree.branches.size());
-  tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t b) {
-    const formats::Branch& branch = tree.branches[b];
-    result[b].label = branch.label;
-    for (std::size_t i = branch.firstNode; i < branch.firstNode + std::size_t{branch.nodeCount};
-         ++i) {
-      progress.check();
-      append(parts[i], result[b]);
-      count(parts[i], tree.radius[i], result[b].losses);
-      parts[i] = {};
-    }
-  });
+  Patches result = join(all, parts, progress);
   progress.end();
   return result;
 }

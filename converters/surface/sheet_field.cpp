@@ -11,6 +11,9 @@ namespace {
 constexpr int kMaxSteps = 40;         // three to five near the wall; the rest is for long ways
 constexpr double kTolerance = 1e-4;   // of the radius
 constexpr double kLongestStep = 0.3;  // of the radius: far from the wall h is not straight
+constexpr double kFarthest = 0.5;     // of the radius: a surface beyond is another one
+constexpr double kCore = 0.25;        // of the radius: around its axis, where one sheet goes first
+constexpr double kLeastSlope = 0.05;  // of the way between two axes that run side by side
 constexpr double kVanished = 1e-12;   // of the level: below, f says nothing about the wall
 // How far apart, in sums of radii, nodes are whose walls may touch: a model reaches beyond its ball.
 constexpr double kTouchingReach = 1.5;
@@ -23,7 +26,7 @@ field::Vec toVec(const Eigen::Vector3d& p) {
 
 SheetField::SheetField(const formats::Case& source, const field::BlendedField& field,
                        const SheetOptions& options)
-    : m_source(source), m_field(field), m_options(options) {
+    : m_source(source), m_field(field), m_options(options), m_edges(source.tree) {
   findTouchingNodes(source.tree, kTouchingReach + options.offsetShare,
                     options.gap + 2 * options.offset, m_touchingOffset, m_touching);
 }
@@ -36,7 +39,8 @@ SheetField::Wall SheetField::wallOf(const Eigen::Vector3d& point, std::uint32_t 
   const Eigen::Vector3d out = point - Eigen::Map<const Eigen::Vector3d>(m_field.centre(node));
   if (!(f.value > kVanished * level) || !(slope > 0)) {
     const double distance = out.norm();
-    const Eigen::Vector3d away = distance > 0 ? Eigen::Vector3d(out / distance) : Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d away =
+        distance > 0 ? Eigen::Vector3d(out / distance) : Eigen::Vector3d::UnitX();
     return {f.value > level ? -r : std::max(distance - r, 1e-3 * r), away};
   }
   const field::LevelTransform here = field::levelTransform(m_field.kernel(), f.value, slope);
@@ -82,58 +86,86 @@ void SheetField::eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node
     const std::uint32_t other = m_touching[e];
     if (count == kMost) return;
     if (!isLeast(point, other) || areOneSheet(point, node, other)) continue;
-    const bool isKnown = std::any_of(seen.begin(), seen.begin() + count, [&](std::uint32_t k) {
-      return areOneSheet(point, k, other);
-    });
+    const bool isKnown = std::any_of(seen.begin(), seen.begin() + count,
+                                     [&](std::uint32_t k) { return areOneSheet(point, k, other); });
     if (isKnown) continue;
     seen[count++] = other;
     visit(other);
   }
 }
 
-SheetSample SheetField::combine(const Eigen::Vector3d& point, std::uint32_t node, const Wall& own,
-                                const Wall* other) const {
-  (void)point;
-  const double offset = m_options.offset + m_options.offsetShare * radius(node);
-  SheetSample sample{own.distance - offset, own.gradient, node, false};
-  if (other == nullptr) return sample;
-  const double apart = 0.5 * (own.distance - other->distance + m_options.gap);
-  if (apart <= sample.distance) return sample;
-  const Eigen::Vector3d gradient = own.gradient - other->gradient;
-  const double slope = gradient.norm();
-  if (!(slope > 1e-3)) return sample;  // no way leads from the one to the other
-  return {2 * apart / slope, gradient / slope, node, true};
+SheetField::Axis SheetField::axisOf(const Eigen::Vector3d& point, std::uint32_t node) const {
+  const Eigen::Vector3d centre = Eigen::Map<const Eigen::Vector3d>(m_field.centre(node));
+  const Eigen::Vector3d out = point - centre;
+  const double r = radius(node);
+  Axis best{out.norm() / r, r, out};
+  for (const std::uint32_t next : m_edges.of(node)) {
+    const Eigen::Vector3d along = Eigen::Map<const Eigen::Vector3d>(m_field.centre(next)) - centre;
+    const double square = along.squaredNorm();
+    if (!(square > 0)) continue;
+    const double t = std::clamp(out.dot(along) / square, 0.0, 1.0);
+    const double between = r + t * (radius(next) - r);
+    const Eigen::Vector3d away = out - t * along;
+    const double share = away.norm() / between;
+    if (share < best.share) best = {share, between, away};
+  }
+  if (best.share > 0) best.gradient /= best.share * best.radius;
+  return best;
+}
+
+std::pair<SheetField::Axis, SheetField::Axis> SheetField::axesOf(const Eigen::Vector3d& point,
+                                                                 std::uint32_t a,
+                                                                 std::uint32_t b) const {
+  std::pair<Axis, Axis> axes{axisOf(point, a), axisOf(point, b)};
+  Axis& first = a > b ? axes.first : axes.second;
+  if (first.share < kCore) {
+    first.share -= 1 - first.share / kCore;
+    first.gradient *= 1 + 1 / kCore;
+  }
+  return axes;
+}
+
+void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
+                          std::uint32_t node) const {
+  const auto [own, other] = axesOf(point, sample.node, node);
+  const double harmonic = 1 / (1 / own.radius + 1 / other.radius);
+  const Eigen::Vector3d gradient =
+      harmonic * (own.gradient / own.radius - other.gradient / other.radius);
+  const double slope = std::max(gradient.norm(), kLeastSlope);
+  const double apart = (own.share - other.share) * harmonic / slope + 0.5 * m_options.gap;
+  if (apart <= sample.distance) return;
+  sample.distance = apart;
+  sample.gradient = gradient / slope;
+  sample.isSeparated = true;
+  sample.other = node;
+}
+
+SheetSample SheetField::sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const {
+  const Wall wall = wallOf(point, node);
+  SheetSample sample;
+  sample.distance = wall.distance - m_options.offset - m_options.offsetShare * radius(node);
+  sample.gradient = wall.gradient;
+  sample.node = node;
+  sample.wall = wall.distance;
+  return sample;
 }
 
 SheetSample SheetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
-  const std::uint32_t here = m_field.follow(toVec(point), node);
-  const Wall own = wallOf(point, here);
-  Wall nearest;
-  bool isTouched = false;
-  eachOtherSheet(point, here, [&](std::uint32_t other) {
-    const Wall wall = wallOf(point, other);
-    if (isTouched && wall.distance >= nearest.distance) return;
-    nearest = wall;
-    isTouched = true;
-  });
-  return combine(point, here, own, isTouched ? &nearest : nullptr);
+  SheetSample sample = sampleOf(point, m_field.follow(toVec(point), node));
+  eachOtherSheet(point, sample.node, [&](std::uint32_t other) { separate(sample, point, other); });
+  return sample;
 }
 
 SheetSample SheetField::deepest(const Eigen::Vector3d& point, std::uint32_t node) const {
   const std::uint32_t here = m_field.follow(toVec(point), node);
-  Wall best = wallOf(point, here), second;
-  std::uint32_t bestNode = here;
-  bool isTouched = false;
+  std::uint32_t best = here;
+  bool isAlone = true;
   eachOtherSheet(point, here, [&](std::uint32_t other) {
-    Wall wall = wallOf(point, other);
-    if (wall.distance < best.distance) {
-      std::swap(wall, best);
-      bestNode = other;
-    }
-    if (!isTouched || wall.distance < second.distance) second = wall;
-    isTouched = true;
+    isAlone = false;
+    const auto [nearest, next] = axesOf(point, best, other);
+    if (next.share < nearest.share) best = other;
   });
-  return combine(point, bestNode, best, isTouched ? &second : nullptr);
+  return isAlone ? sampleOf(point, here) : at(point, best);
 }
 
 std::optional<SheetField::Foot> SheetField::project(const Eigen::Vector3d& start,
@@ -152,6 +184,7 @@ std::optional<SheetField::Foot> SheetField::project(const Eigen::Vector3d& start
     const double longest = kLongestStep * r;
     const double way = std::clamp(-foot.sample.distance / std::sqrt(square), -longest, longest);
     foot.position += way / std::sqrt(square) * along;
+    if ((foot.position - start).squaredNorm() > kFarthest * kFarthest * r * r) return std::nullopt;
   }
   return std::nullopt;
 }

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "formats/case/case.h"
+#include "formats/case/topology.h"
 #include "formats/field/blended_field.h"
 
 namespace lumen::convert {
@@ -28,20 +30,25 @@ struct SheetOptions {
 struct SheetSample {
   double distance = 0;  ///< to the surface, about, mm; negative inside
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
-  std::uint32_t node = 0;    ///< at which following the point ends
+  std::uint32_t node = 0;                              ///< at which following the point ends
   bool isSeparated = false;  ///< here the surface keeps off another vessel and is not f = T
+  double wall = 0;           ///< distance to f = T, about, mm; negative inside
+  std::uint32_t other = 0;   ///< where isSeparated: the node of the other vessel
 };
 
 /// The signed distance to the surface of a case, for a point reached along the tree.
 ///
 /// A *sheet* of a point is a node that following a cursor can end at, with the nodes that blend
-/// with it there: two vessels that touch are two sheets. With d the distance to a sheet's wall and
-/// d' the least to another sheet's, the surface is the zero of
+/// with it there: two vessels that touch are two sheets. With d the distance to a sheet's wall (the
+/// one-evaluation distance of docs/method.md, section 4.2) and a the distance to its axis, as a
+/// share of the radius r there, the surface is the zero of
 ///
-///     g = max(d - offset, (d - d' + gap) / 2),
+///     g = max(d - offset, (a - a') / (1/r + 1/r') + gap/2)
 ///
-/// so where two lumens overlap each ends half a gap before the place that is as deep in both
-/// (docs/method.md, section 5). d is the one-evaluation distance of section 4.2.
+/// where a' and r' are those of the other sheet that gives most. So where two lumens overlap each
+/// ends half a gap before the place that is as far from both axes, and no vessel loses its axis to
+/// a wider one. Within a quarter of a radius of its axis the node of the greater index goes first,
+/// so that neither is severed where two axes cross.
 ///
 /// Never changed after construction: any number of threads may ask.
 class SheetField {
@@ -53,8 +60,8 @@ public:
   /// For a cursor that begins at `node` and follows.
   [[nodiscard]] SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const;
 
-  /// For the sheet of a point that has the least distance, of the one that following from `node`
-  /// leads to and those that touch it.
+  /// For the sheet of a point whose axis is the nearest in radii, of the one that following from
+  /// `node` leads to and those that touch it.
   [[nodiscard]] SheetSample deepest(const Eigen::Vector3d& point, std::uint32_t node) const;
 
   /// Whether two cursors that have followed a point are on one sheet of it.
@@ -64,6 +71,11 @@ public:
   /// Whether a cursor at node `from` that follows to the point gets onto the sheet of node `to`.
   [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
                                std::uint32_t to) const;
+
+  /// Distance of a point from the axis at a node, as a share of the radius there.
+  [[nodiscard]] double axisShare(const Eigen::Vector3d& point, std::uint32_t node) const {
+    return axisOf(point, node).share;
+  }
 
   /// Whether another vessel may be near a node.
   [[nodiscard]] bool mayTouch(std::uint32_t node) const {
@@ -92,10 +104,21 @@ private:
     double distance = 0;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   };
+  /// The way from the axis at a sheet's node: along tree edges, radii in between are linear.
+  struct Axis {
+    double share = 0;                                    ///< of the radius
+    double radius = 1;                                   ///< at the foot
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, away from the axis
+  };
   [[nodiscard]] Wall wallOf(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] bool isLeast(const Eigen::Vector3d& point, std::uint32_t node) const;
-  [[nodiscard]] SheetSample combine(const Eigen::Vector3d& point, std::uint32_t node,
-                                    const Wall& own, const Wall* other) const;
+  [[nodiscard]] Axis axisOf(const Eigen::Vector3d& point, std::uint32_t node) const;
+  /// `sample` kept off the sheet of node `other`.
+  void separate(SheetSample& sample, const Eigen::Vector3d& point, std::uint32_t other) const;
+  /// Two sheets' axes, for comparison: what goes first is nearer within its core.
+  [[nodiscard]] std::pair<Axis, Axis> axesOf(const Eigen::Vector3d& point, std::uint32_t a,
+                                             std::uint32_t b) const;
+  [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const;
   /// The nodes besides `node` that a sheet of the point ends at, one for each sheet.
   template <class Visit>
   void eachOtherSheet(const Eigen::Vector3d& point, std::uint32_t node, Visit&& visit) const;
@@ -103,6 +126,7 @@ private:
   const formats::Case& m_source;
   const field::BlendedField& m_field;
   SheetOptions m_options;
+  formats::Neighbours m_edges;
   std::vector<std::uint32_t> m_touchingOffset, m_touching;  ///< CSR over nodes
 };
 

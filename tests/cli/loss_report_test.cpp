@@ -15,12 +15,11 @@ public:
 /// What is said of a branch whose losses are at nodes of a quarter of a millimetre or more, which
 /// cells up to a millimetre resolve.
 std::string saidOf(double cell, bool hasSurface) {
-  convert::BranchMesh mesh;
-  mesh.label = "thin";
-  mesh.losses = {9, 2, 5, 0.25};
-  if (hasSurface) mesh.triangle.push_back({0, 1, 2});
+  convert::Patches patches;
+  patches.surface.labels = {"thin"};
+  patches.losses = {{9, hasSurface ? 100U : 0U, 2, 5, 0.25}};
   Warnings warnings;
-  reportLosses({mesh}, "out.glb", cell, warnings);
+  reportLosses(patches, "out.glb", cell, warnings);
   return warnings.text;
 }
 

@@ -163,8 +163,8 @@ TEST_F(UsageTest, UnknownFormatsExitWithFourAndListTheKnown) {
       {"convert", "a.stl", "b.lumen"},
       {"convert", "a.lumen", "b.docx"},
       {"convert", "a.lumen", "b.nrrd"},
-      {"convert", "a.lumen", "b.lumen", "--to", "vtp"},
-      {"convert", "a.lumen", "b.lumen", "--from", "vtp"},
+      {"convert", "a.lumen", "b.lumen", "--to", "dxf"},
+      {"convert", "a.lumen", "b.lumen", "--from", "dxf"},
       {"info", "a.xyz"}};
   for (const auto& arguments : unknown) {
     const Outcome refused = lumen(arguments);

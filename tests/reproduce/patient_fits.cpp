@@ -90,11 +90,7 @@ std::vector<Patient> readPatients(const std::vector<std::string>& files) {
 }
 
 double trianglesOf(const formats::Case& value, Progress& progress) {
-  double triangles = 0;
-  for (const convert::BranchMesh& branch : convert::polygonise(value, {}, progress)) {
-    triangles += static_cast<double>(branch.triangle.size());
-  }
-  return triangles;
+  return static_cast<double>(convert::polygonise(value, {}, progress).surface.triangle.size());
 }
 
 Fitted fitOnce(const Patient& patient, double accuracy, int subdivisions, Progress& progress) {

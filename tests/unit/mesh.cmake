@@ -1,11 +1,17 @@
 find_package(OpenMesh REQUIRED)
 find_package(draco REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(TinyGLTF REQUIRED)
 lumen_test(mesh_test
   LABELS threads
-  LIBS lumen_mesh lumen_surface OpenMeshCore draco::draco TinyGLTF::TinyGLTF
+  LIBS lumen_mesh lumen_surface OpenMeshCore draco::draco meshoptimizer::meshoptimizer TinyGLTF::TinyGLTF
+    nlohmann_json::nlohmann_json
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_mesh_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_parts_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/vertex_color_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_coded_gltf_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_gltf_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_plain_test.cpp)
 
 # CGAL, which is GPL, is only ever compared with. It is headers alone; its own CMake package would hide
 # OpenMesh's from what follows.
@@ -18,14 +24,27 @@ target_compile_options(self_intersections_test PRIVATE -frounding-math)
 
 # The Khronos validator finds no error and no warning in our files. It needs `npm ci` in tests/gltf; without
 # it the test fails.
-add_executable(gltf_samples ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/gltf_samples.cpp)
-target_link_libraries(gltf_samples PRIVATE lumen_surface)
+add_executable(mesh_samples ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_samples.cpp)
+target_link_libraries(mesh_samples PRIVATE lumen_surface nlohmann_json::nlohmann_json)
 find_program(NODE_EXECUTABLE NAMES node nodejs)
-set(gltf_folder ${CMAKE_CURRENT_BINARY_DIR}/gltf_validator_files)
-add_test(NAME GltfValidator.SamplesAreWritten COMMAND gltf_samples ${gltf_folder})
-set_tests_properties(GltfValidator.SamplesAreWritten PROPERTIES FIXTURES_SETUP gltf_samples)
+set(mesh_folder ${CMAKE_CURRENT_BINARY_DIR}/mesh_samples_files)
+add_test(NAME MeshSamples.AreWritten COMMAND mesh_samples ${mesh_folder})
+set_tests_properties(MeshSamples.AreWritten PROPERTIES FIXTURES_SETUP mesh_samples)
+set(gltf_files)
+foreach(sample tree fine empty closed confidence lod lod_per_branch)
+  foreach(coding plain draco meshopt)
+    list(APPEND gltf_files ${mesh_folder}/${sample}_${coding}.glb ${mesh_folder}/${sample}_${coding}.gltf)
+  endforeach()
+endforeach()
 add_test(NAME GltfValidator.FindsNoErrorAndNoWarning
-  COMMAND ${NODE_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gltf/validate.mjs
-    ${gltf_folder}/tree.glb ${gltf_folder}/tree.gltf ${gltf_folder}/draco.glb ${gltf_folder}/draco.gltf
-    ${gltf_folder}/fine.glb ${gltf_folder}/fine_draco.glb ${gltf_folder}/empty.glb)
-set_tests_properties(GltfValidator.FindsNoErrorAndNoWarning PROPERTIES FIXTURES_REQUIRED gltf_samples)
+  COMMAND ${NODE_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gltf/validate.mjs ${gltf_files})
+set_tests_properties(GltfValidator.FindsNoErrorAndNoWarning PROPERTIES FIXTURES_REQUIRED mesh_samples)
+
+# VTK reads what was written. Debian's module belongs to Debian's Python.
+find_program(DEBIAN_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(DEBIAN_PYTHON)
+  add_test(NAME Vtk.ReadsMeshesAsTheyWere
+    COMMAND ${DEBIAN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/vtk/compare_meshes.py
+      ${mesh_folder}/closed ${mesh_folder}/many ${mesh_folder}/empty)
+  set_tests_properties(Vtk.ReadsMeshesAsTheyWere PROPERTIES FIXTURES_REQUIRED mesh_samples SKIP_RETURN_CODE 77)
+endif()

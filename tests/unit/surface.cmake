@@ -7,7 +7,8 @@ lumen_test(surface_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/marching_cubes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/node_field_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/patch_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/polygonise_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/remesh_test.cpp)
 
 # Ends of closed surfaces.
 lumen_test(ends_test
@@ -17,3 +18,4 @@ lumen_test(ends_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extension_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/thick_wall_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/to_surface_mesh_test.cpp)

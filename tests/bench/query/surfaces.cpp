@@ -85,30 +85,22 @@ Case spiral() {
   return tubeAlong(line, kStep, kTube);
 }
 
-using Meshes = std::vector<convert::BranchMesh>;
-
-Meshes meshes(const Case& source, double cell) {
+convert::SurfaceMesh meshOf(const Case& source, double cell) {
   Progress progress;
   convert::PolygoniseOptions options;
   options.cell = cell;
-  return convert::polygonise(source, options, progress);
+  return convert::polygonise(source, options, progress).surface;
 }
 
-std::size_t facesOf(const Meshes& branches) {
-  std::size_t count = 0;
-  for (const convert::BranchMesh& branch : branches) count += branch.triangle.size();
-  return count;
-}
-
-void append(const convert::BranchMesh& branch, Triangles& result) {
+void append(const convert::SurfaceMesh& surface, Triangles& result) {
   const auto first = static_cast<std::uint32_t>(result.vertex.size());
-  for (const convert::Float3& p : branch.position) result.vertex.push_back({p[0], p[1], p[2]});
-  for (const convert::Triangle& t : branch.triangle)
+  for (const convert::Float3& p : surface.position) result.vertex.push_back({p[0], p[1], p[2]});
+  for (const convert::Triangle& t : surface.triangle)
     result.face.push_back({first + t[0], first + t[1], first + t[2]});
 }
 
-void appendDecimated(const convert::BranchMesh& branch, double share, Triangles& result) {
-  test::TriMesh mesh = test::toOpenMesh(branch);
+void appendDecimated(const convert::SurfaceMesh& surface, double share, Triangles& result) {
+  test::TriMesh mesh = test::toOpenMesh(surface);
   OpenMesh::Decimater::DecimaterT<test::TriMesh> decimater(mesh);
   OpenMesh::Decimater::ModQuadricT<test::TriMesh>::Handle quadric;
   decimater.add(quadric);
@@ -136,18 +128,17 @@ void appendDecimated(const convert::BranchMesh& branch, double share, Triangles&
 Triangles wantedMesh(const Case& source) {
   constexpr double kWanted = 1e5;
   double cell = 0.2;
-  Meshes branches = meshes(source, cell);
+  convert::SurfaceMesh surface = meshOf(source, cell);
   for (int i = 0; i < 2; ++i) {
-    cell *= std::sqrt(static_cast<double>(facesOf(branches)) / kWanted);
-    branches = meshes(source, cell);
+    cell *= std::sqrt(static_cast<double>(surface.triangle.size()) / kWanted);
+    surface = meshOf(source, cell);
   }
-  const double share = kWanted / static_cast<double>(facesOf(branches));
+  const double share = kWanted / static_cast<double>(surface.triangle.size());
   Triangles result;
-  for (const convert::BranchMesh& branch : branches)
-    if (share < 0.9)
-      appendDecimated(branch, share, result);
-    else
-      append(branch, result);
+  if (share < 0.9)
+    appendDecimated(surface, share, result);
+  else
+    append(surface, result);
   return result;
 }
 

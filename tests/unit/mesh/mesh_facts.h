@@ -11,12 +11,12 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/mesh/branch_mesh.h"
+#include "converters/mesh/surface_mesh.h"
 #include "converters/surface/patch.h"
 
 namespace lumen::test {
 
-inline convert::TriangleMesh toPatch(const convert::BranchMesh& mesh) {
+inline convert::TriangleMesh toPatch(const convert::SurfaceMesh& mesh) {
   convert::TriangleMesh patch;
   for (const convert::Float3& p : mesh.position) patch.position.emplace_back(p[0], p[1], p[2]);
   patch.triangle = mesh.triangle;

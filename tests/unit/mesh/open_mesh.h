@@ -4,7 +4,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include "converters/mesh/branch_mesh.h"
+#include "converters/mesh/surface_mesh.h"
 
 namespace lumen::test {
 
@@ -16,7 +16,7 @@ struct MeshTraits : OpenMesh::DefaultTraits {
 using TriMesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
 
 /// A face that would make the mesh no manifold is left out.
-inline TriMesh toOpenMesh(const convert::BranchMesh& source) {
+inline TriMesh toOpenMesh(const convert::SurfaceMesh& source) {
   TriMesh mesh;
   for (std::size_t v = 0; v < source.position.size(); ++v) {
     const auto handle = mesh.add_vertex(TriMesh::Point(source.position[v].data()));

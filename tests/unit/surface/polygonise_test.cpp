@@ -22,15 +22,19 @@ namespace {
 using test::factsOf;
 using test::toPatch;
 
-std::vector<BranchMesh> meshesOf(const formats::Case& source, double cell = 0) {
+Patches patchesOf(const formats::Case& source, double cell = 0) {
   Progress progress;
   return polygonise(source, {cell}, progress);
 }
 
+SurfaceMesh surfaceOf(const formats::Case& source) {
+  return patchesOf(source).surface;
+}
+
 TriangleMesh onlyPatch(const formats::Case& source) {
-  const auto meshes = meshesOf(source);
-  EXPECT_EQ(meshes.size(), 1U);
-  return toPatch(meshes[0]);
+  const SurfaceMesh surface = surfaceOf(source);
+  EXPECT_EQ(surface.groups.size(), 1U);
+  return toPatch(surface);
 }
 
 double offAxis(const Eigen::Vector3d& p) {
@@ -56,11 +60,11 @@ TEST(Polygonise, ABlobIsASphere) {
 }
 
 TEST(Polygonise, NormalsPointOutwardWithUnitLength) {
-  const auto meshes = meshesOf(test::sphereCase(1.0, 0.43));
+  const SurfaceMesh surface = surfaceOf(test::sphereCase(1.0, 0.43));
   const Eigen::Vector3f centre(0.03F, 0.05F, 0.07F);
-  for (std::size_t v = 0; v < meshes[0].position.size(); ++v) {
-    const Eigen::Vector3f normal(meshes[0].normal[v].data());
-    const Eigen::Vector3f position(meshes[0].position[v].data());
+  for (std::size_t v = 0; v < surface.position.size(); ++v) {
+    const Eigen::Vector3f normal(surface.normal[v].data());
+    const Eigen::Vector3f position(surface.position[v].data());
     EXPECT_NEAR(normal.norm(), 1, 1e-6);
     EXPECT_GT(normal.dot((position - centre).normalized()), 0.99999);
   }
@@ -131,17 +135,17 @@ std::uint32_t leastPowerIn(const formats::Case& source, const formats::Branch& b
 TEST(Polygonise, VerticesLieOnTheBlendedSurface) {
   const formats::Case source = disagreeingFork();
   const field::BlendedField surface = formats::blendedFieldOf(source);
-  const auto meshes = meshesOf(source);
-  for (std::size_t b = 0; b < meshes.size(); ++b)
-    for (const Float3& vertex : meshes[b].position) {
-      const field::Vec p{vertex[0], vertex[1], vertex[2]};
-      const std::uint32_t node =
-          surface.follow(p, leastPowerIn(source, source.tree.branches[b], p));
-      const field::Jet<1> f = surface.blended(p, node);
-      const double slope = Eigen::Vector3d(f.gradient).norm();
-      EXPECT_LT(std::abs(f.value - surface.level()) / slope, 1e-3 * source.tree.radius[node])
-          << "at " << p.x << ", " << p.y << ", " << p.z << " near node " << node;
-    }
+  const SurfaceMesh mesh = surfaceOf(source);
+  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+    const Float3& vertex = mesh.position[v];
+    const field::Vec p{vertex[0], vertex[1], vertex[2]};
+    const std::uint32_t node =
+        surface.follow(p, leastPowerIn(source, source.tree.branches[mesh.branch[v]], p));
+    const field::Jet<1> f = surface.blended(p, node);
+    const double slope = Eigen::Vector3d(f.gradient).norm();
+    EXPECT_LT(std::abs(f.value - surface.level()) / slope, 1e-3 * source.tree.radius[node])
+        << "at " << p.x << ", " << p.y << ", " << p.z << " near node " << node;
+  }
 }
 
 // Blobs beyond the vessel's end, as a fit may leave them, do not lengthen it.
@@ -158,23 +162,43 @@ TEST(Polygonise, CutsAVesselsFreeEndAndLeavesAnAneurysmsDome) {
   EXPECT_GT(highest(whole), 4.03 + 1.2);
 }
 
-TEST(Polygonise, KissingVesselsStayTwoMeshes) {
+TEST(Polygonise, KissingVesselsStayTwoGroups) {
   formats::Case source;
   source.metadata.voxelSize = 0.2;
   test::addVessel(source, "left", test::straightPath({0, 0, 0}, {1, 0, 0}, 6), 1.0, 2.0);
   test::addVessel(source, "right", test::straightPath({0.013, 2, 0.017}, {1, 0, 0}, 6), 1.0, 2.0);
   test::addModels(source);
-  const auto meshes = meshesOf(source);
-  ASSERT_EQ(meshes.size(), 2U);
+  const SurfaceMesh surface = surfaceOf(source);
   std::array<std::set<std::array<float, 3>>, 2> points;
-  for (std::size_t b = 0; b < 2; ++b)
-    for (const Float3& p : meshes[b].position) {
-      EXPECT_LT(std::abs(p[1] - 2.0F * static_cast<float>(b)), 1.05F);
-      points[b].insert(p);
+  for (std::size_t f = 0; f < surface.triangle.size(); ++f)
+    for (const std::uint32_t v : surface.triangle[f]) {
+      const std::uint32_t branch = surface.branch[v];
+      EXPECT_EQ(branch, surface.group[f]);
+      const Float3& p = surface.position[v];
+      EXPECT_LT(std::abs(p[1] - 2.0F * static_cast<float>(branch)), 1.05F);
+      points.at(branch).insert(p);
     }
+  EXPECT_FALSE(points[0].empty());
+  EXPECT_FALSE(points[1].empty());
   for (const auto& p : points[0]) EXPECT_FALSE(points[1].contains(p));
-  EXPECT_EQ(meshes[0].label, "left");
-  EXPECT_EQ(meshes[1].label, "right");
+  EXPECT_EQ(surface.groups,
+            (std::vector<FaceGroup>{{"left", FaceKind::Wall}, {"right", FaceKind::Wall}}));
+  EXPECT_EQ(surface.labels, (std::vector<std::string>{"left", "right"}));
+}
+
+TEST(Polygonise, VerticesHaveTheRadiusAndTheInlierRateOfTheirPlaceAlongTheVessel) {
+  formats::Case source = test::tubeCase(5);
+  EXPECT_TRUE(surfaceOf(source).confidence.empty());
+  for (std::size_t i = 0; i < 5; ++i) {
+    source.tree.radius[i] = 1 + 0.1F * static_cast<float>(i);
+    source.tree.inlierRate.push_back(0.5F + 0.1F * static_cast<float>(i));
+  }
+  const SurfaceMesh surface = surfaceOf(source);
+  for (std::size_t v = 0; v < surface.position.size(); ++v) {
+    const float along = std::clamp(surface.position[v][0] - 0.03F, 0.0F, 4.0F);
+    EXPECT_NEAR(surface.radius[v], 1 + 0.1 * along, 1e-5);
+    EXPECT_NEAR(surface.confidence[v], 0.5 + 0.1 * along, 1e-5);
+  }
 }
 
 TEST(Polygonise, DropsWhatDoesNotHangTogetherWithTheNodesLumen) {
@@ -216,14 +240,14 @@ TEST(Polygonise, GivesTheSameBytesOnOneThreadAndOnTwo) {
   std::array<std::string, 2> bytes;
   for (const std::size_t threads : {1U, 2U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    bytes[threads - 1] = encodeGltf(meshesOf(source), true, {});
+    bytes[threads - 1] = encodeGltf(std::array{surfaceOf(source)}, true, {});
   }
   EXPECT_EQ(bytes[0], bytes[1]);
 }
 
 ErrorKind errorOf(const formats::Case& source, double cell) {
   try {
-    meshesOf(source, cell);
+    patchesOf(source, cell);
   } catch (const Error& error) {
     return error.kind();
   }
@@ -253,24 +277,26 @@ formats::Case wideAndThin() {
 
 TEST(Polygonise, CountsWhatCellsThatAreTooCoarseMiss) {
   for (const double cell : {0.0, 0.4})
-    for (const BranchMesh& mesh : meshesOf(wideAndThin(), cell)) {
-      EXPECT_FALSE(mesh.losses.any()) << mesh.label << cell;
-      EXPECT_EQ(mesh.losses.nodes, 12U);
+    for (const BranchLosses& losses : patchesOf(wideAndThin(), cell).losses) {
+      EXPECT_FALSE(losses.any()) << cell;
+      EXPECT_EQ(losses.nodes, 12U);
+      EXPECT_GT(losses.triangles, 0U);
     }
-  const auto meshes = meshesOf(wideAndThin(), 4.0);
-  EXPECT_FALSE(meshes[0].losses.any());
-  EXPECT_TRUE(meshes[1].losses.any());
-  EXPECT_NEAR(meshes[1].losses.thinnest, 0.1, 1e-6);
+  const std::vector<BranchLosses> losses = patchesOf(wideAndThin(), 4.0).losses;
+  ASSERT_EQ(losses.size(), 2U);
+  EXPECT_FALSE(losses[0].any());
+  EXPECT_TRUE(losses[1].any());
+  EXPECT_NEAR(losses[1].thinnest, 0.1, 1e-6);
   // a cell that the counts lead to keeps all
-  for (const BranchMesh& mesh : meshesOf(wideAndThin(), coarsestCellFor(0.1)))
-    EXPECT_FALSE(mesh.losses.any()) << mesh.label;
+  for (const BranchLosses& kept : patchesOf(wideAndThin(), coarsestCellFor(0.1)).losses)
+    EXPECT_FALSE(kept.any());
 }
 
 TEST(Polygonise, CellThatIsTooSmallIsRefusedWithOneThatWillDo) {
   for (const double cell : {1e-9, 1e-6, 1e-4}) {
     std::string message;
     try {
-      meshesOf(test::tubeCase(3), cell);
+      patchesOf(test::tubeCase(3), cell);
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
       message = error.what();

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long the edges of a mesh should be.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "converters/surface/case_surface.h"
+#include "converters/surface/sheet_field.h"
+
+namespace lumen::convert {
+
+/// The length of edges: a share of the local radius, within bounds.
+struct EdgeLength {
+  double share = 0.25;  ///< of the radius
+  double minimum = 0;   ///< mm; gives way where fewer than eight edges would go round a vessel
+  double maximum = std::numeric_limits<double>::infinity();  ///< mm
+};
+
+/// The length that edges at each vertex should have, mm: as `edge` says for the radius there, at
+/// most an eighth of the circumference, and nowhere longer than at another vertex by more than a
+/// quarter of the way to it, so that a thin branch's short edges grow gently into a wide one's.
+std::vector<double> targetLengths(const CaseSurface& surface, const SheetField& field,
+                                  const EdgeLength& edge);
+
+}  // namespace lumen::convert
