@@ -33,14 +33,10 @@ public:
 
   /// Nothing where the point is in no triangle, or on an edge.
   void insert(const Point& p) {
-    const auto& all = m_mesh.triangle;
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Triangle& t) {
-      return side(t[0], t[1], p) > 0 && side(t[1], t[2], p) > 0 && side(t[2], t[0], p) > 0;
-    });
-    if (found == all.end()) return;
-    const auto t = static_cast<std::uint32_t>(found - all.begin());
+    const std::uint32_t t = locate(p);
+    if (t >= m_mesh.triangle.size()) return;
+    const Triangle old = m_mesh.triangle[t];
     const auto v = static_cast<std::uint32_t>(m_mesh.point.size());
-    const Triangle old = *found;
     m_mesh.point.push_back(p);
     replace(t, {old[0], old[1], v});
     add({old[1], old[2], v});
@@ -88,9 +84,7 @@ public:
   }
 
 private:
-  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
-    return std::uint64_t{a} << 32 | b;
-  }
+  static std::uint64_t key(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
   [[nodiscard]] const std::uint32_t* find(std::uint32_t a, std::uint32_t b) const {
     const auto found = m_triangleOf.find(key(a, b));
     return found == m_triangleOf.end() ? nullptr : &found->second;
@@ -110,6 +104,27 @@ private:
   void add(const Triangle& corner) {
     m_mesh.triangle.push_back(corner);
     enter(static_cast<std::uint32_t>(m_mesh.triangle.size() - 1));
+  }
+  [[nodiscard]] bool isIn(std::uint32_t t, const Point& p) const {
+    const Triangle& c = m_mesh.triangle[t];
+    return side(c[0], c[1], p) > 0 && side(c[1], c[2], p) > 0 && side(c[2], c[0], p) > 0;
+  }
+  // The triangle around a point: by a walk from the last one, through edges that the point is
+  // behind, or where that ends at the boundary, by looking at all. The number of triangles if none.
+  [[nodiscard]] std::uint32_t locate(const Point& p) const {
+    const auto count = static_cast<std::uint32_t>(m_mesh.triangle.size());
+    std::uint32_t t = count - 1;
+    for (std::uint32_t step = 0; step < count && !isIn(t, p); ++step) {
+      const Triangle& c = m_mesh.triangle[t];
+      const std::uint32_t* next = nullptr;
+      for (std::size_t i = 0; i < 3 && next == nullptr; ++i)
+        if (side(c[i], c[(i + 1) % 3], p) < 0) next = find(c[(i + 1) % 3], c[i]);
+      if (next == nullptr) break;
+      t = *next;
+    }
+    if (isIn(t, p)) return t;
+    for (t = 0; t < count && !isIn(t, p);) ++t;
+    return t;
   }
   // Edges of the old triangle are overwritten by whoever has them now, or erased.
   void replace(std::uint32_t t, const Triangle& corner) {
