@@ -46,8 +46,7 @@ std::vector<std::uint32_t> flatEnds(const CaseSurface& surface) {
 
 }  // namespace
 
-SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field,
-                          Progress& progress) {
+SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field, Progress& progress) {
   const formats::CenterlineTree& tree = field.source().tree;
   const formats::Neighbours edges(tree);
   const std::vector<std::uint32_t> end = flatEnds(surface);
@@ -65,8 +64,8 @@ SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field,
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
     if (v % kBatch == 0) progress.check();
     const std::uint32_t node = surface.node[v];
-    const Eigen::Vector3d normal = end[v] != kNone ? surface.ends[end[v]].normal
-                                                   : field.at(position[v], node).gradient;
+    const Eigen::Vector3d normal =
+        end[v] != kNone ? surface.ends[end[v]].normal : field.at(position[v], node).gradient;
     const VesselValues values = vesselAt(tree, edges, position[v], node);
     result.position[v] = toFloat3(position[v]);
     result.normal[v] = toFloat3(normal);
