@@ -28,7 +28,7 @@ draco::GeometryAttribute::Type typeOf(const VertexStream& stream) {
 // Gives the index of the attribute.
 int addAttribute(draco::Mesh& target, const DracoPart& part, const VertexStream& stream) {
   const bool isFloat = stream.componentType == kFloat;
-  const auto components = static_cast<std::int8_t>(stream.components);
+  const auto components = static_cast<std::uint8_t>(stream.components);
   draco::GeometryAttribute attribute;
   attribute.Init(typeOf(stream), nullptr, components,
                  isFloat ? draco::DT_FLOAT32 : draco::DT_UINT16, stream.isNormalized,

@@ -112,42 +112,49 @@ json indexAccessor(std::size_t count, bool isShort) {
           {"type", "SCALAR"}};
 }
 
+// Where a part's vertices and indices begin in the buffer views of its level.
+struct Place {
+  std::size_t vertex = 0, index = 0;
+};
+
+// The accessor of a part's share of a stream, which has a buffer view of its own.
+json sharedAccessor(const VertexStream& stream, const MeshPart& part, std::size_t first, int view) {
+  json accessor = accessorOf(stream, part.vertex.size());
+  accessor["bufferView"] = view;
+  accessor["byteOffset"] = first * stream.stride;
+  if (stream.name != "POSITION") return accessor;
+  Float3 low = positionAt(stream, first), high = low;
+  for (std::size_t v = 0; v < part.vertex.size(); ++v)
+    extendBox(positionAt(stream, first + v), low, high);
+  setBounds(accessor, low, high);
+  return accessor;
+}
+
 // The primitives of a level's parts, which share a buffer view for each attribute.
 std::vector<json> plainPrimitives(GltfDocument& document, Level& level) {
   std::vector<std::uint32_t> index;
-  std::size_t most = 0, vertices = 0;
+  std::size_t most = 0;
   for (const MeshPart& part : level.parts) {
     for (const Triangle& t : part.triangle) index.insert(index.end(), t.begin(), t.end());
     most = std::max(most, part.vertex.size());
   }
   const bool isShort = most <= kMaxShortVertices;
-  const std::size_t indexSize = isShort ? 2 : 4;
   std::vector<int> views;
   for (VertexStream& stream : level.streams) views.push_back(document.addVertices(stream));
   const int indexView = document.addIndices(index, most, isShort);
   std::vector<json> primitives;
-  std::size_t indices = 0;
+  Place place;
   for (const MeshPart& part : level.parts) {
     json primitive;
-    for (std::size_t s = 0; s < views.size(); ++s) {
-      const VertexStream& stream = level.streams[s];
-      json accessor = accessorOf(stream, part.vertex.size());
-      accessor["bufferView"] = views[s];
-      accessor["byteOffset"] = vertices * stream.stride;
-      if (stream.name == "POSITION") {
-        Float3 low = positionAt(stream, vertices), high = low;
-        for (std::size_t v = 0; v < part.vertex.size(); ++v)
-          extendBox(positionAt(stream, vertices + v), low, high);
-        setBounds(accessor, low, high);
-      }
-      primitive["attributes"][stream.name] = document.add("accessors", std::move(accessor));
-    }
-    json accessor = indexAccessor(3 * part.triangle.size(), isShort);
-    accessor["bufferView"] = indexView;
-    accessor["byteOffset"] = indices * indexSize;
-    primitive["indices"] = document.add("accessors", std::move(accessor));
-    vertices += part.vertex.size();
-    indices += 3 * part.triangle.size();
+    for (std::size_t s = 0; s < views.size(); ++s)
+      primitive["attributes"][level.streams[s].name] =
+          document.add("accessors", sharedAccessor(level.streams[s], part, place.vertex, views[s]));
+    json indices = indexAccessor(3 * part.triangle.size(), isShort);
+    indices["bufferView"] = indexView;
+    indices["byteOffset"] = place.index * (isShort ? 2 : 4);
+    primitive["indices"] = document.add("accessors", std::move(indices));
+    place.vertex += part.vertex.size();
+    place.index += 3 * part.triangle.size();
     primitives.push_back(std::move(primitive));
   }
   return primitives;

@@ -46,8 +46,7 @@ std::vector<Eigen::Vector3d> normalsOf(const CaseSurface& surface) {
 
 }  // namespace
 
-SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field,
-                          Progress& progress) {
+SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field, Progress& progress) {
   const formats::CenterlineTree& tree = field.source().tree;
   const formats::Neighbours edges(tree);
   const std::vector<Eigen::Vector3d> normal = normalsOf(surface);

@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
     writeGltfs(folder);
     writeOthers(folder, "closed", test::cappedTube(test::hostileLabels()));
     // over a megabyte of positions: several blocks of VTP
-    writeOthers(folder, "many", test::cappedTube({"a", "b"}, 300, 400));
+    writeOthers(folder, "many", test::cappedTube({"a", "b"}, 300, 300));
     writeOthers(folder, "empty", {});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
