@@ -43,7 +43,8 @@ void MeshBuilder::refusePoint(const Eigen::Vector3d& point, const std::string& p
   for (Eigen::Index a = 0; a < 3; ++a) {
     if (std::abs(point[a]) <= kLargestCoordinate) continue;
     std::ostringstream found;
-    found << "the " << "xyz"[a] << " of a point is " << point[a]
+    found << "the "
+          << "xyz"[a] << " of a point is " << point[a]
           << "; expected a finite number, at most 1e12";
     refuseMesh(m_name, place, found.str());
   }

@@ -21,10 +21,12 @@ struct MeshFile {
   /// and +Y up, comes in mm, LPS. At least one triangle; coordinates are finite and below 1e12,
   /// indices in range. STL has no indices: its equal points are one.
   TriangleMesh mesh;
-  std::vector<std::string> groups;   ///< names that the file has for sets of triangles, as it has them
-  std::vector<std::uint32_t> group;  ///< of each triangle: index into `groups`; empty if there are none
-  double unitMm = 0;                 ///< mm in one unit of `mesh`, if the file says so; otherwise 0
-  bool frameStated = false;          ///< the file names its axes
+  std::vector<std::string>
+      groups;  ///< names that the file has for sets of triangles, as it has them
+  std::vector<std::uint32_t>
+      group;                 ///< of each triangle: index into `groups`; empty if there are none
+  double unitMm = 0;         ///< mm in one unit of `mesh`, if the file says so; otherwise 0
+  bool frameStated = false;  ///< the file names its axes
   /// What was taken for granted or passed over, a sentence each, fit to print.
   std::vector<std::string> notes;
 };

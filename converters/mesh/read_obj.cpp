@@ -70,8 +70,7 @@ private:
   std::uint32_t indexOf(std::string_view word) {
     const std::string_view digits = word.substr(0, word.find('/'));
     std::int64_t index = 0;
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     const auto points = static_cast<std::int64_t>(m_builder.points());
     if (error != std::errc{} || end != digits.data() + digits.size() || index == 0 ||
         index < -points || index > std::numeric_limits<std::uint32_t>::max())

@@ -50,8 +50,8 @@ MeshFile parseBinary(std::string_view bytes, MeshBuilder& builder) {
       const std::size_t corner = at + kNormal * (c + 1);
       Eigen::Vector3d p;
       for (std::size_t a = 0; a < 3; ++a)
-        p[static_cast<Eigen::Index>(a)] = static_cast<double>(
-            loadNumber<float>(bytes.data() + corner + 4 * a, Endian::Little));
+        p[static_cast<Eigen::Index>(a)] =
+            static_cast<double>(loadNumber<float>(bytes.data() + corner + 4 * a, Endian::Little));
       t[c] = builder.addShared(p, [&] { return "byte " + std::to_string(corner); });
     }
     builder.addTriangle(t);
@@ -82,18 +82,16 @@ private:
   void expect(const char* expected) {
     const std::string word = next();
     if (word != expected)
-      m_text.refuse(
-          (word.empty() ? std::string("the file ends") : "found " + quotedText(word)) +
-          "; expected \"" + expected + "\"");
+      m_text.refuse((word.empty() ? std::string("the file ends") : "found " + quotedText(word)) +
+                    "; expected \"" + expected + "\"");
   }
   void parseFacets() {
     for (;;) {
       const std::string word = next();
       if (word == "endsolid") break;
       if (word != "facet")
-        m_text.refuse(
-            (word.empty() ? std::string("the file ends") : "found " + quotedText(word)) +
-            "; expected \"facet\" or \"endsolid\"");
+        m_text.refuse((word.empty() ? std::string("the file ends") : "found " + quotedText(word)) +
+                      "; expected \"facet\" or \"endsolid\"");
       parseFacet();
     }
     m_text.restOfLine();  // the name again

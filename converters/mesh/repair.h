@@ -24,7 +24,7 @@ struct RepairResult {
   /// `openings`. Normals point out of what the parts enclose. Unused points are gone.
   TriangleMesh mesh;
   std::vector<std::uint32_t> source;  ///< of each triangle that of the given mesh; kFilled if added
-  std::vector<BoundaryLoop> openings; ///< where vessels end, left open
+  std::vector<BoundaryLoop> openings;  ///< where vessels end, left open
   std::size_t components = 0;
   std::vector<std::string> repairs;  ///< sentences with counts: "merged 12 duplicate points"
   static constexpr std::uint32_t kFilled = 0xFFFFFFFFU;
@@ -36,6 +36,7 @@ struct RepairResult {
 /// holes that are not a vessel's end. Throws Error(InvalidInput), `name` (of the file, printable)
 /// first, with a sentence and counts for what cannot be repaired: no triangle left, a surface that
 /// cannot be oriented, one that encloses nothing.
-RepairResult repairMesh(const TriangleMesh& mesh, const std::string& name, const Progress& progress);
+RepairResult repairMesh(const TriangleMesh& mesh, const std::string& name,
+                        const Progress& progress);
 
 }  // namespace lumen::convert

@@ -72,7 +72,8 @@ private:
     const std::size_t from = m_at;
     while (m_at < m_text.size() && static_cast<unsigned char>(m_text[m_at]) > ' ') ++m_at;
     // a control character that is no blank would never be stepped over
-    if (m_at == from && m_at < m_text.size() && m_text[m_at] != '\n' && m_text[m_at] != '\r') ++m_at;
+    if (m_at == from && m_at < m_text.size() && m_text[m_at] != '\n' && m_text[m_at] != '\r')
+      ++m_at;
     return m_text.substr(from, m_at - from);
   }
 
