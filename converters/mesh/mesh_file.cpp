@@ -6,6 +6,7 @@
 
 #include "converters/common/error.h"
 #include "converters/mesh/read_obj.h"
+#include "converters/mesh/read_ply.h"
 #include "converters/mesh/read_stl.h"
 #include "formats/container/printable.h"
 
@@ -21,6 +22,7 @@ MeshFile parseMesh(std::string_view bytes, const fs::path& file, MeshFormat form
     case MeshFormat::Obj:
       return parseObj(bytes, name);
     case MeshFormat::Ply:
+      return parsePly(bytes, name);
     case MeshFormat::Gltf:
     case MeshFormat::Vtp:
     case MeshFormat::Vtk:
