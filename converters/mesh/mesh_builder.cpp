@@ -116,7 +116,7 @@ void StatedFrame::look(std::string_view comment) {
   const auto has = [&](std::string_view words) { return comment.find(words) != comment.npos; };
   if (has("SPACE=RAS")) ras = true;
   if (has("SPACE=LPS")) lps = true;
-  if (has("mm, LPS") || has("millimetres, LPS")) lps = millimetres = true;
+  if (has("mm, LPS") || has("mm, SPACE=LPS") || has("millimetres, LPS")) lps = millimetres = true;
 }
 
 MeshFile finishStated(MeshBuilder& builder, const StatedFrame& frame) {

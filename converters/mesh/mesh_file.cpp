@@ -8,6 +8,7 @@
 #include "converters/mesh/read_obj.h"
 #include "converters/mesh/read_ply.h"
 #include "converters/mesh/read_stl.h"
+#include "converters/mesh/read_vtk.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -24,9 +25,11 @@ MeshFile parseMesh(std::string_view bytes, const fs::path& file, MeshFormat form
     case MeshFormat::Ply:
       return parsePly(bytes, name);
     case MeshFormat::Gltf:
-    case MeshFormat::Vtp:
-    case MeshFormat::Vtk:
       break;
+    case MeshFormat::Vtp:
+      return parseVtp(bytes, name);
+    case MeshFormat::Vtk:
+      return parseVtk(bytes, name);
   }
   throw unsupported(name + ": lumen cannot read meshes of this format");
 }
