@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "converters/common/error.h"
+#include "converters/mesh/read_gltf.h"
 #include "converters/mesh/read_obj.h"
 #include "converters/mesh/read_ply.h"
 #include "converters/mesh/read_stl.h"
@@ -25,7 +26,7 @@ MeshFile parseMesh(std::string_view bytes, const fs::path& file, MeshFormat form
     case MeshFormat::Ply:
       return parsePly(bytes, name);
     case MeshFormat::Gltf:
-      break;
+      return parseGltf(bytes, file);
     case MeshFormat::Vtp:
       return parseVtp(bytes, name);
     case MeshFormat::Vtk:
