@@ -92,6 +92,8 @@ std::vector<FileFormat> makeTable() {
       {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"}, .readMesh = readMeshAs<MeshFormat::Obj>, .writeCase = kObj},
       {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kPly},
+      {.name = "vtp", .title = "VTK", .kind = Mesh, .endings = {".vtp"}, .readMesh = readMeshAs<MeshFormat::Vtp>},
+      {.name = "vtk", .title = "VTK", .kind = Mesh, .endings = {".vtk"}, .readMesh = readMeshAs<MeshFormat::Vtk>},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
@@ -183,7 +185,8 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
 /// An input whose name does not tell its format, but whose content does.
 void refuseByContent(const fs::path& path) {
   const FileContent content = contentOf(path);
-  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case)
+  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case ||
+      content.kind == ContentKind::Mesh)
     throw unsupported(path.string() + ": " + content.sentence() +
                       ", but its name does not say so; --from says it, which takes " +
                       formatNames(canRead));

@@ -78,7 +78,8 @@ void GltfContent::readChunks(std::string_view bytes) {
              " bytes; expected at most " + std::to_string(left) + ", which follow");
     const std::string_view chunk = bytes.substr(at + kChunkHeader, size);
     if (isFirst != (type == kJsonChunk))
-      refuse("byte " + std::to_string(at + 4) + ": expected the first chunk, and no other, to be "
+      refuse("byte " + std::to_string(at + 4) +
+             ": expected the first chunk, and no other, to be "
              "JSON");
     if (isFirst) parseJson(chunk);
     if (type == kBinaryChunk && m_binary.data() == nullptr) m_binary = chunk;
@@ -123,9 +124,9 @@ std::string GltfContent::bufferOf(const Json& buffer, std::uint64_t size) {
   std::string bytes;
   if (uri.starts_with("data:")) {
     const std::size_t from = uri.find(kBase64);
-    const auto decoded = from == uri.npos
-                             ? std::nullopt
-                             : formats::fromBase64(std::string_view(uri).substr(from + kBase64.size()));
+    const auto decoded =
+        from == uri.npos ? std::nullopt
+                         : formats::fromBase64(std::string_view(uri).substr(from + kBase64.size()));
     if (!decoded) refuse("/buffers: a data URI is no base64; expected \"data:...;base64,\"");
     bytes.assign(reinterpret_cast<const char*>(decoded->data()), decoded->size());
   } else {
@@ -150,11 +151,12 @@ std::string GltfContent::detached(const std::string& uri, std::uint64_t size) co
   const bool within =
       std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
   if (!within || !fs::is_regular_file(file, error))
-    refuse("its data are in " + quotedText(uri) + ", which is no file of the same folder; expected one");
+    refuse("its data are in " + quotedText(uri) +
+           ", which is no file of the same folder; expected one");
   const std::uintmax_t there = fs::file_size(file, error);
   if (error || there < size)
-    refuse("its data are in " + quotedText(uri) + ", which has " + std::to_string(error ? 0 : there) +
-           " bytes; expected " + std::to_string(size));
+    refuse("its data are in " + quotedText(uri) + ", which has " +
+           std::to_string(error ? 0 : there) + " bytes; expected " + std::to_string(size));
   std::string bytes(static_cast<std::size_t>(size), '\0');
   if (!std::ifstream(file, std::ios::binary)
            .read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
@@ -184,7 +186,8 @@ std::uint64_t GltfContent::whole(const Json& object, const char* key,
   const auto found = object.find(key);
   if (found == object.end()) return otherwise;
   if (!found->is_number_unsigned())
-    refuse(std::string(key) + " is " + quotedText(found->dump(-1, ' ', true, Json::error_handler_t::replace)) +
+    refuse(std::string(key) + " is " +
+           quotedText(found->dump(-1, ' ', true, Json::error_handler_t::replace)) +
            "; expected a whole number from 0 on");
   return found->get<std::uint64_t>();
 }

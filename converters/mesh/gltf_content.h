@@ -51,8 +51,8 @@ private:
   std::filesystem::path m_file;
   std::string m_name;
   Json m_root;
-  std::string_view m_binary;             // chunk of a GLB
-  std::deque<std::string> m_held;        // bytes of buffers that are not in the GLB
+  std::string_view m_binary;       // chunk of a GLB
+  std::deque<std::string> m_held;  // bytes of buffers that are not in the GLB
   std::vector<std::string_view> m_buffers;
   std::size_t m_totalBytes = 0;
 };

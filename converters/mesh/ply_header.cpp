@@ -12,11 +12,21 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes = {{
-    {"char", PlyType::Int8},     {"int8", PlyType::Int8},       {"uchar", PlyType::Uint8},
-    {"uint8", PlyType::Uint8},   {"short", PlyType::Int16},     {"int16", PlyType::Int16},
-    {"ushort", PlyType::Uint16}, {"uint16", PlyType::Uint16},   {"int", PlyType::Int32},
-    {"int32", PlyType::Int32},   {"uint", PlyType::Uint32},     {"uint32", PlyType::Uint32},
-    {"float", PlyType::Float32}, {"float32", PlyType::Float32}, {"double", PlyType::Float64},
+    {"char", PlyType::Int8},
+    {"int8", PlyType::Int8},
+    {"uchar", PlyType::Uint8},
+    {"uint8", PlyType::Uint8},
+    {"short", PlyType::Int16},
+    {"int16", PlyType::Int16},
+    {"ushort", PlyType::Uint16},
+    {"uint16", PlyType::Uint16},
+    {"int", PlyType::Int32},
+    {"int32", PlyType::Int32},
+    {"uint", PlyType::Uint32},
+    {"uint32", PlyType::Uint32},
+    {"float", PlyType::Float32},
+    {"float32", PlyType::Float32},
+    {"double", PlyType::Float64},
     {"float64", PlyType::Float64},
 }};
 
@@ -25,8 +35,7 @@ public:
   HeaderParser(std::string_view bytes, const std::string& name) : m_text(bytes, name) {}
 
   PlyHeader parse() {
-    if (m_text.restOfLine() != "ply")
-      m_text.refuse("does not begin with \"ply\"; expected PLY");
+    if (m_text.restOfLine() != "ply") m_text.refuse("does not begin with \"ply\"; expected PLY");
     bool hasFormat = false;
     for (;;) {
       const std::size_t before = m_text.left();

@@ -61,8 +61,7 @@ public:
 
   /// Number `component` of element `i`.
   [[nodiscard]] double at(std::uint64_t i, std::size_t component) const {
-    const char* from =
-        m_bytes.data() + static_cast<std::size_t>(i) * m_stride + component * m_size;
+    const char* from = m_bytes.data() + static_cast<std::size_t>(i) * m_stride + component * m_size;
     switch (m_type) {
       case 5120:
         return scaled(loadNumber<std::int8_t>(from, Endian::Little), 127);
@@ -138,8 +137,7 @@ public:
     m_builder.file.unitMm = 1;
     m_builder.file.frameStated = true;
     if (!m_isOurs)
-      m_builder.file.notes.emplace_back(
-          "taken as metres with +Y up, as the standard of glTF says");
+      m_builder.file.notes.emplace_back("taken as metres with +Y up, as the standard of glTF says");
     return m_builder.finish();
   }
 
@@ -270,8 +268,8 @@ private:
       m_content.refuse("/accessors/" + std::to_string(accessor) +
                        " has no data; expected positions");
     const auto known = placed.find(accessor);
-    const auto first = known != placed.end() ? known->second
-                                             : static_cast<std::uint32_t>(m_builder.points());
+    const auto first =
+        known != placed.end() ? known->second : static_cast<std::uint32_t>(m_builder.points());
     if (known == placed.end()) {
       requireRoom(positions.count());
       for (std::uint64_t i = 0; i < positions.count(); ++i)
@@ -287,8 +285,9 @@ private:
   void requireRoom(std::uint64_t count) {
     m_placed += count;
     if (m_placed > m_content.totalBytes())
-      m_content.refuse("its nodes repeat meshes until there are more points and triangles than the "
-                       "file has bytes; expected fewer");
+      m_content.refuse(
+          "its nodes repeat meshes until there are more points and triangles than the "
+          "file has bytes; expected fewer");
   }
 
   void addPoint(const Eigen::Vector3d& p, const Eigen::Matrix4d& matrix) {
@@ -317,9 +316,8 @@ private:
     for (std::uint64_t i = 0; i < stored.count(); ++i) {
       const double index = stored.at(i, 0);
       if (!(index >= 0 && index < static_cast<double>(points)))
-        m_content.refuse("/accessors/" + std::to_string(accessor) + ": index " +
-                         std::to_string(i) + " is " +
-                         std::to_string(static_cast<std::int64_t>(index)) +
+        m_content.refuse("/accessors/" + std::to_string(accessor) + ": index " + std::to_string(i) +
+                         " is " + std::to_string(static_cast<std::int64_t>(index)) +
                          "; expected less than " + std::to_string(points) +
                          ", the number of points");
       indices.push_back(static_cast<std::uint32_t>(index));
@@ -350,17 +348,17 @@ private:
     const std::uint64_t id = m_content.whole(*ids, "POSITION", kNone);
     const std::uint64_t view = m_content.whole(extension, "bufferView", kNone);
     const std::string_view bytes = m_content.view(view);
-    const DecodedDraco mesh =
-        decodeDracoMesh(bytes, static_cast<std::uint32_t>(std::min<std::uint64_t>(id, 0xFFFFFFFF)),
-                        static_cast<std::size_t>(positions.count()),
-                        static_cast<std::size_t>(indices.count() / 3));
+    const DecodedDraco mesh = decodeDracoMesh(
+        bytes, static_cast<std::uint32_t>(std::min<std::uint64_t>(id, 0xFFFFFFFF)),
+        static_cast<std::size_t>(positions.count()), static_cast<std::size_t>(indices.count() / 3));
     m_dracoBytes += bytes.size();
     if (m_dracoBytes > m_content.totalBytes())
-      m_content.refuse("its nodes repeat packed meshes beyond the size of the file; expected fewer");
+      m_content.refuse(
+          "its nodes repeat packed meshes beyond the size of the file; expected fewer");
     if (mesh.triangle.empty())
-      m_content.refuse("/bufferViews/" + std::to_string(view) +
-                       " is no Draco mesh of " + std::to_string(positions.count()) +
-                       " points and " + std::to_string(indices.count() / 3) +
+      m_content.refuse("/bufferViews/" + std::to_string(view) + " is no Draco mesh of " +
+                       std::to_string(positions.count()) + " points and " +
+                       std::to_string(indices.count() / 3) +
                        " triangles, which its accessors announce; expected one");
     const auto first = static_cast<std::uint32_t>(m_builder.points());
     for (const auto& p : mesh.position)

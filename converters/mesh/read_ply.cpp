@@ -30,8 +30,7 @@ public:
     require(size, what);
     const char* at = m_body.data() + m_at;
     m_at += size;
-    const Endian endian =
-        m_encoding == PlyEncoding::BigEndian ? Endian::Big : Endian::Little;
+    const Endian endian = m_encoding == PlyEncoding::BigEndian ? Endian::Big : Endian::Little;
     switch (type) {
       case PlyType::Int8:
         return loadNumber<std::int8_t>(at, endian);
@@ -115,8 +114,7 @@ private:
     std::array<std::optional<std::size_t>, 3> place;
     for (std::size_t p = 0; p < element.properties.size(); ++p)
       for (std::size_t a = 0; a < 3; ++a)
-        if (element.properties[p].name == std::string(1, "xyz"[a]) &&
-            !element.properties[p].isList)
+        if (element.properties[p].name == std::string(1, "xyz"[a]) && !element.properties[p].isList)
           place[a] = p;
     if (!place[0] || !place[1] || !place[2])
       refuseMesh(m_builder.name(), "", "its vertices lack x, y or z; expected all three");

@@ -24,11 +24,21 @@ struct TypeName {
   std::size_t size;
 };
 constexpr std::array<TypeName, 16> kTypeNames = {{
-    {"bit", 'b', 1},          {"unsigned_char", 'u', 1},  {"char", 'i', 1},
-    {"unsigned_short", 'u', 2}, {"short", 'i', 2},        {"unsigned_int", 'u', 4},
-    {"int", 'i', 4},          {"unsigned_long", 'u', 8},  {"long", 'i', 8},
-    {"float", 'f', 4},        {"double", 'f', 8},         {"vtktypeint64", 'i', 8},
-    {"vtktypeuint64", 'u', 8}, {"vtkidtype", 'i', 4},     {"unsigned_long_long", 'u', 8},
+    {"bit", 'b', 1},
+    {"unsigned_char", 'u', 1},
+    {"char", 'i', 1},
+    {"unsigned_short", 'u', 2},
+    {"short", 'i', 2},
+    {"unsigned_int", 'u', 4},
+    {"int", 'i', 4},
+    {"unsigned_long", 'u', 8},
+    {"long", 'i', 8},
+    {"float", 'f', 4},
+    {"double", 'f', 8},
+    {"vtktypeint64", 'i', 8},
+    {"vtktypeuint64", 'u', 8},
+    {"vtkidtype", 'i', 4},
+    {"unsigned_long_long", 'u', 8},
     {"vtktypeint32", 'i', 4},
 }};
 
@@ -77,16 +87,13 @@ public:
   }
 
 private:
-  std::string keyword() {
-    return lowerCase(std::string(m_text.word()));
-  }
+  std::string keyword() { return lowerCase(std::string(m_text.word())); }
 
   void parseHead(StatedFrame& frame) {
     const std::string_view first = m_text.restOfLine();
     constexpr std::string_view kFirst = "# vtk DataFile Version ";
     if (!first.starts_with(kFirst))
-      m_text.refuse("begins with " + quotedText(first) +
-                    "; expected \"# vtk DataFile Version\"");
+      m_text.refuse("begins with " + quotedText(first) + "; expected \"# vtk DataFile Version\"");
     m_isOffsets = first.substr(kFirst.size()).starts_with('5');
     frame.look(m_text.restOfLine());
     const std::string form = lowerCase(std::string(m_text.word()));
@@ -124,8 +131,9 @@ private:
     const std::uint64_t bytes = isBits && m_isBinary ? (count + 7) / 8 : count;
     // the last number of a text has no blank behind it
     if (bytes > m_text.left() / least + (m_isBinary ? 0 : 1))
-      m_text.refuse(std::to_string(count) + " numbers of " + what + " are announced; expected at most " +
-                    std::to_string(m_text.left() / least) + ", for which there are bytes");
+      m_text.refuse(std::to_string(count) + " numbers of " + what +
+                    " are announced; expected at most " + std::to_string(m_text.left() / least) +
+                    ", for which there are bytes");
     if (!m_isBinary) {
       for (std::uint64_t i = 0; i < count; ++i) take(m_text.number(what));
       return;
@@ -209,8 +217,7 @@ private:
 
   void expect(const char* expected) {
     const std::string word = keyword();
-    if (word != expected)
-      m_text.refuse("found " + quotedText(word) + "; expected " + expected);
+    if (word != expected) m_text.refuse("found " + quotedText(word) + "; expected " + expected);
   }
 
   void beginData(bool ofCells) {
@@ -236,15 +243,15 @@ private:
     if (word == "normals" || word == "vectors") components = 3;
     if (word == "tensors") components = 9;
     const std::string name(m_text.word());
-    if (word == "texture_coordinates")
-      components = m_text.whole("the number of components", 9);
+    if (word == "texture_coordinates") components = m_text.whole("the number of components", 9);
     if (word == "color_scalars") {
       components = m_text.whole("the number of components", 9);
       return take(name, components, {"unsigned_char", m_isBinary ? 'u' : 'f', 1}, m_tuples);
     }
     if (word == "global_ids" || word == "pedigree_ids") components = 1;
     if (components == 0)
-      m_text.refuse("found " + quotedText(word) + "; expected SCALARS, NORMALS, FIELD or another "
+      m_text.refuse("found " + quotedText(word) +
+                    "; expected SCALARS, NORMALS, FIELD or another "
                     "array of VTK");
     take(name, components, typeOf(m_text.word()), m_tuples);
   }
@@ -339,8 +346,8 @@ private:
 
 }  // namespace
 
-VtkPolyData parseVtkLegacy(std::string_view bytes, const std::string& name,
-                           std::string_view wanted, StatedFrame& frame) {
+VtkPolyData parseVtkLegacy(std::string_view bytes, const std::string& name, std::string_view wanted,
+                           StatedFrame& frame) {
   return LegacyParser(bytes, name, wanted).parse(frame);
 }
 
