@@ -2,8 +2,9 @@
 #include "converters/mesh/ply_header.h"
 
 #include <array>
+#include <charconv>
 #include <limits>
-#include <optional>
+#include <system_error>
 #include <utility>
 
 #include "converters/mesh/text_cursor.h"
@@ -38,7 +39,7 @@ public:
     if (m_text.restOfLine() != "ply") m_text.refuse("does not begin with \"ply\"; expected PLY");
     bool hasFormat = false;
     for (;;) {
-      const std::size_t before = m_text.left();
+      const std::size_t before = m_text.left(), line = m_text.line();
       const std::string_view word = m_text.wordOfLine();
       if (word == "end_header") break;
       if (word == "format")
@@ -48,11 +49,11 @@ public:
       else if (word == "property")
         parseProperty();
       else if (word == "comment" || word == "obj_info")
-        m_header.frame.look(m_text.restOfLine());
+        parseComment();
       else if (!word.empty())
         m_text.refuse("found " + quotedText(word) +
                       "; expected format, element, property, comment or end_header");
-      m_text.restOfLine();
+      if (m_text.line() == line) m_text.restOfLine();
       if (m_text.left() == before) m_text.refuse("the file ends; expected end_header");
     }
     if (!hasFormat) m_text.refuse("the header has no format; expected ascii or binary");
@@ -77,6 +78,19 @@ private:
                        quotedText(element.name) + "; expected at most " + std::to_string(room) +
                        ", for which there are bytes");
     }
+  }
+
+  /// lumen writes "group 3 inlet" for the faces whose property group is 3.
+  void parseComment() {
+    const std::string_view comment = m_text.restOfLine();
+    m_header.frame.look(comment);
+    int number = 0;
+    if (!comment.starts_with("group ")) return;
+    const std::string_view rest = comment.substr(6);
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+    const auto used = static_cast<std::size_t>(end - rest.data());
+    if (error == std::errc{} && used + 1 < rest.size() && rest[used] == ' ')
+      m_header.groups[number] = rest.substr(used + 1);
   }
 
   bool parseFormat() {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,7 +40,8 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
   StatedFrame frame;
-  std::size_t bytes = 0;  ///< of the header
+  std::map<int, std::string> groups;  ///< names in comments, by number
+  std::size_t bytes = 0;              ///< of the header
   std::size_t lines = 0;
 };
 

@@ -138,6 +138,7 @@ private:
     for (std::uint64_t f = 0; f < element.count; ++f) {
       corners.clear();
       bool any = false;
+      double group = 0;
       for (const PlyProperty& property : element.properties) {
         if (property.isList && !any &&
             (property.name == "vertex_indices" || property.name == "vertex_index")) {
@@ -147,7 +148,8 @@ private:
         } else if (property.isList) {
           passList(property);
         } else {
-          m_numbers.next(property.type, "a property of a face");
+          const double value = m_numbers.next(property.type, "a property of a face");
+          if (property.name == "group") group = value;
         }
       }
       if (!any)
@@ -156,8 +158,15 @@ private:
         refuseMesh(m_builder.name(), m_numbers.place(),
                    "face " + std::to_string(f) + " has " + std::to_string(corners.size()) +
                        " corners; expected at least 3");
+      if (!m_header.groups.empty()) m_builder.beginGroup(groupName(group));
       m_builder.addPolygon(corners.data(), corners.size());
     }
+  }
+
+  std::string groupName(double number) const {
+    const bool isSmall = std::abs(number) < 1e9;
+    const auto found = m_header.groups.find(isSmall ? static_cast<int>(number) : 0);
+    return found == m_header.groups.end() ? std::string() : found->second;
   }
 
   std::uint32_t index(PlyType type) {

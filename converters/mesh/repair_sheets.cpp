@@ -97,12 +97,31 @@ std::vector<Leaf> leavesOf(const MeshInRepair& work, std::span<const EdgeUse> ed
   return leaves;
 }
 
+/// Pairs the two triangles of a sheet that runs over the edge: a flap that hangs on it is no part of
+/// that sheet. `part` is that of each triangle; the leaves that are left are given back.
+std::vector<Leaf> pairSheets(MeshInRepair& work, const std::vector<Leaf>& leaves,
+                             const std::vector<std::uint32_t>& part) {
+  std::vector<Leaf> left;
+  for (const Leaf& leaf : leaves) {
+    const auto same = [&](const Leaf& other) {
+      return part[other.side / 3] == part[leaf.side / 3];
+    };
+    const auto other = std::find_if(leaves.begin(), leaves.end(), [&](const Leaf& l) {
+      return same(l) && l.along != leaf.along;
+    });
+    if (std::count_if(leaves.begin(), leaves.end(), same) == 2 && other != leaves.end())
+      work.opposite[leaf.side] = other->side;
+    else
+      left.push_back(leaf);
+  }
+  return left;
+}
+
 /// Pairs the triangles of an edge that have the inside between them. A triangle that runs along
 /// the edge's direction has its normal towards growing angles, so the inside is before it: pairs
 /// are one that runs back followed by one that runs along.
 /// Of a mesh that is inside out it is the other way round.
-void pairLeaves(MeshInRepair& work, std::span<const EdgeUse> edge, bool insideOut) {
-  const std::vector<Leaf> leaves = leavesOf(work, edge);
+void pairLeaves(MeshInRepair& work, const std::vector<Leaf>& leaves, bool insideOut) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const Leaf &here = leaves[i], &next = leaves[(i + 1) % leaves.size()];
     if (here.along != insideOut || next.along == insideOut) continue;
@@ -154,10 +173,11 @@ std::size_t orientSheets(MeshInRepair& work, const std::string& name) {
 
 std::size_t cutEdges(MeshInRepair& work) {
   const bool insideOut = signedVolume(work.mesh) < 0;
-  std::size_t cut = 0;
+  std::size_t cut = 0, parts = 0;
+  const std::vector<std::uint32_t> part = partsOf(work, parts);
   forEachEdge(edgeUses(work.mesh.triangle), [&](std::span<const EdgeUse> edge) {
     if (edge.size() <= 2) return;
-    pairLeaves(work, edge, insideOut);
+    pairLeaves(work, pairSheets(work, leavesOf(work, edge), part), insideOut);
     ++cut;
   });
   return cut;

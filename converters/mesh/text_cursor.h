@@ -68,12 +68,12 @@ private:
     ++m_at;
     ++m_line;
   }
+  static bool isSpace(char c) {
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  }
   std::string_view take() {
     const std::size_t from = m_at;
-    while (m_at < m_text.size() && static_cast<unsigned char>(m_text[m_at]) > ' ') ++m_at;
-    // a control character that is no blank would never be stepped over
-    if (m_at == from && m_at < m_text.size() && m_text[m_at] != '\n' && m_text[m_at] != '\r')
-      ++m_at;
+    while (m_at < m_text.size() && !isSpace(m_text[m_at])) ++m_at;
     return m_text.substr(from, m_at - from);
   }
 

@@ -29,3 +29,11 @@ add_test(NAME GltfValidator.FindsNoErrorAndNoWarning
     ${gltf_folder}/tree.glb ${gltf_folder}/tree.gltf ${gltf_folder}/draco.glb ${gltf_folder}/draco.gltf
     ${gltf_folder}/fine.glb ${gltf_folder}/fine_draco.glb ${gltf_folder}/empty.glb)
 set_tests_properties(GltfValidator.FindsNoErrorAndNoWarning PROPERTIES FIXTURES_REQUIRED gltf_samples)
+
+lumen_test(read_mesh_test
+  LABELS memory
+  LIBS lumen_mesh
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_report_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/repair_test.cpp)
