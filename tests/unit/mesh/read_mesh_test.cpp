@@ -185,18 +185,18 @@ TEST(ReadPly, AsciiAndBothByteOrdersAreTheSame) {
 
 TEST(ReadPly, CountsBeyondTheBytesAreRefusedAtOnce) {
   EXPECT_EQ(refusal(plyHead("binary_little_endian", "4000000000", "1"), MeshFormat::Ply),
-            "3: a: line 11: the header announces 4000000000 of \"vertex\"; expected at most 0, for "
+            "3: a: line 12: the header announces 4000000000 of \"vertex\"; expected at most 0, for "
             "which there are bytes");
   std::string list = plyHead("ascii", "3", "1") + "0 0 0 0 1 0 0 0 0 1 0 0 200 0 1 2 0\n";
   EXPECT_EQ(refusal(list, MeshFormat::Ply),
-            "3: a: before line 12: the count of a list is 200; expected at most 9, for which there "
+            "3: a: before line 13: the count of a list is 200; expected at most 9, for which there "
             "are bytes");
 }
 
 TEST(ReadPly, IndicesOutOfRangeAreRefused) {
   EXPECT_EQ(
       refusal(plyHead("ascii", "3", "1") + "0 0 0 0 1 0 0 0 0 1 0 0\n3 0 1 3 0\n", MeshFormat::Ply),
-      "3: a: before line 13: a corner of a face is vertex 3; expected less than 3, the number "
+      "3: a: before line 14: a corner of a face is vertex 3; expected less than 3, the number "
       "of vertices");
 }
 
