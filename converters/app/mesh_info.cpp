@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -89,6 +92,11 @@ std::string number(double value) {
   return text.str();
 }
 
+/// mm to a hundredth, without the sign of a zero.
+std::string place(double value) {
+  return fixed(std::round(100 * value) / 100 + 0.0, 2);
+}
+
 /// "no, 3 edges of more than two triangles, 1 point where sheets touch".
 std::string manifoldText(const convert::MeshReport& r) {
   if (r.manifold) return "yes";
@@ -129,8 +137,8 @@ void addRows(Lines& lines, const MeshInfo& info) {
     if (++shown > kShownRows) break;
     const Eigen::Vector3d c = loop.centre * mm;
     lines.add("", counted(loop.vertex.size(), "edge", "edges") + ", radius " +
-                      number(loop.radius * mm) + " mm at " + number(c.x()) + "  " + number(c.y()) +
-                      "  " + number(c.z()));
+                      place(loop.radius * mm) + " mm at " + place(c.x()) + "  " + place(c.y()) +
+                      "  " + place(c.z()));
   }
   if (info.report.boundaryLoops.size() > kShownRows)
     lines.add("", "and " + std::to_string(info.report.boundaryLoops.size() - kShownRows) + " more");

@@ -146,9 +146,8 @@ std::string GltfContent::detached(const std::string& uri, std::uint64_t size) co
   const bool isName = !uri.empty() && uri.find("://") == uri.npos &&
                       percentDecoded(uri).find('\0') == std::string::npos;
   const fs::path file = isName && !error ? fs::canonical(stated, error) : fs::path();
-  if (error || file.empty())
-    refuse("its data are in " + quotedText(uri) + ", which cannot be read");
   const bool within =
+      !error && !file.empty() &&
       std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
   if (!within || !fs::is_regular_file(file, error))
     refuse("its data are in " + quotedText(uri) +
