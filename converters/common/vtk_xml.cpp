@@ -174,6 +174,7 @@ private:
     piece.cells[kStrips] = count(attributes, "NumberOfStrips");
     m_document.pieces.push_back(std::move(piece));
     m_inPiece = true;
+    m_isOpen = false;  // an array that this piece is within has no end
   }
 
   void beginArray(const char** attributes) {
