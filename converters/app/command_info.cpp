@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen info: what is in a case or a volume.
+// lumen info: what is in a case, a volume or a mesh.
 #include "converters/app/case_info_report.h"
 #include "converters/app/chunk_info.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/mesh_info.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
 #include "converters/app/value_checks.h"
@@ -17,14 +18,14 @@ class InfoCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "info"; }
   [[nodiscard]] std::string summary() const override {
-    return "Tell what a case or a volume holds";
+    return "Tell what a case, a volume or a mesh holds";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen info head.lumen --json | jq .radius_mm";
   }
 
   void bind(CLI::App& app) override {
-    addFile(app, "FILE", m_input, "Case or volume");
+    addFile(app, "FILE", m_input, "Case, volume or mesh");
     app.add_option("--from", m_from, "Format of FILE, whatever its name")->type_name("F");
     app.add_flag("--chunks", m_chunks, "List the chunks of a .lumen file instead");
     app.add_flag("--voxels", m_voxels,
@@ -33,7 +34,7 @@ public:
   }
 
   int run(Context& context) override {
-    requireInput(m_input, "case or volume");
+    requireInput(m_input, "case, volume or mesh");
     if (m_chunks) {
       const FileInfo info = describeChunks(m_input);
       context.common.json ? answerJson(chunkInfoJson(info)) : answer(chunkInfoText(info));
@@ -43,6 +44,10 @@ public:
     if (from.kind == FormatKind::Volume) {
       const VolumeInfo info = describe(from, context.progress);
       context.common.json ? answerJson(volumeInfoJson(info)) : answer(volumeInfoText(info));
+    } else if (from.kind == FormatKind::Mesh) {
+      const MeshInfo info =
+          describeMesh(from.readMesh(m_input), m_input, m_volume.unit, context.progress);
+      context.common.json ? answerJson(meshInfoJson(info)) : answer(meshInfoText(info));
     } else {
       const formats::Case value = from.readCase(m_input);
       const CaseInfo info = describeCase(value, context.progress);

@@ -40,8 +40,8 @@ std::span<const Signature> signatures() {
       {0, "ply\n", Mesh, "a mesh (PLY)"},
       {0, "ply\r\n", Mesh, "a mesh (PLY)"},
       {0, "solid ", Mesh, "a mesh (STL)"},
-      {0, "# vtk DataFile", Other, "a VTK file"},
-      {0, "<VTKFile", Other, "a VTK file"},
+      {0, "# vtk DataFile", Mesh, "a mesh (VTK)"},
+      {0, "<VTKFile", Mesh, "a mesh (VTK)"},
       {0, "\x89PNG", Other, "a picture (PNG)"},
       {0, "\xff\xd8\xff", Other, "a picture (JPEG)"},
       {0, "II*\0"sv, Other, "a picture (TIFF)"},
@@ -86,7 +86,7 @@ std::string useOf(ContentKind kind) {
     case Case:
       return "; lumen fit, convert, info, compare and validate take a case";
     case Mesh:
-      return "; lumen writes meshes, but does not read them";
+      return "; lumen info and lumen convert take a mesh";
     case Unknown:
     case Other:
       break;
@@ -134,8 +134,7 @@ FileContent contentOf(const fs::path& file) {
 std::string notA(ContentKind wanted, const fs::path& file) {
   const FileContent content = contentOf(file);
   if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
-  const std::string contrast = content.kind == ContentKind::Mesh ? "" : ", not " + nounOf(wanted);
-  return content.sentence() + contrast + useOf(content.kind);
+  return content.sentence() + ", not " + nounOf(wanted) + useOf(content.kind);
 }
 
 }  // namespace lumen::app

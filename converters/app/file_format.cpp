@@ -17,6 +17,7 @@
 namespace lumen::app {
 
 namespace fs = std::filesystem;
+using convert::MeshFormat;
 using convert::VolumeFormat;
 
 namespace {
@@ -36,6 +37,11 @@ convert::VolumeHeader readHeaderAs(const fs::path& file, const convert::ReadVolu
 template <VolumeFormat format, bool compressed>
 void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
   convert::writeVolume(volume, file, format, compressed);
+}
+
+template <convert::MeshFormat format>
+convert::MeshFile readMeshAs(const fs::path& file) {
+  return convert::readMesh(file, format);
 }
 
 template <formats::CaseEncoding encoding>
@@ -88,12 +94,19 @@ std::vector<FileFormat> makeTable() {
       {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
       // meshes
-      {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = kGlb},
-      {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"}, .writeCase = kGltf},
-      {.name = "vtp", .title = "VTP", .kind = Mesh, .endings = {".vtp"}, .writeCase = kVtp},
-      {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"}, .writeCase = kObj},
-      {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .writeCase = kStl},
-      {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},
+      {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kGlb},
+      {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kGltf},
+      {.name = "vtp", .title = "VTK", .kind = Mesh, .endings = {".vtp"},
+       .readMesh = readMeshAs<MeshFormat::Vtp>, .writeCase = kVtp},
+      {.name = "vtk", .title = "VTK", .kind = Mesh, .endings = {".vtk"}, .readMesh = readMeshAs<MeshFormat::Vtk>},
+      {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"},
+       .readMesh = readMeshAs<MeshFormat::Obj>, .writeCase = kObj},
+      {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"},
+       .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kStl},
+      {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"},
+       .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kPly},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
@@ -185,7 +198,8 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
 /// An input whose name does not tell its format, but whose content does.
 void refuseByContent(const fs::path& path) {
   const FileContent content = contentOf(path);
-  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case)
+  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case ||
+      content.kind == ContentKind::Mesh)
     throw unsupported(path.string() + ": " + content.sentence() +
                       ", but its name does not say so; --from says it, which takes " +
                       formatNames(canRead));
@@ -222,11 +236,15 @@ ContentKind contentKind(const FileFormat& format) {
 }
 
 bool canRead(const FileFormat& format) {
-  return format.readCase != nullptr || format.readVolume != nullptr;
+  return format.readCase != nullptr || format.readVolume != nullptr || canReadMesh(format);
 }
 
 bool canReadVolume(const FileFormat& format) {
   return format.readVolume != nullptr;
+}
+
+bool canReadMesh(const FileFormat& format) {
+  return format.readMesh != nullptr;
 }
 
 bool canWrite(const FileFormat& format) {

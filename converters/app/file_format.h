@@ -11,6 +11,7 @@
 
 #include "converters/app/file_content.h"
 #include "converters/common/progress.h"
+#include "converters/mesh/mesh_file.h"
 #include "converters/mesh/write_options.h"
 #include "converters/surface/closed_surface.h"
 #include "converters/surface/polygonise.h"
@@ -40,6 +41,7 @@ struct FileFormat {
   using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
                                                        const convert::ReadVolumeOptions&,
                                                        const Progress&);
+  using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
   /// What it returns is null unless a closed surface was made.
   using CaseWriter = std::optional<convert::SurfaceReport> (*)(const formats::Case&,
                                                                const std::filesystem::path&,
@@ -53,8 +55,9 @@ struct FileFormat {
   CaseReader readCase = nullptr;
   VolumeReader readVolume = nullptr;
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
-  CaseWriter writeCase = nullptr;                 ///< atomically
-  VolumeWriter writeVolume = nullptr;             ///< atomically
+  MeshReader readMesh = nullptr;
+  CaseWriter writeCase = nullptr;      ///< atomically
+  VolumeWriter writeVolume = nullptr;  ///< atomically
 };
 
 const std::vector<FileFormat>& fileFormats();
@@ -66,6 +69,7 @@ ContentKind contentKind(const FileFormat& format);
 using FormatTest = bool (*)(const FileFormat&);
 bool canRead(const FileFormat& format);
 bool canReadVolume(const FileFormat& format);
+bool canReadMesh(const FileFormat& format);
 bool canWrite(const FileFormat& format);  ///< a case, in whatever form
 bool canWriteCase(const FileFormat& format);
 bool canWriteMesh(const FileFormat& format);

@@ -162,7 +162,7 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->join(',')
       ->check(oneOrThreeIn({0, kLongest, true}));
   app.add_option("--unit", volume.unit,
-                 "Unit of the lengths in the file's header: mm, cm, m or um, whatever it says")
+                 "Unit of the lengths in the file: mm, cm, m or um, whatever it says")
       ->type_name("UNIT")
       ->group("Volume")
       ->check(oneOf(wordsOf(kMillimetresOf)));

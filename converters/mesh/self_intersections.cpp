@@ -75,8 +75,8 @@ std::vector<std::uint32_t> inOrder(const TriangleMesh& mesh) {
     low = low.min(middle(t));
     high = high.max(middle(t));
   }
-  const Eigen::Array3d scale =
-      ((1 << kMortonBits) - 1) / (high - low).max(std::numeric_limits<double>::min());
+  // a side of no length must not make the scale infinite, and zero times that no number
+  const Eigen::Array3d scale = ((1 << kMortonBits) - 1) / (high - low).max(1e-280);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> code;
   for (std::size_t t = 0; t < usable.size(); ++t) {
     if (usable[t] == 0) continue;

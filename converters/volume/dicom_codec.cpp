@@ -12,7 +12,7 @@
 #include <gdcmTrace.h>
 
 #include "converters/common/error.h"
-#include "converters/volume/isolated_call.h"
+#include "converters/common/isolated_call.h"
 
 namespace lumen::convert {
 namespace {

@@ -129,6 +129,7 @@ def make_cases(lumen, folder):
     go("completion.schema.json", "completion", "bash")
     for volume in ("a.nrrd", "a.nii.gz"):
         for voxels in ((), ("--voxels",)): go("info-volume.schema.json", "info", volume, *voxels)
+    for mesh in ("mesh.ply", *sorted(map(str, (ROOT / "tests/data/mesh").glob("*")))): go("info-mesh.schema.json", "info", mesh)
     for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
         go("info-case.schema.json", "info", case)
         if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")

@@ -44,7 +44,8 @@ TEST(FileFormats, KindsMatchWhatIsReadAndWritten) {
   for (const FileFormat& format : fileFormats()) {
     const bool volume = format.kind == FormatKind::Volume;
     EXPECT_EQ(format.readVolume != nullptr, volume) << format.name;
-    EXPECT_EQ(format.writeCase != nullptr, !volume) << format.name;
+    EXPECT_EQ(format.readMesh != nullptr, format.kind == FormatKind::Mesh) << format.name;
+    EXPECT_FALSE(volume && canWrite(format)) << format.name;
     EXPECT_EQ(format.readCase != nullptr, format.kind == FormatKind::Case) << format.name;
   }
 }
@@ -57,10 +58,11 @@ TEST(FileFormats, TheLongestEndingInAnyCaseChooses) {
   EXPECT_EQ(inputFormat("A.MHD", "").name, "mhd");
   EXPECT_EQ(inputFormat("a.nii.json", "").name, "lumen.json");
   EXPECT_EQ(inputFormat("a.lumen", "").name, "lumen");
+  EXPECT_EQ(inputFormat("a.STL", "").name, "stl");
 }
 
 TEST(FileFormats, ANameWithoutAKnownEndingIsUnsupported) {
-  for (const char* name : {"a.gz", "nii", ".nii", "a.dcm", "a.stl", "photo.jpg"}) {
+  for (const char* name : {"a.gz", "nii", ".nii", "a.dcm", "photo.jpg"}) {
     const std::string refused = refusal([&] { return inputFormat(name, ""); });
     EXPECT_TRUE(refused.starts_with("4: " + std::string(name))) << refused;
     EXPECT_NE(refused.find("nrrd"), std::string::npos) << refused;

@@ -11,6 +11,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_content_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/loss_report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_options_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_info_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp

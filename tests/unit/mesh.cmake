@@ -48,3 +48,11 @@ if(DEBIAN_PYTHON)
       ${mesh_folder}/closed ${mesh_folder}/many ${mesh_folder}/empty)
   set_tests_properties(Vtk.ReadsMeshesAsTheyWere PROPERTIES FIXTURES_REQUIRED mesh_samples SKIP_RETURN_CODE 77)
 endif()
+
+lumen_test(read_mesh_test
+  LABELS memory
+  LIBS lumen_mesh
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_report_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/repair_test.cpp)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/volume/isolated_call.h"
+#include "converters/common/isolated_call.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -39,7 +39,7 @@ public:
   explicit SharedBuffer(std::size_t size)
       : m_size(size),
         m_at(mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
-    if (m_at == MAP_FAILED) throw failed("there is no memory for a frame of pixels");
+    if (m_at == MAP_FAILED) throw failed("there is no memory for what a library decodes");
   }
   ~SharedBuffer() { munmap(m_at, m_size); }
   SharedBuffer(const SharedBuffer&) = delete;
@@ -122,7 +122,7 @@ IsolatedEnd callIsolated(std::span<std::byte> out, std::size_t memory, unsigned 
   const SharedBuffer buffer(out.size());
   const std::size_t before = addressSpace();
   const pid_t id = fork();
-  if (id < 0) throw failed("a process to decode pixels in cannot be started");
+  if (id < 0) throw failed("a process to decode in cannot be started");
   if (id == 0) runChild(buffer.bytes(), before > 0 ? before + memory : 0, seconds, fill);
   Child child(id);
   // a child that waits for ever uses no time of the processor

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The JSON and the bytes of a glTF file, whichever way it holds them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace lumen::convert {
+
+/// A glTF file of which each value is checked as it is asked for. All functions throw
+/// Error(InvalidInput) with the file, the JSON pointer, what was found and what was expected.
+class GltfContent {
+public:
+  using Json = nlohmann::json;
+
+  /// GLB or text. Buffers are inside, or files of the same folder: nothing else is opened.
+  GltfContent(std::string_view bytes, const std::filesystem::path& file);
+
+  [[nodiscard]] const Json& root() const { return m_root; }
+  [[nodiscard]] const std::string& name() const { return m_name; }
+  /// Of the file and its buffers.
+  [[nodiscard]] std::size_t totalBytes() const { return m_totalBytes; }
+
+  /// Item `index` of the list `list` of the root, an object.
+  [[nodiscard]] const Json& item(const char* list, std::uint64_t index) const;
+  [[nodiscard]] std::uint64_t size(const char* list) const;
+  /// The whole number `key` of `object`, or `otherwise` if it is not there.
+  [[nodiscard]] std::uint64_t whole(const Json& object, const char* key,
+                                    std::uint64_t otherwise) const;
+  /// The text `key` of `object`, or none.
+  [[nodiscard]] static std::string text(const Json& object, const char* key);
+  /// The bytes of a buffer view.
+  [[nodiscard]] std::string_view view(std::uint64_t index) const;
+
+  [[noreturn]] void refuse(const std::string& what) const;
+
+private:
+  void readChunks(std::string_view bytes);
+  void parseJson(std::string_view text);
+  void readBuffers();
+  [[nodiscard]] std::string bufferOf(const Json& buffer, std::uint64_t size);
+  [[nodiscard]] std::string detached(const std::string& uri, std::uint64_t size) const;
+
+  std::filesystem::path m_file;
+  std::string m_name;
+  Json m_root;
+  std::string_view m_binary;       // chunk of a GLB
+  std::deque<std::string> m_held;  // bytes of buffers that are not in the GLB
+  std::vector<std::string_view> m_buffers;
+  std::size_t m_totalBytes = 0;
+};
+
+}  // namespace lumen::convert

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/mesh_input.h"
+
+#include <span>
+#include <string_view>
+
+#include "converters/common/error.h"
+#include "converters/mesh/mesh_edges.h"
+#include "converters/mesh/mesh_report.h"
+#include "converters/mesh/repair.h"
+#include "formats/container/printable.h"
+#include "fuzz/fuzz_support.h"
+
+namespace lumen::fuzz {
+namespace {
+
+using namespace lumen::convert;
+
+// Repair takes the time that it needs; the readers are what is tried.
+constexpr std::size_t kMostRepaired = 2000;
+
+void checkFile(const MeshFile& file) {
+  const TriangleMesh& mesh = file.mesh;
+  expect(!mesh.triangle.empty(), "a mesh has a triangle");
+  for (const Eigen::Vector3d& p : mesh.position)
+    expect(p.cwiseAbs().maxCoeff() <= 1e12, "coordinates are finite and bounded");
+  for (const Triangle& t : mesh.triangle)
+    for (const std::uint32_t v : t) expect(v < mesh.position.size(), "indices are in range");
+  expect(file.groups.empty() ? file.group.empty() : file.group.size() == mesh.triangle.size(),
+         "each triangle has a group where there are groups");
+  for (const std::uint32_t g : file.group) expect(g < file.groups.size(), "groups are in range");
+  for (const std::string& note : file.notes)
+    expect(formats::printable(note) == note, "notes are fit to print");
+}
+
+void checkRepaired(const TriangleMesh& mesh) {
+  const MeshReport report = diagnoseMesh(mesh, Progress());
+  expect(report.triangles == mesh.triangle.size(), "a diagnosis is of all triangles");
+  const RepairResult repaired = repairMesh(mesh, "mesh", Progress());
+  expect(repaired.source.size() == repaired.mesh.triangle.size(), "each triangle has a source");
+  for (const std::uint32_t source : repaired.source)
+    expect(source == RepairResult::kFilled || source < mesh.triangle.size(), "sources are there");
+  const std::vector<Triangle>& triangle = repaired.mesh.triangle;
+  forEachEdge(edgeUses(triangle), [&](std::span<const EdgeUse> edge) {
+    expect(edge.size() <= 2, "no edge has more than two triangles");
+    expect(edge.size() == 1 || startOf(triangle, edge[0].side) != startOf(triangle, edge[1].side),
+           "neighbours agree");
+  });
+}
+
+}  // namespace
+
+void checkMesh(const std::uint8_t* data, std::size_t size, MeshFormat format) {
+  try {
+    const MeshFile file =
+        parseMesh(std::string_view(reinterpret_cast<const char*>(data), size), "mesh", format);
+    checkFile(file);
+    if (file.mesh.triangle.size() <= kMostRepaired) checkRepaired(file.mesh);
+  } catch (const Error& error) {
+    expect(error.kind() == ErrorKind::InvalidInput || error.kind() == ErrorKind::Unsupported,
+           "a bad file is invalid or unsupported input");
+    expect(formats::printable(error.what()) == error.what(), "messages are fit to print");
+  }
+}
+
+}  // namespace lumen::fuzz
