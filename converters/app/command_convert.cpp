@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
+// lumen convert: a volume, tracked and fitted, a centerline, fitted, or a case, as a case, a mesh or a
+// centerline.
+#include "converters/app/centerline_input.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/reachable.h"
@@ -25,13 +27,16 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    addFile(app, "INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + ") or case");
+    addFile(app, "INPUT", m_input,
+            "Volume (" + formatTitles(canReadVolume) + "), centerline (" +
+                formatTitles(canReadCenterline) + "; also a folder of curves) or case");
     addFile(app, "OUTPUT", m_output,
             "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of each " +
                 "branch and no more, " + formatEndings(canWriteMesh));
     app.add_option("--from", m_from, "Format of INPUT, whatever its name")->type_name("F");
     app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
     addVolumeOptions(app, m_volume);
+    addCenterlineOptions(app, m_centerline);
     addTrackOptions(app, m_track);
     addFitOptions(app, m_fit);
     addMeshOptions(app, m_outputOptions);
@@ -66,6 +71,10 @@ private:
       return m_outputOptions.encoding.pointBits != 0 ? readParentCase(m_input)
                                                      : from.readCase(m_input);
     }
+    if (from.kind == FormatKind::Centerline) {
+      const auto loaded = loadCenterline(m_input, from, m_volume, m_centerline, progress);
+      return convert::caseOfCenterline(loaded.file, m_input);
+    }
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
     convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
@@ -81,8 +90,9 @@ private:
       throw invalidInput(m_input +
                          ": this case has neither models nor wall points to fit them to, "
                          "so there is no surface to make a mesh of");
-    if (from.kind == FormatKind::Volume || meshNeedsModels)
-      convert::fit(value, m_fit.options(), progress);
+    const bool isNew = from.kind == FormatKind::Volume || from.kind == FormatKind::Centerline;
+    if (isNew || meshNeedsModels)
+      convert::fit(value, fitOptionsFor(value, m_fit.options()), progress);
   }
 
   void report(const formats::Case& value, const std::optional<Reach>& reach,
@@ -98,6 +108,7 @@ private:
 
   std::string m_input, m_output, m_from, m_to;
   VolumeArguments m_volume;
+  CenterlineArguments m_centerline;
   TrackArguments m_track;
   FitArguments m_fit;
   OutputOptions m_outputOptions;

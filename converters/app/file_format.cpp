@@ -7,6 +7,10 @@
 #include "converters/app/file_access.h"
 #include "converters/app/loss_report.h"
 #include "converters/app/suggestion.h"
+#include "converters/centerline/read_curves.h"
+#include "converters/centerline/read_swc.h"
+#include "converters/centerline/read_tre.h"
+#include "converters/centerline/read_vtp.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
 #include "converters/mesh/write_gltf.h"
@@ -86,6 +90,13 @@ std::vector<FileFormat> makeTable() {
       {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"}, .writeCase = kObj},
       {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .writeCase = kStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},
+      // centerlines
+      {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc},
+      {.name = "tre", .title = "TubeTK", .kind = Centerline, .endings = {".tre"}, .readCenterline = convert::readTre},
+      {.name = "centerline.vtp", .title = "VTK lines", .kind = Centerline, .endings = {".centerline.vtp"},
+       .readCenterline = convert::readVtpCenterline},
+      {.name = "mrk.json", .title = "Slicer curves", .kind = Centerline, .endings = {".mrk.json"},
+       .readCenterline = convert::readCurves},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
@@ -116,10 +127,18 @@ const FileFormat* findByName(std::string_view name) {
 }
 
 /// The format that a folder is read as.
-const FileFormat* findFolder() {
+const FileFormat* findFolder(const fs::path& folder) {
+  if (convert::hasCurves(folder)) return findByName("mrk.json");
   for (const FileFormat& format : fileFormats())
     if (format.endings.empty()) return &format;
   return nullptr;
+}
+
+/// The format of a file whose name may stand for several kinds.
+const FileFormat* findByContent(const fs::path& path) {
+  const FileContent content = contentOf(path);
+  const bool isVtk = lowerCase(path.extension().string()) == ".vtp";
+  return isVtk && content.kind == ContentKind::Centerline ? findByName("centerline.vtp") : nullptr;
 }
 
 const FileFormat* findByEnding(const fs::path& path) {
@@ -177,7 +196,8 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
 /// An input whose name does not tell its format, but whose content does.
 void refuseByContent(const fs::path& path) {
   const FileContent content = contentOf(path);
-  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case)
+  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case ||
+      content.kind == ContentKind::Centerline)
     throw unsupported(path.string() + ": " + content.sentence() +
                       ", but its name does not say so; --from says it, which takes " +
                       formatNames(canRead));
@@ -207,6 +227,8 @@ ContentKind contentKind(const FileFormat& format) {
       return ContentKind::Volume;
     case FormatKind::Mesh:
       return ContentKind::Mesh;
+    case FormatKind::Centerline:
+      return ContentKind::Centerline;
     case FormatKind::Case:
       break;
   }
@@ -214,11 +236,20 @@ ContentKind contentKind(const FileFormat& format) {
 }
 
 bool canRead(const FileFormat& format) {
-  return format.readCase != nullptr || format.readVolume != nullptr;
+  return format.readCase != nullptr || format.readVolume != nullptr ||
+         format.readCenterline != nullptr;
 }
 
 bool canReadVolume(const FileFormat& format) {
   return format.readVolume != nullptr;
+}
+
+bool canReadCenterline(const FileFormat& format) {
+  return format.readCenterline != nullptr;
+}
+
+bool canWriteCenterline(const FileFormat& format) {
+  return format.kind == FormatKind::Centerline && canWrite(format);
 }
 
 bool canWrite(const FileFormat& format) {
@@ -252,8 +283,9 @@ std::string formatTitles(FormatTest test) {
 const FileFormat& inputFormat(const fs::path& path, std::string_view override) {
   std::error_code ignored;
   const FileFormat* format = !override.empty()                 ? findByName(override)
-                             : fs::is_directory(path, ignored) ? findFolder()
-                                                               : findByEnding(path);
+                             : fs::is_directory(path, ignored) ? findFolder(path)
+                                                               : findByContent(path);
+  if (format == nullptr && override.empty()) format = findByEnding(path);
   if (override.empty() && (format == nullptr || !canRead(*format))) refuseByContent(path);
   return require(format, path, override, canRead, "read", "--from");
 }

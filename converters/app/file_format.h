@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "converters/app/file_content.h"
+#include "converters/centerline/centerline_file.h"
 #include "converters/common/progress.h"
 #include "converters/mesh/write_options.h"
 #include "converters/surface/polygonise.h"
@@ -18,7 +19,7 @@
 
 namespace lumen::app {
 
-enum class FormatKind { Volume, Case, Mesh };
+enum class FormatKind { Volume, Case, Mesh, Centerline };
 
 /// How a case is written; each format takes what concerns it.
 struct OutputOptions {
@@ -36,6 +37,7 @@ struct FileFormat {
   using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
                                                        const convert::ReadVolumeOptions&,
                                                        const Progress&);
+  using CenterlineReader = convert::CenterlineFile (*)(const std::filesystem::path&);
   using CaseWriter = void (*)(const formats::Case&, const std::filesystem::path&,
                               const OutputOptions&, Progress&);
   using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
@@ -47,8 +49,9 @@ struct FileFormat {
   CaseReader readCase = nullptr;
   VolumeReader readVolume = nullptr;
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
-  CaseWriter writeCase = nullptr;                 ///< atomically
-  VolumeWriter writeVolume = nullptr;             ///< atomically
+  CenterlineReader readCenterline = nullptr;
+  CaseWriter writeCase = nullptr;      ///< atomically
+  VolumeWriter writeVolume = nullptr;  ///< atomically
 };
 
 const std::vector<FileFormat>& fileFormats();
@@ -60,9 +63,11 @@ ContentKind contentKind(const FileFormat& format);
 using FormatTest = bool (*)(const FileFormat&);
 bool canRead(const FileFormat& format);
 bool canReadVolume(const FileFormat& format);
+bool canReadCenterline(const FileFormat& format);
 bool canWrite(const FileFormat& format);  ///< a case, in whatever form
 bool canWriteCase(const FileFormat& format);
 bool canWriteMesh(const FileFormat& format);
+bool canWriteCenterline(const FileFormat& format);
 bool canWriteVolume(const FileFormat& format);
 
 /// The formats that pass `test`, for a sentence: names "lumen, lumen.json, obj", endings ".lumen,
