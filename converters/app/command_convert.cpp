@@ -23,7 +23,8 @@ public:
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
-           "  lumen convert head.lumen head.glb --draco";
+           "  lumen convert head.lumen head.glb --draco\n"
+           "  lumen convert arteries.swc arteries.lumen";
   }
 
   void bind(CLI::App& app) override {
@@ -32,7 +33,9 @@ public:
                 formatTitles(canReadCenterline) + "; also a folder of curves) or case");
     addFile(app, "OUTPUT", m_output,
             "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of each " +
-                "branch and no more, " + formatEndings(canWriteMesh));
+                "branch and no more, " + formatEndings(canWriteMesh) +
+                "; or centerline, which holds the tree and its radii and no more, " +
+                formatEndings(canWriteCenterline));
     app.add_option("--from", m_from, "Format of INPUT, whatever its name")->type_name("F");
     app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
     addVolumeOptions(app, m_volume);

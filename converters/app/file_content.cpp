@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLookedAt = 1 << 16;
+constexpr const char* kCurves = "a centerline (3D Slicer Markups)";
 
 struct Signature {
   std::size_t offset;
@@ -59,6 +60,7 @@ FileContent jsonContent(std::string_view text) {
   using enum ContentKind;
   const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
   if (has("\"lumen-seeds\"")) return {Seeds, "seeds"};
+  if (has("\"markups\"") && has("\"Curve\"") && has("\"Radius\"")) return {Centerline, kCurves};
   if (has("\"markups\"")) return {Seeds, "seeds (3D Slicer Markups)"};
   if (has("\"format\"") && has("\"lumen\"")) return {Case, "a case"};
   if (has("\"asset\"")) return {Mesh, "a mesh (glTF)"};
@@ -166,6 +168,8 @@ FileContent contentOf(const fs::path& file) {
 std::string notA(ContentKind wanted, const fs::path& file) {
   const FileContent content = contentOf(file);
   if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
+  // a curve may be either
+  if (wanted == ContentKind::Seeds && content.name == kCurves) return "";
   const std::string contrast = content.kind == ContentKind::Mesh ? "" : ", not " + nounOf(wanted);
   return content.sentence() + contrast + useOf(content.kind);
 }

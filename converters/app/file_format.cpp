@@ -11,6 +11,7 @@
 #include "converters/centerline/read_swc.h"
 #include "converters/centerline/read_tre.h"
 #include "converters/centerline/read_vtp.h"
+#include "converters/centerline/write_centerline.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
 #include "converters/mesh/write_gltf.h"
@@ -71,6 +72,14 @@ void writeMeshAs(const formats::Case& value, const fs::path& file, const OutputO
   writeText(encode(meshes, options.mesh), file);
 }
 
+/// The writer of a centerline format: the case's tree, encoded.
+template <std::string (*encode)(const formats::CenterlineTree&)>
+void writeTreeAs(const formats::Case& value, const fs::path& file, const OutputOptions&,
+                 Progress& progress) {
+  reportTreeLosses(value, file.string(), progress);
+  writeText(encode(value.tree), file);
+}
+
 constexpr auto kObj = writeMeshAs<encodePlain<convert::encodeObj>>;
 constexpr auto kStl = writeMeshAs<encodePlain<convert::encodeStl>>;
 constexpr auto kPly = writeMeshAs<encodePlain<convert::encodePly>>;
@@ -91,12 +100,14 @@ std::vector<FileFormat> makeTable() {
       {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .writeCase = kStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},
       // centerlines
-      {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc},
-      {.name = "tre", .title = "TubeTK", .kind = Centerline, .endings = {".tre"}, .readCenterline = convert::readTre},
+      {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc,
+       .writeCase = writeTreeAs<convert::encodeSwc>},
+      {.name = "tre", .title = "TubeTK", .kind = Centerline, .endings = {".tre"}, .readCenterline = convert::readTre,
+       .writeCase = writeTreeAs<convert::encodeTre>},
       {.name = "centerline.vtp", .title = "VTK lines", .kind = Centerline, .endings = {".centerline.vtp"},
-       .readCenterline = convert::readVtpCenterline},
+       .readCenterline = convert::readVtpCenterline, .writeCase = writeTreeAs<convert::encodeVtpCenterline>},
       {.name = "mrk.json", .title = "Slicer curves", .kind = Centerline, .endings = {".mrk.json"},
-       .readCenterline = convert::readCurves},
+       .readCenterline = convert::readCurves, .writeCase = writeTreeAs<convert::encodeCurves>},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,

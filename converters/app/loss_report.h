@@ -7,6 +7,7 @@
 
 #include "converters/common/progress.h"
 #include "converters/mesh/branch_mesh.h"
+#include "formats/case/case.h"
 
 namespace lumen::app {
 
@@ -15,5 +16,8 @@ namespace lumen::app {
 /// surface and nothing else is no loss.
 void reportLosses(const std::vector<convert::BranchMesh>& meshes, const std::string& file,
                   double cell, Progress& progress);
+
+/// Warns of what a centerline file cannot hold of a case's tree: loops and sacs. `file` is its name.
+void reportTreeLosses(const formats::Case& value, const std::string& file, Progress& progress);
 
 }  // namespace lumen::app

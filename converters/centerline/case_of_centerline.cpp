@@ -178,7 +178,7 @@ private:
       // the child is not wider where it leaves its parent
       way.insert(way.begin(), {sampleOf(on).position, way.front().radius, kNoPoint});
     }
-    way = apart(way);
+    if (!m_file.isOfLumen) way = apart(way);
     m_allowed += kNodesPerPoint * double(chain.points.size());
     m_asked += nodesFor(way);
     if (!(m_asked <= m_allowed))
@@ -186,12 +186,12 @@ private:
                          ": its vessels are so long for their radii that they would take " +
                          "more than " + std::to_string(std::int64_t(m_allowed)) +
                          " nodes; expected radii and positions of one unit");
-    Samples samples = isDense(way) ? resampled(way) : filled(way);
+    Samples samples = m_file.isOfLumen ? way : isDense(way) ? resampled(way) : filled(way);
     std::int32_t parent = formats::kNoParent;
     if (on != kNoPoint) {
       parent = static_cast<std::int32_t>(nodeOf(on));
       samples.erase(samples.begin());
-      parent = leaveEarly(samples, parent);
+      if (!m_file.isOfLumen) parent = leaveEarly(samples, parent);
     }
     if (!samples.empty()) append(samples, chain, parent);
     nameNodes(chain, parent);

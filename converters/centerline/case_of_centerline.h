@@ -37,8 +37,8 @@ double toPatientSpace(CenterlineFile& file, const CenterlineReading& reading);
 /// `file` is in mm and LPS. One branch for each chain, labelled as its vessel, else b000, b001 and
 /// so on. Points are nodes; a segment longer than 1.25 radii gets nodes on a cubic curve through the
 /// points, at most 0.6 radii apart, with radii in proportion; a chain whose points are closer than a
-/// fifth of a radius gets nodes every half radius instead. A child keeps its own radius up to the
-/// point it hangs on. Throws Error(InvalidInput) with `name` for points without radius, and for
+/// fifth of a radius gets nodes every half radius instead. The points of lumen's own files are nodes
+/// as they are. A child keeps its own radius up to the point it hangs on. Throws Error(InvalidInput) with `name` for points without radius, and for
 /// trees that are too long for their radii.
 formats::Case caseOfCenterline(const CenterlineFile& file, const std::string& name);
 

@@ -15,6 +15,9 @@ namespace lumen::convert {
 constexpr std::int32_t kNoPoint = -1;
 constexpr std::int32_t kNoVessel = -1;
 
+/// What a comment of lumen's own files says of them.
+constexpr const char* kOwnCenterline = "lumen: centerline, millimetres, LPS";
+
 struct CenterlinePoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the file's unit and axes, finite
   double radius = 0;                                   ///< in the same unit; 0: the file has none
@@ -32,6 +35,7 @@ struct CenterlineFile {
   std::vector<std::array<std::int32_t, 2>> links;  ///< points at which vessels close a loop
   double unit = 0;                                 ///< mm; 0: the file does not say
   CenterlineAxes axes = CenterlineAxes::Unknown;   ///< as the file says
+  bool isOfLumen = false;                          ///< its points are the nodes of a case
   std::vector<std::string> remarks;                ///< what was assumed or left out, sentences
 
   [[nodiscard]] std::size_t radiiMissing() const;

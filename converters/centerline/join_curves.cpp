@@ -15,6 +15,7 @@ using Index = std::int32_t;
 constexpr double kSameCourse = 0.1;  // radii
 // a curve that ends beside another one's axis has met it if it is this near, in radii
 constexpr double kMet = 1.0;
+constexpr double kStated = -1;             // in place of a distance: a file says so
 constexpr double kAsNear = 0.25;           // radii: of two contacts neither is the better one
 constexpr std::size_t kMostContacts = 16;  // more begin together only where any will do
 constexpr double kSamePlace = 1e-3;        // of a curve's step
@@ -119,6 +120,9 @@ private:
     if (parent < 0 || points(parent).empty()) return;
     m_first[std::size_t(c)] = {nearestOn(parent, points(c).front().position)};
     m_first[std::size_t(c)][0].distance = 0;
+    const std::int64_t point = m_curves[std::size_t(c)].parentPoint;
+    if (point >= 0 && point < static_cast<std::int64_t>(points(parent).size()))
+      m_first[std::size_t(c)][0] = {parent, static_cast<std::size_t>(point), kStated};
   }
 
   // Curves that begin in no other one; of several that begin together, the one that goes first.
@@ -175,7 +179,7 @@ private:
     Index at = kNoPoint;
     if (on) {
       at = m_point[std::size_t(on->curve)][on->sample];
-      mine = follow(way, at);
+      if (on->distance != kStated) mine = follow(way, at);
       if (!mine.empty()) at = mine.back();
     }
     const std::size_t shared = mine.size();

@@ -21,7 +21,8 @@ struct CurvePoint {
 struct CenterlineCurve {
   std::string name;
   std::vector<CurvePoint> points;
-  std::int32_t parent = -1;  ///< index of the curve that it hangs on, if the file says so
+  std::int32_t parent = -1;       ///< index of the curve that it hangs on, if the file says so
+  std::int64_t parentPoint = -1;  ///< and the index of that one's point, which then is the place
 };
 
 /// The points and vessels of a file; the rest of it is left for the caller to say. What a curve

@@ -56,7 +56,7 @@ CenterlineFile readCurves(const fs::path& fileOrFolder) {
   std::size_t without = 0, short_ = 0;
   for (const fs::path& file : filesOf(fileOrFolder)) {
     for (const SeedBranch& branch : readSeeds(file)) {
-      CenterlineCurve curve{branch.label, {}, -1};
+      CenterlineCurve curve{branch.label, {}, -1, -1};
       bool hasRadii = false;
       for (const SeedPoint& point : branch.points) {
         curve.points.push_back({point.position, point.radius.value_or(0)});

@@ -61,6 +61,7 @@ public:
   /// What a comment says of the unit and the axes, of which SWC itself says nothing.
   double unit = 0;
   CenterlineAxes axes = CenterlineAxes::Unknown;
+  bool isOfLumen = false;
 
   [[noreturn]] void refuse(const std::string& what) const { refuseAt(m_number, what); }
   [[noreturn]] void refuseAt(std::size_t number, const std::string& what) const {
@@ -83,9 +84,10 @@ private:
 
   void readComment(std::string_view text) {
     if (text.find("NeuroMorpho") != text.npos) unit = kMillimetresOfMicrometre;
-    if (text.find("millimetres, LPS") != text.npos) {
+    if (text.find(kOwnCenterline) != text.npos) {
       unit = 1;
       axes = CenterlineAxes::Lps;
+      isOfLumen = true;
     }
     constexpr std::string_view kVessel = " vessel ";
     if (!text.starts_with(kVessel)) return;
@@ -266,6 +268,7 @@ CenterlineFile parseSwc(std::string_view text, const std::string& name) {
   CenterlineFile file;
   file.unit = parser.unit;
   file.axes = parser.axes;
+  file.isOfLumen = parser.isOfLumen;
   if (file.unit == kMillimetresOfMicrometre)
     file.remarks.push_back("its comments name NeuroMorpho, so lengths are micrometres");
   const std::size_t soma = dropSomaHelpers(lines);

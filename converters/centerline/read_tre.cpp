@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr double kLargestTre = 1e9;  // far beyond any length that is meant
 constexpr std::size_t kMostColumns = 1000;
+constexpr std::size_t kTreHead = 256;  // where a comment of write_centerline.cpp stands
 constexpr int kDeepestTree = 1000;
 
 // From an object to the one that it hangs on.
@@ -39,7 +40,7 @@ struct Placement {
 
 struct TreObject {
   std::string type, name;
-  int id = -1, parent = -1;
+  int id = -1, parent = -1, parentPoint = -1;
   Eigen::Vector3d spacing = Eigen::Vector3d::Ones();
   Placement placement;
   std::vector<std::string> columns;
@@ -82,6 +83,8 @@ private:
       refuse("has " + shown(value) + " dimensions; expected 3");
     else if (key == "ID")
       object.id = whole(value);
+    else if (key == "ParentPoint")
+      object.parentPoint = whole(value);
     else if (key == "ParentID")
       object.parent = whole(value);
     else if (key == "Name")
@@ -312,7 +315,7 @@ CenterlineFile parseTre(std::string_view text, const std::string& name) {
     if (object.type != "Tube") others += object.type != "Scene" && object.type != "Group" ? 1 : 0;
     if (object.type != "Tube" || object.points.empty()) continue;
     curveOf[i] = static_cast<std::int32_t>(curves.size());
-    curves.push_back({object.name, object.points, -1});
+    curves.push_back({object.name, object.points, -1, -1});
     for (CurvePoint& point : curves.back().points) {
       point.position = point.position.cwiseProduct(object.spacing);
       if (!stays) point.position = placed(point.position, i, objects, byId);
@@ -325,14 +328,17 @@ CenterlineFile parseTre(std::string_view text, const std::string& name) {
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const auto parent = byId.find(objects[i].parent);
-    if (curveOf[i] >= 0 && parent != byId.end() && parent->second != i)
-      curves[std::size_t(curveOf[i])].parent = curveOf[parent->second];
+    if (curveOf[i] < 0 || parent == byId.end() || parent->second == i) continue;
+    CenterlineCurve& curve = curves[std::size_t(curveOf[i])];
+    curve.parent = curveOf[parent->second];
+    curve.parentPoint = objects[i].parentPoint;
   }
   if (curves.empty())
     throw invalidInput(shown + ": has no tube with points; expected ObjectType = Tube");
   CenterlineFile file = joinCurves(curves);
   file.unit = 1;
   file.axes = CenterlineAxes::Lps;
+  file.isOfLumen = text.substr(0, kTreHead).find(kOwnCenterline) != text.npos;
   if (others > 0)
     file.remarks.push_back(std::to_string(others) + " objects that are no tubes are left out");
   fillRadii(file, shown, "the column r of PointDim");

@@ -11,9 +11,9 @@
 namespace lumen::convert {
 
 /// The lines of a file as one tree (join_curves.h): lines from a root to every tip share their
-/// trunk; what vmtkbranchextractor has cut (CenterlineIds, TractIds) is put together first. Radii
+/// trunk, by their points or their course; what vmtkbranchextractor has cut (CenterlineIds, TractIds) is put together first. Radii
 /// are those of MaximumInscribedSphereRadius, or Radius; without either all are 0. The file says
-/// neither unit nor axes. Throws Error(InvalidInput) with `name`, what was found and what was
+/// neither unit nor axes, but in a comment of lumen's own files. Throws Error(InvalidInput) with `name`, what was found and what was
 /// expected.
 CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name);
 
