@@ -15,6 +15,8 @@ namespace {
 
 /// The fit is made for vessels of a few voxels in radius; so many the middle one of a tree gets.
 constexpr double kVoxelsOfRadius = 5;
+/// Of that radius: radii that are given have no noise to stop at.
+constexpr double kAccuracyOfRadius = 0.01;
 
 std::string unitText(double unit) {
   if (unit == 1) return "mm";
@@ -64,7 +66,9 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::Fit
   std::vector<float> radii = value.tree.radius;
   const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
-  return options.resolved(double{*middle} / kVoxelsOfRadius);
+  convert::FitOptions scaled = options;
+  if (!scaled.accuracy) scaled.accuracy = kAccuracyOfRadius * double{*middle};
+  return scaled.resolved(double{*middle} / kVoxelsOfRadius);
 }
 
 std::string centerlineInfoText(const LoadedCenterline& centerline) {

@@ -32,7 +32,7 @@ LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFor
                                 const CenterlineArguments& centerline, Progress& progress);
 
 /// Options for a case that has no voxels: what scales with them scales with a fifth of the tree's
-/// median radius.
+/// median radius, but for the accuracy, which is a hundredth of it.
 convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::FitOptions& options);
 
 /// The facts of `lumen info`.

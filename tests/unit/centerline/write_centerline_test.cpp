@@ -46,7 +46,7 @@ CenterlineTree exampleTree() {
   CenterlineTree tree;
   addBranch(tree, "ICA", formats::kNoParent, {0, 0, 0}, {0, 0, 1}, 12, 1.25F);
   addBranch(tree, "MCA left", 5, {0.75F, 0, 5.1F}, {1, 0, 0}, 8, 1.5F);
-  addBranch(tree, "ACA", 16, {4.75F, 0.9F, 5.1F}, {0, 0.8F, 0}, 6, 0.7F);
+  addBranch(tree, "ACA", 16, {4.75F, 0.8F, 5.1F}, {0, 0.8F, 0}, 6, 0.7F);
   addBranch(tree, "apart", formats::kNoParent, {50, 0, 0}, {0, 0, 1}, 3, 1.1F);
   return tree;
 }
