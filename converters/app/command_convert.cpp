@@ -10,6 +10,7 @@
 #include "converters/app/track_report.h"
 #include "converters/app/value_checks.h"
 #include "converters/fitting/fit.h"
+#include "converters/surface/cell_size.h"
 
 namespace lumen::app {
 
@@ -76,6 +77,10 @@ private:
     }
     if (from.kind == FormatKind::Centerline) {
       const auto loaded = loadCenterline(m_input, from, m_volume, m_centerline, progress);
+      // there is no voxel that a mesh could take its cells from
+      double& cell = m_outputOptions.polygonise.cell;
+      const double thinnest = convert::extentOf(loaded.file).least;
+      if (cell == 0 && thinnest > 0) cell = convert::coarsestCellFor(thinnest);
       return convert::caseOfCenterline(loaded.file, m_input);
     }
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);

@@ -68,6 +68,12 @@ TEST_F(CenterlineTest, APhantomIsDrawnOfWhatLumenWritesAsSwc) {
   EXPECT_EQ(drawn.code, 0) << drawn.err;
 }
 
+TEST_F(CenterlineTest, ATreeBecomesAMeshInOneCommand) {
+  const Outcome made = lumen({"convert", "tree.swc", "tree.glb"});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_TRUE(exists("tree.glb"));
+}
+
 TEST_F(CenterlineTest, CurvesOfAFolderAreOneTree) {
   ASSERT_EQ(lumen({"convert", "tree.swc", "tree.lumen"}).code, 0);
   ASSERT_EQ(lumen({"convert", "tree.lumen", "all.mrk.json"}).code, 0);
