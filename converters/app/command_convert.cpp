@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
+// lumen convert: a volume, tracked and fitted, a centerline, fitted, or a case, as a case, a mesh or a
+// centerline.
+#include "converters/app/centerline_input.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
 #include "converters/app/reachable.h"
@@ -9,6 +11,7 @@
 #include "converters/app/track_report.h"
 #include "converters/app/value_checks.h"
 #include "converters/fitting/fit.h"
+#include "converters/surface/cell_size.h"
 
 namespace lumen::app {
 
@@ -22,17 +25,23 @@ public:
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
-           "  lumen convert head.lumen head.glb --color radius";
+           "  lumen convert head.lumen head.glb --color radius\n"
+           "  lumen convert arteries.swc arteries.lumen";
   }
 
   void bind(CLI::App& app) override {
-    addFile(app, "INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + ") or case");
+    addFile(app, "INPUT", m_input,
+            "Volume (" + formatTitles(canReadVolume) + "), centerline (" +
+                formatTitles(canReadCenterline) + "; also a folder of curves) or case");
     addFile(app, "OUTPUT", m_output,
             "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of the " +
-                "vessels and no more, " + formatEndings(canWriteMesh));
+                "vessels and no more, " + formatEndings(canWriteMesh) +
+                "; or centerline, which holds the tree and its radii and no more, " +
+                formatEndings(canWriteCenterline));
     app.add_option("--from", m_from, "Format of INPUT, whatever its name")->type_name("F");
     app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
     addVolumeOptions(app, m_volume);
+    addCenterlineOptions(app, m_centerline);
     addTrackOptions(app, m_track);
     addFitOptions(app, m_fit);
     addMeshOptions(app, m_outputOptions);
@@ -69,6 +78,14 @@ private:
       return m_outputOptions.encoding.pointBits != 0 ? readParentCase(m_input)
                                                      : from.readCase(m_input);
     }
+    if (from.kind == FormatKind::Centerline) {
+      const auto loaded = loadCenterline(m_input, from, m_volume, m_centerline, progress);
+      // there is no voxel that a mesh could take its cells from
+      double& cell = m_outputOptions.polygonise.cell;
+      const double thinnest = convert::extentOf(loaded.file).least;
+      if (cell == 0 && thinnest > 0) cell = convert::coarsestCellFor(thinnest);
+      return convert::caseOfCenterline(loaded.file, m_input);
+    }
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
     convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
@@ -84,8 +101,9 @@ private:
       throw invalidInput(m_input +
                          ": this case has neither models nor wall points to fit them to, "
                          "so there is no surface to make a mesh of");
-    if (from.kind == FormatKind::Volume || meshNeedsModels)
-      convert::fit(value, m_fit.options(), progress);
+    const bool isNew = from.kind == FormatKind::Volume || from.kind == FormatKind::Centerline;
+    if (isNew || meshNeedsModels)
+      convert::fit(value, fitOptionsFor(value, m_fit.options()), progress);
   }
 
   void report(const formats::Case& value, const std::optional<Reach>& reach,
@@ -103,6 +121,7 @@ private:
 
   std::string m_input, m_output, m_from, m_to;
   VolumeArguments m_volume;
+  CenterlineArguments m_centerline;
   TrackArguments m_track;
   FitArguments m_fit;
   OutputOptions m_outputOptions;

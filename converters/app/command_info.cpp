@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen info: what is in a case, a volume or a mesh.
+// lumen info: what is in a case, a volume, a mesh or a centerline.
 #include "converters/app/case_info_report.h"
+#include "converters/app/centerline_input.h"
 #include "converters/app/chunk_info.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
@@ -18,23 +19,24 @@ class InfoCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "info"; }
   [[nodiscard]] std::string summary() const override {
-    return "Tell what a case, a volume or a mesh holds";
+    return "Tell what a case, a volume, a mesh or a centerline holds";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen info head.lumen --json | jq .radius_mm";
   }
 
   void bind(CLI::App& app) override {
-    addFile(app, "FILE", m_input, "Case, volume or mesh");
+    addFile(app, "FILE", m_input, "Case, volume, mesh or centerline");
     app.add_option("--from", m_from, "Format of FILE, whatever its name")->type_name("F");
     app.add_flag("--chunks", m_chunks, "List the chunks of a .lumen file instead");
     app.add_flag("--voxels", m_voxels,
                  "Read the voxels of a volume too, not its header only: range and digest");
     addVolumeOptions(app, m_volume);
+    addCenterlineOptions(app, m_centerline);
   }
 
   int run(Context& context) override {
-    requireInput(m_input, "case, volume or mesh");
+    requireInput(m_input, "case, volume, mesh or centerline");
     if (m_chunks) {
       const FileInfo info = describeChunks(m_input);
       context.common.json ? answerJson(chunkInfoJson(info)) : answer(chunkInfoText(info));
@@ -48,6 +50,11 @@ public:
       const MeshInfo info =
           describeMesh(from.readMesh(m_input), m_input, m_volume.unit, context.progress);
       context.common.json ? answerJson(meshInfoJson(info)) : answer(meshInfoText(info));
+    } else if (from.kind == FormatKind::Centerline) {
+      const LoadedCenterline loaded =
+          loadCenterline(m_input, from, m_volume, m_centerline, context.progress);
+      context.common.json ? answerJson(centerlineInfoJson(loaded))
+                          : answer(centerlineInfoText(loaded));
     } else {
       const formats::Case value = from.readCase(m_input);
       const CaseInfo info = describeCase(value, context.progress);
@@ -68,6 +75,7 @@ private:
   bool m_chunks = false;
   bool m_voxels = false;
   VolumeArguments m_volume;
+  CenterlineArguments m_centerline;
 };
 
 }  // namespace

@@ -46,7 +46,8 @@ std::pair<std::vector<std::byte>, formats::Case> readBoth(const fs::path& file) 
 
 /// Files that somebody made or measured are not replaced by files of another kind.
 bool isPrecious(ContentKind kind) {
-  return kind == ContentKind::Volume || kind == ContentKind::Seeds || kind == ContentKind::Case;
+  return kind == ContentKind::Volume || kind == ContentKind::Seeds || kind == ContentKind::Case ||
+         kind == ContentKind::Centerline;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLookedAt = 1 << 16;
+constexpr const char* kCurves = "a centerline (3D Slicer Markups)";
 
 struct Signature {
   std::size_t offset;
@@ -59,6 +60,7 @@ FileContent jsonContent(std::string_view text) {
   using enum ContentKind;
   const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
   if (has("\"lumen-seeds\"")) return {Seeds, "seeds"};
+  if (has("\"markups\"") && has("\"Curve\"") && has("\"Radius\"")) return {Centerline, kCurves};
   if (has("\"markups\"")) return {Seeds, "seeds (3D Slicer Markups)"};
   if (has("\"format\"") && has("\"lumen\"")) return {Case, "a case"};
   if (has("\"asset\"")) return {Mesh, "a mesh (glTF)"};
@@ -85,6 +87,8 @@ std::string useOf(ContentKind kind) {
       return "; --seeds takes seeds, beside the volume that they were clicked in";
     case Case:
       return "; lumen fit, convert, info, compare and validate take a case";
+    case Centerline:
+      return "; lumen convert makes a case of a centerline";
     case Mesh:
       return "; lumen info and lumen convert take a mesh";
     case Unknown:
@@ -92,6 +96,29 @@ std::string useOf(ContentKind kind) {
       break;
   }
   return "";
+}
+
+/// What VTK's XML is by the counts in its first tags.
+FileContent vtkContent(std::string_view text) {
+  using enum ContentKind;
+  const auto isZero = [text](std::string_view count) {
+    const auto at = text.find(count);
+    return at == text.npos || text.substr(at + count.size()).starts_with("=\"0\"");
+  };
+  if (text.find("\"PolyData\"") == text.npos) return {Other, "a VTK file"};
+  if (isZero("NumberOfPolys") && isZero("NumberOfStrips") && !isZero("NumberOfLines"))
+    return {Centerline, "a centerline (VTK)"};
+  return {Other, "a VTK file"};
+}
+
+/// What a file of MetaIO is by its first object.
+FileContent metaContent(std::string_view text) {
+  using enum ContentKind;
+  const std::string_view head = text.substr(0, text.find("Points ="));
+  const bool isImage = head.find("Image") != head.npos || head.find("ElementDataFile") != head.npos;
+  if (!isImage && (head.find("Tube") != head.npos || head.find("Scene") != head.npos))
+    return {Centerline, "a centerline (TubeTK)"};
+  return {Volume, "a volume (MetaImage)"};
 }
 
 std::string nounOf(ContentKind kind) {
@@ -103,6 +130,8 @@ std::string nounOf(ContentKind kind) {
       return "seeds";
     case Mesh:
       return "a mesh";
+    case Centerline:
+      return "a centerline";
     default:
       return "a case";
   }
@@ -122,7 +151,12 @@ FileContent contentOf(const fs::path& file) {
   for (const Signature& signature : signatures())
     if (view.size() > signature.offset &&
         view.substr(signature.offset).starts_with(signature.bytes))
-      return {signature.kind, signature.name};
+      return signature.bytes == "<VTKFile"     ? vtkContent(view)
+             : signature.bytes == "ObjectType" ? metaContent(view)
+                                               : FileContent{signature.kind, signature.name};
+  if (lowerCase(file.filename().string()).ends_with(".swc"))
+    return {Centerline, "a centerline (SWC)"};
+  if (view.starts_with("<?xml") && view.find("<VTKFile") != view.npos) return vtkContent(view);
   const auto first = view.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first != view.npos && view[first] == '{') return jsonContent(view);
   const bool packed = view.starts_with("\x1f\x8b");
@@ -134,6 +168,8 @@ FileContent contentOf(const fs::path& file) {
 std::string notA(ContentKind wanted, const fs::path& file) {
   const FileContent content = contentOf(file);
   if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
+  // a curve may be either
+  if (wanted == ContentKind::Seeds && content.name == kCurves) return "";
   return content.sentence() + ", not " + nounOf(wanted) + useOf(content.kind);
 }
 

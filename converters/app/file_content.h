@@ -8,7 +8,7 @@
 
 namespace lumen::app {
 
-enum class ContentKind : std::uint8_t { Unknown, Volume, Seeds, Case, Mesh, Other };
+enum class ContentKind : std::uint8_t { Unknown, Volume, Seeds, Case, Mesh, Centerline, Other };
 
 struct FileContent {
   ContentKind kind = ContentKind::Unknown;

@@ -5,8 +5,14 @@
 #include <system_error>
 
 #include "converters/app/file_access.h"
+#include "converters/app/loss_report.h"
 #include "converters/app/mesh_of_case.h"
 #include "converters/app/suggestion.h"
+#include "converters/centerline/read_curves.h"
+#include "converters/centerline/read_swc.h"
+#include "converters/centerline/read_tre.h"
+#include "converters/centerline/read_vtp.h"
+#include "converters/centerline/write_centerline.h"
 #include "converters/common/error.h"
 #include "converters/common/text.h"
 #include "converters/mesh/write_gltf.h"
@@ -80,6 +86,15 @@ std::optional<convert::SurfaceReport> writeMeshAs(const formats::Case& value, co
 constexpr auto kGlb = writeMeshAs<encodeGltf<true>, true>;
 constexpr auto kGltf = writeMeshAs<encodeGltf<false>, true>;
 constexpr auto kVtp = writeMeshAs<encodePlain<convert::encodeVtp>>;
+/// The writer of a centerline format: the case's tree, encoded.
+template <std::string (*encode)(const formats::CenterlineTree&)>
+std::optional<convert::SurfaceReport> writeTreeAs(const formats::Case& value, const fs::path& file,
+                                                  const OutputOptions&, Progress& progress) {
+  reportTreeLosses(value, file.string(), progress);
+  writeText(encode(value.tree), file);
+  return std::nullopt;
+}
+
 constexpr auto kObj = writeMeshAs<encodePlain<convert::encodeObj>>;
 constexpr auto kStl = writeMeshAs<encodeStl>;
 constexpr auto kPly = writeMeshAs<encodePlain<convert::encodePly>>;
@@ -107,6 +122,15 @@ std::vector<FileFormat> makeTable() {
        .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"},
        .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kPly},
+      // centerlines
+      {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc,
+       .writeCase = writeTreeAs<convert::encodeSwc>},
+      {.name = "tre", .title = "TubeTK", .kind = Centerline, .endings = {".tre"}, .readCenterline = convert::readTre,
+       .writeCase = writeTreeAs<convert::encodeTre>},
+      {.name = "centerline.vtp", .title = "VTK lines", .kind = Centerline, .endings = {".centerline.vtp"},
+       .readCenterline = convert::readVtpCenterline, .writeCase = writeTreeAs<convert::encodeVtpCenterline>},
+      {.name = "mrk.json", .title = "Slicer curves", .kind = Centerline, .endings = {".mrk.json"},
+       .readCenterline = convert::readCurves, .writeCase = writeTreeAs<convert::encodeCurves>},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
@@ -137,10 +161,18 @@ const FileFormat* findByName(std::string_view name) {
 }
 
 /// The format that a folder is read as.
-const FileFormat* findFolder() {
+const FileFormat* findFolder(const fs::path& folder) {
+  if (convert::hasCurves(folder)) return findByName("mrk.json");
   for (const FileFormat& format : fileFormats())
     if (format.endings.empty()) return &format;
   return nullptr;
+}
+
+/// The format of a file whose name may stand for several kinds.
+const FileFormat* findByContent(const fs::path& path) {
+  const FileContent content = contentOf(path);
+  const bool isVtk = lowerCase(path.extension().string()) == ".vtp";
+  return isVtk && content.kind == ContentKind::Centerline ? findByName("centerline.vtp") : nullptr;
 }
 
 const FileFormat* findByEnding(const fs::path& path) {
@@ -199,7 +231,7 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
 void refuseByContent(const fs::path& path) {
   const FileContent content = contentOf(path);
   if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case ||
-      content.kind == ContentKind::Mesh)
+      content.kind == ContentKind::Mesh || content.kind == ContentKind::Centerline)
     throw unsupported(path.string() + ": " + content.sentence() +
                       ", but its name does not say so; --from says it, which takes " +
                       formatNames(canRead));
@@ -229,6 +261,8 @@ ContentKind contentKind(const FileFormat& format) {
       return ContentKind::Volume;
     case FormatKind::Mesh:
       return ContentKind::Mesh;
+    case FormatKind::Centerline:
+      return ContentKind::Centerline;
     case FormatKind::Case:
       break;
   }
@@ -236,7 +270,8 @@ ContentKind contentKind(const FileFormat& format) {
 }
 
 bool canRead(const FileFormat& format) {
-  return format.readCase != nullptr || format.readVolume != nullptr || canReadMesh(format);
+  return format.readCase != nullptr || format.readVolume != nullptr || canReadMesh(format) ||
+         canReadCenterline(format);
 }
 
 bool canReadVolume(const FileFormat& format) {
@@ -245,6 +280,14 @@ bool canReadVolume(const FileFormat& format) {
 
 bool canReadMesh(const FileFormat& format) {
   return format.readMesh != nullptr;
+}
+
+bool canReadCenterline(const FileFormat& format) {
+  return format.readCenterline != nullptr;
+}
+
+bool canWriteCenterline(const FileFormat& format) {
+  return format.kind == FormatKind::Centerline && canWrite(format);
 }
 
 bool canWrite(const FileFormat& format) {
@@ -278,8 +321,9 @@ std::string formatTitles(FormatTest test) {
 const FileFormat& inputFormat(const fs::path& path, std::string_view override) {
   std::error_code ignored;
   const FileFormat* format = !override.empty()                 ? findByName(override)
-                             : fs::is_directory(path, ignored) ? findFolder()
-                                                               : findByEnding(path);
+                             : fs::is_directory(path, ignored) ? findFolder(path)
+                                                               : findByContent(path);
+  if (format == nullptr && override.empty()) format = findByEnding(path);
   if (override.empty() && (format == nullptr || !canRead(*format))) refuseByContent(path);
   return require(format, path, override, canRead, "read", "--from");
 }

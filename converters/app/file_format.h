@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "converters/app/file_content.h"
+#include "converters/centerline/centerline_file.h"
 #include "converters/common/progress.h"
 #include "converters/mesh/mesh_file.h"
 #include "converters/mesh/write_options.h"
@@ -21,7 +22,7 @@
 
 namespace lumen::app {
 
-enum class FormatKind { Volume, Case, Mesh };
+enum class FormatKind { Volume, Case, Mesh, Centerline };
 
 /// How a case is written; each format takes what concerns it.
 struct OutputOptions {
@@ -41,6 +42,7 @@ struct FileFormat {
   using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
                                                        const convert::ReadVolumeOptions&,
                                                        const Progress&);
+  using CenterlineReader = convert::CenterlineFile (*)(const std::filesystem::path&);
   using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
   /// What it returns is null unless a closed surface was made.
   using CaseWriter = std::optional<convert::SurfaceReport> (*)(const formats::Case&,
@@ -56,6 +58,7 @@ struct FileFormat {
   VolumeReader readVolume = nullptr;
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
   MeshReader readMesh = nullptr;
+  CenterlineReader readCenterline = nullptr;
   CaseWriter writeCase = nullptr;      ///< atomically
   VolumeWriter writeVolume = nullptr;  ///< atomically
 };
@@ -70,9 +73,11 @@ using FormatTest = bool (*)(const FileFormat&);
 bool canRead(const FileFormat& format);
 bool canReadVolume(const FileFormat& format);
 bool canReadMesh(const FileFormat& format);
+bool canReadCenterline(const FileFormat& format);
 bool canWrite(const FileFormat& format);  ///< a case, in whatever form
 bool canWriteCase(const FileFormat& format);
 bool canWriteMesh(const FileFormat& format);
+bool canWriteCenterline(const FileFormat& format);
 bool canWriteVolume(const FileFormat& format);
 
 /// The formats that pass `test`, for a sentence: names "lumen, lumen.json, obj", endings ".lumen,

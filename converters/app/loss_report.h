@@ -6,6 +6,7 @@
 
 #include "converters/common/progress.h"
 #include "converters/surface/polygonise.h"
+#include "formats/case/case.h"
 
 namespace lumen::app {
 
@@ -14,5 +15,8 @@ namespace lumen::app {
 /// surface and nothing else is no loss.
 void reportLosses(const convert::Patches& patches, const std::string& file, double cell,
                   Progress& progress);
+
+/// Warns of what a centerline file cannot hold of a case's tree: loops and sacs. `file` is its name.
+void reportTreeLosses(const formats::Case& value, const std::string& file, Progress& progress);
 
 }  // namespace lumen::app

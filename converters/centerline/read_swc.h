@@ -15,9 +15,11 @@ namespace lumen::convert {
 /// its parent or -1, with blanks or tabs in between; lines end with LF, CR LF or CR. What follows #,
 /// and columns beyond the seventh (as Vaa3D's), are passed over. Ids may have gaps, any order and
 /// any start, and may be written as 1.0; a parent may follow its children; there may be several
-/// roots. Points are in the file's order as far as parents come first. Throws Error(InvalidInput)
+/// roots. Points are in the file's order as far as parents come first. Radii of 0 or less
+/// are placeholders, and filled in (fill_radii.h); NeuroMorpho's files are in micrometres, and their
+/// soma of three points is one; comments of lumen's own files name vessels. Throws Error(InvalidInput)
 /// with the line, what was found and what was expected: of numbers that are none or not finite, of
-/// radii that are not positive, of ids that occur twice, of parents that are missing, and of
+/// trees without any radius, of ids that occur twice, of parents that are missing, and of
 /// cycles.
 CenterlineFile readSwc(const std::filesystem::path& file);
 

@@ -130,6 +130,10 @@ def make_cases(lumen, folder):
     for volume in ("a.nrrd", "a.nii.gz"):
         for voxels in ((), ("--voxels",)): go("info-volume.schema.json", "info", volume, *voxels)
     for mesh in ("mesh.ply", *sorted(map(str, (ROOT / "tests/data/mesh").glob("*")))): go("info-mesh.schema.json", "info", mesh)
+    for tree in ("a.swc", "a.tre", "a.centerline.vtp", "a.mrk.json"):
+        go("convert.schema.json", "convert", "truth.lumen", tree)
+        go("info-centerline.schema.json", "info", tree)
+    go("convert.schema.json", "convert", "a.swc", "given.lumen")
     for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
         go("info-case.schema.json", "info", case)
         if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")

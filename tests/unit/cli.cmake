@@ -2,6 +2,7 @@
 lumen_test(cli_test
   LIBS lumen_options lumen_terminal lumen_app lumen_case lumen::blob_static nlohmann_json::nlohmann_json
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/completion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/config_test.cpp
@@ -31,6 +32,13 @@ find_program(PYTHON NAMES python3)
 if(PYTHON AND NOT LUMEN_SANITIZE)
   add_test(NAME Install.GivesAProgramThatRunsWhereverItIs
     COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_install.py ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR})
+  execute_process(COMMAND ${PYTHON} -c "import vtkmodules" RESULT_VARIABLE no_vtk OUTPUT_QUIET ERROR_QUIET)
+  if(no_vtk)
+    message(STATUS "Python's VTK (python3-vtk9) not found: lumen's files are not opened with it")
+  else()
+    add_test(NAME Centerline.OpensInVtkWithTheArraysOfVmtk
+      COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_vtk_centerline.py $<TARGET_FILE:lumen>)
+  endif()
   execute_process(COMMAND ${PYTHON} -c "import jsonschema" RESULT_VARIABLE no_jsonschema OUTPUT_QUIET ERROR_QUIET)
   if(no_jsonschema)
     message(STATUS "Python's jsonschema not found: the JSON answers are not tested")

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// What holds of every centerline that a reader accepts.
+#pragma once
+
+#include "converters/centerline/centerline_file.h"
+
+namespace lumen::fuzz {
+
+/// Points, chains, and the case that is made of them if their radii allow one.
+void checkCenterline(convert::CenterlineFile file, bool hasRadii);
+
+}  // namespace lumen::fuzz

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is written reads back as the same tree, whatever the order of its nodes.
+#include "converters/centerline/write_centerline.h"
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "converters/centerline/case_of_centerline.h"
+#include "converters/centerline/read_curves.h"
+#include "converters/centerline/read_swc.h"
+#include "converters/centerline/read_tre.h"
+#include "converters/centerline/read_vtp.h"
+#include "converters/common/vtk_xml.h"
+
+namespace lumen::convert {
+namespace {
+
+using formats::CenterlineTree;
+
+void addBranch(CenterlineTree& tree, const char* label, std::int32_t parent, formats::Vec3f from,
+               formats::Vec3f step, int count, float radius) {
+  const auto first = static_cast<std::uint32_t>(tree.nodeCount());
+  for (int i = 0; i < count; ++i) {
+    const auto k = static_cast<float>(i);
+    tree.centre.push_back({from.x + k * step.x, from.y + k * step.y, from.z + k * step.z});
+    tree.direction.push_back(step);
+    tree.radius.push_back(radius + 0.01F * k);
+    tree.height.push_back(1);
+    tree.parent.push_back(i == 0 ? parent : static_cast<std::int32_t>(tree.nodeCount()) - 2);
+    tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
+  }
+  formats::Branch branch;
+  branch.label = label;
+  branch.parentNode = parent;
+  branch.firstNode = first;
+  branch.nodeCount = static_cast<std::uint32_t>(count);
+  tree.branches.push_back(branch);
+}
+
+/// A trunk along z; a child that is wider than what goes on; a child of that; and a tree apart.
+CenterlineTree exampleTree() {
+  CenterlineTree tree;
+  addBranch(tree, "ICA", formats::kNoParent, {0, 0, 0}, {0, 0, 1}, 12, 1.25F);
+  addBranch(tree, "MCA left", 5, {0.75F, 0, 5.1F}, {1, 0, 0}, 8, 1.5F);
+  addBranch(tree, "ACA", 16, {4.75F, 0.8F, 5.1F}, {0, 0.8F, 0}, 6, 0.7F);
+  addBranch(tree, "apart", formats::kNoParent, {50, 0, 0}, {0, 0, 1}, 3, 1.1F);
+  return tree;
+}
+
+using Node = std::tuple<float, float, float, float, float, float, float>;
+
+/// Each node's place and radius, and the place of its parent.
+std::multiset<Node> nodesOf(const CenterlineTree& tree) {
+  std::multiset<Node> nodes;
+  for (std::size_t n = 0; n < tree.nodeCount(); ++n) {
+    const formats::Vec3f& c = tree.centre[n];
+    const formats::Vec3f p =
+        tree.parent[n] < 0 ? formats::Vec3f{-1, -1, -1} : tree.centre[std::size_t(tree.parent[n])];
+    nodes.insert({c.x, c.y, c.z, tree.radius[n], p.x, p.y, p.z});
+  }
+  return nodes;
+}
+
+std::multiset<std::pair<std::string, std::uint32_t>> branchesOf(const CenterlineTree& tree,
+                                                                bool named) {
+  std::multiset<std::pair<std::string, std::uint32_t>> branches;
+  for (const formats::Branch& branch : tree.branches)
+    branches.insert({named ? branch.label : "", branch.nodeCount});
+  return branches;
+}
+
+void expectSame(CenterlineFile file, bool named) {
+  EXPECT_EQ(toPatientSpace(file, {}), 1);
+  EXPECT_TRUE(file.remarks.empty());
+  const CenterlineTree tree = exampleTree(), back = caseOfCenterline(file, "x").tree;
+  EXPECT_EQ(nodesOf(back), nodesOf(tree));
+  EXPECT_EQ(branchesOf(back, named), branchesOf(tree, named));
+}
+
+TEST(WriteCenterline, SwcReadsBackAsTheSameTree) {
+  expectSame(parseSwc(encodeSwc(exampleTree()), "x.swc"), true);
+}
+
+TEST(WriteCenterline, TubesReadBackAsTheSameTree) {
+  expectSame(parseTre(encodeTre(exampleTree()), "x.tre"), true);
+}
+
+TEST(WriteCenterline, LinesOfVtkReadBackAsTheSameTree) {
+  expectSame(parseVtpCenterline(encodeVtpCenterline(exampleTree()), "x.vtp"), false);
+}
+
+TEST(WriteCenterline, SlicersCurvesReadBackAsTheSameTree) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "write_centerline_test.mrk.json";
+  std::ofstream(file) << encodeCurves(exampleTree());
+  const CenterlineFile curves = readCurves(file);
+  std::filesystem::remove(file);
+  expectSame(curves, true);
+}
+
+TEST(WriteCenterline, TypesOfSwcSayForksAndEnds) {
+  const CenterlineFile file = parseSwc(encodeSwc(exampleTree()), "x.swc");
+  EXPECT_EQ(file.points[5].type, 5);
+  EXPECT_EQ(file.points[11].type, 6);
+  EXPECT_EQ(file.points[3].type, 0);
+}
+
+TEST(WriteCenterline, LinesHaveTheArraysOfVmtk) {
+  const std::string text = encodeVtpCenterline(exampleTree());
+  const std::array<std::string_view, 6> names = {"MaximumInscribedSphereRadius",
+                                                 "CenterlineIds",
+                                                 "TractIds",
+                                                 "GroupIds",
+                                                 "Blanking",
+                                                 "Branch"};
+  const VtkPolyData data = parseVtkXml(text, "x.vtp", names);
+  ASSERT_EQ(data.cellData.size(), 4U);
+  // four tips, each with its own way from a root
+  std::set<double> ways(data.cellArray("CenterlineIds")->values.begin(),
+                        data.cellArray("CenterlineIds")->values.end());
+  EXPECT_EQ(ways.size(), 4U);
+  const auto& group = data.cellArray("GroupIds")->values;
+  const auto& blanking = data.cellArray("Blanking")->values;
+  std::set<std::pair<double, double>> groups;
+  for (std::size_t cell = 0; cell < group.size(); ++cell)
+    groups.insert({group[cell], blanking[cell]});
+  // trunk before and behind the fork, child before and behind its own, grandchild, the tree apart;
+  // and two blanked ones
+  EXPECT_EQ(groups.size(), 8U);
+  EXPECT_EQ(
+      std::count_if(groups.begin(), groups.end(), [](const auto& g) { return g.second == 1; }), 2);
+  // consecutive tracts of a way meet
+  const auto& way = data.cellArray("CenterlineIds")->values;
+  for (std::size_t cell = 1; cell < data.lines.size(); ++cell)
+    if (way[cell] == way[cell - 1]) {
+      EXPECT_EQ(data.lines.point[data.lines.begin(cell)],
+                data.lines.point[data.lines.end[cell - 1] - 1]);
+    }
+}
+
+}  // namespace
+}  // namespace lumen::convert
