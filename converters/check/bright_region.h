@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "converters/check/lumen_voxels.h"
-#include "converters/check/voxel_set.h"
+#include "converters/volume/voxel_set.h"
 #include "converters/check/wall_offsets.h"
 #include "converters/common/progress.h"
 #include "converters/volume/volume.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "converters/check/skeleton.h"
-#include "converters/check/voxel_set.h"
+#include "converters/volume/voxel_set.h"
 #include "converters/common/vectors.h"
 
 namespace lumen::convert {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "converters/check/voxel_set.h"
+#include "converters/volume/voxel_set.h"
 #include "converters/common/progress.h"
 
 namespace lumen::convert {

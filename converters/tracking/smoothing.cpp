@@ -12,7 +12,7 @@
 
 #include "converters/common/random.h"
 #include "converters/common/statistics.h"
-#include "converters/tracking/icosphere.h"
+#include "converters/common/icosphere.h"
 
 namespace lumen::convert {
 namespace {
