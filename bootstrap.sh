@@ -20,7 +20,7 @@ packages=(
   libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libzstd-dev libpng-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libbenchmark-dev libcgal-dev
 )
 
 say() { printf '\n== %s\n' "$*"; }

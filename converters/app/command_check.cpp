@@ -259,9 +259,9 @@ public:
     requireInput(m_input, "volume");
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind != FormatKind::Volume)
-      throw unsupported(m_input +
-                        ": this is a case; lumen check takes the volume first, then the "
-                        "case");
+      throw unsupported(m_input + ": this is a " +
+                        (from.kind == FormatKind::Mesh ? "mesh" : "case") +
+                        "; lumen check takes the volume first, then the case");
     const FileFormat* mask =
         m_mask.empty() ? nullptr : &volumeOutputFormat(m_mask, "what --mask makes");
     checkOutputs(context);

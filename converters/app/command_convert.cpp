@@ -59,6 +59,8 @@ public:
 
 private:
   formats::Case load(const FileFormat& from, Progress& progress) {
+    if (from.kind == FormatKind::Mesh)
+      throw unsupported(m_input + ": this is a mesh, of which lumen convert makes no case");
     if (from.kind == FormatKind::Case) {
       if (!m_track.seeds.empty())
         progress.warn("--seeds is ignored: " + m_input + " is a case, already tracked");

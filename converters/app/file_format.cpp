@@ -16,6 +16,7 @@
 namespace lumen::app {
 
 namespace fs = std::filesystem;
+using convert::MeshFormat;
 using convert::VolumeFormat;
 
 namespace {
@@ -35,6 +36,11 @@ convert::VolumeHeader readHeaderAs(const fs::path& file, const convert::ReadVolu
 template <VolumeFormat format, bool compressed>
 void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
   convert::writeVolume(volume, file, format, compressed);
+}
+
+template <convert::MeshFormat format>
+convert::MeshFile readMeshAs(const fs::path& file) {
+  return convert::readMesh(file, format);
 }
 
 template <formats::CaseEncoding encoding>
@@ -81,11 +87,11 @@ std::vector<FileFormat> makeTable() {
       {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"},
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
       // meshes
-      {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .writeCase = writeMeshAs<encodeGlb>},
-      {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"}, .writeCase = writeMeshAs<encodeGltfText>},
-      {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"}, .writeCase = kObj},
-      {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .writeCase = kStl},
-      {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .writeCase = kPly},
+      {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"}, .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = writeMeshAs<encodeGlb>},
+      {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"}, .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = writeMeshAs<encodeGltfText>},
+      {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"}, .readMesh = readMeshAs<MeshFormat::Obj>, .writeCase = kObj},
+      {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kStl},
+      {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kPly},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
@@ -214,11 +220,15 @@ ContentKind contentKind(const FileFormat& format) {
 }
 
 bool canRead(const FileFormat& format) {
-  return format.readCase != nullptr || format.readVolume != nullptr;
+  return format.readCase != nullptr || format.readVolume != nullptr || canReadMesh(format);
 }
 
 bool canReadVolume(const FileFormat& format) {
   return format.readVolume != nullptr;
+}
+
+bool canReadMesh(const FileFormat& format) {
+  return format.readMesh != nullptr;
 }
 
 bool canWrite(const FileFormat& format) {

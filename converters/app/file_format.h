@@ -10,6 +10,7 @@
 
 #include "converters/app/file_content.h"
 #include "converters/common/progress.h"
+#include "converters/mesh/mesh_file.h"
 #include "converters/mesh/write_options.h"
 #include "converters/surface/polygonise.h"
 #include "converters/volume/read_volume.h"
@@ -36,6 +37,7 @@ struct FileFormat {
   using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
                                                        const convert::ReadVolumeOptions&,
                                                        const Progress&);
+  using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
   using CaseWriter = void (*)(const formats::Case&, const std::filesystem::path&,
                               const OutputOptions&, Progress&);
   using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
@@ -47,8 +49,9 @@ struct FileFormat {
   CaseReader readCase = nullptr;
   VolumeReader readVolume = nullptr;
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
-  CaseWriter writeCase = nullptr;                 ///< atomically
-  VolumeWriter writeVolume = nullptr;             ///< atomically
+  MeshReader readMesh = nullptr;
+  CaseWriter writeCase = nullptr;      ///< atomically
+  VolumeWriter writeVolume = nullptr;  ///< atomically
 };
 
 const std::vector<FileFormat>& fileFormats();
@@ -60,6 +63,7 @@ ContentKind contentKind(const FileFormat& format);
 using FormatTest = bool (*)(const FileFormat&);
 bool canRead(const FileFormat& format);
 bool canReadVolume(const FileFormat& format);
+bool canReadMesh(const FileFormat& format);
 bool canWrite(const FileFormat& format);  ///< a case, in whatever form
 bool canWriteCase(const FileFormat& format);
 bool canWriteMesh(const FileFormat& format);

@@ -30,16 +30,16 @@ struct FaceGroup {
 
 /// Triangles with what a case says of them. Arrays of vertices all have the size of `position`.
 struct SurfaceMesh {
-  std::vector<Float3> position;    ///< mm, LPS
-  std::vector<Float3> normal;      ///< unit, out of the lumen
-  std::vector<float> radius;       ///< of the vessel there, mm
-  std::vector<float> confidence;   ///< the inlier rate there, in [0, 1]; empty if unknown
+  std::vector<Float3> position;       ///< mm, LPS
+  std::vector<Float3> normal;         ///< unit, out of the lumen
+  std::vector<float> radius;          ///< of the vessel there, mm
+  std::vector<float> confidence;      ///< the inlier rate there, in [0, 1]; empty if unknown
   std::vector<std::uint32_t> branch;  ///< index into `labels`
 
-  std::vector<Triangle> triangle;      ///< indices of vertices, counter-clockwise seen from outside
-  std::vector<std::uint32_t> group;    ///< of each triangle: index into `groups`
+  std::vector<Triangle> triangle;    ///< indices of vertices, counter-clockwise seen from outside
+  std::vector<std::uint32_t> group;  ///< of each triangle: index into `groups`
   std::vector<FaceGroup> groups;
-  std::vector<std::string> labels;     ///< of the case's branches
+  std::vector<std::string> labels;  ///< of the case's branches
 };
 
 }  // namespace lumen::convert

@@ -27,7 +27,7 @@ struct CaseSurface {
   std::vector<std::uint32_t> node;   ///< of each vertex: at which a cursor on the surface is there
   std::vector<std::uint32_t> group;  ///< of each triangle: index into `groups`
   std::vector<FaceGroup> groups;
-  std::vector<SurfaceEnd> ends;      ///< in the order of their groups
+  std::vector<SurfaceEnd> ends;  ///< in the order of their groups
 };
 
 }  // namespace lumen::convert

@@ -27,8 +27,8 @@ struct SheetOptions {
 struct SheetSample {
   double distance = 0;  ///< to the surface, about, mm; negative inside
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
-  std::uint32_t node = 0;        ///< at which following the point ends
-  bool isSeparated = false;      ///< here the surface keeps off another vessel and is not f = T
+  std::uint32_t node = 0;                              ///< at which following the point ends
+  bool isSeparated = false;  ///< here the surface keeps off another vessel and is not f = T
 };
 
 /// The signed distance to the surface of a case, for a point reached along the tree (docs/method.md,

@@ -7,6 +7,15 @@ lumen_test(mesh_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_mesh_test.cpp)
 
+# CGAL, which is GPL, is only ever compared with. It is headers alone; its own CMake package would hide
+# OpenMesh's from what follows.
+lumen_test(self_intersections_test
+  LABELS threads
+  LIBS lumen_mesh gmp mpfr
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/self_intersections_test.cpp)
+target_compile_options(self_intersections_test PRIVATE -frounding-math)
+
 # The Khronos validator finds no error and no warning in our files. It needs `npm ci` in tests/gltf; without
 # it the test fails.
 add_executable(gltf_samples ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/gltf_samples.cpp)

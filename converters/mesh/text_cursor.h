@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words and numbers of a text, with the line that they stand in.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lumen::convert {
+
+/// Goes through a text once. Lines end with LF, CR LF or CR; words stand between blanks.
+class TextCursor {
+public:
+  /// `line` is the number of the first line.
+  TextCursor(std::string_view text, std::string name, std::size_t line = 1)
+      : m_text(text), m_name(std::move(name)), m_line(line) {}
+
+  /// The next word, of this line or a later one; empty at the end.
+  std::string_view word() {
+    skipSpace(true);
+    return take();
+  }
+  /// The next word of this line; empty if there is none.
+  std::string_view wordOfLine() {
+    skipSpace(false);
+    return take();
+  }
+  /// What is left of this line, without blanks around it, and behind its end.
+  std::string_view restOfLine();
+
+  /// The next word (of whichever line) as a number, finite or not; refuses what is none. `what` is
+  /// the subject of a sentence.
+  double number(const char* what) { return numberOf(word(), what); }
+  double numberOf(std::string_view word, const char* what) const;
+  /// The next word as a whole number from 0 to `largest`; of `counted` things there are so many.
+  std::uint64_t whole(const char* what, std::uint64_t largest);
+  std::uint64_t wholeOf(std::string_view word, const char* what, std::uint64_t largest) const;
+
+  [[nodiscard]] std::size_t line() const { return m_line; }
+  [[nodiscard]] std::size_t offset() const { return m_at; }
+  [[nodiscard]] std::size_t left() const { return m_text.size() - m_at; }
+  [[nodiscard]] std::string place() const { return "line " + std::to_string(m_line); }
+  [[nodiscard]] const std::string& name() const { return m_name; }
+  /// Moves on by bytes that are no text.
+  void skip(std::size_t bytes) { m_at += bytes; }
+
+  /// Throws Error(InvalidInput): "name: line N: what".
+  [[noreturn]] void refuse(const std::string& what) const;
+
+private:
+  void skipSpace(bool lines) {
+    while (m_at < m_text.size()) {
+      const char c = m_text[m_at];
+      if (c == '\n' || c == '\r') {
+        if (!lines) return;
+        endLine();
+      } else if (c == ' ' || c == '\t' || c == '\v' || c == '\f') {
+        ++m_at;
+      } else {
+        return;
+      }
+    }
+  }
+  // Steps over the end of a line that is here.
+  void endLine() {
+    if (m_text[m_at] == '\r' && m_at + 1 < m_text.size() && m_text[m_at + 1] == '\n') ++m_at;
+    ++m_at;
+    ++m_line;
+  }
+  std::string_view take() {
+    const std::size_t from = m_at;
+    while (m_at < m_text.size() && static_cast<unsigned char>(m_text[m_at]) > ' ') ++m_at;
+    // a control character that is no blank would never be stepped over
+    if (m_at == from && m_at < m_text.size() && m_text[m_at] != '\n' && m_text[m_at] != '\r')
+      ++m_at;
+    return m_text.substr(from, m_at - from);
+  }
+
+  std::string_view m_text;
+  std::string m_name;
+  std::size_t m_at = 0;
+  std::size_t m_line;
+};
+
+}  // namespace lumen::convert
