@@ -18,7 +18,7 @@ TEXT
 packages=(
   build-essential cmake ninja-build ccache git ca-certificates
   libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
-  libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libzstd-dev libpng-dev
+  libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libzstd-dev libpng-dev libexpat1-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   libgtest-dev libbenchmark-dev libcgal-dev
 )

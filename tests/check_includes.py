@@ -22,7 +22,7 @@ MAY_INCLUDE = {
 }
 FORMATS = ["formats/container", "formats/field", "formats/view", "formats/case"]
 MAY_INCLUDE["converters/common"] = FORMATS
-STAGES = {"volume": [], "seeds": ["volume"], "centerline": [], "tracking": ["seeds", "volume"], "fitting": [], "mesh": [], "surface": ["mesh"], "compare": [],
+STAGES = {"volume": [], "seeds": ["volume"], "centerline": ["seeds"], "tracking": ["seeds", "volume"], "fitting": [], "mesh": [], "surface": ["mesh"], "compare": [],
           "check": ["volume"], "phantom": ["seeds", "volume", "centerline"],
           "inside": ["volume", "centerline", "mesh"]}
 for stage, below in STAGES.items():

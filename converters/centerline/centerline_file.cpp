@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/centerline/centerline_file.h"
 
-#include <limits>
-#include <utility>
+#include <algorithm>
+#include <tuple>
 
 namespace lumen::convert {
 namespace {
@@ -54,12 +54,14 @@ Index Merged::next(Index point) const {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   if (before != kNoPoint) along = here.position - points[static_cast<std::size_t>(before)].position;
   Index best = kNoPoint;
-  std::pair<double, double> score{0, 0};  // radius, cosine of the turn
+  using Score = std::tuple<bool, double, double>;  // same vessel, radius, cosine of the turn
+  Score score;
   for (Index c = first[static_cast<std::size_t>(point)]; c != kNoPoint;
        c = beside[static_cast<std::size_t>(c)]) {
     const CenterlinePoint& child = points[static_cast<std::size_t>(c)];
-    const std::pair<double, double> scored{
-        child.radius, along.dot((child.position - here.position).normalized())};
+    if (here.vessel != kNoVessel && child.vessel != here.vessel) continue;
+    const Score scored{child.vessel == here.vessel, child.radius,
+                       along.dot((child.position - here.position).normalized())};
     if (best == kNoPoint || scored > score) {
       best = c;
       score = scored;
@@ -69,6 +71,11 @@ Index Merged::next(Index point) const {
 }
 
 }  // namespace
+
+std::size_t CenterlineFile::radiiMissing() const {
+  return static_cast<std::size_t>(std::count_if(
+      points.begin(), points.end(), [](const CenterlinePoint& p) { return !(p.radius > 0); }));
+}
 
 std::vector<CenterlineChain> chainsOf(const CenterlineFile& file) {
   const Merged merged(file);

@@ -2,8 +2,10 @@
 // A centerline as files of other programs hold it: points with radii that hang on one another.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,17 +13,28 @@
 namespace lumen::convert {
 
 constexpr std::int32_t kNoPoint = -1;
+constexpr std::int32_t kNoVessel = -1;
 
 struct CenterlinePoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the file's unit and axes, finite
-  double radius = 0;                                   ///< in the same unit, > 0
+  double radius = 0;                                   ///< in the same unit; 0: the file has none
   std::int32_t parent = kNoPoint;                      ///< index of a point before this one
   std::int32_t type = 0;                               ///< as the file says
+  std::int32_t vessel = kNoVessel;  ///< index of `vessels`, or kNoVessel where the file names none
 };
+
+enum class CenterlineAxes : std::uint8_t { Unknown, Lps, Ras };
 
 /// One or several trees. Parents come before their children.
 struct CenterlineFile {
   std::vector<CenterlinePoint> points;
+  std::vector<std::string> vessels;                ///< names, maybe empty or equal
+  std::vector<std::array<std::int32_t, 2>> links;  ///< points at which vessels close a loop
+  double unit = 0;                                 ///< mm; 0: the file does not say
+  CenterlineAxes axes = CenterlineAxes::Unknown;   ///< as the file says
+  std::vector<std::string> remarks;                ///< what was assumed or left out, sentences
+
+  [[nodiscard]] std::size_t radiiMissing() const;
 };
 
 /// A way without forks: what one vessel is.
@@ -33,9 +46,9 @@ struct CenterlineChain {
 };
 
 /// The trees of a file as chains, parents first. Points at the place of their parent are one with
-/// it. At a fork the widest child goes on as the same chain, of equals the one that turns least;
-/// the others begin chains of their own. Points at the place of a root that has no others are a
-/// chain of one point.
+/// it. At a fork the child of the same vessel goes on as the same chain; where the file names no
+/// vessels the widest child does, of equals the one that turns least; the others begin chains of
+/// their own. Points at the place of a root that has no others are a chain of one point.
 std::vector<CenterlineChain> chainsOf(const CenterlineFile& file);
 
 }  // namespace lumen::convert

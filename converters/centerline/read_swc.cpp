@@ -6,12 +6,15 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <functional>
+#include <map>
 #include <queue>
+#include <set>
 #include <system_error>
 #include <utility>
 
+#include "converters/centerline/fill_radii.h"
+#include "converters/centerline/read_text.h"
 #include "converters/common/error.h"
 #include "formats/container/printable.h"
 
@@ -20,7 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{64} << 20;
+constexpr double kMillimetresOfMicrometre = 1e-3;
+constexpr std::int32_t kSoma = 1;  // a type of SWC
+constexpr double kSomaRounding = 0.05;
 constexpr double kLargestId = 2147483647;
 constexpr double kLargestLength = 1e9;  // far beyond any unit that is meant
 constexpr std::size_t kShownBytes = 24;
@@ -51,6 +56,12 @@ public:
     return lines;
   }
 
+  /// Names of vessels by the id of their first point, as write_swc.h has them.
+  [[nodiscard]] const std::map<std::int32_t, std::string>& vessels() const { return m_vessels; }
+  /// What a comment says of the unit and the axes, of which SWC itself says nothing.
+  double unit = 0;
+  CenterlineAxes axes = CenterlineAxes::Unknown;
+
   [[noreturn]] void refuse(const std::string& what) const { refuseAt(m_number, what); }
   [[noreturn]] void refuseAt(std::size_t number, const std::string& what) const {
     throw invalidInput(m_name + ": line " + std::to_string(number) + ": " + what);
@@ -61,11 +72,29 @@ private:
   std::string_view nextLine() {
     const std::size_t end = std::min(m_text.find_first_of("\r\n"), m_text.size());
     const std::string_view line = m_text.substr(0, end);
+    const std::size_t comment = line.find('#');
+    if (comment != line.npos) readComment(line.substr(comment + 1));
     std::size_t next = end;
     if (next < m_text.size() && m_text[next] == '\r') ++next;
     if (next < m_text.size() && m_text[next] == '\n') ++next;
     m_text.remove_prefix(next);
-    return line.substr(0, line.find('#'));
+    return line.substr(0, comment);
+  }
+
+  void readComment(std::string_view text) {
+    if (text.find("NeuroMorpho") != text.npos) unit = kMillimetresOfMicrometre;
+    if (text.find("millimetres, LPS") != text.npos) {
+      unit = 1;
+      axes = CenterlineAxes::Lps;
+    }
+    constexpr std::string_view kVessel = " vessel ";
+    if (!text.starts_with(kVessel)) return;
+    text.remove_prefix(kVessel.size());
+    std::int32_t id = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+    const auto used = static_cast<std::size_t>(end - text.data());
+    if (error != std::errc{} || used + 1 >= text.size() || text[used] != ' ') return;
+    m_vessels[id] = text.substr(used + 1);
   }
 
   // The first is empty for an empty line.
@@ -122,8 +151,9 @@ private:
       line.point.position[static_cast<Eigen::Index>(a)] = value;
     }
     line.point.radius = numberOf(columns[5], 5);
-    if (!(line.point.radius > 0 && line.point.radius <= kLargestLength))
+    if (line.point.radius > kLargestLength)
       refuse(found(columns[5], 5) + "; expected a positive number up to 1e9");
+    if (line.point.radius < 0) line.point.radius = 0;  // a placeholder
     line.parent = wholeOf(columns[6], 6, -1);
     if (line.parent == line.id)
       refuse(found(columns[6], 6) + ", the point itself; expected another point, or -1 of a root");
@@ -133,6 +163,7 @@ private:
   std::string_view m_text;
   std::string m_name;
   std::size_t m_number = 0;
+  std::map<std::int32_t, std::string> m_vessels;
 };
 
 // For each line the index of its parent's, or kNoPoint. Refuses ids that occur twice and parents
@@ -162,6 +193,26 @@ std::vector<std::int32_t> parentsOf(const std::vector<Line>& lines, const Parser
     parents.back() = entry->second;
   }
   return parents;
+}
+
+// A neuron's body as NeuroMorpho has it: two points beside the first, as far away as it is wide,
+// from which nothing goes on. They would be vessels of no length. Returns how many are left out.
+std::size_t dropSomaHelpers(std::vector<Line>& lines) {
+  std::set<std::int32_t> parents;
+  for (const Line& line : lines) parents.insert(line.parent);
+  const auto root = std::find_if(lines.begin(), lines.end(), [](const Line& line) {
+    return line.parent == -1 && line.point.type == kSoma;
+  });
+  if (root == lines.end()) return 0;
+  const Line body = *root;
+  const auto isHelper = [&](const Line& line) {
+    if (line.parent != body.id || line.point.type != kSoma || parents.count(line.id) > 0)
+      return false;
+    const double way = (line.point.position - body.point.position).norm();
+    return std::abs(way - body.point.radius) <= kSomaRounding * body.point.radius;
+  };
+  if (std::count_if(lines.begin(), lines.end(), isHelper) != 2) return 0;
+  return std::erase_if(lines, isHelper);
 }
 
 // The index of a line that leads back to itself.
@@ -209,37 +260,41 @@ std::vector<std::int32_t> parentsFirst(const std::vector<Line>& lines,
 }  // namespace
 
 CenterlineFile parseSwc(std::string_view text, const std::string& name) {
-  Parser parser(text, formats::printable(name));
-  const std::vector<Line> lines = parser.lines();
+  const std::string shown = formats::printable(name);
+  Parser parser(text, shown);
+  std::vector<Line> lines = parser.lines();
+  CenterlineFile file;
+  file.unit = parser.unit;
+  file.axes = parser.axes;
+  if (file.unit == kMillimetresOfMicrometre)
+    file.remarks.push_back("its comments name NeuroMorpho, so lengths are micrometres");
+  const std::size_t soma = dropSomaHelpers(lines);
+  if (soma > 0) file.remarks.push_back("a soma of three points is taken as its first one");
   const std::vector<std::int32_t> parents = parentsOf(lines, parser);
   const std::vector<std::int32_t> order = parentsFirst(lines, parents, parser);
   std::vector<std::int32_t> place(lines.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     place[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
-  CenterlineFile file;
   file.points.reserve(lines.size());
   for (const std::int32_t index : order) {
     const auto i = static_cast<std::size_t>(index);
     file.points.push_back(lines[i].point);
-    if (parents[i] != kNoPoint)
-      file.points.back().parent = place[static_cast<std::size_t>(parents[i])];
+    CenterlinePoint& point = file.points.back();
+    if (parents[i] != kNoPoint) {
+      point.parent = place[static_cast<std::size_t>(parents[i])];
+      point.vessel = file.points[static_cast<std::size_t>(point.parent)].vessel;
+    }
+    const auto named = parser.vessels().find(lines[i].id);
+    if (named == parser.vessels().end()) continue;
+    point.vessel = static_cast<std::int32_t>(file.vessels.size());
+    file.vessels.push_back(named->second);
   }
+  fillRadii(file, shown, "one at some point at least (its sixth column)");
   return file;
 }
 
 CenterlineFile readSwc(const fs::path& file) {
-  const std::string name = formats::printable(file.string());
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  if (error) throw invalidInput(name + ": cannot be read (" + error.message() + ")");
-  if (size > kMaxBytes)
-    throw invalidInput(name + ": has " + std::to_string(size) +
-                       " bytes; expected at most 64 MiB of SWC");
-  std::string text(static_cast<std::size_t>(size), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream.read(text.data(), static_cast<std::streamsize>(size)))
-    throw invalidInput(name + ": cannot be read");
-  return parseSwc(text, file.string());
+  return parseSwc(readCenterlineText(file, "SWC"), file.string());
 }
 
 }  // namespace lumen::convert

@@ -107,10 +107,14 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"1 0 1e400 0 0 1 -1\n", "line 1: x is \"1e400\"; expected a number"},
         Refused{"1 0 +-1 0 0 1 -1\n", "line 1: x is \"+-1\"; expected a number"},
         Refused{"1 0 2e9 0 0 1 -1\n", "line 1: x is \"2e9\"; expected -1e9 to 1e9"},
+        Refused{"1 0 0 0 0 2e9 -1\n",
+                "line 1: the radius is \"2e9\"; expected a positive number up to 1e9"},
         Refused{"1 0 0 0 0 0 -1\n",
-                "line 1: the radius is \"0\"; expected a positive number up to 1e9"},
-        Refused{"1 0 0 0 0 -1 -1\n",
-                "line 1: the radius is \"-1\"; expected a positive number up to 1e9"},
+                "has no radius at any point of it; expected one at some point at least (its sixth "
+                "column)"},
+        Refused{"1 0 0 0 0 -1 -1\n2 0 1 1 1 1 -1\n",
+                "has no radius at any point of one of its trees; expected one at some point at "
+                "least (its sixth column)"},
         Refused{"1.5 0 0 0 0 1 -1\n",
                 "line 1: the id is \"1.5\"; expected a whole number from 0 to 2147483647"},
         Refused{"3000000000 0 0 0 0 1 -1\n",

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points, cells and arrays as VTK's files of polygonal data hold them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lumen {
+
+/// Cells of one kind. Indices of points are below the number of points.
+struct VtkCells {
+  std::vector<std::uint32_t> point;  ///< of all cells, one after the other
+  std::vector<std::uint32_t> end;    ///< of each cell, in `point`; ascending
+
+  [[nodiscard]] std::size_t size() const { return end.size(); }
+  [[nodiscard]] std::uint32_t begin(std::size_t cell) const { return cell ? end[cell - 1] : 0; }
+};
+
+/// Numbers for each point, or for each cell.
+struct VtkArray {
+  std::string name;
+  std::uint32_t components = 1;
+  std::vector<double> values;  ///< components after another; may hold what is not finite
+};
+
+/// Lengths and axes are the file's, which says neither. Values may be infinite or no numbers.
+/// Values of cells are in the order verts, lines, polys, strips.
+struct VtkPolyData {
+  std::vector<Eigen::Vector3d> position;
+  VtkCells verts, lines, polys, strips;
+  std::vector<VtkArray> pointData, cellData;
+
+  [[nodiscard]] const VtkArray* pointArray(std::string_view name) const;
+  [[nodiscard]] const VtkArray* cellArray(std::string_view name) const;
+};
+
+}  // namespace lumen
