@@ -2,6 +2,7 @@
 // lumen convert: a volume, tracked and fitted, or a case, as a case or a mesh.
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/mesh_input.h"
 #include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
@@ -17,15 +18,17 @@ class ConvertCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "convert"; }
   [[nodiscard]] std::string summary() const override {
-    return "Turn a volume, or a case, into a case or a mesh";
+    return "Turn a volume, a surface, or a case, into a case or a mesh";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
-           "  lumen convert head.lumen head.glb --draco";
+           "  lumen convert head.lumen head.glb --draco\n"
+           "  lumen convert aorta.stl aorta.lumen --centerline aorta-centerline.vtp";
   }
 
   void bind(CLI::App& app) override {
-    addFile(app, "INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + ") or case");
+    addFile(app, "INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
+                                 formatTitles(canReadMesh) + ") or case");
     addFile(app, "OUTPUT", m_output,
             "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of each " +
                 "branch and no more, " + formatEndings(canWriteMesh));
@@ -33,6 +36,7 @@ public:
     app.add_option("--to", m_to, "Format of OUTPUT, whatever its name")->type_name("F");
     addVolumeOptions(app, m_volume);
     addTrackOptions(app, m_track);
+    addCenterlineOptions(app, m_mesh);
     addFitOptions(app, m_fit);
     addMeshOptions(app, m_outputOptions);
     addEncodingOptions(app, m_outputOptions.encoding);
@@ -60,7 +64,7 @@ public:
 private:
   formats::Case load(const FileFormat& from, Progress& progress) {
     if (from.kind == FormatKind::Mesh)
-      throw unsupported(m_input + ": this is a mesh, of which lumen convert makes no case");
+      return caseOfMeshFile(m_input, from, meshArguments(), progress);
     if (from.kind == FormatKind::Case) {
       if (!m_track.seeds.empty())
         progress.warn("--seeds is ignored: " + m_input + " is a case, already tracked");
@@ -74,7 +78,13 @@ private:
     return std::move(tracked.result);
   }
 
-  /// A tracked volume gets its models; so does a case that has none when they are needed for a
+  [[nodiscard]] MeshArguments meshArguments() const {
+    MeshArguments arguments = m_mesh;
+    arguments.unit = m_volume.unit;
+    return arguments;
+  }
+
+  /// A tracked volume gets its models, and so does a mesh; so does a case that has none when they are needed for a
   /// mesh.
   void complete(formats::Case& value, const FileFormat& from, const FileFormat& to,
                 Progress& progress) {
@@ -83,7 +93,7 @@ private:
       throw invalidInput(m_input +
                          ": this case has neither models nor wall points to fit them to, "
                          "so there is no surface to make a mesh of");
-    if (from.kind == FormatKind::Volume || meshNeedsModels)
+    if (from.kind == FormatKind::Volume || from.kind == FormatKind::Mesh || meshNeedsModels)
       convert::fit(value, m_fit.options(), progress);
   }
 
@@ -102,6 +112,7 @@ private:
   VolumeArguments m_volume;
   TrackArguments m_track;
   FitArguments m_fit;
+  MeshArguments m_mesh;
   OutputOptions m_outputOptions;
   std::vector<convert::SeedBranch> m_seeds;
   convert::TrackRemarks m_remarks;

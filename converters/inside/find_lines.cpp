@@ -31,7 +31,7 @@ public:
         m_set(grid, insideVoxels(lumen.surface().mesh, grid, progress)),
         m_depths(m_set.size()),
         m_isOpen([&lumen](const Vector3d& a, const Vector3d& b) { return lumen.tree().isFree(a, b); }),
-        m_ways((measure(progress), m_set), m_depths, m_isOpen),
+        m_ways((measure(progress), m_set), m_depths, m_isOpen, progress),
         m_progress(progress) {}
 
   VesselLines find() {
@@ -40,14 +40,13 @@ public:
     std::size_t small = 0;
     for (std::uint32_t i = 0; i < m_set.size(); ++i) {
       if (isSeen[i]) continue;
-      const std::uint32_t far = m_ways.farthest(i, m_progress);
-      const std::vector<std::uint32_t> part = m_ways.part();
+      const std::vector<std::uint32_t> part = m_ways.partOf(i);
       for (const std::uint32_t j : part) isSeen[j] = true;
       if (part.size() < kLeastPart) {
         ++small;
         continue;
       }
-      addPart(rootOf(atEnd, part, far));
+      addPart(rootOf(atEnd, part));
     }
     if (small > 0)
       m_out.notes.push_back(std::to_string(small) + " part" + (small == 1 ? "" : "s") +
@@ -95,9 +94,9 @@ private:
     return out;
   }
 
-  /// Where the widest vessel of a part comes in; `far` is one of its tips.
+  /// Where the widest vessel of a part comes in.
   std::uint32_t rootOf(const std::vector<std::uint32_t>& atEnd,
-                       const std::vector<std::uint32_t>& part, std::uint32_t far) {
+                       const std::vector<std::uint32_t>& part) {
     std::vector<std::uint32_t> sorted = part;
     std::sort(sorted.begin(), sorted.end());
     std::uint32_t best = kNone;
@@ -109,6 +108,7 @@ private:
         best = atEnd[e];
       }
     if (best != kNone) return best;
+    const std::uint32_t far = m_ways.farthest(part.front(), m_progress);
     const std::vector<VesselWay> ways = m_ways.find(far, m_progress);
     for (const VesselWay& way : ways) {
       if (way.isSac || way.meets != kNone) continue;

@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTaper = 0.5;         // of the way: as fast as a line may get thinner
+constexpr double kNarrowest = 0.1;     // of the median: a line's point that lies at the wall by mistake
 constexpr int kRounds = 4;            // of centring
 constexpr int kSmoothings = 3;        // passes in each
 constexpr int kRays = 24;             // of a section
@@ -100,10 +101,10 @@ std::pair<double, std::size_t> distanceTo(std::span<const Vector3d> line, const 
 std::vector<double> widthsAlong(std::span<const Vector3d> line, const LumenGeometry& lumen) {
   const std::vector<double> at = lengthsAlong(line);
   std::vector<double> widths(line.size());
-  const double least = 1e-6 * (1 + at.back());
-  tbb::parallel_for(std::size_t{0}, line.size(), [&](std::size_t i) {
-    widths[i] = std::max(lumen.depth(line[i]), least);
-  });
+  tbb::parallel_for(std::size_t{0}, line.size(),
+                    [&](std::size_t i) { widths[i] = lumen.depth(line[i]); });
+  const double least = std::max(kNarrowest * median(widths), 1e-4 * at.back());
+  for (double& width : widths) width = std::max(width, least);
   // from either end: a point is at least as wide as the one before less half the way from it
   for (std::size_t i = 1; i < widths.size(); ++i)
     widths[i] = std::max(widths[i], widths[i - 1] - kTaper * (at[i] - at[i - 1]));

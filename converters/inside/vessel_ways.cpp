@@ -7,6 +7,8 @@
 #include <queue>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 namespace lumen::convert {
 namespace {
 
@@ -28,16 +30,47 @@ constexpr std::size_t kCheckEvery = 1 << 14;
 
 }  // namespace
 
-VesselWays::VesselWays(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen)
+VesselWays::VesselWays(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen,
+                       const Progress& progress)
     : m_set(set),
       m_depths(depths),
       m_isOpen(isOpen),
+      m_steps(kMostSteps * set.size(), kNoStep),
       m_cost(set.size(), kFar),
       m_length(set.size()),
       m_from(set.size(), kNone),
       m_cover(set.size(), kFree),
       m_way(set.size(), kNone),
-      m_place(set.size()) {}
+      m_place(set.size()) {
+  for (std::size_t axes = 1; axes < 4; ++axes)
+    m_lengthOf[axes] =
+        static_cast<float>(set.geometry().voxelSize() * std::sqrt(static_cast<double>(axes)));
+  findSteps(progress);
+}
+
+void VesselWays::findSteps(const Progress& progress) {
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()), [&](std::uint32_t i) {
+    if (i % 1024 == 0) progress.check();
+    std::size_t next = kMostSteps * i;
+    m_set.eachBeside(i, [&](std::uint32_t j, const Eigen::Vector3d& way) {
+      if (!isOpen(std::min(i, j), std::max(i, j))) return;
+      const auto axes = static_cast<std::uint32_t>((way.array() != 0).count());
+      m_steps[next++] = axes << kAxesShift | j;
+    });
+  });
+}
+
+std::vector<std::uint32_t> VesselWays::partOf(std::uint32_t voxel) const {
+  std::vector<std::uint32_t> part(1, voxel);
+  std::vector<bool> isSeen(m_set.size(), false);
+  isSeen[voxel] = true;
+  for (std::size_t k = 0; k < part.size(); ++k)
+    eachStep(part[k], [&](std::uint32_t j, float) {
+      if (!isSeen[j]) part.push_back(j);
+      isSeen[j] = true;
+    });
+  return part;
+}
 
 // Balls that meet leave no room for a wall between their centres.
 bool VesselWays::isOpen(std::uint32_t i, std::uint32_t j) const {
@@ -50,7 +83,7 @@ void VesselWays::spread(std::uint32_t root, const Progress& progress) {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (const std::uint32_t i : m_part) m_cost[i] = kFar;
   m_part.clear();
-  const double unit = m_set.geometry().voxelSize();
+  const auto unit = static_cast<float>(m_set.geometry().voxelSize());
   m_cost[root] = 0;
   m_length[root] = 0;
   m_from[root] = kNone;
@@ -61,11 +94,10 @@ void VesselWays::spread(std::uint32_t root, const Progress& progress) {
     if (cost > m_cost[i]) continue;
     m_part.push_back(i);
     if (steps % kCheckEvery == 0) progress.check();
-    m_set.eachBeside(i, [&, here = i, so = cost](std::uint32_t j, const Eigen::Vector3d& way) {
-      const auto depth = static_cast<float>(m_depths[j] / unit + 0.25);  // 0 at the wall
-      const auto length = static_cast<float>(way.norm());
+    eachStep(i, [&, here = i, so = cost](std::uint32_t j, float length) {
+      const float depth = m_depths[j] / unit + 0.25F;  // 0 at the wall
       const float price = so + length / (depth * depth * depth * depth);
-      if (!(price < m_cost[j]) || !isOpen(here, j)) return;
+      if (!(price < m_cost[j])) return;
       m_cost[j] = price;
       m_length[j] = m_length[here] + length;
       m_from[j] = here;
@@ -169,7 +201,9 @@ std::vector<VesselWay> VesselWays::find(std::uint32_t root, const Progress& prog
     if (m_cover[tip] != kFree) continue;
     progress.check();
     VesselWay way = wayTo(tip);
-    if (!isVessel(way)) {  // a corner: only what is around its tip has been looked at
+    if (!isVessel(way)) {  // a corner or a bump, which other tips are in, too
+      for (const std::uint32_t i : way.voxels)
+        if (m_cover[i] != kInBall) coverAround(i, false);
       coverAround(tip, false);
       continue;
     }

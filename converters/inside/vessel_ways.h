@@ -2,6 +2,8 @@
 // The vessels of a set of voxels as ways that hang on one another.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -30,24 +32,38 @@ struct VesselWay {
 /// depth, from the farthest voxel that is not yet covered back to what is there.
 class VesselWays {
 public:
-  /// All must stay. `depths`: mm from each voxel to the wall, which isOpen(a, b) says is not between
-  /// two places.
+  /// All must stay. The voxels are cubes; `depths`: mm from each to the wall, which isOpen(a, b) says
+  /// is not between two places. Throws Error(Cancelled).
   using IsOpen = std::function<bool(const Eigen::Vector3d&, const Eigen::Vector3d&)>;
-  VesselWays(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen);
+  VesselWays(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen,
+             const Progress& progress);
 
   /// The connected part of `root`: the first way begins there. A way is kept if what of it lies outside
   /// of the balls of those before it is longer than it is wide; or if it widens behind a neck by a
   /// fifth, as a sac does. Throws Error(Cancelled).
   std::vector<VesselWay> find(std::uint32_t root, const Progress& progress);
 
-  /// Voxels of the part that find() was last asked for.
-  [[nodiscard]] const std::vector<std::uint32_t>& part() const { return m_part; }
+  /// The connected part of a voxel, itself first.
+  [[nodiscard]] std::vector<std::uint32_t> partOf(std::uint32_t voxel) const;
 
   /// The voxel of the part of `from` that is the farthest from it.
   std::uint32_t farthest(std::uint32_t from, const Progress& progress);
 
 private:
   enum Cover : std::uint8_t { kFree = 0, kNear = 1, kInBall = 2 };
+  /// A voxel that shares a corner with another, with no wall in between; in the upper two bits the
+  /// number of axes along which it lies beside it.
+  using Step = std::uint32_t;
+  static constexpr std::size_t kMostSteps = 26;
+  static constexpr Step kNoStep = 0;
+  static constexpr int kAxesShift = 30;
+  static std::uint32_t voxelOf(Step step) { return step & ((1U << kAxesShift) - 1); }
+  template <class Visit>
+  void eachStep(std::uint32_t i, Visit&& visit) const {
+    for (std::size_t k = kMostSteps * i; k < kMostSteps * (i + 1) && m_steps[k] != kNoStep; ++k)
+      visit(voxelOf(m_steps[k]), m_lengthOf[m_steps[k] >> kAxesShift]);
+  }
+  void findSteps(const Progress& progress);
   void spread(std::uint32_t root, const Progress& progress);
   [[nodiscard]] VesselWay wayTo(std::uint32_t tip) const;
   [[nodiscard]] bool isVessel(VesselWay& way) const;
@@ -59,6 +75,8 @@ private:
   const VoxelSet& m_set;
   std::span<const float> m_depths;
   const IsOpen& m_isOpen;
+  std::vector<Step> m_steps;            ///< kMostSteps for each voxel, kNoStep behind the last
+  std::array<float, 4> m_lengthOf{};    ///< mm of a step along 1, 2 or 3 axes
   std::vector<float> m_cost, m_length;  ///< from the root
   std::vector<std::uint32_t> m_from;    ///< the voxel before it on its way from the root
   std::vector<std::uint8_t> m_cover;
