@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kVoxelsAcross = 4;      // of the least width
-constexpr double kMostVoxels = 1e5;      // inside
+constexpr double kMostVoxels = 3e5;      // inside
 constexpr int kMostAlong = 2048;         // an axis of the grid
 constexpr std::size_t kMostRays = 20000;
 constexpr double kNarrowShare = 0.02;    // of the length that may be narrower

@@ -17,7 +17,7 @@ namespace lumen::convert {
 /// stands for the length of vessel that its triangle goes round.
 double leastWidth(const ClosedMesh& surface, const TriangleTree& tree);
 
-/// A grid for the inside of a surface: four voxels to `width`, but no more than a hundred thousand inside
+/// A grid for the inside of a surface: four voxels to `width`, but no more than three hundred thousand inside
 /// and 2048 along an axis.
 VolumeGeometry insideGrid(const ClosedMesh& surface, double width);
 

@@ -81,7 +81,10 @@ bool VesselWays::isOpen(std::uint32_t i, std::uint32_t j) const {
 void VesselWays::spread(std::uint32_t root, const Progress& progress) {
   using Entry = std::pair<float, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (const std::uint32_t i : m_part) m_cost[i] = kFar;
+  for (const std::uint32_t i : m_part) {
+    m_cost[i] = kFar;
+    m_way[i] = kNone;
+  }
   m_part.clear();
   const auto unit = static_cast<float>(m_set.geometry().voxelSize());
   m_cost[root] = 0;
@@ -155,8 +158,10 @@ void VesselWays::findLoop(VesselWay& way) const {
     if (across > kCoverDepths * static_cast<double>(m_depths[j]) + (kCoverVoxels + 2) * unit) return;
     // both ways back to where they part
     std::uint32_t a = tip, b = j;
-    for (std::size_t k = 0; a != b && k < 2 * m_part.size(); ++k)
-      (m_length[a] >= m_length[b] ? a : b) = m_from[m_length[a] >= m_length[b] ? a : b];
+    while (a != b && a != kNone && b != kNone) {
+      std::uint32_t& later = m_length[a] >= m_length[b] ? a : b;
+      later = m_from[later];
+    }
     if (a != b || a == kNone) return;
     const double round = m_length[tip] + m_length[j] - 2 * static_cast<double>(m_length[a]);
     const double wide = static_cast<double>(m_depths[tip] + m_depths[j]);

@@ -124,7 +124,8 @@ void TriangleTree::eachOnRay(const Vector3d& origin, const Vector3d& direction, 
   while (depth > 0) {
     const std::uint32_t i = stack[--depth];
     const Box& box = m_boxes[i];
-    if (entry(box.low, box.high, origin, direction) > most) continue;
+    const double from = entry(box.low, box.high, origin, direction);
+    if (from == kFar || from > most) continue;
     if (box.right == 0) {
       for (std::uint32_t k = box.first; k < box.last; ++k) {
         const std::uint32_t t = m_order[k];
