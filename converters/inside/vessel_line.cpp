@@ -19,6 +19,7 @@ using Eigen::Vector3d;
 
 constexpr double kTaper = 0.5;         // of the way: as fast as a line may get thinner
 constexpr double kNarrowest = 0.1;     // of the median: a line's point that lies at the wall by mistake
+constexpr int kLooks = 3;             // for the width behind a tip
 constexpr int kRounds = 4;            // of centring
 constexpr int kSmoothings = 3;        // passes in each
 constexpr int kRays = 24;             // of a section
@@ -174,11 +175,17 @@ void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lum
 void trim(VesselLine& line, bool atStart, const LumenGeometry& lumen) {
   std::vector<Vector3d>& point = line.point;
   if (atStart) std::reverse(point.begin(), point.end());
-  double way = 0;
-  while (point.size() > 2 && way < lumen.depth(point.back())) {
-    way += (point[point.size() - 1] - point[point.size() - 2]).norm();
-    point.pop_back();
-  }
+  std::reverse(point.begin(), point.end());  // the tip first
+  const std::vector<double> at = lengthsAlong(point);
+  // a tip may lie in a corner: how wide the vessel is shows a little farther in
+  double depth = lumen.depth(point.front());
+  for (int look = 0; look < kLooks; ++look)
+    for (std::size_t i = 1; i < point.size() && (i < 4 || at[i] <= 2 * depth); ++i)
+      depth = std::max(depth, lumen.depth(point[i]));
+  std::size_t first = 0;
+  while (first + 2 < point.size() && at[first] < depth) ++first;
+  point.erase(point.begin(), point.begin() + static_cast<std::ptrdiff_t>(first));
+  std::reverse(point.begin(), point.end());
   if (atStart) std::reverse(point.begin(), point.end());
 }
 
