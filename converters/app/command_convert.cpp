@@ -27,8 +27,9 @@ public:
   }
 
   void bind(CLI::App& app) override {
-    addFile(app, "INPUT", m_input, "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
-                                 formatTitles(canReadMesh) + ") or case");
+    addFile(app, "INPUT", m_input,
+            "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
+                formatTitles(canReadMesh) + ") or case");
     addFile(app, "OUTPUT", m_output,
             "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of each " +
                 "branch and no more, " + formatEndings(canWriteMesh));

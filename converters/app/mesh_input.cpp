@@ -35,8 +35,7 @@ double millimetresIn(const std::string& unit) {
 convert::CenterlineFile readCenterline(const fs::path& file) {
   const std::string name = lowerCase(file.filename().string());
   std::error_code ignored;
-  if (fs::is_directory(file, ignored) || name.ends_with(".json"))
-    return convert::readCurves(file);
+  if (fs::is_directory(file, ignored) || name.ends_with(".json")) return convert::readCurves(file);
   if (name.ends_with(".swc")) return convert::readSwc(file);
   if (name.ends_with(".tre")) return convert::readTre(file);
   if (name.ends_with(".vtp")) return convert::readVtpCenterline(file);

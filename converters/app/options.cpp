@@ -136,7 +136,8 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->join(',')
       ->check(oneOrThreeIn({0, kLongest, true}));
   app.add_option("--unit", volume.unit,
-                 "Unit of the lengths in a volume's header or of a mesh: mm, cm, m or um, whatever the file says")
+                 "Unit of the lengths in a volume's header or of a mesh: mm, cm, m or um, whatever "
+                 "the file says")
       ->type_name("UNIT")
       ->group("Volume")
       ->check(oneOf(wordsOf(kMillimetresOf)));
@@ -236,13 +237,15 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
 }
 
 void addCenterlineOptions(CLI::App& app, MeshArguments& mesh) {
-  addFile(app, "--centerline", mesh.centerline,
-          "Where the vessels of a mesh run: .vtp with VMTK's arrays, .swc, .tre or curves of 3D Slicer "
-          "(.mrk.json, or a folder of them) [found inside of the mesh]")
+  addFile(
+      app, "--centerline", mesh.centerline,
+      "Where the vessels of a mesh run: .vtp with VMTK's arrays, .swc, .tre or curves of 3D Slicer "
+      "(.mrk.json, or a folder of them) [found inside of the mesh]")
       ->group("Surface");
-  app.add_option("--centerline-frame", mesh.centerlineFrame,
-                 "Axes of --centerline: lps, or ras, whose x and y are negated [as its file says, or "
-                 "those of the mesh]")
+  app.add_option(
+         "--centerline-frame", mesh.centerlineFrame,
+         "Axes of --centerline: lps, or ras, whose x and y are negated [as its file says, or "
+         "those of the mesh]")
       ->type_name("FRAME")
       ->group("Surface")
       ->check(oneOf(std::vector<std::string>{"lps", "ras"}));

@@ -42,7 +42,8 @@ bool isThickWall(const ClosedMesh& surface, const TriangleTree& tree) {
   double all = 0, facing = 0;
   for (std::size_t t = 0; t < surface.mesh.triangle.size(); t += stride) {
     const Triangle& corners = surface.mesh.triangle[t];
-    const Eigen::Vector3d a = position[corners[0]], b = position[corners[1]], c = position[corners[2]];
+    const Eigen::Vector3d a = position[corners[0]], b = position[corners[1]],
+                          c = position[corners[2]];
     const double area = (b - a).cross(c - a).norm();
     const auto hit = tree.firstHit((a + b + c) / 3, tree.normal(static_cast<std::uint32_t>(t)),
                                    1e-6 * std::sqrt(area));
@@ -64,12 +65,14 @@ MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
     throw invalidInput(name + ": this surface has no wall of a vessel, only flat ends");
   const LumenGeometry lumen(surface);
   if (isThickWall(surface, lumen.tree()))
-    throw invalidInput(name + ": this is the surface of a wall that has a thickness, inner and outer side "
-                              "in one; expected the surface of the lumen, which is its inner side alone");
+    throw invalidInput(name +
+                       ": this is the surface of a wall that has a thickness, inner and outer side "
+                       "in one; expected the surface of the lumen, which is its inner side alone");
   const double width = leastWidth(surface, lumen.tree());
   if (!(width > 0))
-    throw invalidInput(name + ": no ray from this surface's wall meets the wall on the other side; "
-                              "it encloses no vessel");
+    throw invalidInput(name +
+                       ": no ray from this surface's wall meets the wall on the other side; "
+                       "it encloses no vessel");
   const VolumeGeometry grid = insideGrid(surface, width);
   progress.begin("tree", 0);
   VesselLines lines = centerline ? linesOf(centerline->file, centerline->name, lumen)

@@ -123,7 +123,8 @@ std::vector<std::array<std::uint32_t, 3>> besides(const TriangleMesh& mesh) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = mesh.triangle[edge.triangle][i],
                           b = mesh.triangle[edge.triangle][(i + 1) % 3];
-      if (std::min(a, b) == edge.low && std::max(a, b) == edge.high) beside[edge.triangle][i] = other;
+      if (std::min(a, b) == edge.low && std::max(a, b) == edge.high)
+        beside[edge.triangle][i] = other;
     }
   };
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
@@ -139,7 +140,8 @@ class FlatEnds {
 public:
   explicit FlatEnds(ClosedMesh& out)
       : m_out(out), m_beside(besides(out.mesh)), m_isSeen(out.mesh.triangle.size(), false) {
-    for (const Triangle& t : out.mesh.triangle) m_normal.push_back(areaVector(out.mesh, t).normalized());
+    for (const Triangle& t : out.mesh.triangle)
+      m_normal.push_back(areaVector(out.mesh, t).normalized());
   }
 
   void find() {

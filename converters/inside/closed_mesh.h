@@ -14,9 +14,9 @@ namespace lumen::convert {
 
 /// A flat end of a vessel: an opening that was closed, or a cap that the surface has.
 struct MeshEnd {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of its area, mm
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< of its area, mm
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, out of the vessel
-  double radius = 0;                                 ///< of the disc of its area, mm
+  double radius = 0;                                  ///< of the disc of its area, mm
   bool wasOpen = false;
 };
 

@@ -30,7 +30,8 @@ public:
       : m_lumen(lumen),
         m_set(grid, insideVoxels(lumen.surface().mesh, grid, progress)),
         m_depths(m_set.size()),
-        m_isOpen([&lumen](const Vector3d& a, const Vector3d& b) { return lumen.tree().isFree(a, b); }),
+        m_isOpen(
+            [&lumen](const Vector3d& a, const Vector3d& b) { return lumen.tree().isFree(a, b); }),
         m_ways((measure(progress), m_set), m_depths, m_isOpen, progress),
         m_progress(progress) {}
 
@@ -59,12 +60,11 @@ public:
 private:
   void measure(Progress& progress) {
     progress.begin("depth", 0);
-    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()),
-                      [&](std::uint32_t i) {
-                        if (i % 1024 == 0) progress.check();
-                        m_depths[i] = static_cast<float>(
-                            m_lumen.tree().nearest(m_set.position(i)).distance);
-                      });
+    tbb::parallel_for(
+        std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()), [&](std::uint32_t i) {
+          if (i % 1024 == 0) progress.check();
+          m_depths[i] = static_cast<float>(m_lumen.tree().nearest(m_set.position(i)).distance);
+        });
     progress.end();
   }
 

@@ -43,9 +43,11 @@ const std::array<Meant, 5> kMeant = {{
     {{-1, -1, 1}, "with x and y negated", "--centerline-frame ras reads it so"},
     {{10, 10, 10}, "if they were centimetres", "--centerline-unit cm reads them so"},
     {{1000, 1000, 1000}, "if they were metres", "--centerline-unit m reads them so"},
-    {{-10, -10, 10}, "if they were centimetres with x and y negated",
+    {{-10, -10, 10},
+     "if they were centimetres with x and y negated",
      "--centerline-unit cm and --centerline-frame ras read them so"},
-    {{-1000, -1000, 1000}, "if they were metres with x and y negated",
+    {{-1000, -1000, 1000},
+     "if they were metres with x and y negated",
      "--centerline-unit m and --centerline-frame ras read them so"},
 }};
 

@@ -19,11 +19,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kVoxelsAcross = 4;      // of the least width
-constexpr double kMostVoxels = 3e5;      // inside
-constexpr int kMostAlong = 2048;         // an axis of the grid
+constexpr double kVoxelsAcross = 4;  // of the least width
+constexpr double kMostVoxels = 3e5;  // inside
+constexpr int kMostAlong = 2048;     // an axis of the grid
 constexpr std::size_t kMostRays = 20000;
-constexpr double kNarrowShare = 0.02;    // of the length that may be narrower
+constexpr double kNarrowShare = 0.02;  // of the length that may be narrower
 // of a voxel: no wall that a person designs lies on the lines through voxels' centres
 constexpr double kOffGrid = 0.38196601;
 
@@ -83,7 +83,9 @@ private:
     const Vector3d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     const double area = side(a, b, c[m_u], c[m_v], m_u, m_v);
     if (area == 0) return;
-    const auto first = [&](int axis) { return std::max(0, static_cast<int>(std::ceil(low[axis]))); };
+    const auto first = [&](int axis) {
+      return std::max(0, static_cast<int>(std::ceil(low[axis])));
+    };
     const auto last = [&](int axis) {
       return std::min(size(axis) - 1, static_cast<int>(std::floor(high[axis])));
     };
@@ -187,7 +189,8 @@ std::vector<std::size_t> insideVoxels(const TriangleMesh& mesh, const VolumeGeom
   std::set_intersection(of[0].begin(), of[0].end(), of[1].begin(), of[1].end(),
                         std::back_inserter(two));
   std::vector<std::size_t> either, more;
-  std::set_union(of[0].begin(), of[0].end(), of[1].begin(), of[1].end(), std::back_inserter(either));
+  std::set_union(of[0].begin(), of[0].end(), of[1].begin(), of[1].end(),
+                 std::back_inserter(either));
   std::set_intersection(either.begin(), either.end(), of[2].begin(), of[2].end(),
                         std::back_inserter(more));
   std::set_union(two.begin(), two.end(), more.begin(), more.end(), std::back_inserter(out));

@@ -21,14 +21,14 @@ namespace {
 using Eigen::Vector3d;
 using formats::NodeOrigin;
 
-constexpr double kSpacing = 1.0;     // widths from one node to the next
-constexpr int kRayOrder = 3;         // an icosphere of 162 rays, as tracking has
-constexpr int kNear = 12;            // edges along the tree within which nodes share out the wall
+constexpr double kSpacing = 1.0;  // widths from one node to the next
+constexpr int kRayOrder = 3;      // an icosphere of 162 rays, as tracking has
+constexpr int kNear = 12;         // edges along the tree within which nodes share out the wall
 // Of the squared distance of two nodes: by so much a node's power may exceed the other's. Half the
 // way between them is 0, the other's own section 1.
 constexpr double kShared = 0.5;
-constexpr double kBand = 0.1;        // of the radius, as tracking's inliers
-constexpr double kWidest = 1.5;      // of the depth: the radius of a section that is not round
+constexpr double kBand = 0.1;            // of the radius, as tracking's inliers
+constexpr double kWidest = 1.5;          // of the depth: the radius of a section that is not round
 constexpr std::size_t kLeastPoints = 8;  // for a radius
 
 /// A node before it is one of a case.
@@ -142,8 +142,8 @@ void addLinks(const std::vector<VesselLine>& lines, formats::CenterlineTree& tre
     if (lines[b].meets < 0) continue;
     const formats::Branch& record = tree.branches[b];
     const std::uint32_t tip = record.firstNode + record.nodeCount - 1;
-    const std::uint32_t other = nearestNode(value, static_cast<std::uint32_t>(lines[b].meets),
-                                            toEigen(tree.centre[tip]));
+    const std::uint32_t other =
+        nearestNode(value, static_cast<std::uint32_t>(lines[b].meets), toEigen(tree.centre[tip]));
     if (other == tip || tree.parent[tip] == static_cast<std::int32_t>(other)) continue;
     tree.links.push_back({std::min(tip, other), std::max(tip, other)});
   }
@@ -199,7 +199,8 @@ private:
   [[nodiscard]] bool isOwn(std::uint32_t node, const std::vector<std::uint32_t>& near,
                            const Vector3d& point) const {
     const auto power = [&](std::uint32_t n) {
-      return (point - centre(n)).squaredNorm() - double{m_tree.radius[n]} * double{m_tree.radius[n]};
+      return (point - centre(n)).squaredNorm() -
+             double{m_tree.radius[n]} * double{m_tree.radius[n]};
     };
     const double own = power(node);
     return std::none_of(near.begin(), near.end(), [&](std::uint32_t other) {

@@ -17,16 +17,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTaper = 0.5;         // of the way: as fast as a line may get thinner
-constexpr double kNarrowest = 0.1;     // of the median: a line's point that lies at the wall by mistake
-constexpr int kLooks = 3;             // for the width behind a tip
-constexpr int kRounds = 4;            // of centring
-constexpr int kSmoothings = 3;        // passes in each
-constexpr int kRays = 24;             // of a section
-constexpr double kClip = 1.6;         // of their median: farther is another vessel, through a fork
-constexpr double kMost = 0.5;         // of the depth: as far as a point moves in a round
-constexpr double kChord = 1.0;        // depths on either side: the course at a point
-constexpr double kEndChord = 1.5;     // depths: the course at an end
+constexpr double kTaper = 0.5;  // of the way: as fast as a line may get thinner
+constexpr double kNarrowest =
+    0.1;                           // of the median: a line's point that lies at the wall by mistake
+constexpr double kTrim = 1.5;      // widths from a tip: where its way keeps to the middle
+constexpr int kLooks = 6;          // for the width behind a tip
+constexpr int kRounds = 4;         // of centring
+constexpr int kSmoothings = 3;     // passes in each
+constexpr int kRays = 24;          // of a section
+constexpr double kClip = 1.6;      // of their median: farther is another vessel, through a fork
+constexpr double kMost = 0.5;      // of the depth: as far as a point moves in a round
+constexpr double kChord = 1.0;     // depths on either side: the course at a point
+constexpr double kEndChord = 1.5;  // depths: the course at an end
 
 /// (1, 2, 1)/4 on all but the ends.
 void smooth(std::vector<Vector3d>& line) {
@@ -92,7 +94,8 @@ std::pair<double, std::size_t> distanceTo(std::span<const Vector3d> line, const 
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const Vector3d side = line[i + 1] - line[i];
     const double squared = side.squaredNorm();
-    const double t = squared > 0 ? std::clamp((point - line[i]).dot(side) / squared, 0.0, 1.0) : 0.0;
+    const double t =
+        squared > 0 ? std::clamp((point - line[i]).dot(side) / squared, 0.0, 1.0) : 0.0;
     const double distance = (point - line[i] - t * side).norm();
     if (distance < best.first) best = {distance, t < 0.5 ? i : i + 1};
   }
@@ -135,7 +138,8 @@ std::vector<Vector3d> evenly(std::span<const Vector3d> line, const LumenGeometry
   std::vector<double> steps(line.size(), 0.0);
   const std::vector<double> depth = widthsAlong(line, lumen);
   for (std::size_t i = 1; i < line.size(); ++i)
-    steps[i] = steps[i - 1] + (at[i] - at[i - 1]) * 0.5 * (1 / depth[i] + 1 / depth[i - 1]) / kLineStep;
+    steps[i] =
+        steps[i - 1] + (at[i] - at[i - 1]) * 0.5 * (1 / depth[i] + 1 / depth[i - 1]) / kLineStep;
   const auto count = std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(steps.back())));
   std::vector<Vector3d> out;
   for (std::size_t n = 0; n <= count; ++n)
@@ -183,7 +187,7 @@ void trim(VesselLine& line, bool atStart, const LumenGeometry& lumen) {
     for (std::size_t i = 1; i < point.size() && (i < 4 || at[i] <= 2 * depth); ++i)
       depth = std::max(depth, lumen.depth(point[i]));
   std::size_t first = 0;
-  while (first + 2 < point.size() && at[first] < depth) ++first;
+  while (first + 2 < point.size() && at[first] < kTrim * depth) ++first;
   point.erase(point.begin(), point.begin() + static_cast<std::ptrdiff_t>(first));
   std::reverse(point.begin(), point.end());
   if (atStart) std::reverse(point.begin(), point.end());

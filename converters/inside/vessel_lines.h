@@ -13,11 +13,11 @@
 namespace lumen::convert {
 
 struct VesselLines {
-  std::vector<VesselLine> lines;  ///< parents first
+  std::vector<VesselLine> lines;   ///< parents first
   std::vector<std::string> notes;  ///< what a user should know, a sentence each
 };
 
-/// The vessels of each connected part of the inside (docs/method.md, section 8): from its widest flat
+/// The vessels of each connected part of the inside (docs/method.md, section 10): from its widest flat
 /// end, or else from its widest tip. `grid` is that of insideGrid(). Throws Error(Cancelled).
 VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress);
 

@@ -49,15 +49,16 @@ VesselWays::VesselWays(const VoxelSet& set, std::span<const float> depths, const
 }
 
 void VesselWays::findSteps(const Progress& progress) {
-  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()), [&](std::uint32_t i) {
-    if (i % 1024 == 0) progress.check();
-    std::size_t next = kMostSteps * i;
-    m_set.eachBeside(i, [&](std::uint32_t j, const Eigen::Vector3d& way) {
-      if (!isOpen(std::min(i, j), std::max(i, j))) return;
-      const auto axes = static_cast<std::uint32_t>((way.array() != 0).count());
-      m_steps[next++] = axes << kAxesShift | j;
-    });
-  });
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()),
+                    [&](std::uint32_t i) {
+                      if (i % 1024 == 0) progress.check();
+                      std::size_t next = kMostSteps * i;
+                      m_set.eachBeside(i, [&](std::uint32_t j, const Eigen::Vector3d& way) {
+                        if (!isOpen(std::min(i, j), std::max(i, j))) return;
+                        const auto axes = static_cast<std::uint32_t>((way.array() != 0).count());
+                        m_steps[next++] = axes << kAxesShift | j;
+                      });
+                    });
 }
 
 std::vector<std::uint32_t> VesselWays::partOf(std::uint32_t voxel) const {
@@ -150,12 +151,14 @@ bool VesselWays::isVessel(VesselWay& way) const {
 void VesselWays::findLoop(VesselWay& way) const {
   const std::uint32_t tip = way.voxels.back();
   const double unit = m_set.geometry().voxelSize();
-  const double reach = kCoverDepths * static_cast<double>(m_depths[tip]) + (kCoverVoxels + 3) * unit;
+  const double reach =
+      kCoverDepths * static_cast<double>(m_depths[tip]) + (kCoverVoxels + 3) * unit;
   double best = kFar;
   m_set.eachWithin(tip, 2 * reach, [&](std::uint32_t j) {
     if (m_way[j] == kNone) return;
     const double across = (m_set.position(j) - m_set.position(tip)).norm();
-    if (across > kCoverDepths * static_cast<double>(m_depths[j]) + (kCoverVoxels + 2) * unit) return;
+    if (across > kCoverDepths * static_cast<double>(m_depths[j]) + (kCoverVoxels + 2) * unit)
+      return;
     // both ways back to where they part
     std::uint32_t a = tip, b = j;
     while (a != b && a != kNone && b != kNone) {

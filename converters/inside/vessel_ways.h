@@ -80,8 +80,8 @@ private:
   std::vector<float> m_cost, m_length;  ///< from the root
   std::vector<std::uint32_t> m_from;    ///< the voxel before it on its way from the root
   std::vector<std::uint8_t> m_cover;
-  std::vector<std::uint32_t> m_way;     ///< of voxels that are on a way: which
-  std::vector<std::uint32_t> m_place;   ///< and which of its voxels
+  std::vector<std::uint32_t> m_way;    ///< of voxels that are on a way: which
+  std::vector<std::uint32_t> m_place;  ///< and which of its voxels
   std::vector<std::uint32_t> m_part;
 };
 

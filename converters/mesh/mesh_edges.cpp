@@ -42,7 +42,8 @@ bool isDegenerate(const TriangleMesh& mesh, const Triangle& t) {
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
   double longest = 0;
   for (std::size_t i = 0; i < 3; ++i)
-    longest = std::max(longest, (mesh.position[t[i]] - mesh.position[t[(i + 1) % 3]]).squaredNorm());
+    longest =
+        std::max(longest, (mesh.position[t[i]] - mesh.position[t[(i + 1) % 3]]).squaredNorm());
   return 2 * vectorArea(mesh, t).norm() <= kFlat * longest;
 }
 
@@ -57,8 +58,8 @@ std::vector<std::uint32_t> equalPoints(const std::vector<Eigen::Vector3d>& posit
             [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
   std::vector<std::uint32_t> same(position.size());
   for (std::size_t i = 0; i < order.size(); ++i)
-    same[order[i]] = i > 0 && position[order[i]] == position[order[i - 1]] ? same[order[i - 1]]
-                                                                           : order[i];
+    same[order[i]] =
+        i > 0 && position[order[i]] == position[order[i - 1]] ? same[order[i - 1]] : order[i];
   return same;
 }
 

@@ -20,7 +20,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kLeastRadius = 0.2, kMostRadius = 30;    // mm
+constexpr double kLeastRadius = 0.2, kMostRadius = 30;      // mm
 constexpr double kLeastDiagonal = 3, kMostDiagonal = 2000;  // mm
 
 /// The diagnosis while it is made: triangles with equal points made one, and without those that
@@ -193,8 +193,8 @@ private:
       ++c.boundaryLoops;
       c.boundaryEdges += m_loopSides[l].size();
       for (const std::uint32_t s : m_loopSides[l])
-        c.volume += pyramid(endOf(m_clean.triangle, s), startOf(m_clean.triangle, s),
-                            loop.centre - origin);
+        c.volume +=
+            pyramid(endOf(m_clean.triangle, s), startOf(m_clean.triangle, s), loop.centre - origin);
     }
   }
 
@@ -210,8 +210,8 @@ private:
       if (c.manifold && c.oriented) {
         // each edge has two triangles, or one on the boundary: 2 E = 3 F + B
         const auto twiceEdges = static_cast<std::int64_t>(3 * c.triangles + c.boundaryEdges);
-        const std::int64_t euler = static_cast<std::int64_t>(c.vertices + c.triangles) -
-                                   twiceEdges / 2;
+        const std::int64_t euler =
+            static_cast<std::int64_t>(c.vertices + c.triangles) - twiceEdges / 2;
         c.genus = (2 - static_cast<std::int64_t>(c.boundaryLoops) - euler) / 2;
       }
       m_report.closed &= c.closed;

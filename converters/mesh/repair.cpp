@@ -60,8 +60,9 @@ RepairResult repairMesh(const TriangleMesh& mesh, const std::string& name,
   dropDegenerate(work);
   dropDuplicates(work);
   if (work.mesh.triangle.empty())
-    refuseMesh(name, "", "none of its " + std::to_string(mesh.triangle.size()) +
-                             " triangles has an area; expected a surface");
+    refuseMesh(name, "",
+               "none of its " + std::to_string(mesh.triangle.size()) +
+                   " triangles has an area; expected a surface");
   makeManifold(work, name, progress);
   progress.check();
   RepairResult result;

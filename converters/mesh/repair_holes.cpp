@@ -59,8 +59,8 @@ bool isHole(const TriangleMesh& mesh, const BoundaryLoop& loop,
   const Eigen::Vector3d outward = -shape.area / area;
   double facing = 0;
   for (const std::uint32_t s : sides) {
-    const double length = (mesh.position[startOf(mesh.triangle, s)] -
-                           mesh.position[endOf(mesh.triangle, s)]).norm();
+    const double length =
+        (mesh.position[startOf(mesh.triangle, s)] - mesh.position[endOf(mesh.triangle, s)]).norm();
     facing += length * unitNormal(mesh, mesh.triangle[s / 3]).dot(outward);
   }
   return facing > kFacing * shape.length;

@@ -112,8 +112,7 @@ std::size_t settleParts(MeshInRepair& work, const std::string& name) {
   std::vector<bool> drop(n, false);
   for (std::size_t t = 0; t < n; ++t) {
     drop[t] = dropPart[part[t]];
-    if (parts[part[t]].sixVolume < 0)
-      std::swap(work.mesh.triangle[t][1], work.mesh.triangle[t][2]);
+    if (parts[part[t]].sixVolume < 0) std::swap(work.mesh.triangle[t][1], work.mesh.triangle[t][2]);
   }
   work.dropTriangles(drop);
   work.say("dropped", sheets, "part that encloses nothing", "parts that enclose nothing");

@@ -116,8 +116,9 @@ std::uint32_t longestSide(const TriangleMesh& mesh, std::uint32_t triangle) {
   std::uint32_t longest = 3 * triangle;
   double length = -1;
   for (std::uint32_t s = 3 * triangle; s < 3 * triangle + 3; ++s) {
-    const double l = (mesh.position[startOf(mesh.triangle, s)] -
-                      mesh.position[endOf(mesh.triangle, s)]).squaredNorm();
+    const double l =
+        (mesh.position[startOf(mesh.triangle, s)] - mesh.position[endOf(mesh.triangle, s)])
+            .squaredNorm();
     if (l > length) {
       length = l;
       longest = s;
@@ -128,18 +129,17 @@ std::uint32_t longestSide(const TriangleMesh& mesh, std::uint32_t triangle) {
 
 /// Gives the neighbour across a sliver's longest side the sliver's middle point: both become the
 /// halves of the neighbour. False if there is not one such neighbour.
-bool giveToNeighbour(MeshInRepair& work, std::uint32_t sliver,
-                     const std::vector<EdgeUse>& uses, std::vector<bool>& changed) {
+bool giveToNeighbour(MeshInRepair& work, std::uint32_t sliver, const std::vector<EdgeUse>& uses,
+                     std::vector<bool>& changed) {
   std::vector<Triangle>& triangle = work.mesh.triangle;
   const std::uint32_t side = longestSide(work.mesh, sliver);
-  const auto [low, high] =
-      std::minmax({startOf(triangle, side), endOf(triangle, side)});
+  const auto [low, high] = std::minmax({startOf(triangle, side), endOf(triangle, side)});
   const std::uint32_t middle = startOf(triangle, previousSide(side));
   const EdgeUse edge{low, high, 0};
-  const auto first = std::lower_bound(uses.begin(), uses.end(), edge,
-                                      [](const EdgeUse& a, const EdgeUse& b) {
-                                        return std::tie(a.low, a.high) < std::tie(b.low, b.high);
-                                      });
+  const auto first =
+      std::lower_bound(uses.begin(), uses.end(), edge, [](const EdgeUse& a, const EdgeUse& b) {
+        return std::tie(a.low, a.high) < std::tie(b.low, b.high);
+      });
   std::uint32_t other = kNoSide;
   std::size_t count = 0;
   for (auto use = first; use != uses.end() && use->sameEdge(edge); ++use) {

@@ -87,8 +87,7 @@ std::vector<Leaf> leavesOf(const MeshInRepair& work, std::span<const EdgeUse> ed
   const Eigen::Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
   std::vector<Leaf> leaves;
   for (const EdgeUse& use : edge) {
-    const Eigen::Vector3d tip =
-        position[startOf(work.mesh.triangle, previousSide(use.side))] - low;
+    const Eigen::Vector3d tip = position[startOf(work.mesh.triangle, previousSide(use.side))] - low;
     leaves.push_back({std::atan2(tip.dot(v), tip.dot(u)), use.side,
                       startOf(work.mesh.triangle, use.side) == use.low});
   }
@@ -114,7 +113,8 @@ void pairLeaves(MeshInRepair& work, std::span<const EdgeUse> edge, bool insideOu
 
 double signedVolume(const TriangleMesh& mesh) {
   double six = 0;
-  const Eigen::Vector3d origin = mesh.position.empty() ? Eigen::Vector3d(0, 0, 0) : mesh.position[0];
+  const Eigen::Vector3d origin =
+      mesh.position.empty() ? Eigen::Vector3d(0, 0, 0) : mesh.position[0];
   for (const Triangle& t : mesh.triangle)
     six += (mesh.position[t[0]] - origin)
                .dot((mesh.position[t[1]] - origin).cross(mesh.position[t[2]] - origin));

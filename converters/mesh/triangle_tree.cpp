@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kLeaf = 4;       // triangles
-constexpr std::size_t kDeepest = 64;     // of a tree that is split in halves
+constexpr std::uint32_t kLeaf = 4;    // triangles
+constexpr std::size_t kDeepest = 64;  // of a tree that is split in halves
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Where a ray meets a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
@@ -201,15 +201,16 @@ NearestPoint TriangleTree::nearest(const Vector3d& point, double reach) const {
         const std::uint32_t t = m_order[k];
         const Vector3d at = nearestOf(point, corner(t, 0), corner(t, 1), corner(t, 2));
         const double squared = (at - point).squaredNorm();
-        if (squared > most || (squared == most && best.distance < kFar && t > best.triangle)) continue;
+        if (squared > most || (squared == most && best.distance < kFar && t > best.triangle))
+          continue;
         most = squared;
         best = {std::sqrt(squared), t, at};
       }
       continue;
     }
     const Box &one = m_boxes[i + 1], &two = m_boxes[box.right];
-    const bool oneFirst = squaredDistance(one.low, one.high, point) <=
-                          squaredDistance(two.low, two.high, point);
+    const bool oneFirst =
+        squaredDistance(one.low, one.high, point) <= squaredDistance(two.low, two.high, point);
     stack[depth++] = oneFirst ? box.right : i + 1;
     stack[depth++] = oneFirst ? i + 1 : box.right;
   }

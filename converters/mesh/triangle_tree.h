@@ -16,9 +16,9 @@ namespace lumen::convert {
 
 /// Where a ray meets a mesh; lengths in the mesh's unit.
 struct RayHit {
-  double distance = 0;         ///< from the ray's origin
+  double distance = 0;  ///< from the ray's origin
   std::uint32_t triangle = 0;
-  bool leaves = false;         ///< it comes from behind the triangle, out of what the mesh encloses
+  bool leaves = false;  ///< it comes from behind the triangle, out of what the mesh encloses
 };
 
 struct NearestPoint {
@@ -43,9 +43,8 @@ public:
   /// Whether the straight way between two points meets no triangle.
   [[nodiscard]] bool isFree(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
   /// The nearest point of the mesh within `reach`; its distance is infinite if there is none.
-  [[nodiscard]] NearestPoint nearest(
-      const Eigen::Vector3d& point,
-      double reach = std::numeric_limits<double>::infinity()) const;
+  [[nodiscard]] NearestPoint nearest(const Eigen::Vector3d& point,
+                                     double reach = std::numeric_limits<double>::infinity()) const;
   /// Whether a closed mesh goes round the point: as most of three rays say, each by the number of
   /// times it leaves less that of the times it enters.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const;

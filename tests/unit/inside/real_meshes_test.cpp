@@ -61,7 +61,8 @@ Scores roundTrip(const std::string& file, MeshFormat format) {
 }
 
 TEST(RealMeshes, TheAortaComesBack) {
-  if (!std::filesystem::exists(kData + "/aorta/aorta-surface.stl")) GTEST_SKIP() << "no shared data";
+  if (!std::filesystem::exists(kData + "/aorta/aorta-surface.stl"))
+    GTEST_SKIP() << "no shared data";
   const Scores scores = roundTrip("/aorta/aorta-surface.stl", MeshFormat::Stl);
   EXPECT_EQ(scores.branches, 2U);
   EXPECT_LT(scores.median, 0.025);
@@ -72,7 +73,8 @@ TEST(RealMeshes, TheNeurovascularArteriesComeBack) {
   if (!std::filesystem::exists(kData + file)) GTEST_SKIP() << "no shared data";
   const Scores scores = roundTrip(file, MeshFormat::Obj);
   EXPECT_GE(scores.branches, 20U);
-  EXPECT_LT(scores.median, 0.025);
+  // its tubes have about eight sides, whose chords lie up to 0.076 of the radius inside of a circle
+  EXPECT_LT(scores.median, 0.076);
 }
 
 }  // namespace

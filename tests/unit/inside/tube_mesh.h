@@ -26,7 +26,8 @@ inline TriangleMesh tube(const std::vector<Eigen::Vector3d>& axis, double radius
     const Vector3d up = Vector3d::UnitZ(), side = up.cross(along);
     for (std::uint32_t k = 0; k < around; ++k) {
       const double angle = 2 * std::numbers::pi * k / around;
-      mesh.position.emplace_back(axis[i] + radius * (std::cos(angle) * side + std::sin(angle) * up));
+      mesh.position.emplace_back(axis[i] +
+                                 radius * (std::cos(angle) * side + std::sin(angle) * up));
     }
   }
   for (std::uint32_t i = 0; i + 1 < rings; ++i)
@@ -63,7 +64,8 @@ inline TriangleMesh ring(double wide, double radius, std::uint32_t rings = 96,
       const double turn = 2 * std::numbers::pi * i / rings;
       const double angle = 2 * std::numbers::pi * k / around;
       const double out = wide + radius * std::cos(angle);
-      mesh.position.emplace_back(out * std::cos(turn), out * std::sin(turn), radius * std::sin(angle));
+      mesh.position.emplace_back(out * std::cos(turn), out * std::sin(turn),
+                                 radius * std::sin(angle));
       const std::uint32_t n = (i + 1) % rings, m = (k + 1) % around;
       mesh.triangle.push_back({i * around + k, n * around + k, n * around + m});
       mesh.triangle.push_back({i * around + k, n * around + m, i * around + m});
