@@ -72,6 +72,16 @@ void bridge(std::vector<Vector3d>& line, std::size_t last) {
     line[i] = line[0] + double(i) / double(last) * (line[last] - line[0]);
 }
 
+/// The flat end that a tip lies at; null if there is none.
+const MeshEnd* endAt(const Vector3d& tip, const ClosedMesh& surface) {
+  const MeshEnd* best = nullptr;
+  for (const MeshEnd& end : surface.ends) {
+    const double away = (tip - end.centre).norm();
+    if (away < kTrim * end.radius && (!best || away < (tip - best->centre).norm())) best = &end;
+  }
+  return best;
+}
+
 }  // namespace
 
 TriangleMesh LumenGeometry::wallOf(const ClosedMesh& surface) {
@@ -180,6 +190,16 @@ void trim(VesselLine& line, bool atStart, const LumenGeometry& lumen) {
   std::vector<Vector3d>& point = line.point;
   if (atStart) std::reverse(point.begin(), point.end());
   std::reverse(point.begin(), point.end());  // the tip first
+  if (const MeshEnd* end = endAt(point.front(), lumen.surface())) {
+    std::size_t near = 0;
+    while (near + 2 < point.size() && (point[near] - end->centre).norm() < kTrim * end->radius)
+      ++near;
+    point.erase(point.begin(), point.begin() + static_cast<std::ptrdiff_t>(near));
+    point.insert(point.begin(), end->centre - 0.5 * end->radius * end->normal);
+    std::reverse(point.begin(), point.end());
+    if (atStart) std::reverse(point.begin(), point.end());
+    return;
+  }
   const std::vector<double> at = lengthsAlong(point);
   // a tip may lie in a corner: how wide the vessel is shows a little farther in
   double depth = lumen.depth(point.front());
