@@ -4,6 +4,7 @@
 #include "converters/app/centerline_input.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/mesh_input.h"
 #include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"
@@ -21,18 +22,20 @@ class ConvertCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "convert"; }
   [[nodiscard]] std::string summary() const override {
-    return "Turn a volume, or a case, into a case or a mesh";
+    return "Turn a volume, a surface, or a case, into a case or a mesh";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
            "  lumen convert head.lumen head.glb --color radius\n"
+           "  lumen convert aorta.stl aorta.lumen --centerline aorta-centerline.vtp\n"
            "  lumen convert arteries.swc arteries.lumen";
   }
 
   void bind(CLI::App& app) override {
     addFile(app, "INPUT", m_input,
-            "Volume (" + formatTitles(canReadVolume) + "), centerline (" +
-                formatTitles(canReadCenterline) + "; also a folder of curves) or case");
+            "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
+                formatTitles(canReadMesh) + "), centerline (" + formatTitles(canReadCenterline) +
+                "; also a folder of curves) or case");
     addFile(app, "OUTPUT", m_output,
             "Case, " + formatEndings(canWriteCase) + "; or mesh, which holds the surface of the " +
                 "vessels and no more, " + formatEndings(canWriteMesh) +
@@ -43,6 +46,7 @@ public:
     addVolumeOptions(app, m_volume);
     addCenterlineOptions(app, m_centerline);
     addTrackOptions(app, m_track);
+    addCenterlineOptions(app, m_mesh);
     addFitOptions(app, m_fit);
     addMeshOptions(app, m_outputOptions);
     addEncodingOptions(app, m_outputOptions.encoding);
@@ -70,7 +74,7 @@ public:
 private:
   formats::Case load(const FileFormat& from, Progress& progress) {
     if (from.kind == FormatKind::Mesh)
-      throw unsupported(m_input + ": this is a mesh, of which lumen convert makes no case");
+      return caseOfMeshFile(m_input, from, meshArguments(), progress);
     if (from.kind == FormatKind::Case) {
       if (!m_track.seeds.empty())
         progress.warn("--seeds is ignored: " + m_input + " is a case, already tracked");
@@ -92,7 +96,13 @@ private:
     return std::move(tracked.result);
   }
 
-  /// A tracked volume gets its models; so does a case that has none when they are needed for a
+  [[nodiscard]] MeshArguments meshArguments() const {
+    MeshArguments arguments = m_mesh;
+    arguments.unit = m_volume.unit;
+    return arguments;
+  }
+
+  /// A tracked volume gets its models, and so does a mesh; so does a case that has none when they are needed for a
   /// mesh.
   void complete(formats::Case& value, const FileFormat& from, const FileFormat& to,
                 Progress& progress) {
@@ -101,7 +111,7 @@ private:
       throw invalidInput(m_input +
                          ": this case has neither models nor wall points to fit them to, "
                          "so there is no surface to make a mesh of");
-    const bool isNew = from.kind == FormatKind::Volume || from.kind == FormatKind::Centerline;
+    const bool isNew = from.kind != FormatKind::Case;
     if (isNew || meshNeedsModels)
       convert::fit(value, fitOptionsFor(value, m_fit.options()), progress);
   }
@@ -124,6 +134,7 @@ private:
   CenterlineArguments m_centerline;
   TrackArguments m_track;
   FitArguments m_fit;
+  MeshArguments m_mesh;
   OutputOptions m_outputOptions;
   std::vector<convert::SeedBranch> m_seeds;
   convert::TrackRemarks m_remarks;

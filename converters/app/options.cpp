@@ -162,7 +162,8 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->join(',')
       ->check(oneOrThreeIn({0, kLongest, true}));
   app.add_option("--unit", volume.unit,
-                 "Unit of the lengths in the file: mm, cm, m or um, whatever it says")
+                 "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m or um, "
+                 "whatever the file says")
       ->type_name("UNIT")
       ->group("Volume")
       ->check(oneOf(wordsOf(kMillimetresOf)));
@@ -259,6 +260,26 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
   group.add("--max-nodes", o.maxNodes, "N", "Bound on the nodes of one branch")
       ->check(within(2, std::numeric_limits<int>::max()));
   group.add("--random-seed", o.seed, "K", "Seed of the random numbers")->check(kRandomSeed);
+}
+
+void addCenterlineOptions(CLI::App& app, MeshArguments& mesh) {
+  addFile(
+      app, "--centerline", mesh.centerline,
+      "Where the vessels of a mesh run: .vtp with VMTK's arrays, .swc, .tre or curves of 3D Slicer "
+      "(.mrk.json, or a folder of them) [found inside of the mesh]")
+      ->group("Surface");
+  app.add_option(
+         "--centerline-frame", mesh.centerlineFrame,
+         "Axes of --centerline: lps, or ras, whose x and y are negated [as its file says, or "
+         "those of the mesh]")
+      ->type_name("FRAME")
+      ->group("Surface")
+      ->check(oneOf(std::vector<std::string>{"lps", "ras"}));
+  app.add_option("--centerline-unit", mesh.centerlineUnit,
+                 "Unit of --centerline: mm, cm, m or um [as its file says, or that of the mesh]")
+      ->type_name("UNIT")
+      ->group("Surface")
+      ->check(oneOf(wordsOf(kMillimetresOf)));
 }
 
 void addFitOptions(CLI::App& app, FitArguments& fit) {

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "converters/app/file_format.h"
+#include "converters/app/mesh_input.h"
 #include "converters/fitting/fit.h"
 #include "converters/phantom/phantom.h"
 #include "converters/seeds/seeds.h"
@@ -44,6 +45,7 @@ struct FitArguments {
 void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding);
 void addVolumeOptions(CLI::App& app, VolumeArguments& volume);
 void addTrackOptions(CLI::App& app, TrackArguments& track);
+void addCenterlineOptions(CLI::App& app, MeshArguments& mesh);
 void addFitOptions(CLI::App& app, FitArguments& fit);
 void addMeshOptions(CLI::App& app, OutputOptions& output);
 void addPhantomOptions(CLI::App& app, convert::PhantomOptions& phantom);

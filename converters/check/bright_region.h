@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "converters/check/lumen_voxels.h"
-#include "converters/check/voxel_set.h"
 #include "converters/check/wall_offsets.h"
 #include "converters/common/progress.h"
 #include "converters/volume/volume.h"
+#include "converters/volume/voxel_set.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "converters/check/skeleton.h"
-#include "converters/check/voxel_set.h"
 #include "converters/common/vectors.h"
+#include "converters/volume/voxel_set.h"
 
 namespace lumen::convert {
 namespace {

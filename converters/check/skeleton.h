@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "converters/check/voxel_set.h"
 #include "converters/common/progress.h"
+#include "converters/volume/voxel_set.h"
 
 namespace lumen::convert {
 

@@ -7,10 +7,10 @@
 
 #include <Eigen/Dense>
 
+#include "converters/common/icosphere.h"
 #include "converters/common/statistics.h"
 #include "converters/common/vectors.h"
 #include "converters/tracking/circles.h"
-#include "converters/tracking/icosphere.h"
 
 namespace lumen::convert {
 namespace {

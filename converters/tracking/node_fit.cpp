@@ -8,9 +8,9 @@
 #include <numeric>
 #include <utility>
 
+#include "converters/common/icosphere.h"
 #include "converters/common/statistics.h"
 #include "converters/common/vectors.h"
-#include "converters/tracking/icosphere.h"
 #include "converters/tracking/wall_support.h"
 
 namespace lumen::convert {

@@ -10,9 +10,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "converters/common/icosphere.h"
 #include "converters/common/random.h"
 #include "converters/common/statistics.h"
-#include "converters/tracking/icosphere.h"
 
 namespace lumen::convert {
 namespace {

@@ -2,7 +2,7 @@
 #include "converters/tracking/track_options.h"
 
 #include "converters/common/error.h"
-#include "converters/tracking/icosphere.h"
+#include "converters/common/icosphere.h"
 #include "converters/volume/bspline.h"
 
 namespace lumen::convert {

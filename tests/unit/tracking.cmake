@@ -4,7 +4,7 @@ lumen_test(tracking_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/statistics_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/aneurysm_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/icosphere_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/icosphere_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/joins_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/cylinder_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/point_spread_test.cpp

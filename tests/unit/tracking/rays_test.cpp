@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/tracking/icosphere.h"
+#include "converters/common/icosphere.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/check/voxel_set.h"
+#include "converters/volume/voxel_set.h"
 
 #include <utility>
 

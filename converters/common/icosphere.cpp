@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/tracking/icosphere.h"
+#include "converters/common/icosphere.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/mesh/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint32_t kLeaf = 4;    // triangles
+constexpr std::size_t kDeepest = 64;  // of a tree that is split in halves
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// Where a ray meets a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
+/// ray/triangle intersection", 1997), and whether it comes from behind. Nothing if it does not.
+std::optional<RayHit> meet(const Vector3d& origin, const Vector3d& direction, const Vector3d& a,
+                           const Vector3d& b, const Vector3d& c) {
+  const Vector3d ab = b - a, ac = c - a;
+  const Vector3d across = direction.cross(ac);
+  const double det = ab.dot(across);
+  if (det == 0) return {};
+  const Vector3d from = origin - a;
+  const double u = from.dot(across) / det;
+  if (!(u >= 0 && u <= 1)) return {};
+  const Vector3d q = from.cross(ab);
+  const double v = direction.dot(q) / det;
+  if (!(v >= 0 && u + v <= 1)) return {};
+  return RayHit{ac.dot(q) / det, 0, det < 0};
+}
+
+/// The point of a triangle that is nearest to `p` (C. Ericson, "Real-time collision detection", 2005,
+/// section 5.1.5).
+Vector3d nearestOf(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return d1 - d3 > 0 ? Vector3d(a + d1 / (d1 - d3) * ab) : a;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return d2 - d6 > 0 ? Vector3d(a + d2 / (d2 - d6) * ac) : a;
+  const double va = d3 * d6 - d5 * d4, along = d4 - d3, back = d5 - d6;
+  if (va <= 0 && along >= 0 && back >= 0)
+    return along + back > 0 ? Vector3d(b + along / (along + back) * (c - b)) : b;
+  const double sum = va + vb + vc;
+  return sum > 0 ? Vector3d(a + ab * (vb / sum) + ac * (vc / sum)) : a;
+}
+
+/// Where a ray enters a box; infinite if it does not.
+double entry(const Vector3d& low, const Vector3d& high, const Vector3d& origin,
+             const Vector3d& direction) {
+  double from = -kFar, to = kFar;
+  for (int a = 0; a < 3; ++a) {
+    if (direction[a] == 0) {
+      if (origin[a] < low[a] || origin[a] > high[a]) return kFar;
+      continue;
+    }
+    const double near = (low[a] - origin[a]) / direction[a];
+    const double far = (high[a] - origin[a]) / direction[a];
+    from = std::max(from, std::min(near, far));
+    to = std::min(to, std::max(near, far));
+  }
+  // a rounding's worth more, for triangles that lie in a face of their box
+  const double slack = 1e-12 * (std::abs(from) + std::abs(to));
+  return from <= to + slack && to >= -slack ? from - slack : kFar;
+}
+
+double squaredDistance(const Vector3d& low, const Vector3d& high, const Vector3d& p) {
+  return (low - p).cwiseMax(p - high).cwiseMax(0).squaredNorm();
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh) : m_mesh(mesh), m_order(mesh.triangle.size()) {
+  std::iota(m_order.begin(), m_order.end(), 0U);
+  std::vector<Vector3d> centre(mesh.triangle.size());
+  for (std::uint32_t t = 0; t < centre.size(); ++t)
+    centre[t] = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
+  m_boxes.reserve(mesh.triangle.size());
+  build(0, static_cast<std::uint32_t>(m_order.size()), centre);
+}
+
+std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last,
+                                  const std::vector<Vector3d>& centre) {
+  const auto self = static_cast<std::uint32_t>(m_boxes.size());
+  Box box{Vector3d::Constant(kFar), Vector3d::Constant(-kFar), first, last, 0};
+  Vector3d low = box.low, high = box.high;
+  for (std::uint32_t k = first; k < last; ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.low = box.low.cwiseMin(corner(m_order[k], i));
+      box.high = box.high.cwiseMax(corner(m_order[k], i));
+    }
+    low = low.cwiseMin(centre[m_order[k]]);
+    high = high.cwiseMax(centre[m_order[k]]);
+  }
+  m_boxes.push_back(box);
+  if (last - first <= kLeaf) return self;
+  Eigen::Index axis = 0;
+  (high - low).maxCoeff(&axis);
+  const std::uint32_t middle = first + (last - first) / 2;
+  std::nth_element(m_order.begin() + first, m_order.begin() + middle, m_order.begin() + last,
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     const double at = centre[a][axis], other = centre[b][axis];
+                     return at < other || (at == other && a < b);
+                   });
+  build(first, middle, centre);
+  m_boxes[self].right = build(middle, last, centre);
+  return self;
+}
+
+template <class Visit>
+void TriangleTree::eachOnRay(const Vector3d& origin, const Vector3d& direction, double least,
+                             const double& most, Visit&& visit) const {
+  std::array<std::uint32_t, kDeepest> stack{};
+  std::size_t depth = 1;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const Box& box = m_boxes[i];
+    const double from = entry(box.low, box.high, origin, direction);
+    if (from == kFar || from > most) continue;
+    if (box.right == 0) {
+      for (std::uint32_t k = box.first; k < box.last; ++k) {
+        const std::uint32_t t = m_order[k];
+        auto hit = meet(origin, direction, corner(t, 0), corner(t, 1), corner(t, 2));
+        if (!hit || !(hit->distance >= least)) continue;
+        hit->triangle = t;
+        visit(*hit);
+      }
+      continue;
+    }
+    // the nearer child last, so that it is looked at first
+    const Box &one = m_boxes[i + 1], &two = m_boxes[box.right];
+    const bool oneFirst = (two.low + two.high - one.low - one.high).dot(direction) > 0;
+    stack[depth++] = oneFirst ? box.right : i + 1;
+    stack[depth++] = oneFirst ? i + 1 : box.right;
+  }
+}
+
+std::optional<RayHit> TriangleTree::firstHit(const Vector3d& origin, const Vector3d& direction,
+                                             double least) const {
+  std::optional<RayHit> best;
+  double most = kFar;
+  eachOnRay(origin, direction, least, most, [&](const RayHit& hit) {
+    if (hit.distance > most || (best && hit.distance == most && hit.triangle > best->triangle))
+      return;
+    best = hit;
+    most = hit.distance;
+  });
+  return best;
+}
+
+bool TriangleTree::isFree(const Vector3d& from, const Vector3d& to) const {
+  const double length = (to - from).norm();
+  if (!(length > 0)) return true;
+  bool isMet = false;
+  double most = length;
+  eachOnRay(from, (to - from) / length, 0, most, [&](const RayHit& hit) {
+    if (hit.distance > length) return;
+    isMet = true;
+    most = -kFar;
+  });
+  return !isMet;
+}
+
+int TriangleTree::winding(const Vector3d& origin, const Vector3d& direction) const {
+  int turns = 0;
+  const double most = kFar;
+  eachOnRay(origin, direction, 0, most, [&](const RayHit& hit) { turns += hit.leaves ? 1 : -1; });
+  return turns;
+}
+
+bool TriangleTree::contains(const Vector3d& point) const {
+  // unlike the directions that meshes have their edges in
+  static const std::array<Vector3d, 3> kRays = {Vector3d(0.8017, 0.3119, 0.5099).normalized(),
+                                                Vector3d(-0.4211, 0.8563, 0.2987).normalized(),
+                                                Vector3d(-0.2903, -0.4421, 0.8487).normalized()};
+  int votes = 0;
+  for (const Vector3d& ray : kRays) votes += winding(point, ray) != 0 ? 1 : 0;
+  return votes >= 2;
+}
+
+NearestPoint TriangleTree::nearest(const Vector3d& point, double reach) const {
+  NearestPoint best;
+  double most = reach * reach;
+  std::array<std::uint32_t, kDeepest> stack{};
+  std::size_t depth = 1;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const Box& box = m_boxes[i];
+    if (squaredDistance(box.low, box.high, point) > most) continue;
+    if (box.right == 0) {
+      for (std::uint32_t k = box.first; k < box.last; ++k) {
+        const std::uint32_t t = m_order[k];
+        const Vector3d at = nearestOf(point, corner(t, 0), corner(t, 1), corner(t, 2));
+        const double squared = (at - point).squaredNorm();
+        if (squared > most || (squared == most && best.distance < kFar && t > best.triangle))
+          continue;
+        most = squared;
+        best = {std::sqrt(squared), t, at};
+      }
+      continue;
+    }
+    const Box &one = m_boxes[i + 1], &two = m_boxes[box.right];
+    const bool oneFirst =
+        squaredDistance(one.low, one.high, point) <= squaredDistance(two.low, two.high, point);
+    stack[depth++] = oneFirst ? box.right : i + 1;
+    stack[depth++] = oneFirst ? i + 1 : box.right;
+  }
+  return best;
+}
+
+Vector3d TriangleTree::normal(std::uint32_t triangle) const {
+  const Vector3d n =
+      (corner(triangle, 1) - corner(triangle, 0)).cross(corner(triangle, 2) - corner(triangle, 0));
+  const double length = n.norm();
+  return length > 0 ? Vector3d(n / length) : Vector3d(Vector3d::Zero());
+}
+
+}  // namespace lumen::convert
