@@ -26,10 +26,10 @@ namespace fs = std::filesystem;
 namespace {
 
 double millimetresIn(const std::string& unit) {
-  static const std::map<std::string, double> kUnits = {
+  static const std::map<std::string, double> kMillimetresIn = {
       {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
-  const auto found = kUnits.find(unit);
-  return found == kUnits.end() ? 0 : found->second;
+  const auto found = kMillimetresIn.find(unit);
+  return found == kMillimetresIn.end() ? 0 : found->second;
 }
 
 convert::CenterlineFile readCenterline(const fs::path& file) {
