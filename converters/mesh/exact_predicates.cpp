@@ -14,7 +14,8 @@ constexpr double kBound3 = (7 + 56 * kHalfUlp) * kHalfUlp;
 constexpr double kBound2 = (3 + 16 * kHalfUlp) * kHalfUlp;
 
 // A number as an exact sum of doubles that do not overlap, by growing size.
-template <std::size_t N> struct Expansion {
+template <std::size_t N>
+struct Expansion {
   std::array<double, N> part{};
   std::size_t count = 0;
 
@@ -39,7 +40,8 @@ Two twoProduct(double a, double b) {
 }
 
 // Adds one double; the parts stay sorted and without zeros.
-template <std::size_t N> void grow(Expansion<N>& sum, double value) {
+template <std::size_t N>
+void grow(Expansion<N>& sum, double value) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < sum.count; ++i) {
     const Two two = twoSum(value, sum.part[i]);
@@ -97,8 +99,7 @@ int exactOrientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const E
   return add(add(term(0, 1, 2), term(1, 2, 0), 1), term(2, 0, 1), 1).sign();
 }
 
-int exactOrientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                     const Eigen::Vector2d& c) {
+int exactOrientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return minor(difference(a.x(), c.x()), difference(a.y(), c.y()), difference(b.x(), c.x()),
                difference(b.y(), c.y()))
       .sign();

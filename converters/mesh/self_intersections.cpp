@@ -61,9 +61,8 @@ bool isUsable(const TriangleMesh& mesh, const Triangle& t) {
 // The triangles that can intersect, along a Morton curve through their middles.
 std::vector<std::uint32_t> inOrder(const TriangleMesh& mesh) {
   std::vector<std::uint8_t> usable(mesh.triangle.size());
-  tbb::parallel_for(std::size_t{0}, usable.size(), [&](std::size_t t) {
-    usable[t] = isUsable(mesh, mesh.triangle[t]) ? 1 : 0;
-  });
+  tbb::parallel_for(std::size_t{0}, usable.size(),
+                    [&](std::size_t t) { usable[t] = isUsable(mesh, mesh.triangle[t]) ? 1 : 0; });
   Eigen::Array3d low = Eigen::Array3d::Constant(kGreatest), high = -low;
   const auto middle = [&mesh](std::size_t t) -> Eigen::Array3d {
     const Triangle& corner = mesh.triangle[t];
@@ -161,8 +160,7 @@ Pairs pairsOf(const BoxTree& tree, std::size_t first, std::size_t last, std::siz
   if (count <= most)
     for (const Pairs& some : found) all.insert(all.end(), some.begin(), some.end());
   else
-    for (std::size_t i = first; i < last && all.size() <= most; ++i)
-      tree.findBehind(i, most, all);
+    for (std::size_t i = first; i < last && all.size() <= most; ++i) tree.findBehind(i, most, all);
   return all;
 }
 
@@ -173,8 +171,8 @@ SelfIntersections selfIntersections(const TriangleMesh& mesh, std::size_t limit)
   const BoxTree tree(mesh);
   for (std::size_t first = 0; first < tree.size() && result.pairs.size() <= limit;
        first += kBlock) {
-    const Pairs more = pairsOf(tree, first, std::min(tree.size(), first + kBlock),
-                               limit - result.pairs.size());
+    const Pairs more =
+        pairsOf(tree, first, std::min(tree.size(), first + kBlock), limit - result.pairs.size());
     result.pairs.insert(result.pairs.end(), more.begin(), more.end());
   }
   result.isComplete = result.pairs.size() <= limit;

@@ -89,8 +89,7 @@ bool flatTrianglesMeet(const Corners& one, const Corners& other) {
 
 bool trianglesMeet(const Corners& one, const Corners& other) {
   std::array<int, 3> sideOther{}, sideOne{};
-  for (std::size_t i = 0; i < 3; ++i)
-    sideOther[i] = orientation(one[0], one[1], one[2], other[i]);
+  for (std::size_t i = 0; i < 3; ++i) sideOther[i] = orientation(one[0], one[1], one[2], other[i]);
   const auto [low, high] = std::minmax_element(sideOther.begin(), sideOther.end());
   if (*low > 0 || *high < 0) return false;
   if (*low == 0 && *high == 0) return flatTrianglesMeet(one, other);
@@ -147,11 +146,10 @@ bool intersect(const TriangleMesh& mesh, const Triangle& one, const Triangle& ot
   if (count == 3) return true;
   if (count == 1)
     return meetBeyondVertex(mesh, one, other, *std::find_if(one.begin(), one.end(), isShared));
-  const auto tip = static_cast<std::size_t>(std::find_if_not(one.begin(), one.end(), isShared) -
-                                            one.begin());
-  const auto otherTip = *std::find_if_not(other.begin(), other.end(), [&one](std::uint32_t v) {
-    return indexOf(one, v) < 3;
-  });
+  const auto tip =
+      static_cast<std::size_t>(std::find_if_not(one.begin(), one.end(), isShared) - one.begin());
+  const auto otherTip = *std::find_if_not(other.begin(), other.end(),
+                                          [&one](std::uint32_t v) { return indexOf(one, v) < 3; });
   return isFolded(cornersOf(mesh, turned(one, (tip + 1) % 3)), mesh.position[otherTip]);
 }
 

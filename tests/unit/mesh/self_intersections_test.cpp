@@ -43,7 +43,8 @@ Pairs byCgal(const TriangleMesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> found;
   CGAL::Polygon_mesh_processing::self_intersections(target, std::back_inserter(found));
   std::set<std::array<std::uint32_t, 2>> sorted;
-  for (const auto& [a, b] : found) sorted.insert({std::min(a.idx(), b.idx()), std::max(a.idx(), b.idx())});
+  for (const auto& [a, b] : found)
+    sorted.insert({std::min(a.idx(), b.idx()), std::max(a.idx(), b.idx())});
   return {sorted.begin(), sorted.end()};
 }
 
@@ -131,7 +132,7 @@ TEST(SelfIntersections, OfATetrahedronThereAreNone) {
 }
 
 TEST(SelfIntersections, CrossingAndTouchingTrianglesMeet) {
-  const std::vector<Eigen::Vector3d> crossing{{0, 0, 0},        {4, 0, 0},     {0, 4, 0},
+  const std::vector<Eigen::Vector3d> crossing{{0, 0, 0},  {4, 0, 0}, {0, 4, 0},
                                               {1, 1, -1}, {1, 1, 1}, {3, 3, 1}};
   EXPECT_TRUE(meets(two({0, 1, 2}, {3, 4, 5}, crossing)));
   std::vector<Eigen::Vector3d> touching = crossing;
@@ -150,8 +151,8 @@ TEST(SelfIntersections, CoplanarTrianglesMeetWhereTheyOverlapOrOneHoldsTheOther)
 }
 
 TEST(SelfIntersections, NeighboursMeetOnlyBeyondWhatTheyShare) {
-  const std::vector<Eigen::Vector3d> p{{0, 0, 0}, {1, 0, 0}, {0, 1, 0},  {1, 1, 0},
-                                       {0.4, 0.4, 0}, {-1, 0, 1}, {-1, 0, -1}, {2, 1, 1}, {2, 1, -1}};
+  const std::vector<Eigen::Vector3d> p{{0, 0, 0},  {1, 0, 0},   {0, 1, 0}, {1, 1, 0}, {0.4, 0.4, 0},
+                                       {-1, 0, 1}, {-1, 0, -1}, {2, 1, 1}, {2, 1, -1}};
   EXPECT_FALSE(meets(two({0, 1, 2}, {2, 1, 3}, p)));  // an edge, flat
   EXPECT_TRUE(meets(two({0, 1, 2}, {2, 1, 4}, p)));   // an edge, folded
   EXPECT_FALSE(meets(two({0, 1, 2}, {0, 5, 6}, p)));  // a vertex
