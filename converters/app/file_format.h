@@ -27,8 +27,8 @@ enum class FormatKind { Volume, Case, Mesh, Centerline };
 /// How a case is written; each format takes what concerns it.
 struct OutputOptions {
   formats::EncodeOptions encoding;
-  convert::PolygoniseOptions polygonise;   ///< of patches
-  convert::ClosedSurfaceOptions surface;   ///< of the closed surface
+  convert::PolygoniseOptions polygonise;  ///< of patches
+  convert::ClosedSurfaceOptions surface;  ///< of the closed surface
   convert::WriteMeshOptions mesh;
   bool patches = false;  ///< the surface in pieces
 };

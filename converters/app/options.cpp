@@ -333,8 +333,9 @@ void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
         ->type_name("LENGTH")
         ->group("Mesh");
   };
-  addLength("--edge", [&](const std::string& text) { setEdge(surface.edge, text); },
-            "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
+  addLength(
+      "--edge", [&](const std::string& text) { setEdge(surface.edge, text); },
+      "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
       ->default_str("0.25r");
   group.add("--edge-min", surface.edge.minimum, "MM", "Least length of edges")->check(kNotNegative);
   app.add_option("--edge-max", surface.edge.maximum, "Greatest length of edges")
@@ -353,13 +354,15 @@ void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
          "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
       ->type_name("[LABEL=]LENGTH")
       ->group("Mesh");
-  addLength("--thickness",
-            [&](const std::string& text) {
-              surface.thickness = convert::parseLength(text, "--thickness");
-            },
-            "A solid wall of this thickness around the lumen, such as 0.5 (mm) or 0.2r");
-  group.add("--max-error", surface.maxError, "MM",
-            "Drop triangles as long as the surface stays within this distance; 0: none")
+  addLength(
+      "--thickness",
+      [&](const std::string& text) {
+        surface.thickness = convert::parseLength(text, "--thickness");
+      },
+      "A solid wall of this thickness around the lumen, such as 0.5 (mm) or 0.2r");
+  group
+      .add("--max-error", surface.maxError, "MM",
+           "Drop triangles as long as the surface stays within this distance; 0: none")
       ->check(kNotNegative);
 }
 

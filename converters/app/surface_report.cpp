@@ -70,10 +70,10 @@ Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const form
                {"overlaps", Json::array()}};
   for (const Eigen::Vector3d& place : report->cuts) json["cuts"].push_back(placeJson(place));
   for (const convert::Overlap& o : report->overlaps)
-    json["overlaps"].push_back({{"branches", {value.tree.branches[o.branch].label,
-                                              value.tree.branches[o.other].label}},
-                                {"depth", 2 * o.depth},
-                                {"place", placeJson(o.place)}});
+    json["overlaps"].push_back(
+        {{"branches", {value.tree.branches[o.branch].label, value.tree.branches[o.other].label}},
+         {"depth", 2 * o.depth},
+         {"place", placeJson(o.place)}});
   return json;
 }
 

@@ -55,8 +55,7 @@ std::uint32_t AdaptiveLattice::cubeAt(const Eigen::Vector3d& point) const {
                           static_cast<std::int32_t>(steps.z())};
   for (std::int32_t size = 2; size <= m_largest; size *= 2) {
     const auto at = m_index.find(keyOf(position, size));
-    if (at != m_index.end() && at->second >= 0)
-      return static_cast<std::uint32_t>(at->second);
+    if (at != m_index.end() && at->second >= 0) return static_cast<std::uint32_t>(at->second);
   }
   return kNone;
 }

@@ -64,7 +64,8 @@ private:
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
   double m_step = 1;  ///< mm
   std::vector<LatticeCube> m_cubes;
-  tsl::robin_map<std::uint64_t, std::int32_t, LatticeHash> m_index;  ///< of a leaf, or -1: has children
+  tsl::robin_map<std::uint64_t, std::int32_t, LatticeHash>
+      m_index;  ///< of a leaf, or -1: has children
   std::int32_t m_largest = 2;
 };
 

@@ -64,9 +64,9 @@ private:
   // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each
   // and its lumen.
   CaseSurface wall() {
-    const SheetField around(m_source, m_blended,
-                            {m_field.options().gap / 3, m_options.thickness->mm,
-                             m_options.thickness->radii});
+    const SheetField around(
+        m_source, m_blended,
+        {m_field.options().gap / 3, m_options.thickness->mm, m_options.thickness->radii});
     CaseSurface inner = extract(m_field, m_result.report);
     SurfaceReport ofOuter;
     CaseSurface outer = extract(around, ofOuter);
@@ -113,7 +113,8 @@ private:
 ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
                             Progress& progress) {
   if (!source.models || source.tree.nodeCount() == 0)
-    throw invalidInput("the case has no models, and a mesh is made from them; lumen fit makes them");
+    throw invalidInput(
+        "the case has no models, and a mesh is made from them; lumen fit makes them");
   return Making(source, options, progress).run();
 }
 

@@ -23,32 +23,33 @@ struct ClosedSurfaceOptions {
   /// case has none, a twentieth of the least radius.
   std::optional<double> gap;
   EdgeLength edge;
-  bool open = false;               ///< flat ends are left out
-  std::vector<EndLength> extend;   ///< flow extensions
-  std::optional<Length> thickness; ///< of a wall around the lumen: the solid is the wall
-  double maxError = 0;             ///< mm: more than 0, triangles are dropped as far as that
-  int levels = 1;                  ///< of detail
+  bool open = false;                ///< flat ends are left out
+  std::vector<EndLength> extend;    ///< flow extensions
+  std::optional<Length> thickness;  ///< of a wall around the lumen: the solid is the wall
+  double maxError = 0;              ///< mm: more than 0, triangles are dropped as far as that
+  int levels = 1;                   ///< of detail
 };
 
 /// Where two vessels overlap, so that their walls were moved apart.
 struct Overlap {
   std::uint32_t branch = 0, other = 0;  ///< of the tree, the lesser first
-  double depth = 0;  ///< how far, mm, the wall of one was moved in at most
+  double depth = 0;                     ///< how far, mm, the wall of one was moved in at most
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< where, mm, LPS
 };
 
 /// What was made, and where it differs from the field. Places are in mm, LPS.
 struct SurfaceReport {
-  double gap = 0;               ///< mm
-  std::size_t trees = 0;        ///< closed surfaces, one for each connected tree
+  double gap = 0;                           ///< mm
+  std::size_t trees = 0;                    ///< closed surfaces, one for each connected tree
   std::size_t vertices = 0, triangles = 0;  ///< of the finest level
   std::size_t flatEnds = 0, roundedEnds = 0;
-  std::size_t openedEdges = 0;  ///< tree edges that the field closes
+  std::size_t openedEdges = 0;        ///< tree edges that the field closes
   std::vector<Eigen::Vector3d> cuts;  ///< where a lumen that runs into itself was cut
   std::vector<Overlap> overlaps;      ///< deepest first
   std::size_t offField = 0;           ///< vertices with no surface of the field near by
   std::size_t sharpTriangles = 0;     ///< with an angle under 15 degrees
-  std::vector<double> errors;         ///< of each level: greatest distance from the field, mm; negative: not measured
+  std::vector<double>
+      errors;  ///< of each level: greatest distance from the field, mm; negative: not measured
   std::vector<std::string> messages;  ///< sentences about ends and extensions
 };
 

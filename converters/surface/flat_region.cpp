@@ -16,9 +16,9 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double kRowHeight = 0.866;      // of a triangular lattice's edge
-constexpr double kLoopClearance = 0.6;    // of an edge: nearer to a loop triangles get flat
-constexpr double kMostInner = 4000;       // points; beyond, the lattice is coarser
+constexpr double kRowHeight = 0.866;    // of a triangular lattice's edge
+constexpr double kLoopClearance = 0.6;  // of an edge: nearer to a loop triangles get flat
+constexpr double kMostInner = 4000;     // points; beyond, the lattice is coarser
 
 bool isOn(const Point& a, const Point& b, const Point& p) {
   return orientation(a, b, p) == 0 && (p - a).dot(p - b) <= 0;

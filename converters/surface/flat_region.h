@@ -14,7 +14,8 @@ using Loop2 = std::vector<Eigen::Vector2d>;
 
 /// Triangles of a plane, counter-clockwise.
 struct FlatMesh {
-  std::vector<Eigen::Vector2d> point;  ///< those of the loops, one loop after the other; then new ones
+  std::vector<Eigen::Vector2d>
+      point;  ///< those of the loops, one loop after the other; then new ones
   std::vector<Triangle> triangle;
 };
 

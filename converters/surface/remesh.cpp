@@ -109,7 +109,7 @@ RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLen
   // What no piece holds inside is a boundary as well.
   state.isBoundary.assign(vertices, 1);
   workOn(state, piecesByNode(surface), rules, PieceWork::Remesh, progress);
-  workOn(state, piecesAround(surface.mesh, state.isBoundary, kSeamRings), rules, PieceWork::Remesh,
+  workOn(state, piecesAround(surface.mesh, state.isBoundary, kSeamRings), rules, PieceWork::Seam,
          progress);
   workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kMendRings), rules,
          PieceWork::Mend, progress);

@@ -24,6 +24,7 @@ constexpr double kDrift = 0.05;        // of the target: a smaller move leaves t
 constexpr double kFieldStep = 0.3;     // of the radius: farther off, f is not straight
 constexpr double kChordInSlit = 0.25;  // of the gap
 constexpr double kFinest = 0.2;        // of the target, at a slit
+constexpr double kLargestSag = 0.25;   // of an edge
 constexpr double kFlipQuality = 0.25;  // flips for valence leave no angle under 30 degrees, unless
                                        // it was there before
 
@@ -216,29 +217,29 @@ void moveOntoField(RemeshMesh& mesh, bool exactly) {
   }
 }
 
-bool refineSlits(RemeshMesh& mesh) {
+void refineSlits(RemeshMesh& mesh) {
   const SheetField& field = mesh.rules().field;
   const double allowed = kChordInSlit * field.options().gap;
-  bool any = false;
+  if (!(allowed > 0)) return;
   for (const Mesh::EdgeHandle edge : mesh.edges()) {
     const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
     const Mesh::VertexHandle from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
-    if (!(allowed > 0) || (!mesh.data(from).isSeparated && !mesh.data(to).isSeparated)) continue;
+    if (!mesh.data(from).isSeparated && !mesh.data(to).isSeparated) continue;
     if (mesh.data(from).kind == VertexKind::Flat || mesh.data(to).kind == VertexKind::Flat)
       continue;
     const SheetSample middle =
         field.at(0.5 * (mesh.point(from) + mesh.point(to)), mesh.data(from).node);
-    const double sag = std::abs(middle.distance);
-    if (!(sag > allowed)) continue;
+    // A surface that lies before the edge is no nearer to the other vessel, and one as far away as
+    // this is none that the edge could follow.
+    const double sag = middle.distance, length = mesh.lengthOf(edge);
+    if (!(sag > allowed) || sag > kLargestSag * length) continue;
     // The sag of a chord grows with the square of its length.
-    const double wanted = mesh.lengthOf(edge) * std::max(kFinest, std::sqrt(allowed / sag));
+    const double wanted = length * std::max(kFinest, std::sqrt(allowed / sag));
     for (const Mesh::VertexHandle v : {from, to}) {
       if (mesh.data(v).kind == VertexKind::Locked || mesh.data(v).target <= wanted) continue;
       mesh.data(v).target = wanted;
-      any = true;
     }
   }
-  return any;
 }
 
 }  // namespace lumen::convert

@@ -30,9 +30,9 @@ void moveOntoField(RemeshMesh& mesh, bool exactly);
 /// Moves one vertex onto the field as exactly as project() does; false if nothing is near by.
 bool settle(RemeshMesh& mesh, RemeshMesh::VertexHandle vertex);
 
-/// Lowers targets where a slit runs between two vessels and the middle of an edge leaves the
-/// surface by more than a quarter of the gap. True if some were lowered.
-bool refineSlits(RemeshMesh& mesh);
+/// Lowers targets, to a fifth at most, where a slit runs between two vessels and the middle of an
+/// edge is out of the surface by more than a quarter of the gap.
+void refineSlits(RemeshMesh& mesh);
 
 /// Works on sharp and folded faces until there are none or nothing helps.
 void mendFaces(RemeshMesh& mesh, const Progress& progress);

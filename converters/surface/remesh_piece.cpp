@@ -9,7 +9,7 @@ namespace {
 constexpr int kIterations = 3;
 constexpr int kLastRelaxations = 2;  // without a change of lengths
 
-void remeshToTargets(RemeshMesh& mesh, const Progress& progress) {
+void remeshToTargets(RemeshMesh& mesh, bool isFirst, const Progress& progress) {
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     progress.check();
     collapseShort(mesh);
@@ -18,7 +18,8 @@ void remeshToTargets(RemeshMesh& mesh, const Progress& progress) {
     relax(mesh);
     progress.check();
     moveOntoField(mesh, false);
-    if (iteration < 2) refineSlits(mesh);
+    // Once: where the field has folds every edge leaves it, however short.
+    if (isFirst && iteration == 0) refineSlits(mesh);
     mesh.garbage_collection();
   }
   for (int i = 0; i < kLastRelaxations; ++i) {
@@ -36,7 +37,8 @@ void remeshToTargets(RemeshMesh& mesh, const Progress& progress) {
 
 void remeshPiece(Piece& piece, const PieceRules& rules, PieceWork work, const Progress& progress) {
   RemeshMesh mesh(piece, rules);
-  if (work == PieceWork::Remesh) remeshToTargets(mesh, progress);
+  if (work == PieceWork::Remesh || work == PieceWork::Seam)
+    remeshToTargets(mesh, work == PieceWork::Remesh, progress);
   mendFaces(mesh, progress);
   if (work == PieceWork::Stretch) stretchFolds(mesh, progress);
   mesh.garbage_collection();

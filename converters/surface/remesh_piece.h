@@ -43,7 +43,8 @@ struct PieceRules {
 };
 
 enum class PieceWork : std::uint8_t {
-  Remesh,  ///< to the target lengths
+  Remesh,  ///< to the target lengths, which become shorter in slits
+  Seam,    ///< the same, where slits have their targets
   Mend,    ///< only triangles that are sharp or folded
   Stretch  ///< and where that does not help, off the field
 };

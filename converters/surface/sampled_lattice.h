@@ -46,7 +46,6 @@ public:
   /// The edges with both ends inside that are not joined.
   [[nodiscard]] const SplitEdges& split() const { return m_split; }
 
-
   /// Whether the edge between two vertices that are inside is not split.
   [[nodiscard]] bool areJoined(std::uint32_t u, std::uint32_t v) const {
     return !(m_isOnSplit[u] && m_isOnSplit[v]) || m_split.pointOn(u, v) == SplitEdges::kNone;

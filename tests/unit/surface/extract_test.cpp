@@ -26,7 +26,9 @@ struct Extracted {
   convert::CaseSurface surface;
 
   explicit Extracted(formats::Case value, double share = 1.0)
-      : source(std::move(value)), blended(formats::blendedFieldOf(source)), field(source, blended, {0.02, 0, 0}) {
+      : source(std::move(value)),
+        blended(formats::blendedFieldOf(source)),
+        field(source, blended, {0.02, 0, 0}) {
     Progress silent;
     surface = convert::extractSurface(field, share, report, silent);
   }
@@ -85,7 +87,8 @@ TEST(Extract, ASphereIsClosedAndHasItsVolume) {
   EXPECT_EQ(made.eulerOfParts(), std::vector<std::ptrdiff_t>{2});
   // every vertex is near the field's surface
   for (std::size_t v = 0; v < made.surface.mesh.position.size(); ++v)
-    ASSERT_LT(std::abs(made.field.at(made.surface.mesh.position[v], made.surface.node[v]).distance), 0.05);
+    ASSERT_LT(std::abs(made.field.at(made.surface.mesh.position[v], made.surface.node[v]).distance),
+              0.05);
 }
 
 TEST(Extract, ATubeIsOneClosedSurfaceAtEveryFineness) {
@@ -119,7 +122,9 @@ TEST(Extract, VesselsThatTouchOrOverlapStayTwo) {
     EXPECT_EQ(made.eulerOfParts(), (std::vector<std::ptrdiff_t>{2, 2})) << apart;
     // no vertex is shared: a triangle's cursors are all of one vessel
     for (const auto& t : made.surface.mesh.triangle) {
-      const auto branch = [&](std::size_t k) { return made.source.tree.branch[made.surface.node[t[k]]]; };
+      const auto branch = [&](std::size_t k) {
+        return made.source.tree.branch[made.surface.node[t[k]]];
+      };
       ASSERT_TRUE(branch(0) == branch(1) && branch(1) == branch(2)) << apart;
     }
   }
@@ -143,7 +148,8 @@ TEST(Extract, AnEdgeThatTheFieldClosesIsOpened) {
   formats::Case closed = test::tubeCase(12);
   formats::BlobbyModels& models = *closed.models;
   for (std::uint32_t node = 5; node <= 7; ++node)
-    for (std::uint32_t j = models.offset[node]; j < models.offset[node + 1]; ++j) models.width[j] *= 0.05F;
+    for (std::uint32_t j = models.offset[node]; j < models.offset[node + 1]; ++j)
+      models.width[j] *= 0.05F;
   const Extracted made(closed);
   expectClosed(made);
   EXPECT_EQ(made.eulerOfParts(), std::vector<std::ptrdiff_t>{2});
@@ -165,10 +171,12 @@ TEST(MarchingTetrahedra, EdgesOfTheSurfaceWithinATetrahedronAreOfTwoTriangles) {
       unsigned bit = 0;
       for (std::uint32_t u = 0; u < 4; ++u)
         for (std::uint32_t v = u + 1; v < 4; ++v, ++bit)
-          if ((chosen >> bit & 1U) != 0 && (inside >> u & 1U) != 0 && (inside >> v & 1U) != 0) edges.emplace_back(u, v);
+          if ((chosen >> bit & 1U) != 0 && (inside >> u & 1U) != 0 && (inside >> v & 1U) != 0)
+            edges.emplace_back(u, v);
       const convert::SplitEdges split(edges, 4);
       std::vector<convert::CrossingTriangle> triangles;
-      convert::marchTetrahedron({0, 1, 2, 3}, split, [&](std::uint32_t v) { return (inside >> v & 1U) != 0; }, triangles);
+      convert::marchTetrahedron(
+          {0, 1, 2, 3}, split, [&](std::uint32_t v) { return (inside >> v & 1U) != 0; }, triangles);
       std::map<std::pair<convert::Crossing, convert::Crossing>, int> directed;
       for (const auto& t : triangles)
         for (std::size_t k = 0; k < 3; ++k) ++directed[{t[k], t[(k + 1) % 3]}];
