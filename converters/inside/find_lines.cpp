@@ -160,8 +160,16 @@ private:
     });
   }
 
-  [[nodiscard]] static Vector3d nearestOn(const VesselLine& line, const Vector3d& point) {
-    return line.point[distanceTo(line.point, point).second];
+  /// The nearest point of a line that no wall hides from `from`; `from` itself if there is none.
+  [[nodiscard]] Vector3d nearestSeen(const VesselLine& line, const Vector3d& from) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < line.point.size(); ++i)
+      order.emplace_back((line.point[i] - from).squaredNorm(), i);
+    std::sort(order.begin(), order.end());
+    const auto seen = std::find_if(order.begin(), order.end(), [&](const auto& entry) {
+      return m_isOpen(from, line.point[entry.second]);
+    });
+    return seen == order.end() ? from : line.point[seen->second];
   }
 
   VesselLine lineOf(const std::vector<VesselWay>& ways, std::size_t w, std::size_t first) const {
@@ -174,13 +182,15 @@ private:
     if (way.parent != kNone) {
       line.parent = static_cast<int>(first + way.parent);
       parent = &m_out.lines[first + way.parent];
-      line.point.front() = nearestOn(*parent, line.point.front());
+      line.point.front() = nearestSeen(*parent, line.point.front());
     } else {
       trim(line, true, m_lumen);
     }
     if (way.meets != kNone) {
       line.meets = static_cast<int>(first + way.meets);
-      line.point.push_back(nearestOn(m_out.lines[first + way.meets], line.point.back()));
+      const Vector3d tip = line.point.back();
+      const Vector3d meeting = nearestSeen(m_out.lines[first + way.meets], tip);
+      if (meeting != tip) line.point.push_back(meeting);
     }
     const bool goesOn = way.meets != kNone || isMetAtTip(ways, w);
     if (!goesOn) trim(line, false, m_lumen);

@@ -36,6 +36,8 @@ Scores roundTrip(const std::string& file, MeshFormat format) {
   MeshCase made = caseOfMesh(repaired.mesh, file, {}, {}, progress);
   fit(made.result, {}, progress);
   const TriangleTree source(repaired.mesh);
+  for (const formats::Vec3f& c : made.result.tree.centre)
+    EXPECT_TRUE(source.contains({c.x, c.y, c.z})) << c.x << " " << c.y << " " << c.z;
   std::vector<double> shares;
   for (const BranchMesh& mesh : polygonise(made.result, {}, progress))
     for (const auto& p : mesh.position) {
