@@ -38,6 +38,8 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
                      counted(report->flatEnds, "flat end", "flat ends");
   if (report->roundedEnds > 0)
     text += ", " + counted(report->roundedEnds, "rounded end", "rounded ends");
+  if (!report->errors.empty() && report->errors.front() >= 0)
+    text += ", within " + fixed(report->errors.front(), 4) + " mm of the field";
   text += "\n";
   constexpr std::size_t kMost = 5;
   const auto& branches = value.tree.branches;
@@ -59,20 +61,21 @@ Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const form
   Json json = {{"trees", report->trees},
                {"vertices", report->vertices},
                {"triangles", report->triangles},
-               {"gap", report->gap},
+               {"gap_mm", report->gap},
                {"flatEnds", report->flatEnds},
                {"roundedEnds", report->roundedEnds},
                {"openedEdges", report->openedEdges},
                {"offField", report->offField},
                {"sharpTriangles", report->sharpTriangles},
-               {"errors", report->errors},
                {"cuts", Json::array()},
                {"overlaps", Json::array()}};
+  json["errors_mm"] = Json::array();
+  for (const double error : report->errors) json["errors_mm"].push_back(error < 0 ? Json() : jsonNumber(error));
   for (const Eigen::Vector3d& place : report->cuts) json["cuts"].push_back(placeJson(place));
   for (const convert::Overlap& o : report->overlaps)
     json["overlaps"].push_back(
         {{"branches", {value.tree.branches[o.branch].label, value.tree.branches[o.other].label}},
-         {"depth", 2 * o.depth},
+         {"depth_mm", 2 * o.depth},
          {"place", placeJson(o.place)}});
   return json;
 }

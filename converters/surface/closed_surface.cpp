@@ -8,9 +8,11 @@
 
 #include "converters/common/error.h"
 #include "converters/surface/cut_ends.h"
+#include "converters/surface/decimate.h"
 #include "converters/surface/end_planes.h"
 #include "converters/surface/extract.h"
 #include "converters/surface/flow_extension.h"
+#include "converters/surface/levels_of_detail.h"
 #include "converters/surface/overlaps.h"
 #include "converters/surface/remesh.h"
 #include "converters/surface/thick_wall.h"
@@ -40,25 +42,40 @@ public:
         m_field(source, m_blended, {gapOf(source, options), 0, 0}) {}
 
   ClosedSurface run() {
-    m_result.report.gap = m_field.options().gap;
-    CaseSurface surface = m_options.thickness ? wall() : lumen();
     SurfaceReport& report = m_result.report;
-    std::vector<std::string> said = extendEnds(surface, m_source, m_options.extend);
-    std::move(said.begin(), said.end(), std::back_inserter(report.messages));
-    if (m_options.open && !m_options.thickness) openEnds(surface);
-    m_result.levels.push_back(toSurfaceMesh(surface, m_field, m_progress));
-    report.vertices = surface.mesh.position.size();
-    report.triangles = surface.mesh.triangle.size();
+    report.gap = m_field.options().gap;
+    std::vector<DetailLevel> levels;
+    if (m_options.thickness)
+      levels.push_back({wall(), {}});
+    else
+      levels = lumen();
+    for (DetailLevel& level : levels) {
+      const std::vector<std::string> said = extendEnds(level.surface, m_source, m_options.extend);
+      if (m_result.levels.empty())
+        report.messages.insert(report.messages.end(), said.begin(), said.end());
+      if (m_options.open && !m_options.thickness) openEnds(level.surface);
+      m_result.levels.push_back(toSurfaceMesh(level.surface, m_field, m_progress));
+      report.errors.push_back(level.error.largest);
+    }
+    report.vertices = m_result.levels.front().position.size();
+    report.triangles = m_result.levels.front().triangle.size();
     return std::move(m_result);
   }
 
 private:
-  CaseSurface lumen() {
+  // The lumen's surface, in as many levels as are asked for.
+  std::vector<DetailLevel> lumen() {
     CaseSurface surface = extract(m_field, m_result.report);
     noteEnds(cutEnds(surface, m_field, m_progress));
-    refine(surface, m_field);
+    const double error = refine(surface, m_field);
     m_result.report.overlaps = overlapsOf(surface, m_field);
-    return surface;
+    std::vector<DetailLevel> levels;
+    if (m_options.levels <= 1) {
+      levels.push_back({std::move(surface), {error, 0}});
+      return levels;
+    }
+    return levelsOfDetail(std::move(surface), m_field,
+                          static_cast<std::size_t>(m_options.levels), m_progress);
   }
 
   // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each
@@ -92,12 +109,16 @@ private:
     report.flatEnds = found.flat;
     report.roundedEnds = found.rounded;
     std::move(found.messages.begin(), found.messages.end(), std::back_inserter(report.messages));
+    for (const std::string& sentence : found.moved) m_progress.detail(sentence);
   }
 
-  void refine(CaseSurface& surface, const SheetField& field) {
+  // The greatest distance from the field, mm, if triangles are dropped; else -1, not measured.
+  double refine(CaseSurface& surface, const SheetField& field) {
     const RemeshReport found = remesh(surface, field, m_options.edge, m_progress);
     m_result.report.offField += found.offField;
     m_result.report.sharpTriangles += found.sharp;
+    if (!(m_options.maxError > 0)) return -1;
+    return decimate(surface, field, {m_options.maxError, 0}, m_progress).largest;
   }
 
   const formats::Case& m_source;

@@ -49,7 +49,7 @@ struct SurfaceReport {
   std::size_t offField = 0;           ///< vertices with no surface of the field near by
   std::size_t sharpTriangles = 0;     ///< with an angle under 15 degrees
   std::vector<double>
-      errors;  ///< of each level: greatest distance from the field, mm; negative: not measured
+      errors;  ///< of each level: greatest distance from the field, mm; below 0: not measured
   std::vector<std::string> messages;  ///< sentences about ends and extensions
 };
 
@@ -61,7 +61,9 @@ struct ClosedSurface {
 /// The blended surface of a case, docs/method.md, section 5: for each connected tree a closed,
 /// oriented 2-manifold whose genus is the number of loops that links close, with planar ends.
 /// Vertices lie within 1e-3 of the local radius of the blended field, but on ends and where vessels
-/// overlap. Throws Error(InvalidInput) if the case has no models, and Error(Cancelled).
+/// overlap. Throws Error(InvalidInput) if the case has no models, Error(Usage) for options
+/// that do not go together, Error(Failed) where a wall of that thickness would meet itself, and
+/// Error(Cancelled).
 ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
                             Progress& progress);
 

@@ -177,7 +177,7 @@ private:
       applyCut(m_fans[s], cuts.plane, cuts.cut[s], group);
     ++m_report.flat;
     if (cuts.moved > 0)
-      m_report.messages.push_back(name + ": cut " + formats::shortText(float(cuts.moved)) +
+      m_report.moved.push_back(name + ": cut " + formats::shortText(float(cuts.moved)) +
                                   " mm farther in, where the vessel is open");
   }
 

@@ -17,7 +17,8 @@ namespace lumen::convert {
 struct EndsReport {
   std::size_t flat = 0;               ///< ends that were cut
   std::size_t rounded = 0;            ///< ends that no plane could cut
-  std::vector<std::string> messages;  ///< a sentence for each rounded and each moved end
+  std::vector<std::string> messages;  ///< a sentence for each rounded end
+  std::vector<std::string> moved;     ///< and for each that was cut farther in
 };
 
 /// A surface with the field that it follows.

@@ -41,11 +41,11 @@ struct SheetSample {
 /// A *sheet* of a point is a node that following a cursor can end at, with the nodes that blend
 /// with it there: two vessels that touch are two sheets. With d the distance to a sheet's wall (the
 /// one-evaluation distance of docs/method.md, section 4.2) and a the distance to its axis, as a
-/// share of the radius r there, the surface is the zero of
+/// share of the radius there, the surface is the zero of
 ///
-///     g = max(d - offset, (a - a') / (1/r + 1/r') + gap/2)
+///     g = max(d - offset, (a - a') / |grad(a - a')| + gap/2)
 ///
-/// where a' and r' are those of the other sheet that gives most. So where two lumens overlap each
+/// where a' is that of the other sheet that gives most. So where two lumens overlap each
 /// ends half a gap before the place that is as far from both axes, and no vessel loses its axis to
 /// a wider one. Within a quarter of a radius of its axis the node of the greater index goes first,
 /// so that neither is severed where two axes cross.
