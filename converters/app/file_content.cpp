@@ -86,7 +86,7 @@ std::string useOf(ContentKind kind) {
     case Case:
       return "; lumen fit, convert, info, compare and validate take a case";
     case Mesh:
-      return "; lumen writes meshes, but does not read them";
+      return "; lumen convert makes a case of the surface of vessels";
     case Unknown:
     case Other:
       break;
@@ -134,8 +134,7 @@ FileContent contentOf(const fs::path& file) {
 std::string notA(ContentKind wanted, const fs::path& file) {
   const FileContent content = contentOf(file);
   if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
-  const std::string contrast = content.kind == ContentKind::Mesh ? "" : ", not " + nounOf(wanted);
-  return content.sentence() + contrast + useOf(content.kind);
+  return content.sentence() + ", not " + nounOf(wanted) + useOf(content.kind);
 }
 
 }  // namespace lumen::app

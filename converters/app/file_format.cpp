@@ -43,6 +43,10 @@ convert::MeshFile readMeshAs(const fs::path& file) {
   return convert::readMesh(file, format);
 }
 
+convert::MeshFile readVesselsOfScene(const fs::path& file) {
+  return readSceneMesh(file, {});
+}
+
 template <formats::CaseEncoding encoding>
 void writeCaseAs(const formats::Case& value, const fs::path& file, const OutputOptions& options,
                  Progress&) {
@@ -92,6 +96,8 @@ std::vector<FileFormat> makeTable() {
       {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"}, .readMesh = readMeshAs<MeshFormat::Obj>, .writeCase = kObj},
       {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"}, .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"}, .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kPly},
+      {.name = "scn", .title = "a scene of SOFA", .kind = Mesh, .endings = {".scn"},
+       .readMesh = readVesselsOfScene, .readScene = readSceneMesh},
       // volumes
       {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
        .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,

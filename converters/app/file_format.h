@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "converters/app/file_content.h"
+#include "converters/app/scene_input.h"
 #include "converters/common/progress.h"
 #include "converters/mesh/mesh_file.h"
 #include "converters/mesh/write_options.h"
@@ -38,6 +39,7 @@ struct FileFormat {
                                                        const convert::ReadVolumeOptions&,
                                                        const Progress&);
   using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
+  using SceneReader = convert::MeshFile (*)(const std::filesystem::path&, const SceneArguments&);
   using CaseWriter = void (*)(const formats::Case&, const std::filesystem::path&,
                               const OutputOptions&, Progress&);
   using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
@@ -50,6 +52,7 @@ struct FileFormat {
   VolumeReader readVolume = nullptr;
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
   MeshReader readMesh = nullptr;
+  SceneReader readScene = nullptr;     ///< where a file may have several meshes, or names others
   CaseWriter writeCase = nullptr;      ///< atomically
   VolumeWriter writeVolume = nullptr;  ///< atomically
 };

@@ -44,7 +44,8 @@ TEST(FileFormats, KindsMatchWhatIsReadAndWritten) {
   for (const FileFormat& format : fileFormats()) {
     const bool volume = format.kind == FormatKind::Volume;
     EXPECT_EQ(format.readVolume != nullptr, volume) << format.name;
-    EXPECT_EQ(format.writeCase != nullptr, !volume) << format.name;
+    // scenes only name a mesh
+    EXPECT_EQ(format.writeCase != nullptr, !volume && format.readScene == nullptr) << format.name;
     EXPECT_EQ(format.readCase != nullptr, format.kind == FormatKind::Case) << format.name;
   }
 }

@@ -5,6 +5,7 @@ lumen_test(mesh_test
   LABELS threads
   LIBS lumen_mesh lumen_surface OpenMeshCore draco::draco TinyGLTF::TinyGLTF
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/sofa_scene_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_mesh_test.cpp)
 
 # CGAL, which is GPL, is only ever compared with. It is headers alone; its own CMake package would hide
