@@ -34,9 +34,9 @@ convert::MeshFile readSceneMesh(const fs::path& file, const SceneArguments& argu
       convert::sofaLoaders(wholeText(file, name), name);
   const convert::SofaLoader& loader = convert::vesselLoader(loaders, arguments.mesh, name);
   const fs::path mesh =
-      convert::detachedFiles(
-          file, convert::namesOfList({loader.filename}),
-          {arguments.allowDetached.begin(), arguments.allowDetached.end()}, "the vessels' mesh is")
+      convert::detachedFiles(file, convert::namesOfList({loader.filename}),
+                             {arguments.allowDetached.begin(), arguments.allowDetached.end()},
+                             "the vessels' mesh is")
           .front();
   const bool isObj = lowerCase(loader.component) == "meshobjloader";
   convert::MeshFile read =
@@ -47,10 +47,10 @@ convert::MeshFile readSceneMesh(const fs::path& file, const SceneArguments& argu
       throw invalidInput(name + ": line " + std::to_string(loader.line) +
                          ": places the mesh farther away than 1e12");
   }
-  read.notes.push_back("the vessels are " + formats::printable(loader.filename) + ", loaded by " +
-                       formats::printable(loader.name) + " in " + formats::printable(loader.node) +
-                       (loader.isMovedTwice ? ", placed by it and by the MechanicalObject there"
-                                            : ""));
+  read.notes.push_back(
+      "the vessels are " + formats::printable(loader.filename) + ", loaded by " +
+      formats::printable(loader.name) + " in " + formats::printable(loader.node) +
+      (loader.isMovedTwice ? ", placed by it and by the MechanicalObject there" : ""));
   return read;
 }
 

@@ -280,7 +280,8 @@ LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::stri
         const std::set<std::int64_t> values = valuesOf(voxels, name);
         LabelNames named = wanted;
         if (wanted.empty())
-          for (const std::int64_t value : values) named[value].append("label-").append(std::to_string(value));
+          for (const std::int64_t value : values)
+            named[value].append("label-").append(std::to_string(value));
         std::map<std::int64_t, std::uint8_t> places;
         for (const auto& [value, text] : named) {
           if (!values.contains(value))
@@ -308,8 +309,9 @@ LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::stri
 LabelSurface surfaceOf(const LabelMask& mask, const Progress& progress) {
   const SampleGrid grid = LabelSamples(mask, progress).grid();
   std::vector<SampleState> state(grid.value.size());
-  std::transform(grid.value.begin(), grid.value.end(), state.begin(),
-                 [](double value) { return value > 0.5 ? SampleState::Inside : SampleState::Outside; });
+  std::transform(grid.value.begin(), grid.value.end(), state.begin(), [](double value) {
+    return value > 0.5 ? SampleState::Inside : SampleState::Outside;
+  });
   LabelSurface out;
   out.mesh = marchingCubes(grid, state, [](const Vector3d&, double a, const Vector3d&, double b) {
     return (0.5 - a) / (b - a);

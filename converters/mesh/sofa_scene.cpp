@@ -65,10 +65,10 @@ public:
           static_cast<SceneHandler*>(self)->begin(tag, attributes);
         },
         [](void* self, const XML_Char* tag) { static_cast<SceneHandler*>(self)->end(tag); });
-    XML_SetStartDoctypeDeclHandler(m_parser, [](void* self, const XML_Char*, const XML_Char*,
-                                                const XML_Char*, int) {
-      static_cast<SceneHandler*>(self)->refuse("has a document type; expected none in a scene");
-    });
+    XML_SetStartDoctypeDeclHandler(
+        m_parser, [](void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
+          static_cast<SceneHandler*>(self)->refuse("has a document type; expected none in a scene");
+        });
     feed();
     if (m_fault) throw *m_fault;
     return std::move(m_loaders);
@@ -132,7 +132,8 @@ private:
     loader.component = component;
     loader.name = attribute(attributes, "name");
     if (loader.name.empty()) loader.name = "loader";
-    for (const OpenNode& node : m_nodes) loader.node += (loader.node.empty() ? "" : "/") + node.name;
+    for (const OpenNode& node : m_nodes)
+      loader.node += (loader.node.empty() ? "" : "/") + node.name;
     loader.filename = attribute(attributes, "filename");
     loader.line = line();
     Placement placement;
@@ -159,8 +160,7 @@ private:
     read(attributes, "translation", first.translation);
     read(attributes, "rotation", first.rotation);
     read(attributes, "scale3d", first.scale);
-    if (!attribute(attributes, "scale").empty())
-      first.scale.setConstant(readScale(attributes));
+    if (!attribute(attributes, "scale").empty()) first.scale.setConstant(readScale(attributes));
     readAxes(attributes, {"sx", "sy", "sz"}, 1, first.scale);
     readAxes(attributes, {"rx", "ry", "rz"}, 0, first.rotation);
     readAxes(attributes, {"dx", "dy", "dz"}, 0, first.translation);

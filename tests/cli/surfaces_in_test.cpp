@@ -77,8 +77,7 @@ TEST_F(SurfacesInTest, ACenterlineIsFollowedOrRefused) {
   }
   write("line.swc", inside.str());
   write("far.swc", outside.str());
-  const Outcome done =
-      lumen({"convert", "tube.obj", "tube.lumen", "--centerline", "line.swc"});
+  const Outcome done = lumen({"convert", "tube.obj", "tube.lumen", "--centerline", "line.swc"});
   ASSERT_EQ(done.code, 0) << done.err;
   const Outcome refused = lumen({"convert", "tube.obj", "no.lumen", "--centerline", "far.swc"});
   EXPECT_EQ(refused.code, 3);

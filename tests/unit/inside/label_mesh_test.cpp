@@ -114,7 +114,8 @@ Volume fork() {
 TEST(LabelMesh, NamesBranchesByTheirLabels) {
   Progress progress;
   const LabelMask mask = maskOf(fork(), {{5, "left"}, {7, "right"}, {3, "trunk"}}, "m.nrrd");
-  formats::Case value = caseOfMesh(surfaceOf(mask, progress).mesh, "m.nrrd", {}, {}, progress).result;
+  formats::Case value =
+      caseOfMesh(surfaceOf(mask, progress).mesh, "m.nrrd", {}, {}, progress).result;
   ASSERT_EQ(value.tree.branches.size(), 2U);
   nameBranches(mask, value);
   // the way through the trunk goes on through one of the arms, the other is a branch of its own
