@@ -4,6 +4,7 @@
 #include "converters/app/centerline_input.h"
 #include "converters/app/command.h"
 #include "converters/app/file_access.h"
+#include "converters/app/mask_input.h"
 #include "converters/app/mesh_input.h"
 #include "converters/app/reachable.h"
 #include "converters/app/report.h"
@@ -11,6 +12,7 @@
 #include "converters/app/surface_report.h"
 #include "converters/app/track_report.h"
 #include "converters/app/value_checks.h"
+#include "converters/common/error.h"
 #include "converters/fitting/fit.h"
 #include "converters/surface/cell_size.h"
 
@@ -28,6 +30,7 @@ public:
     return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
            "  lumen convert head.lumen head.glb --color radius\n"
            "  lumen convert aorta.stl aorta.lumen --centerline aorta-centerline.vtp\n"
+           "  lumen convert labels.nii.gz arteries.lumen --labels 1=ica,2=mca\n"
            "  lumen convert arteries.swc arteries.lumen";
   }
 
@@ -47,6 +50,8 @@ public:
     addCenterlineOptions(app, m_centerline);
     addTrackOptions(app, m_track);
     addCenterlineOptions(app, m_mesh);
+    addSceneOptions(app, m_mesh);
+    addMaskOptions(app, m_mask);
     addFitOptions(app, m_fit);
     addMeshOptions(app, m_outputOptions);
     addEncodingOptions(app, m_outputOptions.encoding);
@@ -57,7 +62,10 @@ public:
     const FileFormat& to = outputFormat(m_output, m_to);
     requireInput(m_input, "input");
     const FileFormat& from = inputFormat(m_input, m_from);
-    if (from.kind == FormatKind::Volume) m_seeds = loadSeeds(m_track);
+    if (m_mask.isGiven())
+      requireLabels(from);
+    else if (from.kind == FormatKind::Volume)
+      m_seeds = loadSeeds(m_track);
     requireWritable(m_output, contentKind(to));
     context.interrupts.watchOutput(m_output);
 
@@ -72,6 +80,15 @@ public:
   }
 
 private:
+  /// Refuses labels of what has none, and seeds beside labels.
+  void requireLabels(const FileFormat& from) const {
+    if (from.kind != FormatKind::Volume)
+      throw Error(ErrorKind::Usage, m_input + ": --mask, --label and --labels are for volumes");
+    if (!m_track.seeds.empty())
+      throw Error(ErrorKind::Usage,
+                  "--seeds are for images; vessels of labels are found without them");
+  }
+
   formats::Case load(const FileFormat& from, Progress& progress) {
     if (from.kind == FormatKind::Mesh)
       return caseOfMeshFile(m_input, from, meshArguments(), progress);
@@ -90,6 +107,7 @@ private:
       if (cell == 0 && thinnest > 0) cell = convert::coarsestCellFor(thinnest);
       return convert::caseOfCenterline(loaded.file, m_input);
     }
+    if (m_mask.isGiven()) return caseOfMaskFile(m_input, from, m_volume, m_mask, progress);
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
     convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
@@ -99,6 +117,7 @@ private:
   [[nodiscard]] MeshArguments meshArguments() const {
     MeshArguments arguments = m_mesh;
     arguments.unit = m_volume.unit;
+    arguments.scene.allowDetached = m_volume.allowDetached;
     return arguments;
   }
 
@@ -135,6 +154,7 @@ private:
   TrackArguments m_track;
   FitArguments m_fit;
   MeshArguments m_mesh;
+  MaskArguments m_mask;
   OutputOptions m_outputOptions;
   std::vector<convert::SeedBranch> m_seeds;
   convert::TrackRemarks m_remarks;

@@ -50,6 +50,10 @@ convert::MeshFile readMeshAs(const fs::path& file) {
   return convert::readMesh(file, format);
 }
 
+convert::MeshFile readVesselsOfScene(const fs::path& file) {
+  return readSceneMesh(file, {});
+}
+
 template <formats::CaseEncoding encoding>
 std::optional<convert::SurfaceReport> writeCaseAs(const formats::Case& value, const fs::path& file,
                                                   const OutputOptions& options, Progress&) {
@@ -122,6 +126,8 @@ std::vector<FileFormat> makeTable() {
        .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"},
        .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kPly},
+      {.name = "scn", .title = "a scene of SOFA", .kind = Mesh, .endings = {".scn"},
+       .readMesh = readVesselsOfScene, .readScene = readSceneMesh},
       // centerlines
       {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc,
        .writeCase = writeTreeAs<convert::encodeSwc>},

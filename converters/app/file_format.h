@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "converters/app/file_content.h"
+#include "converters/app/scene_input.h"
 #include "converters/centerline/centerline_file.h"
 #include "converters/common/progress.h"
 #include "converters/mesh/mesh_file.h"
@@ -44,6 +45,7 @@ struct FileFormat {
                                                        const Progress&);
   using CenterlineReader = convert::CenterlineFile (*)(const std::filesystem::path&);
   using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
+  using SceneReader = convert::MeshFile (*)(const std::filesystem::path&, const SceneArguments&);
   /// What it returns is null unless a closed surface was made.
   using CaseWriter = std::optional<convert::SurfaceReport> (*)(const formats::Case&,
                                                                const std::filesystem::path&,
@@ -59,6 +61,7 @@ struct FileFormat {
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
   MeshReader readMesh = nullptr;
   CenterlineReader readCenterline = nullptr;
+  SceneReader readScene = nullptr;     ///< where a file may have several meshes, or names others
   CaseWriter writeCase = nullptr;      ///< atomically
   VolumeWriter writeVolume = nullptr;  ///< atomically
 };

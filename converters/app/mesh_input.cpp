@@ -104,7 +104,8 @@ formats::Case caseOfMeshFile(const fs::path& file, const FileFormat& format,
                              const MeshArguments& arguments, Progress& progress) {
   const std::string name = formats::printable(file.string());
   progress.begin("reading", 0);
-  const convert::MeshFile read = format.readMesh(file);
+  const convert::MeshFile read =
+      format.readScene != nullptr ? format.readScene(file, arguments.scene) : format.readMesh(file);
   convert::RepairResult repaired = convert::repairMesh(read.mesh, name, progress);
   progress.end();
   for (const std::string& note : read.notes) progress.warn(name + ": " + note);

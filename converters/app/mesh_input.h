@@ -17,6 +17,7 @@ struct MeshArguments {
   std::string centerline;       ///< a file; empty: the tree is found
   std::string centerlineFrame;  ///< lps or ras; empty: as its file says, or the mesh's
   std::string centerlineUnit;   ///< empty: as its file says, or the mesh's
+  SceneArguments scene;         ///< of a scene
 };
 
 /// Tree and wall points of the mesh in `file`. What had to be repaired or assumed becomes warnings. Throws

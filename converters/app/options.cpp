@@ -168,8 +168,9 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->group("Volume")
       ->check(oneOf(wordsOf(kMillimetresOf)));
   app.add_option("--allow-detached", volume.allowDetached,
-                 "Allow a header to take its voxels from this file, or from below this folder; "
-                 "otherwise only from its own folder. May be given several times")
+                 "Allow a header to take its voxels, or a scene its mesh, from this file, or from "
+                 "below this folder; otherwise only from its own folder. May be given several "
+                 "times")
       ->option_text("PATH")
       ->group("Volume")
       ->check(fileName())
@@ -280,6 +281,33 @@ void addCenterlineOptions(CLI::App& app, MeshArguments& mesh) {
       ->type_name("UNIT")
       ->group("Surface")
       ->check(oneOf(wordsOf(kMillimetresOf)));
+}
+
+void addSceneOptions(CLI::App& app, MeshArguments& mesh) {
+  app.add_option("--mesh", mesh.scene.mesh,
+                 "Which mesh of a scene the vessels are: the name of its loader or of the loader's "
+                 "node [the one in a node that says vessel, or that does not move]")
+      ->type_name("NAME")
+      ->group("Surface");
+}
+
+void addMaskOptions(CLI::App& app, MaskArguments& mask) {
+  CLI::Option* all =
+      app.add_flag("--mask", mask.isMask,
+                   "The volume holds labels, and all but 0 are vessels; it needs no seeds")
+          ->group("Surface");
+  CLI::Option* one = app.add_option("--label", mask.label,
+                                    "The volume holds labels, and this one alone is of vessels")
+                         ->type_name("N")
+                         ->group("Surface")
+                         ->check(wholeIn(-(std::int64_t{1} << 24), std::int64_t{1} << 24));
+  app.add_option("--labels", mask.labels,
+                 "The volume holds labels, and these are of vessels; branches get their names")
+      ->option_text("N=NAME,...")
+      ->group("Surface")
+      ->excludes(all)
+      ->excludes(one);
+  one->excludes(all);
 }
 
 void addFitOptions(CLI::App& app, FitArguments& fit) {

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "converters/app/file_format.h"
+#include "converters/app/mask_input.h"
 #include "converters/app/mesh_input.h"
 #include "converters/fitting/fit.h"
 #include "converters/phantom/phantom.h"
@@ -46,6 +47,8 @@ void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding);
 void addVolumeOptions(CLI::App& app, VolumeArguments& volume);
 void addTrackOptions(CLI::App& app, TrackArguments& track);
 void addCenterlineOptions(CLI::App& app, MeshArguments& mesh);
+void addSceneOptions(CLI::App& app, MeshArguments& mesh);
+void addMaskOptions(CLI::App& app, MaskArguments& mask);
 void addFitOptions(CLI::App& app, FitArguments& fit);
 void addMeshOptions(CLI::App& app, OutputOptions& output);
 void addPhantomOptions(CLI::App& app, convert::PhantomOptions& phantom);

@@ -56,12 +56,18 @@ convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const 
   return header;
 }
 
-convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
-                           const VolumeArguments& volume, Progress& progress) {
+convert::Volume readVolumeFile(const std::filesystem::path& file, const FileFormat& format,
+                               const VolumeArguments& volume, Progress& progress) {
   progress.begin("reading", 0);
   convert::Volume result = readAs(format.readVolume, file, volume, progress);
   progress.end();
   tellAssumptions(file, result.assumptions, progress);
+  return result;
+}
+
+convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
+                           const VolumeArguments& volume, Progress& progress) {
+  convert::Volume result = readVolumeFile(file, format, volume, progress);
   const std::string name = formats::printable(file.string()) + ": ";
   try {
     if (const auto doubt = convert::doubtAbout(result)) progress.warn(name + *doubt);
@@ -74,7 +80,8 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
 std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
   if (track.seeds.empty())
     throw Error(ErrorKind::Usage,
-                "a volume needs --seeds FILE, which says where its vessels begin");
+                "a volume needs --seeds FILE, which says where its vessels begin; if it holds "
+                "labels, lumen convert --mask takes them");
   requireInput(track.seeds, "seeds file");
   if (const std::string other = notA(ContentKind::Seeds, track.seeds); !other.empty())
     throw invalidInput(track.seeds + ": " + other);

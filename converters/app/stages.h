@@ -20,6 +20,10 @@ convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const 
 
 /// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
 /// file leaves open and the reader assumed becomes warnings.
+convert::Volume readVolumeFile(const std::filesystem::path& file, const FileFormat& format,
+                               const VolumeArguments& volume, Progress& progress);
+
+/// The same, for tracking: what makes its voxels doubtful becomes a warning, too.
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress);
 

@@ -78,7 +78,7 @@ NamePattern patternOf(const fs::path& header, const std::string& text) {
 }  // namespace
 
 std::vector<fs::path> detachedFiles(const fs::path& header, const DetachedNames& names,
-                                    const std::vector<fs::path>& allowed) {
+                                    const std::vector<fs::path>& allowed, const std::string& what) {
   std::vector<fs::path> places = {resolved(header.parent_path())};
   for (const fs::path& path : allowed) places.push_back(resolved(path));
   std::erase_if(places, [](const fs::path& place) { return place.empty(); });
@@ -87,7 +87,7 @@ std::vector<fs::path> detachedFiles(const fs::path& header, const DetachedNames&
     const std::string name = names.name(n);
     const fs::path stated = header.parent_path() / name;
     const auto refuse = [&](const std::string& why) {
-      return invalidInput(header.string() + ": its voxels are in " +
+      return invalidInput(header.string() + ": " + what + " in " +
                           formats::printable(stated.string()) + ", " + why);
     };
     std::error_code error;

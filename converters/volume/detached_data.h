@@ -20,10 +20,12 @@ struct DetachedNames {
 
 /// These names resolved: from the header's folder on, every link followed. Throws
 /// Error(InvalidInput), naming the header and the option, for a place outside of the header's folder
-/// and of `allowed`; and for what is no regular file that can be found.
+/// and of `allowed`; and for what is no regular file that can be found. `what` those files hold, for
+/// messages.
 std::vector<std::filesystem::path> detachedFiles(const std::filesystem::path& header,
                                                  const DetachedNames& names,
-                                                 const std::vector<std::filesystem::path>& allowed);
+                                                 const std::vector<std::filesystem::path>& allowed,
+                                                 const std::string& what = "its voxels are");
 
 /// The numbers that a pattern of names runs through; each fits 32 bits.
 struct NumberRange {

@@ -19,6 +19,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/pushed_tool.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/reachable_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/surfaces_in_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/terminal_progress_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/tool_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/usage_test.cpp

@@ -4,5 +4,6 @@ lumen_test(inside_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/inside/case_of_mesh_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/inside/closed_mesh_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/inside/label_mesh_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/inside/real_meshes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/inside/triangle_tree_test.cpp)

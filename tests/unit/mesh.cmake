@@ -8,6 +8,7 @@ lumen_test(mesh_test
     nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_parts_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/sofa_scene_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/vertex_color_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_coded_gltf_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/write_gltf_test.cpp

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files of docs/mistakes/surfaces.md."""
+import math
+
+from fixtures import fixture
+
+
+@fixture("labels.nrrd")
+def labels(store):
+    """The lumen of the tube as label 1."""
+    store.path("case.lumen")
+    store.lumen("check", "tube.nrrd", "case.lumen", "--mask", "labels.nrrd")
+
+
+@fixture("open.obj")
+def open_tube(store):
+    """A tube, 40 mm long, of 2 mm radius, open at both ends."""
+    lines = []
+    for i in range(41):
+        for k in range(24):
+            angle = 2 * math.pi * k / 24
+            lines.append(f"v {i} {2 * math.cos(angle):.6f} {2 * math.sin(angle):.6f}")
+    for i in range(40):
+        for k in range(24):
+            a, b = 24 * i + k + 1, 24 * i + (k + 1) % 24 + 1
+            lines += [f"f {a} {b + 24} {b}", f"f {a} {a + 24} {b + 24}"]
+    return ("\n".join(lines) + "\n").encode()
+
+
+@fixture("negated.swc")
+def negated(store):
+    """The axis of that tube, with x and y negated."""
+    return "".join(f"{i} 0 {-i} 0 0 2 {i - 1 if i > 1 else -1}\n" for i in range(1, 40)).encode()
+
+
+def scene(*nodes):
+    """A scene of SOFA."""
+    return ('<Node name="root">\n' + "\n".join(nodes) + "\n</Node>\n").encode()
+
+
+@fixture("two.scn")
+def two(store):
+    return scene('<Node name="Arteries"><MeshOBJLoader name="loader" filename="open.obj"/></Node>',
+                 '<Node name="Tip"><MeshSTLLoader name="tip" filename="tip.stl"/></Node>')
+
+
+@fixture("elsewhere.scn")
+def elsewhere(store):
+    return scene('<MeshOBJLoader name="loader" filename="../../etc/arteries.obj"/>')
+
+
+@fixture("volumetric.scn")
+def volumetric(store):
+    return scene('<Node name="Vessels"><MeshGmshLoader filename="vessels.msh"/></Node>')

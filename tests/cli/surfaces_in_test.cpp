@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces, labels and scenes of other programs become cases.
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/case/case_file.h"
+#include "tests/cli/run_lumen.h"
+#include "tests/unit/inside/tube_mesh.h"
+
+namespace lumen::test {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != text.npos;
+}
+
+std::string objOf(const convert::TriangleMesh& mesh) {
+  std::ostringstream text;
+  for (const auto& p : mesh.position) text << "v " << p.x() << " " << p.y() << " " << p.z() << "\n";
+  for (const auto& t : mesh.triangle)
+    text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  return text.str();
+}
+
+/// A tube along x, 40 mm long, of 2 mm radius, open at both ends.
+std::string tubeObj() {
+  return objOf(convert::test::tube(convert::test::straight(40), 2, false));
+}
+
+/// Loads tube.obj, turned about z to lie along y, three times as large.
+const char* const kScene = R"(<?xml version="1.0"?>
+<Node name="root">
+  <Node name="Vessels">
+    <MeshOBJLoader name="mesh" filename="parts/tube.obj" rotation="0 0 90" scale="3"/>
+    <TriangleCollisionModel moving="0"/>
+  </Node>
+  <Node name="Tool"><MeshOBJLoader name="tip" filename="tip.obj"/></Node>
+</Node>)";
+
+}  // namespace
+
+class SurfacesInTest : public CliTest {
+protected:
+  [[nodiscard]] Json info(const std::string& file) const {
+    const Outcome told = lumen({"info", file, "--json"});
+    EXPECT_EQ(told.code, 0) << told.err;
+    return told.code == 0 ? Json::parse(told.out) : Json();
+  }
+  void writeScene(const std::string& mesh) const {
+    std::filesystem::create_directory(path("scene"));
+    std::filesystem::create_directory(path("scene/parts"));
+    write("scene/vessels.scn", kScene);
+    if (!mesh.empty()) write(mesh, tubeObj());
+  }
+};
+
+TEST_F(SurfacesInTest, AMeshBecomesACase) {
+  write("tube.obj", tubeObj());
+  const Outcome done = lumen({"convert", "tube.obj", "tube.lumen"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json told = info("tube.lumen");
+  EXPECT_EQ(told["branches"], 1);
+  EXPECT_NEAR(told["radius_mm"]["max"].get<double>(), 2, 0.05);
+  EXPECT_GT(told["blobs"].get<int>(), 0);
+}
+
+TEST_F(SurfacesInTest, ACenterlineIsFollowedOrRefused) {
+  write("tube.obj", tubeObj());
+  std::ostringstream inside, outside;
+  for (int i = 1; i <= 39; ++i) {
+    inside << i << " 0 " << i << " 0 0 2 " << (i == 1 ? -1 : i - 1) << "\n";
+    outside << i << " 0 " << -i << " 0 0 2 " << (i == 1 ? -1 : i - 1) << "\n";
+  }
+  write("line.swc", inside.str());
+  write("far.swc", outside.str());
+  const Outcome done = lumen({"convert", "tube.obj", "tube.lumen", "--centerline", "line.swc"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Outcome refused = lumen({"convert", "tube.obj", "no.lumen", "--centerline", "far.swc"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_TRUE(contains(refused.err, "0 of its 39 points lie inside")) << refused.err;
+  EXPECT_FALSE(exists("no.lumen"));
+}
+
+TEST_F(SurfacesInTest, ASceneGivesItsVesselsWhereItPlacesThem) {
+  writeScene("scene/parts/tube.obj");
+  const Outcome done = lumen({"convert", "scene/vessels.scn", "tube.lumen"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NEAR(info("tube.lumen")["radius_mm"]["max"].get<double>(), 6, 0.15);
+  const auto value = formats::readCaseFile(path("tube.lumen"));
+  ASSERT_TRUE(value);
+  for (const formats::Vec3f& c : value->tree.centre) {
+    EXPECT_NEAR(c.x, 0, 0.1);
+    EXPECT_GT(c.y, 0);
+  }
+}
+
+TEST_F(SurfacesInTest, ASceneTakesNoMeshFromElsewhere) {
+  writeScene("");
+  write("tube.obj", tubeObj());
+  std::filesystem::create_symlink("../../tube.obj", path("scene/parts/tube.obj"));
+  const Outcome refused = lumen({"convert", "scene/vessels.scn", "tube.lumen"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_TRUE(contains(refused.err, "--allow-detached")) << refused.err;
+  EXPECT_EQ(lumen({"convert", "scene/vessels.scn", "tube.lumen", "--allow-detached", "."}).code, 0);
+}
+
+TEST_F(SurfacesInTest, AMeshOfASceneIsChosenByItsName) {
+  writeScene("scene/parts/tube.obj");
+  const Outcome refused = lumen({"convert", "scene/vessels.scn", "tube.lumen", "--mesh", "tip"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_TRUE(contains(refused.err, "tip.obj, which cannot be read")) << refused.err;
+}
+
+class LabelsInTest : public TubeTest {};
+
+TEST_F(LabelsInTest, LabelsBecomeTheVesselThatTheyCameFrom) {
+  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"}).code, 0);
+  ASSERT_EQ(lumen({"check", "tube.nrrd", "tracked.lumen", "--mask", "labels.nrrd"}).code, 0);
+  const Outcome done = lumen({"convert", "labels.nrrd", "again.lumen", "--mask"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Outcome compared = lumen({"compare", "again.lumen", "truth.lumen", "--json"});
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  const Json score = Json::parse(compared.out);
+  EXPECT_GE(score["overlap"].get<double>(), 0.9) << compared.out;
+  ASSERT_EQ(lumen({"convert", "labels.nrrd", "named.lumen", "--labels", "1=ica"}).code, 0);
+  const auto named = formats::readCaseFile(path("named.lumen"));
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->tree.branches[0].label, "ica");
+}
+
+TEST_F(LabelsInTest, LabelsThatCannotBeAreMistakes) {
+  for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
+           {"convert", "tube.nrrd", "x.lumen", "--labels", "ica"},
+           {"convert", "tube.nrrd", "x.lumen", "--labels", "1=a,1=b"},
+           {"convert", "tube.nrrd", "x.lumen", "--labels", "0=a"},
+           {"convert", "tube.nrrd", "x.lumen", "--mask", "--label", "1"},
+           {"convert", "tube.nrrd", "x.lumen", "--mask", "--seeds", "seeds.json"},
+           {"convert", "truth.lumen", "x.lumen", "--mask"}}) {
+    const Outcome refused = lumen(line);
+    EXPECT_EQ(refused.code, 2) << line[3] << " " << refused.err;
+  }
+  const Outcome image = lumen({"convert", "tube.nrrd", "x.lumen", "--mask"});
+  EXPECT_EQ(image.code, 3) << image.err;
+  EXPECT_TRUE(contains(image.err, "expected labels")) << image.err;
+  EXPECT_FALSE(exists("x.lumen"));
+}
+
+}  // namespace lumen::test
