@@ -2,6 +2,7 @@
 // The last sharp triangles, one by one.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace {
 using Mesh = RemeshMesh;
 
 constexpr double kMendBelow = 0.095;  // positions are rounded to floats when written
-constexpr int kRounds = 12;
+constexpr int kRounds = 6;
 // Where the field has no smooth surface, such as where it jumps from one model to the next.
 constexpr int kStretchSteps = 30, kStretchRings = 6, kStretchPasses = 3;
 constexpr double kLongestMade = 2;  // of the target: a longer edge is no cure
@@ -74,10 +75,10 @@ std::vector<Eigen::Vector3d> directionsAt(const Mesh& mesh, Mesh::VertexHandle v
 }
 
 // Looks for a better place of one vertex, step by step, and takes it if it is better on the field.
-bool moveToBetter(Mesh& mesh, Mesh::VertexHandle v) {
+void moveToBetter(Mesh& mesh, Mesh::VertexHandle v) {
   const auto kept = mesh.data(v);
   const Eigen::Vector3d start = mesh.point(v);
-  if (kept.kind == VertexKind::Locked) return false;
+  if (kept.kind == VertexKind::Locked) return;
   const double before = mesh.starQuality(v, start);
   const auto directions = directionsAt(mesh, v);
   Eigen::Vector3d place = start;
@@ -92,20 +93,17 @@ bool moveToBetter(Mesh& mesh, Mesh::VertexHandle v) {
       place = there;
     }
   }
-  if (place == start) return false;
+  if (place == start) return;
   mesh.set_point(v, place);
   if (kept.kind != VertexKind::Flat) settle(mesh, v);
-  if (mesh.starQuality(v, mesh.point(v)) > kGain * before) return true;
+  if (mesh.starQuality(v, mesh.point(v)) > kGain * before) return;
   mesh.set_point(v, start);
   mesh.data(v) = kept;
-  return false;
 }
 
-bool mendFace(Mesh& mesh, Mesh::FaceHandle face) {
-  if (flipBest(mesh, face) || collapseBest(mesh, face)) return true;
-  bool moved = false;
-  for (const Mesh::VertexHandle v : mesh.verticesOf(face)) moved |= moveToBetter(mesh, v);
-  return moved;
+void mendFace(Mesh& mesh, Mesh::FaceHandle face) {
+  if (flipBest(mesh, face) || collapseBest(mesh, face)) return;
+  for (const Mesh::VertexHandle v : mesh.verticesOf(face)) moveToBetter(mesh, v);
 }
 
 // Faces at the boundary are left to the piece that has them inside.
@@ -169,12 +167,14 @@ void stretch(Mesh& mesh, const std::vector<Mesh::VertexHandle>& vertices) {
 }  // namespace
 
 void mendFaces(RemeshMesh& mesh, const Progress& progress) {
+  std::size_t before = std::numeric_limits<std::size_t>::max();
   for (int round = 0; round < kRounds; ++round) {
     progress.check();
-    bool any = false;
-    for (const Mesh::FaceHandle face : facesToMend(mesh))
-      if (!mesh.status(face).deleted() && needsMending(mesh, face)) any |= mendFace(mesh, face);
-    if (!any) return;
+    const auto bad = facesToMend(mesh);
+    if (bad.empty() || bad.size() > before) return;
+    before = bad.size();
+    for (const Mesh::FaceHandle face : bad)
+      if (!mesh.status(face).deleted() && needsMending(mesh, face)) mendFace(mesh, face);
   }
 }
 

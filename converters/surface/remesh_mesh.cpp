@@ -26,8 +26,11 @@ double cosine(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 bool isTurned(const Eigen::Vector3d& normal, const RemeshMesh::Corners& before,
               const Eigen::Vector3d& outward) {
   if (outward.isZero(0)) return cosine(normal, normalOf(before)) < kLargestTurn;
-  const double now = cosine(normal, outward);
-  return now < kLargestTurn && now < cosine(normalOf(before), outward);
+  const double along = normal.dot(outward);
+  constexpr double kSquare = kLargestTurn * kLargestTurn;
+  if (along > 0 && along * along >= kSquare * normal.squaredNorm() * outward.squaredNorm())
+    return false;
+  return cosine(normal, outward) < cosine(normalOf(before), outward);
 }
 
 }  // namespace
@@ -156,26 +159,21 @@ double RemeshMesh::qualityOf(FaceHandle face) const {
 
 double RemeshMesh::starQuality(VertexHandle vertex, const Eigen::Vector3d& position) const {
   double least = 4;
-  for (const FaceHandle face : vf_range(vertex)) {
-    const auto v = verticesOf(face);
-    Corners c = cornersOf(face);
-    for (std::size_t i = 0; i < 3; ++i)
-      if (v[i] == vertex) c[i] = position;
-    least = std::min(least, qualityOf(c, outward(data(face).group, v)));
-  }
+  eachFaceAround(vertex, [&](FaceHandle face, VertexHandle a, VertexHandle b) {
+    const Eigen::Vector3d out = outward(data(face).group, {vertex, a, b});
+    least = std::min(least, qualityOf({position, point(a), point(b)}, out));
+  });
   return least;
 }
 
 bool RemeshMesh::mayMove(VertexHandle vertex, const Eigen::Vector3d& position) const {
-  for (const FaceHandle face : vf_range(vertex)) {
-    const auto v = verticesOf(face);
-    const Corners c = cornersOf(face);
-    Corners moved = c;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (v[i] == vertex) moved[i] = position;
-    if (isTurned(normalOf(moved), c, outward(data(face).group, v))) return false;
-  }
-  return true;
+  bool may = true;
+  eachFaceAround(vertex, [&](FaceHandle face, VertexHandle a, VertexHandle b) {
+    if (!may) return;
+    const Corners before{point(vertex), point(a), point(b)}, after{position, before[1], before[2]};
+    may = !isTurned(normalOf(after), before, outward(data(face).group, {vertex, a, b}));
+  });
+  return may;
 }
 
 bool RemeshMesh::mayCollapse(HalfedgeHandle h) {
@@ -218,6 +216,19 @@ RemeshMesh::Outcome RemeshMesh::afterCollapse(HalfedgeHandle h) const {
     outcome.longest = std::max(outcome.longest, (point(w) - point(kept)).norm() * 2 /
                                                     (data(w).target + data(kept).target));
   return outcome;
+}
+
+bool RemeshMesh::makesLonger(HalfedgeHandle h, double share) const {
+  const VertexHandle kept = to_vertex_handle(h);
+  const Eigen::Vector3d position = point(kept);
+  const double target = data(kept).target;
+  for (HalfedgeHandle side = next_halfedge_handle(opposite_halfedge_handle(h)); side != h;
+       side = next_halfedge_handle(opposite_halfedge_handle(side))) {
+    const VertexHandle w = to_vertex_handle(side);
+    const double longest = 0.5 * share * (data(w).target + target);
+    if ((point(w) - position).squaredNorm() > longest * longest) return true;
+  }
+  return false;
 }
 
 void RemeshMesh::collapse(HalfedgeHandle h) {

@@ -48,18 +48,15 @@ Eigen::Vector3d rimTarget(const Mesh& mesh, Mesh::VertexHandle v) {
 Eigen::Vector3d faceTarget(const Mesh& mesh, Mesh::VertexHandle v) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weights = 0;
-  for (const Mesh::FaceHandle face : mesh.vf_range(v)) {
-    const auto corner = mesh.verticesOf(face);
-    const auto& a = mesh.point(corner[0]);
-    const auto& b = mesh.point(corner[1]);
-    const auto& c = mesh.point(corner[2]);
-    const double target =
-        mesh.data(corner[0]).target + mesh.data(corner[1]).target + mesh.data(corner[2]).target;
-    const double weight = (b - a).cross(c - a).norm() / (target * target);
-    sum += weight / 3 * (a + b + c);
+  const Eigen::Vector3d here = mesh.point(v);
+  mesh.eachFaceAround(v, [&](Mesh::FaceHandle, Mesh::VertexHandle a, Mesh::VertexHandle b) {
+    const Eigen::Vector3d out = mesh.point(a) - here, next = mesh.point(b) - here;
+    const double target = mesh.data(v).target + mesh.data(a).target + mesh.data(b).target;
+    const double weight = out.cross(next).norm() / (target * target);
+    sum += weight / 3 * (out + next);
     weights += weight;
-  }
-  return weights > 0 ? Eigen::Vector3d(sum / weights) : mesh.point(v);
+  });
+  return weights > 0 ? Eigen::Vector3d(here + sum / weights) : here;
 }
 
 // Moves as far as no face turns: all the way, half, a quarter, or not at all.
@@ -134,9 +131,9 @@ void collapseShort(RemeshMesh& mesh) {
     double quality = -1;
     for (const unsigned side : {0U, 1U}) {
       const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, side);
-      if (!mesh.mayCollapse(h)) continue;
+      if (mesh.makesLonger(h, kLong) || !mesh.mayCollapse(h)) continue;
       const Mesh::Outcome outcome = mesh.afterCollapse(h);
-      if (outcome.isTurned || outcome.longest > kLong || outcome.quality <= quality) continue;
+      if (outcome.isTurned || outcome.quality <= quality) continue;
       quality = outcome.quality;
       best = h;
     }
@@ -145,8 +142,10 @@ void collapseShort(RemeshMesh& mesh) {
 }
 
 void flipToSix(RemeshMesh& mesh) {
-  for (const Mesh::VertexHandle v : mesh.vertices())
-    mesh.data(v).valence = static_cast<int>(mesh.valence(v));
+  for (const Mesh::VertexHandle v : mesh.vertices()) mesh.data(v).valence = 0;
+  for (const Mesh::EdgeHandle edge : mesh.edges())
+    for (const unsigned side : {0U, 1U})
+      ++mesh.data(mesh.to_vertex_handle(mesh.halfedge_handle(edge, side))).valence;
   for (const Mesh::EdgeHandle edge : mesh.edges()) {
     if (mesh.is_boundary(edge)) continue;
     const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);

@@ -6,8 +6,8 @@
 namespace lumen::convert {
 namespace {
 
-constexpr int kIterations = 3;
-constexpr int kLastRelaxations = 2;  // without a change of lengths
+constexpr int kIterations = 2;
+constexpr int kLastRelaxations = 3;  // without a change of lengths
 
 void remeshToTargets(RemeshMesh& mesh, bool isFirst, const Progress& progress) {
   for (int iteration = 0; iteration < kIterations; ++iteration) {
