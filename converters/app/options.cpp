@@ -300,10 +300,11 @@ void addMaskOptions(CLI::App& app, MaskArguments& mask) {
                                     "The volume holds labels, and this one alone is of vessels")
                          ->type_name("N")
                          ->group("Surface")
-                         ->check(wholeIn(-(std::int64_t{1} << 24), std::int64_t{1} << 24));
+                         ->check(wholeIn(1, 1 << 24));
   app.add_option("--labels", mask.labels,
-                 "The volume holds labels, and these are of vessels; branches get their names")
-      ->option_text("N=NAME,...")
+                 "The volume holds labels, and these are of vessels, such as 1=ica,2=mca; "
+                 "branches get their names")
+      ->type_name("LIST")
       ->group("Surface")
       ->excludes(all)
       ->excludes(one);

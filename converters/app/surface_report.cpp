@@ -25,6 +25,9 @@ void warnOfSurface(const convert::SurfaceReport& report, const std::string& file
   if (report.openedEdges > 0)
     progress.warn(name + counted(report.openedEdges, "edge", "edges") +
                   " of the tree had no lumen and were opened in the mesh; lumen fit opens models");
+  if (report.crossings > 0)
+    progress.warn(name + counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
+                  " through each other; a greater --gap or a smaller --edge may help");
   for (const Eigen::Vector3d& place : report.cuts)
     progress.warn(name + "the lumen runs into itself at " + placeText(place) +
                   " mm, where no link joins it; it is cut there");
@@ -67,6 +70,7 @@ Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const form
                {"openedEdges", report->openedEdges},
                {"offField", report->offField},
                {"sharpTriangles", report->sharpTriangles},
+               {"crossings", report->crossings},
                {"cuts", Json::array()},
                {"overlaps", Json::array()}};
   json["errors_mm"] = Json::array();

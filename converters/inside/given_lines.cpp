@@ -62,7 +62,7 @@ void requireInside(const CenterlineFile& file, const std::string& name, const Lu
   for (const Meant& meant : kMeant) {
     const std::size_t would = countOf(insideOf(file, lumen, meant.scale));
     if (would <= least) continue;
-    throw invalidInput(text + ". " + meant.how + ", " +
+    throw invalidInput(text + "; " + meant.how + ", " +
                        (would == all ? "all" : std::to_string(would)) + " would: " + meant.remedy);
   }
   throw invalidInput(text + ": it belongs to another surface, or one of them is in another frame");

@@ -41,9 +41,10 @@ std::string listOf(const std::set<std::int64_t>& values) {
   return text;
 }
 
-/// The values but 0 that occur.
+/// The values but 0 that occur; beyond 255 of them, those that are wanted.
 template <class T>
-std::set<std::int64_t> valuesOf(const std::vector<T>& voxels, const std::string& name) {
+std::set<std::int64_t> valuesOf(const std::vector<T>& voxels, const LabelNames& wanted,
+                                const std::string& name) {
   std::set<std::int64_t> values;
   T last{};
   for (const T voxel : voxels) {
@@ -53,8 +54,10 @@ std::set<std::int64_t> valuesOf(const std::vector<T>& voxels, const std::string&
       if (std::abs(voxel) > T(1 << 24) || std::round(voxel) != voxel)
         throw invalidInput(name + ": has a voxel of " + std::to_string(voxel) +
                            "; expected labels, which are whole numbers up to 2^24");
-    if (const auto value = static_cast<std::int64_t>(voxel); value != 0) values.insert(value);
-    if (values.size() > kMostLabels)
+    const auto value = static_cast<std::int64_t>(voxel);
+    if (value != 0 && (values.size() <= kMostLabels || wanted.contains(value)))
+      values.insert(value);
+    if (wanted.empty() && values.size() > kMostLabels)
       throw invalidInput(name + ": has more than " + std::to_string(kMostLabels) +
                          " different values; expected labels, which --label or --labels choose");
   }
@@ -274,10 +277,13 @@ std::uint8_t labelAt(const LabelMask& mask, const formats::Vec3f& place) {
 }  // namespace
 
 LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::string& name) {
+  if (wanted.size() > kMostLabels)
+    throw invalidInput(name + ": " + std::to_string(wanted.size()) +
+                       " labels are wanted; expected at most " + std::to_string(kMostLabels));
   LabelMask mask{volume.geometry, {}, {}};
   std::visit(
       [&](const auto& voxels) {
-        const std::set<std::int64_t> values = valuesOf(voxels, name);
+        const std::set<std::int64_t> values = valuesOf(voxels, wanted, name);
         LabelNames named = wanted;
         if (wanted.empty())
           for (const std::int64_t value : values)

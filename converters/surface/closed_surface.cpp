@@ -13,6 +13,7 @@
 #include "converters/surface/extract.h"
 #include "converters/surface/flow_extension.h"
 #include "converters/surface/levels_of_detail.h"
+#include "converters/surface/mend_crossings.h"
 #include "converters/surface/overlaps.h"
 #include "converters/surface/remesh.h"
 #include "converters/surface/thick_wall.h"
@@ -68,6 +69,7 @@ private:
     CaseSurface surface = extract(m_field, m_result.report);
     noteEnds(cutEnds(surface, m_field, m_progress));
     const double error = refine(surface, m_field);
+    m_result.report.crossings = mendCrossings(surface, m_field, m_progress);
     m_result.report.overlaps = overlapsOf(surface, m_field);
     std::vector<DetailLevel> levels;
     if (m_options.levels <= 1) {
@@ -91,6 +93,8 @@ private:
     noteEnds(cutEnds(both, endPlanes(m_source), m_progress));
     refine(inner, m_field);
     refine(outer, around);
+    mendCrossings(inner, m_field, m_progress);
+    mendCrossings(outer, around, m_progress);
     m_result.report.overlaps = overlapsOf(inner, m_field);
     return thickWall(inner, outer, m_source);
   }

@@ -62,7 +62,7 @@ TEST(FileFormats, TheLongestEndingInAnyCaseChooses) {
 }
 
 TEST(FileFormats, ANameWithoutAKnownEndingIsUnsupported) {
-  for (const char* name : {"a.gz", "nii", ".nii", "a.dcm", "photo.jpg"}) {
+  for (const char* name : {"a.gz", "nii", ".nii", "a.dcm", "a.off", "photo.jpg"}) {
     const std::string refused = refusal([&] { return inputFormat(name, ""); });
     EXPECT_TRUE(refused.starts_with("4: " + std::string(name))) << refused;
     EXPECT_NE(refused.find("nrrd"), std::string::npos) << refused;

@@ -34,7 +34,8 @@ std::vector<Argument> everyArgument() {
 }
 
 bool isNumber(const Argument& argument) {
-  static const std::set<std::string> kWords = {"FILE", "F", "ID", "NAME", "UNIT", "FRAME", "PATH"};
+  static const std::set<std::string> kWords = {"FILE", "F",     "ID",   "NAME",
+                                               "UNIT", "FRAME", "PATH", "LIST"};
   return !argument.positional && !kWords.contains(argument.type);
 }
 

@@ -156,11 +156,11 @@ TEST_F(UsageTest, AVolumeThatIsNoVolumeExitsWithThree) {
 
 TEST_F(UsageTest, UnknownFormatsExitWithFourAndListTheKnown) {
   write("a.xyz", "");
-  write("a.stl", "");
+  write("a.off", "");
   write("a.lumen", "");
   const std::vector<std::vector<std::string>> unknown = {
       {"convert", "a.xyz", "b.lumen"},
-      {"convert", "a.stl", "b.lumen"},
+      {"convert", "a.off", "b.lumen"},
       {"convert", "a.lumen", "b.docx"},
       {"convert", "a.lumen", "b.nrrd"},
       {"convert", "a.lumen", "b.lumen", "--to", "dxf"},

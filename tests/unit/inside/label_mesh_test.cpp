@@ -152,6 +152,8 @@ TEST(LabelMesh, RefusesAnImage) {
   for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<std::uint16_t>(i % 1000);
   image.voxels = many;
   EXPECT_THROW(maskOf(image, {}, "m.nrrd"), Error);
+  // but one of many labels can be chosen
+  EXPECT_EQ(maskOf(image, {{999, "x"}}, "m.nrrd").label[999], 1);
 }
 
 TEST(LabelMesh, IsTheSameOnAnyNumberOfThreads) {
