@@ -39,19 +39,18 @@ Scores roundTrip(const std::string& file, MeshFormat format) {
   for (const formats::Vec3f& c : made.result.tree.centre)
     EXPECT_TRUE(source.contains({c.x, c.y, c.z})) << c.x << " " << c.y << " " << c.z;
   std::vector<double> shares;
-  for (const BranchMesh& mesh : polygonise(made.result, {}, progress))
-    for (const auto& p : mesh.position) {
-      const Eigen::Vector3d at(p[0], p[1], p[2]);
-      double radius = 1e9, best = 1e9;
-      for (std::size_t i = 0; i < made.result.tree.nodeCount(); ++i) {
-        const auto& c = made.result.tree.centre[i];
-        const double away = (Eigen::Vector3d(c.x, c.y, c.z) - at).norm();
-        if (away >= best) continue;
-        best = away;
-        radius = made.result.tree.radius[i];
-      }
-      shares.push_back(source.nearest(at).distance / radius);
+  for (const Float3& p : polygonise(made.result, {}, progress).surface.position) {
+    const Eigen::Vector3d at(p[0], p[1], p[2]);
+    double radius = 1e9, best = 1e9;
+    for (std::size_t i = 0; i < made.result.tree.nodeCount(); ++i) {
+      const auto& c = made.result.tree.centre[i];
+      const double away = (Eigen::Vector3d(c.x, c.y, c.z) - at).norm();
+      if (away >= best) continue;
+      best = away;
+      radius = made.result.tree.radius[i];
     }
+    shares.push_back(source.nearest(at).distance / radius);
+  }
   Scores scores;
   scores.median = median(shares);
   scores.most = nearestRank(shares, 0.99);
