@@ -161,9 +161,10 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->group("Volume")
       ->join(',')
       ->check(oneOrThreeIn({0, kLongest, true}));
-  app.add_option("--unit", volume.unit,
-                 "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m or um, "
-                 "whatever the file says")
+  app.add_option(
+         "--unit", volume.unit,
+         "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m or um, "
+         "whatever the file says")
       ->type_name("UNIT")
       ->group("Volume")
       ->check(oneOf(wordsOf(kMillimetresOf)));
@@ -381,7 +382,7 @@ void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
              surface.extend.push_back(convert::parseEndLength(text, "--extend"));
          },
          "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
-      ->type_name("[LABEL=]LENGTH")
+      ->option_text("[LABEL=]LENGTH")
       ->group("Mesh");
   addLength(
       "--thickness",

@@ -26,7 +26,8 @@ void warnOfSurface(const convert::SurfaceReport& report, const std::string& file
     progress.warn(name + counted(report.openedEdges, "edge", "edges") +
                   " of the tree had no lumen and were opened in the mesh; lumen fit opens models");
   if (report.crossings > 0)
-    progress.warn(name + counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
+    progress.warn(name +
+                  counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
                   " through each other; a greater --gap or a smaller --edge may help");
   for (const Eigen::Vector3d& place : report.cuts)
     progress.warn(name + "the lumen runs into itself at " + placeText(place) +
@@ -74,7 +75,8 @@ Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const form
                {"cuts", Json::array()},
                {"overlaps", Json::array()}};
   json["errors_mm"] = Json::array();
-  for (const double error : report->errors) json["errors_mm"].push_back(error < 0 ? Json() : jsonNumber(error));
+  for (const double error : report->errors)
+    json["errors_mm"].push_back(error < 0 ? Json() : jsonNumber(error));
   for (const Eigen::Vector3d& place : report->cuts) json["cuts"].push_back(placeJson(place));
   for (const convert::Overlap& o : report->overlaps)
     json["overlaps"].push_back(

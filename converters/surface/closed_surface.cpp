@@ -76,8 +76,8 @@ private:
       levels.push_back({std::move(surface), {error, 0}});
       return levels;
     }
-    return levelsOfDetail(std::move(surface), m_field,
-                          static_cast<std::size_t>(m_options.levels), m_progress);
+    return levelsOfDetail(std::move(surface), m_field, static_cast<std::size_t>(m_options.levels),
+                          m_progress);
   }
 
   // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each

@@ -178,7 +178,7 @@ private:
     ++m_report.flat;
     if (cuts.moved > 0)
       m_report.moved.push_back(name + ": cut " + formats::shortText(float(cuts.moved)) +
-                                  " mm farther in, where the vessel is open");
+                               " mm farther in, where the vessel is open");
   }
 
   // The faces behind the plane, as far as they belong to the end; or those around its tip.

@@ -134,6 +134,10 @@ def make_cases(lumen, folder):
         go("convert.schema.json", "convert", "truth.lumen", tree)
         go("info-centerline.schema.json", "info", tree)
     go("convert.schema.json", "convert", "a.swc", "given.lumen")
+    # two vessels whose lumens overlap
+    lines = [f"{10 * y + x + 1} 3 {x} {1.2 * y} 0 1 {10 * y + x if x else -1}" for y in (0, 1) for x in range(10)]
+    (folder / "two.swc").write_text("\n".join(lines) + "\n")
+    go("convert.schema.json", "convert", "two.swc", "two.glb")
     for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
         go("info-case.schema.json", "info", case)
         if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")

@@ -192,11 +192,12 @@ TEST_F(ValidateTest, WhatNoMeshHoldsIsSaidInTheHelpAndIsNoWarning) {
 }
 
 TEST_F(ValidateTest, BranchesThatAMeshLacksAreNamedWithACellThatKeepsThem) {
-  const Outcome converted = lumen({"convert", "good.lumen", "a.stl", "--cell", "50"});
+  const Outcome converted = lumen({"convert", "good.lumen", "a.stl", "--patches", "--cell", "50"});
   EXPECT_EQ(converted.code, 0);
   for (const char* part : {"a.stl", "\"tube\" has ", "50 mm", "--cell"})
     EXPECT_TRUE(contains(converted.err, part)) << converted.err;
-  const Outcome refused = lumen({"convert", "good.lumen", "b.stl", "--cell", "50", "--strict"});
+  const Outcome refused =
+      lumen({"convert", "good.lumen", "b.stl", "--patches", "--cell", "50", "--strict"});
   EXPECT_EQ(refused.code, 3);
   EXPECT_FALSE(exists("b.stl"));
 }

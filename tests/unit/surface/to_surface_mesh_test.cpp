@@ -30,8 +30,8 @@ CaseSurface tubeSurface() {
   for (std::uint32_t i = 0; i < kAround; ++i) {
     const std::uint32_t next = (i + 1) % kAround;
     for (std::uint32_t base = 0; base < 2 * kAround; base += kAround) {
-      surface.mesh.triangle.push_back({base + i, base + kAround + next, base + next});
-      surface.mesh.triangle.push_back({base + i, base + kAround + i, base + kAround + next});
+      surface.mesh.triangle.push_back({base + i, base + next, base + kAround + next});
+      surface.mesh.triangle.push_back({base + i, base + kAround + next, base + kAround + i});
       surface.group.insert(surface.group.end(), 2, 0);
     }
     surface.mesh.triangle.push_back({middle, 2 * kAround + i, 2 * kAround + next});
