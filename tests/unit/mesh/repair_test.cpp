@@ -130,7 +130,7 @@ TEST(Repair, FillsAHoleInTheWall) {
   TriangleMesh mesh = openTube();
   const double volume = volumeOf(mesh);
   // four quads in a square, half way along the tube
-  for (const std::size_t quad : {9 * 16 + 9, 9 * 16 + 8, 8 * 16 + 9, 8 * 16 + 8})
+  for (const std::size_t quad : {9U * 16 + 9, 9U * 16 + 8, 8U * 16 + 9, 8U * 16 + 8})
     mesh.triangle.erase(mesh.triangle.begin() + 2 * static_cast<std::ptrdiff_t>(quad),
                         mesh.triangle.begin() + 2 * static_cast<std::ptrdiff_t>(quad) + 2);
   const RepairResult result = repaired(mesh);

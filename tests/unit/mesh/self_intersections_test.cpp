@@ -110,7 +110,7 @@ TEST(Orientation, IsThatOfIntegersOnObliquePlanes) {
       for (auto& x : point) x = number();
     // d = a + (b - a) + (c - a), but for one unit: nearly in the plane
     for (std::size_t k = 0; k < 3; ++k) p[3][k] = p[1][k] + p[2][k] - p[0][k];
-    p[3][trial % 3] += trial % 5 - 2;
+    p[3][static_cast<std::size_t>(trial) % 3] += trial % 5 - 2;
     std::array<Eigen::Vector3d, 4> q;
     for (std::size_t i = 0; i < 4; ++i)
       for (int k = 0; k < 3; ++k)
