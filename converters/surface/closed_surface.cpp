@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/common/error.h"
+#include "converters/mesh/self_intersections.h"
 #include "converters/surface/cut_ends.h"
 #include "converters/surface/decimate.h"
 #include "converters/surface/end_planes.h"
@@ -19,6 +20,7 @@
 #include "converters/surface/thick_wall.h"
 #include "converters/surface/to_surface_mesh.h"
 #include "formats/case/case_field.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
@@ -122,7 +124,15 @@ private:
     m_result.report.offField += found.offField;
     m_result.report.sharpTriangles += found.sharp;
     if (!(m_options.maxError > 0)) return -1;
-    return decimate(surface, field, {m_options.maxError, 0}, m_progress).largest;
+    CaseSurface whole = surface;
+    const double error = decimate(surface, field, {m_options.maxError, 0}, m_progress).largest;
+    if (error <= m_options.maxError && selfIntersections(surface.mesh, 1).pairs.empty())
+      return error;
+    surface = std::move(whole);
+    m_result.report.messages.push_back(
+        "no triangles are dropped: at creases of the field they would lie up to " +
+        formats::shortText(static_cast<float>(error)) + " mm off, which is more than --max-error");
+    return -1;
   }
 
   const formats::Case& m_source;
