@@ -16,7 +16,6 @@ struct ExtractionReport {
   std::size_t trees = 0;  ///< connected trees of the case: closed surfaces
   std::size_t openedEdges =
       0;  ///< tree edges that were opened since the field leaves no lumen there
-  std::size_t droppedParts = 0;  ///< closed surfaces that lie within another
   /// Places, mm, where a lumen that runs into itself, although no link says so, was cut.
   std::vector<Eigen::Vector3d> cuts;
 };
