@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "converters/common/simd.h"

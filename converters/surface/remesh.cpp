@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 
@@ -47,16 +46,12 @@ void moveOntoField(RemeshState& state, const PieceRules& rules) {
 void workOn(RemeshState& state, std::vector<TriangleList> lists, const PieceRules& rules,
             PieceWork work, Progress& progress) {
   std::vector<Piece> pieces(lists.size());
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, lists.size(), 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          progress.check();
-          pieces[i] = cutOut(state, lists[i]);
-          remeshPiece(pieces[i], rules, work, progress);
-        }
-      },
-      tbb::simple_partitioner());
+  const auto workOnPiece = [&](std::size_t i) {
+    progress.check();
+    pieces[i] = cutOut(state, lists[i]);
+    remeshPiece(pieces[i], rules, work, progress);
+  };
+  tbb::parallel_for(std::size_t{0}, lists.size(), workOnPiece, tbb::simple_partitioner());
   progress.check();
   putBack(state, lists, pieces);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <tbb/global_control.h>
+#include <tbb/partitioner.h>
 
 namespace tbb {
 
@@ -36,6 +37,12 @@ void parallel_for(Index first, Index last, const Body& body) {
   work();
   for (std::thread& other : others) other.join();
   if (thrown) std::rethrow_exception(thrown);
+}
+
+/// The same: here indices are handed out one by one in any case.
+template <class Index, class Body>
+void parallel_for(Index first, Index last, const Body& body, simple_partitioner) {
+  parallel_for(first, last, body);
 }
 
 }  // namespace tbb
