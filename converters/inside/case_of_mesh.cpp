@@ -20,6 +20,9 @@
 namespace lumen::convert {
 namespace {
 
+/// Of the voxel of the search: half the least width that it can tell.
+constexpr double kLeastRadius = 0.5;
+
 /// "The surface has 3 loops; 2 of them became links". Empty if there are as many.
 std::string loopsNote(const ClosedMesh& surface, const formats::CenterlineTree& tree) {
   std::size_t roots = 0;
@@ -89,7 +92,7 @@ MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
   if (lines.lines.empty())
     throw invalidInput(name + ": no vessel was found inside of this surface");
   out.notes.insert(out.notes.end(), lines.notes.begin(), lines.notes.end());
-  out.result = nodesOnLines(lines.lines, lumen, progress);
+  out.result = nodesOnLines(lines.lines, lumen, kLeastRadius * grid.voxelSize(), progress);
   if (const std::string note = loopsNote(surface, out.result.tree); !note.empty())
     out.notes.push_back(name + ": " + note);
   out.result.metadata.voxelSize = grid.voxelSize();

@@ -46,9 +46,8 @@ public:
   [[nodiscard]] double share(std::size_t t) const {
     const Vector3d normal = m_tree.normal(static_cast<std::uint32_t>(t));
     const Triangle& corner = m_mesh.triangle[t];
-    const Vector3d middle = (m_mesh.position[corner[0]] + m_mesh.position[corner[1]] +
-                             m_mesh.position[corner[2]]) /
-                            3;
+    const Vector3d middle =
+        (m_mesh.position[corner[0]] + m_mesh.position[corner[1]] + m_mesh.position[corner[2]]) / 3;
     const double least = 1e-6 * std::sqrt(area(t));
     double all = 0, met = 0;
     for (const Vector3d& ray : m_rays) {
