@@ -34,28 +34,6 @@ std::optional<RayHit> meet(const Vector3d& origin, const Vector3d& direction,
   return RayHit{ac.dot(q) / det, 0, det < 0};
 }
 
-/// The point of a triangle that is nearest to `p` (C. Ericson, "Real-time collision detection", 2005,
-/// section 5.1.5).
-Vector3d nearestOf(const Vector3d& p, const std::array<Vector3d, 3>& corner) {
-  const auto& [a, b, c] = corner;
-  const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return d1 - d3 > 0 ? Vector3d(a + d1 / (d1 - d3) * ab) : a;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return d2 - d6 > 0 ? Vector3d(a + d2 / (d2 - d6) * ac) : a;
-  const double va = d3 * d6 - d5 * d4, along = d4 - d3, back = d5 - d6;
-  if (va <= 0 && along >= 0 && back >= 0)
-    return along + back > 0 ? Vector3d(b + along / (along + back) * (c - b)) : b;
-  const double sum = va + vb + vc;
-  return sum > 0 ? Vector3d(a + ab * (vb / sum) + ac * (vc / sum)) : a;
-}
-
 float below(double x) {
   return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
 }
@@ -103,6 +81,28 @@ double TriangleTree::squaredDistance(const Box& box, const Vector3d& point) {
     sum += apart * apart;
   }
   return sum;
+}
+
+// The point of a triangle that is nearest to `p` (C. Ericson, "Real-time collision detection", 2005,
+// section 5.1.5).
+Vector3d nearestPointOf(const Vector3d& p, const Vector3d& a, const Vector3d& b,
+                        const Vector3d& c) {
+  const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return d1 - d3 > 0 ? Vector3d(a + d1 / (d1 - d3) * ab) : a;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return d2 - d6 > 0 ? Vector3d(a + d2 / (d2 - d6) * ac) : a;
+  const double va = d3 * d6 - d5 * d4, along = d4 - d3, back = d5 - d6;
+  if (va <= 0 && along >= 0 && back >= 0)
+    return along + back > 0 ? Vector3d(b + along / (along + back) * (c - b)) : b;
+  const double sum = va + vb + vc;
+  return sum > 0 ? Vector3d(a + ab * (vb / sum) + ac * (vc / sum)) : a;
 }
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) : m_mesh(mesh), m_order(mesh.triangle.size()) {
@@ -236,7 +236,8 @@ NearestPoint TriangleTree::nearest(const Vector3d& point, double reach) const {
     if (box.count > 0) {
       for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
         const std::uint32_t t = m_order[k];
-        const Vector3d at = nearestOf(point, m_corner[k]);
+        const auto& [a, b, c] = m_corner[k];
+        const Vector3d at = nearestPointOf(point, a, b, c);
         const double squared = (at - point).squaredNorm();
         if (squared > most || (squared == most && best.distance < kFar && t > best.triangle))
           continue;

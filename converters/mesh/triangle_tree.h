@@ -27,6 +27,10 @@ struct NearestPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
+/// The point of the triangle a, b, c that is nearest to `p`.
+Eigen::Vector3d nearestPointOf(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                               const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
 /// A tree of boxes around the triangles of a mesh, in doubles and in one fixed order: the same bits
 /// on every machine, which single-precision kernels that follow the instruction set do not promise.
 /// Never changed after construction: any number of threads may ask.

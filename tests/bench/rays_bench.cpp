@@ -142,7 +142,8 @@ int run(const std::string& file) {
   }
   const auto count = static_cast<double>(ours.size());
   std::printf("%zu triangles, %zu rays\n", mesh.triangle.size(), ours.size());
-  std::printf("TriangleTree  build %6.0f ms  %6.2f us a ray\n", 1e3 * ourBuild, 1e6 * ourTime / count);
+  std::printf("TriangleTree  build %6.0f ms  %6.2f us a ray\n", 1e3 * ourBuild,
+              1e6 * ourTime / count);
   std::printf("Embree 3      build %6.0f ms  %6.2f us a ray\n", 1e3 * theirBuild,
               1e6 * theirTime / count);
   std::printf("more than 0.001 mm apart: %zu rays; the others at most %.1e mm\n", different, worst);
