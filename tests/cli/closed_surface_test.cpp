@@ -60,7 +60,8 @@ class ClosedSurfaceTest : public CliTest {
 protected:
   /// The case as a surface, by its file. Fails unless that is a closed, oriented manifold of the topology of the case's
   /// graph, without self-intersections, whose vertices lie on the field and whose ends are flat.
-  reproduce::ShapeFacts convert(const std::string& name, const std::vector<std::string>& options = {}) {
+  reproduce::ShapeFacts convert(const std::string& name,
+                                const std::vector<std::string>& options = {}) {
     std::vector<std::string> line{"convert", name, "surface.vtp", "--json", "--quiet"};
     line.insert(line.end(), options.begin(), options.end());
     const Outcome done = lumen(line);
@@ -85,7 +86,8 @@ protected:
 
   /// Fills a surface, written as text STL, by TetGen; its number of tetrahedra, 0 where it refuses.
   [[nodiscard]] int tetrahedra(const std::string& stl) const {
-    const std::string command = "cd '" + path("").string() + "' && tetgen -pqQF " + stl + " >tetgen.log 2>&1";
+    const std::string command =
+        "cd '" + path("").string() + "' && tetgen -pqQF " + stl + " >tetgen.log 2>&1";
     if (std::system(command.c_str()) != 0) return 0;
     int count = 0;
     std::ifstream(path(stl.substr(0, stl.rfind('.')) + ".1.ele")) >> count;
@@ -128,7 +130,10 @@ protected:
 
 TEST_F(ClosedFormTest, ACylinder) {
   const double length = 40 + kBeyond;
-  expectVolumeAndArea(swcOf(sampled(80, [](double t) { return Sample{0, 0, 40 * t, kRadius}; })),
+  expectVolumeAndArea(swcOf(sampled(80,
+                                    [](double t) {
+                                      return Sample{0, 0, 40 * t, kRadius};
+                                    })),
                       pi * kRadius * kRadius * length, 2 * pi * kRadius * (length + kRadius));
 }
 
@@ -140,8 +145,9 @@ TEST_F(ClosedFormTest, AHelix) {
   expectVolumeAndArea(swcOf(sampled(140,
                                     [&](double t) {
                                       const double angle = 2 * turn * t;
-                                      return Sample{across * std::cos(angle), across * std::sin(angle),
-                                                    2 * rise * t, kRadius};
+                                      return Sample{across * std::cos(angle),
+                                                    across * std::sin(angle), 2 * rise * t,
+                                                    kRadius};
                                     })),
                       pi * kRadius * kRadius * length, 2 * pi * kRadius * (length + kRadius));
 }
@@ -165,17 +171,25 @@ TEST_F(ClosedFormTest, AStenosis) {
                                       const double z = 40 * t - 20;
                                       return Sample{0, 0, z, radius(z)};
                                     })),
-                      pi * kRadius * kRadius * (rest + 20 * 19.0 / 32), area + 2 * pi * kRadius * (rest + kRadius));
+                      pi * kRadius * kRadius * (rest + 20 * 19.0 / 32),
+                      area + 2 * pi * kRadius * (rest + kRadius));
 }
 
 /// A branch of the same radius at a right angle: half of what two such cylinders have in common, 16/3 R^3 with an area of
 /// 16 R^2 (Archimedes, The Method, proposition 15), is counted twice; each loses a quarter of that area.
 TEST_F(ClosedFormTest, AFork) {
   const double length = 40 + kBeyond + 25 + kBeyond / 2;
-  expectVolumeAndArea(swcOf(sampled(80, [](double t) { return Sample{0, 0, 40 * t - 20, kRadius}; }),
-                            sampled(49, [](double t) { return Sample{0, 0.5 + 24.5 * t, 0, kRadius}; })),
-                      pi * kRadius * kRadius * length - 8.0 / 3 * std::pow(kRadius, 3),
-                      2 * pi * kRadius * length - 8 * kRadius * kRadius + 3 * pi * kRadius * kRadius);
+  expectVolumeAndArea(
+      swcOf(sampled(80,
+                    [](double t) {
+                      return Sample{0, 0, 40 * t - 20, kRadius};
+                    }),
+            sampled(49,
+                    [](double t) {
+                      return Sample{0, 0.5 + 24.5 * t, 0, kRadius};
+                    })),
+      pi * kRadius * kRadius * length - 8.0 / 3 * std::pow(kRadius, 3),
+      2 * pi * kRadius * length - 8 * kRadius * kRadius + 3 * pi * kRadius * kRadius);
 }
 
 /// A loop that a link closes: Pappus again. Its genus is 1.
@@ -191,10 +205,11 @@ TEST_F(ClosedFormTest, ATorus) {
   ring.models.reset();
   ASSERT_TRUE(formats::writeCaseFile(ring, path("linked.lumen")));
   // as for a centerline, docs/method.md, section 2.10
-  ASSERT_EQ(lumen({"fit", "linked.lumen", "torus.lumen", "--iso-level", "0.15", "--accuracy", "0.0075",
-                   "--max-distance", "30", "--min-width", "0.03", "--cohesion-weight", "0", "--quiet"})
-                .code,
-            0);
+  ASSERT_EQ(
+      lumen({"fit", "linked.lumen", "torus.lumen", "--iso-level", "0.15", "--accuracy", "0.0075",
+             "--max-distance", "30", "--min-width", "0.03", "--cohesion-weight", "0", "--quiet"})
+          .code,
+      0);
   const reproduce::ShapeFacts shape = convert("torus.lumen", {"--edge", "0.15r"});
   EXPECT_EQ(shape.euler, std::vector<std::ptrdiff_t>{0});
   EXPECT_NEAR(shape.volume / (2 * pi * pi * kAcross * kRadius * kRadius), 1, 0.005);
@@ -202,24 +217,27 @@ TEST_F(ClosedFormTest, ATorus) {
 }
 
 /// From voxels to a surface, as a user would.
-class PhantomSurfaceTest : public ClosedSurfaceTest, public ::testing::WithParamInterface<const char*> {};
+class PhantomSurfaceTest : public ClosedSurfaceTest,
+                           public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(PhantomSurfaceTest, IsClosedAndOnItsField) {
   const std::string name = GetParam();
   ASSERT_EQ(lumen({"phantom", name, "x.nrrd", "--seeds", "s.json", "--quiet"}).code, 0);
   ASSERT_EQ(lumen({"convert", "x.nrrd", "case.lumen", "--seeds", "s.json", "--quiet"}).code, 0);
   convert("case.lumen");
-  EXPECT_EQ(facts().verticesFar, 0U) << facts().vertex.radii << " radii at " << facts().vertex.place.transpose();
+  EXPECT_EQ(facts().verticesFar, 0U)
+      << facts().vertex.radii << " radii at " << facts().vertex.place.transpose();
   // In the creases of forks, too, nothing is farther off than an edge is long.
   EXPECT_LT(facts().middle.radii, 0.25) << facts().middle.place.transpose();
   EXPECT_LT(facts().field.radii, 0.25) << facts().field.place.transpose();
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, PhantomSurfaceTest,
-                         ::testing::Values("tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dropout",
-                                           "sac-lobes", "companion", "hairpin", "right-angle", "fading", "thick-slices"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         ::testing::Values("tube", "helix", "bifurcation", "kissing", "aneurysm",
+                                           "stenosis", "dropout", "sac-lobes", "companion",
+                                           "hairpin", "right-angle", "fading", "thick-slices"),
+                         [](const auto& kind) {
+                           std::string name = kind.param;
                            std::erase(name, '-');
                            return name;
                          });
@@ -227,8 +245,7 @@ INSTANTIATE_TEST_SUITE_P(Each, PhantomSurfaceTest,
 class TetgenTest : public ClosedSurfaceTest {
 protected:
   void SetUp() override {
-    if (std::system("command -v tetgen >/dev/null") != 0)
-      GTEST_SKIP() << "tetgen is not installed";
+    if (std::system("command -v tetgen >/dev/null") != 0) GTEST_SKIP() << "tetgen is not installed";
   }
   void expectFilled(const std::string& name) {
     convert(name);
@@ -238,7 +255,10 @@ protected:
 };
 
 TEST_F(TetgenTest, MeshesTheInsideOfAFork) {
-  ASSERT_EQ(lumen({"phantom", "bifurcation", "x.nrrd", "--size", "64", "--seeds", "s.json", "--quiet"}).code, 0);
+  ASSERT_EQ(
+      lumen({"phantom", "bifurcation", "x.nrrd", "--size", "64", "--seeds", "s.json", "--quiet"})
+          .code,
+      0);
   ASSERT_EQ(lumen({"convert", "x.nrrd", "fork.lumen", "--seeds", "s.json", "--quiet"}).code, 0);
   expectFilled("fork.lumen");
 }

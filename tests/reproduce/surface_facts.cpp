@@ -21,7 +21,6 @@
 #include "converters/common/error.h"
 #include "converters/common/vtk_xml.h"
 #include "converters/mesh/triangle_tree.h"
-#include "converters/surface/surface_error.h"
 
 namespace lumen::reproduce {
 namespace {
@@ -43,10 +42,21 @@ std::vector<std::uint32_t> indices(const VtkArray* array, std::size_t count, dou
   return result;
 }
 
+// The distance of a point from the field's surface, mm, for a cursor that begins at `node`.
+double distanceToField(const convert::SheetField& field, const Eigen::Vector3d& point,
+                       std::uint32_t node) {
+  constexpr double kStraight = 0.02;  // of the radius: so near to the wall, one evaluation tells
+  const convert::SheetSample sample = field.at(point, node);
+  if (std::abs(sample.distance) > kStraight * field.radius(sample.node))
+    if (const auto foot = field.project(point, node)) return (foot->position - point).norm();
+  return std::abs(sample.distance);
+}
+
 /// Where the nodes of a branch lie.
 class Branches {
 public:
-  explicit Branches(const convert::SheetField& field) : m_field(field), m_tree(field.source().tree) {}
+  explicit Branches(const convert::SheetField& field)
+      : m_field(field), m_tree(field.source().tree) {}
 
   /// The nodes of the branch that have less power at the point than those beside them: one for each leg that is near.
   [[nodiscard]] std::vector<std::uint32_t> cursors(const Eigen::Vector3d& point,
@@ -74,7 +84,7 @@ public:
     Farthest best{std::numeric_limits<double>::infinity(), point, 0};
     for (const std::uint32_t cursor : cursors) {
       const convert::SheetSample at = m_field.at(point, cursor);
-      const double share = convert::distanceToField(m_field, point, cursor) / m_field.radius(at.node);
+      const double share = distanceToField(m_field, point, cursor) / m_field.radius(at.node);
       if (share < best.radii) best = {share, point, at.node};
     }
     return best;
@@ -105,27 +115,31 @@ std::optional<Eigen::Vector3d> wallAlong(const convert::SheetField& field, std::
   }
   const Eigen::Vector3d wall = from + inside * radius * way;
   // The sheet that the node answers for jumps where a cursor takes another way: that is no wall.
-  return std::abs(field.at(wall, node).distance) < kFar * radius ? std::optional(wall) : std::nullopt;
+  return std::abs(field.at(wall, node).distance) < kFar * radius ? std::optional(wall)
+                                                                 : std::nullopt;
 }
 
-void measureField(const convert::SheetField& field, const WrittenSurface& surface, FieldFacts& facts) {
+void measureField(const convert::SheetField& field, const WrittenSurface& surface,
+                  FieldFacts& facts) {
   const formats::CenterlineTree& tree = field.source().tree;
   const convert::TriangleTree boxes(surface.mesh);
   std::vector<Farthest> most(tree.nodeCount());
   std::vector<std::size_t> met(tree.nodeCount(), 0);
-  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(tree.nodeCount()), [&](std::uint32_t n) {
-    const Eigen::Vector3d centre = toVector(tree.centre[n]), along = toVector(tree.direction[n]);
-    const Eigen::Vector3d u = along.unitOrthogonal(), v = along.cross(u);
-    for (std::size_t k = 0; k < kRays; ++k) {
-      const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kRays;
-      const auto wall = wallAlong(field, n, centre, std::cos(angle) * u + std::sin(angle) * v);
-      if (!wall) continue;
-      const convert::NearestPoint nearest = boxes.nearest(*wall);
-      if (surface.group[nearest.triangle] != 0) continue;  // beyond an end
-      ++met[n];
-      keepFarther(most[n], {nearest.distance / field.radius(n), *wall, n});
-    }
-  });
+  tbb::parallel_for(
+      std::uint32_t{0}, static_cast<std::uint32_t>(tree.nodeCount()), [&](std::uint32_t n) {
+        const Eigen::Vector3d centre = toVector(tree.centre[n]),
+                              along = toVector(tree.direction[n]);
+        const Eigen::Vector3d u = along.unitOrthogonal(), v = along.cross(u);
+        for (std::size_t k = 0; k < kRays; ++k) {
+          const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kRays;
+          const auto wall = wallAlong(field, n, centre, std::cos(angle) * u + std::sin(angle) * v);
+          if (!wall) continue;
+          const convert::NearestPoint nearest = boxes.nearest(*wall);
+          if (surface.group[nearest.triangle] != 0) continue;  // beyond an end
+          ++met[n];
+          keepFarther(most[n], {nearest.distance / field.radius(n), *wall, n});
+        }
+      });
   for (std::size_t n = 0; n < most.size(); ++n) {
     keepFarther(facts.field, most[n]);
     facts.rays += met[n];
@@ -183,13 +197,16 @@ FieldFacts distanceFrom(const convert::SheetField& field, const WrittenSurface& 
   std::vector<Farthest> ofVertex(mesh.position.size()), ofMiddle(mesh.triangle.size());
   tbb::parallel_for(std::size_t{0}, mesh.position.size(), [&](std::size_t v) {
     if (isWall[v] != 0)
-      ofVertex[v] = branches.nearestSheet(mesh.position[v], branches.cursors(mesh.position[v], surface.branch[v]));
+      ofVertex[v] = branches.nearestSheet(mesh.position[v],
+                                          branches.cursors(mesh.position[v], surface.branch[v]));
   });
   tbb::parallel_for(std::size_t{0}, mesh.triangle.size(), [&](std::size_t t) {
     if (surface.group[t] != 0) return;
     const convert::Triangle& c = mesh.triangle[t];
-    const Eigen::Vector3d middle = (mesh.position[c[0]] + mesh.position[c[1]] + mesh.position[c[2]]) / 3;
-    ofMiddle[t] = branches.nearestSheet(middle, {ofVertex[c[0]].node, ofVertex[c[1]].node, ofVertex[c[2]].node});
+    const Eigen::Vector3d middle =
+        (mesh.position[c[0]] + mesh.position[c[1]] + mesh.position[c[2]]) / 3;
+    ofMiddle[t] = branches.nearestSheet(
+        middle, {ofVertex[c[0]].node, ofVertex[c[1]].node, ofVertex[c[2]].node});
   });
   FieldFacts facts;
   for (std::size_t v = 0; v < ofVertex.size(); ++v) {
@@ -206,12 +223,14 @@ EndFacts endsOf(const formats::Case& source, const WrittenSurface& surface) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> vertices;
   for (std::size_t t = 0; t < surface.group.size(); ++t)
     if (surface.group[t] != 0)
-      for (const std::uint32_t v : surface.mesh.triangle[t]) vertices[surface.group[t]].push_back(v);
+      for (const std::uint32_t v : surface.mesh.triangle[t])
+        vertices[surface.group[t]].push_back(v);
   EndFacts facts;
   facts.groups = vertices.size();
   for (const auto& [group, members] : vertices) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const std::uint32_t v : members) mean += surface.mesh.position[v] / static_cast<double>(members.size());
+    for (const std::uint32_t v : members)
+      mean += surface.mesh.position[v] / static_cast<double>(members.size());
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const std::uint32_t v : members) {
       const Eigen::Vector3d d = surface.mesh.position[v] - mean;
@@ -226,7 +245,8 @@ EndFacts endsOf(const formats::Case& source, const WrittenSurface& surface) {
     const std::uint32_t branch = surface.branch[members.front()];
     const formats::Branch& of = source.tree.branches[branch];
     for (std::uint32_t n = of.firstNode; n < of.firstNode + of.nodeCount; ++n)
-      if (const double d = (toVector(source.tree.centre[n]) - mean).norm(); d < least) least = d, node = n;
+      if (const double d = (toVector(source.tree.centre[n]) - mean).norm(); d < least)
+        least = d, node = n;
     const double cosine = std::abs(normal.dot(toVector(source.tree.direction[node])));
     facts.tilt = std::max(facts.tilt, std::acos(std::min(1.0, cosine)) * 180 / std::numbers::pi);
   }

@@ -28,9 +28,9 @@ WrittenSurface readSurface(const std::filesystem::path& file);
 
 /// By CGAL, but for `intersections` and the angles.
 struct ShapeFacts {
-  bool isMesh = false;   ///< a manifold at edges and vertices, and neighbours agree
-  bool closed = false;   ///< no boundary edge
-  bool outward = false;  ///< each part bounds the volume inside of it
+  bool isMesh = false;                ///< a manifold at edges and vertices, and neighbours agree
+  bool closed = false;                ///< no boundary edge
+  bool outward = false;               ///< each part bounds the volume inside of it
   std::vector<std::ptrdiff_t> euler;  ///< of each connected part
   double volume = 0, area = 0;        ///< mm^3, mm^2
   std::size_t intersections = 0;      ///< pairs of triangles, by selfIntersections()
@@ -51,12 +51,12 @@ struct Farthest {
 };
 
 struct FieldFacts {
-  Farthest vertex;                ///< of the wall's vertices from the field
-  Farthest middle;                ///< of the middles of the wall's triangles from the field
-  Farthest field;                 ///< of the field, where rays from the nodes meet it, from the mesh
-  std::size_t vertices = 0;       ///< of the wall
-  std::size_t verticesFar = 0;    ///< farther than a thousandth of the radius
-  std::size_t rays = 0;           ///< that met the field
+  Farthest vertex;              ///< of the wall's vertices from the field
+  Farthest middle;              ///< of the middles of the wall's triangles from the field
+  Farthest field;               ///< of the field, where rays from the nodes meet it, from the mesh
+  std::size_t vertices = 0;     ///< of the wall
+  std::size_t verticesFar = 0;  ///< farther than a thousandth of the radius
+  std::size_t rays = 0;         ///< that met the field
 };
 
 /// A vertex may lie on any sheet of its branch, and a triangle on any of its vertices'. Rays go twelve ways across the
@@ -64,9 +64,10 @@ struct FieldFacts {
 FieldFacts distanceFrom(const convert::SheetField& field, const WrittenSurface& surface);
 
 struct EndFacts {
-  std::size_t groups = 0;   ///< of faces besides the wall
-  std::size_t flat = 0;     ///< whose vertices lie in a plane, to a thousandth of their size
-  double tilt = 0;          ///< greatest angle of a flat one's normal and the vessel at the nearest node, degrees
+  std::size_t groups = 0;  ///< of faces besides the wall
+  std::size_t flat = 0;    ///< whose vertices lie in a plane, to a thousandth of their size
+  double tilt =
+      0;  ///< greatest angle of a flat one's normal and the vessel at the nearest node, degrees
 };
 
 EndFacts endsOf(const formats::Case& source, const WrittenSurface& surface);

@@ -63,7 +63,8 @@ int main(int argc, char** argv) {
   }
   try {
     const auto source = formats::readCaseFile(argv[1]);
-    if (!source || !source->models) throw invalidInput(std::string(argv[1]) + " is no case with models");
+    if (!source || !source->models)
+      throw invalidInput(std::string(argv[1]) + " is no case with models");
     std::puts(factsOf(*source, argv[2], std::stod(argv[3])).dump(1).c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lumen_surface_proof: %s\n", error.what());

@@ -35,14 +35,14 @@ Mesh cgalMesh(const convert::TriangleMesh& mesh) {
 
 // V - E + F of each part, and whether each encloses a positive volume.
 void measureParts(const Mesh& mesh, ShapeFacts& facts) {
-  const auto part = const_cast<Mesh&>(mesh)
-                        .add_property_map<Mesh::Face_index, std::size_t>("f:part", 0)
-                        .first;
+  const auto part =
+      const_cast<Mesh&>(mesh).add_property_map<Mesh::Face_index, std::size_t>("f:part", 0).first;
   const std::size_t parts = Pmp::connected_components(mesh, part);
   facts.euler.assign(parts, 0);
   std::vector<double> volume(parts, 0);
   for (const Mesh::Vertex_index v : mesh.vertices())
-    if (!mesh.is_isolated(v)) ++facts.euler[part[*mesh.faces_around_target(mesh.halfedge(v)).begin()]];
+    if (!mesh.is_isolated(v))
+      ++facts.euler[part[*mesh.faces_around_target(mesh.halfedge(v)).begin()]];
   for (const Mesh::Edge_index e : mesh.edges()) {
     const auto h = mesh.halfedge(e);
     --facts.euler[part[mesh.face(mesh.is_border(h) ? mesh.opposite(h) : h)]];
@@ -51,7 +51,8 @@ void measureParts(const Mesh& mesh, ShapeFacts& facts) {
     ++facts.euler[part[f]];
     std::array<Kernel::Point_3, 3> p;
     std::size_t i = 0;
-    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f))) p[i++] = mesh.point(v);
+    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f)))
+      p[i++] = mesh.point(v);
     volume[part[f]] += CGAL::volume(Kernel::Point_3(0, 0, 0), p[0], p[1], p[2]);
   }
   facts.outward = facts.closed && std::ranges::all_of(volume, [](double v) { return v > 0; });
