@@ -30,6 +30,8 @@ const double kNearlyFlat = std::cos(25 * std::numbers::pi / 180);
 // ... what belongs to one that is no cap is not tried as the beginning of another, and on rough surfaces no more
 // triangles are looked at than so many times those that there are ...
 constexpr std::size_t kMostLooks = 20;
+// ... and from a seed on the rim so many rounds lead to the mean of the whole cap.
+constexpr int kPasses = 5;
 // ... it fills an ellipse of up to 2.5:1 of its own moments (a square does by 0.95) ...
 constexpr double kFull = 0.9, kLongest = 2.5;
 // ... and of what lies around it, between so many of its radii, nine tenths have turned by 45 degrees.
@@ -184,7 +186,7 @@ private:
       if (looks > kMostLooks * m_isSeen.size()) return;
       MeshEnd end;
       end.normal = m_normal[t];
-      for (int pass = 0; pass < 2; ++pass) {
+      for (int pass = 0; pass < kPasses; ++pass) {
         growAround(t, Vector3d(end.normal), kNearlyFlat, visit, ++round);
         looks += m_region.size();
         if (m_region.size() < kFewest) break;
