@@ -15,6 +15,7 @@
 #include "converters/common/disjoint_sets.h"
 #include "converters/common/error.h"
 #include "converters/common/vectors.h"
+#include "converters/inside/thin_voxels.h"
 #include "converters/surface/marching_cubes.h"
 
 namespace lumen::convert {
@@ -30,6 +31,8 @@ constexpr int kHalo = 2 * kReach;  // of the kernel applied twice
 constexpr int kSlab = 32;          // slices that are smoothed at a time
 // From the half level: a voxel's centre stays on its side by so much, so that no triangle is nothing.
 constexpr float kLeast = 0.05F;
+// The same for what is one voxel wide, so that its wall is about half a voxel away as it was drawn.
+constexpr float kThin = 0.25F;
 
 std::string listOf(const std::set<std::int64_t>& values) {
   std::string text;
@@ -178,8 +181,12 @@ private:
               nearZ = std::clamp(z, 0, m_size[2] - 1);
     const std::size_t at = index(nearX, nearY, z - m_low);
     const float smoothed = 2 * once[at] - twice[at];
-    return isIn(nearX, nearY, nearZ) ? std::max(smoothed, 0.5F + kLeast)
-                                     : std::min(smoothed, 0.5F - kLeast);
+    const std::array<int, 3> voxel{nearX, nearY, nearZ};
+    const auto isIn = [this](int i, int j, int k) { return this->isIn(i, j, k); };
+    if (!isIn(nearX, nearY, nearZ))
+      return joinsThinVoxels(voxel, isIn) ? 0.5F + kLeast : std::min(smoothed, 0.5F - kLeast);
+    if (smoothed >= 0.5F + kThin) return smoothed;
+    return std::max(smoothed, 0.5F + (isThinVoxel(voxel, isIn) ? kThin : kLeast));
   }
 
   /// Along each axis; the volume goes on as it ends.
