@@ -57,9 +57,9 @@ formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat
   if (surface.cavities > 0)
     progress.warn(name + ": " + std::to_string(surface.cavities) +
                   (surface.cavities == 1 ? " hole" : " holes") + " within the labels filled");
-  convert::MeshCase made =
-      convert::caseOfMesh(std::move(surface.mesh), name, {},
-                          {{"labels", static_cast<std::int64_t>(mask.names.size())}}, progress);
+  convert::MeshCase made = convert::caseOfLumen(
+      convert::closeMesh(std::move(surface.mesh)), mask.geometry.voxelSize(), name, {},
+      {{"labels", static_cast<std::int64_t>(mask.names.size())}}, progress);
   for (const std::string& note : made.notes) progress.warn(note);
   // no wall is known better than to a voxel of the labels
   std::optional<double>& voxel = made.result.metadata.voxelSize;

@@ -73,8 +73,18 @@ MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
                     const std::optional<GivenCenterline>& centerline,
                     const std::map<std::string, formats::ParameterValue>& parameters,
                     Progress& progress) {
+  std::vector<std::string> notes;
+  const ClosedMesh surface = lumenSurface(std::move(mesh), name, notes, progress);
+  MeshCase out = caseOfLumen(surface, 0, name, centerline, parameters, progress);
+  out.notes.insert(out.notes.begin(), notes.begin(), notes.end());
+  return out;
+}
+
+MeshCase caseOfLumen(const ClosedMesh& surface, double resolution, const std::string& name,
+                     const std::optional<GivenCenterline>& centerline,
+                     const std::map<std::string, formats::ParameterValue>& parameters,
+                     Progress& progress) {
   MeshCase out;
-  const ClosedMesh surface = lumenSurface(std::move(mesh), name, out.notes, progress);
   if (std::all_of(surface.end.begin(), surface.end.end(),
                   [](std::uint32_t end) { return end != ClosedMesh::kWall; }))
     throw invalidInput(name + ": this surface has no wall of a vessel, only flat ends");
@@ -84,7 +94,7 @@ MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
     throw invalidInput(name +
                        ": no ray from this surface's wall meets the wall on the other side; "
                        "it encloses no vessel");
-  const VolumeGeometry grid = insideGrid(surface, width);
+  const VolumeGeometry grid = insideGrid(surface, std::max(width, resolution));
   progress.begin("tree", 0);
   const VesselLines lines = centerline ? linesOf(centerline->file, centerline->name, lumen)
                                        : findLines(lumen, grid, progress);

@@ -9,6 +9,7 @@
 
 #include "converters/centerline/centerline_file.h"
 #include "converters/common/progress.h"
+#include "converters/inside/closed_mesh.h"
 #include "converters/mesh/triangle_mesh.h"
 #include "formats/case/case.h"
 
@@ -28,10 +29,16 @@ struct MeshCase {
 /// `mesh` is repaired: oriented and manifold, closed or open where vessels end; mm, LPS. `name` is that of its
 /// file, printable. `parameters` are stored with the step. The same bits on any number of threads. Throws
 /// Error(InvalidInput) if there is no vessel in it, or for a centerline that does not lie in it; and
-/// Error(Cancelled).
+/// Error(Cancelled). Of a wall that has a thickness the inner side is taken, and `notes` says so.
 MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
                     const std::optional<GivenCenterline>& centerline,
                     const std::map<std::string, formats::ParameterValue>& parameters,
                     Progress& progress);
+
+/// The same for what is known to be the surface of the lumen, and to hold nothing narrower than `resolution`, mm.
+MeshCase caseOfLumen(const ClosedMesh& surface, double resolution, const std::string& name,
+                     const std::optional<GivenCenterline>& centerline,
+                     const std::map<std::string, formats::ParameterValue>& parameters,
+                     Progress& progress);
 
 }  // namespace lumen::convert

@@ -90,6 +90,24 @@ TEST(LabelMesh, KeepsWhatIsOneVoxelWide) {
   EXPECT_GT(enclosedVolume(surface.mesh), 0);
 }
 
+TEST(LabelMesh, KeepsTheWidthOfWhatIsOneVoxelWide) {
+  const Volume volume = drawn(Vector3d::Ones(), [](const Vector3d& p) {
+    return p.y() == 15 && p.z() == 16 && p.x() > 5 && p.x() < 30 ? 1 : 0;
+  });
+  Progress progress;
+  const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
+  EXPECT_GT(enclosedVolume(surface.mesh), 0.3 * 24);  // a third of what was drawn
+}
+
+TEST(LabelMesh, HoldsTogetherALineOfVoxelsThatMeetAtCorners) {
+  const Volume volume = drawn(Vector3d::Ones(), [](const Vector3d& p) {
+    return p.x() > 5 && p.x() < 25 && p.y() == p.x() && p.z() == p.x() ? 1 : 0;
+  });
+  Progress progress;
+  const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
+  EXPECT_EQ(eulerCharacteristic(surface.mesh), 2);
+}
+
 TEST(LabelMesh, FillsHoles) {
   const Volume volume = drawn(Vector3d::Ones(), [](const Vector3d& p) {
     const double from = (p - Vector3d(20, 15, 15)).norm();
@@ -115,7 +133,7 @@ TEST(LabelMesh, NamesBranchesByTheirLabels) {
   Progress progress;
   const LabelMask mask = maskOf(fork(), {{5, "left"}, {7, "right"}, {3, "trunk"}}, "m.nrrd");
   formats::Case value =
-      caseOfMesh(surfaceOf(mask, progress).mesh, "m.nrrd", {}, {}, progress).result;
+      caseOfLumen(closeMesh(surfaceOf(mask, progress).mesh), 0, "m.nrrd", {}, {}, progress).result;
   ASSERT_EQ(value.tree.branches.size(), 2U);
   nameBranches(mask, value);
   // the way through the trunk goes on through one of the arms, the other is a branch of its own
@@ -128,7 +146,7 @@ TEST(LabelMesh, TakesTheChosenLabelAlone) {
   Progress progress;
   const LabelMask mask = maskOf(fork(), {{3, "trunk"}}, "m.nrrd");
   const formats::Case value =
-      caseOfMesh(surfaceOf(mask, progress).mesh, "m.nrrd", {}, {}, progress).result;
+      caseOfLumen(closeMesh(surfaceOf(mask, progress).mesh), 0, "m.nrrd", {}, {}, progress).result;
   EXPECT_EQ(value.tree.branches.size(), 1U);
 }
 
