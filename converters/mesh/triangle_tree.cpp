@@ -13,7 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::uint32_t kLeaf = 4;    // triangles
-constexpr std::size_t kDeepest = 64;  // of a tree that is split in halves
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Where a ray meets a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
@@ -50,10 +49,6 @@ double entry(const Vector3d& low, const Vector3d& high, const Vector3d& origin,
   // a rounding's worth more, for triangles that lie in a face of their box
   const double slack = 1e-12 * (std::abs(from) + std::abs(to));
   return from <= to + slack && to >= -slack ? from - slack : kFar;
-}
-
-double squaredDistance(const Vector3d& low, const Vector3d& high, const Vector3d& p) {
-  return (low - p).cwiseMax(p - high).cwiseMax(0).squaredNorm();
 }
 
 }  // namespace
@@ -191,30 +186,11 @@ bool TriangleTree::contains(const Vector3d& point) const {
 NearestPoint TriangleTree::nearest(const Vector3d& point, double reach) const {
   NearestPoint best;
   double most = reach * reach;
-  std::array<std::uint32_t, kDeepest> stack{};
-  std::size_t depth = 1;
-  while (depth > 0) {
-    const std::uint32_t i = stack[--depth];
-    const Box& box = m_boxes[i];
-    if (squaredDistance(box.low, box.high, point) > most) continue;
-    if (box.right == 0) {
-      for (std::uint32_t k = box.first; k < box.last; ++k) {
-        const std::uint32_t t = m_order[k];
-        const Vector3d at = nearestPointOf(point, corner(t, 0), corner(t, 1), corner(t, 2));
-        const double squared = (at - point).squaredNorm();
-        if (squared > most || (squared == most && best.distance < kFar && t > best.triangle))
-          continue;
-        most = squared;
-        best = {std::sqrt(squared), t, at};
-      }
-      continue;
-    }
-    const Box &one = m_boxes[i + 1], &two = m_boxes[box.right];
-    const bool oneFirst =
-        squaredDistance(one.low, one.high, point) <= squaredDistance(two.low, two.high, point);
-    stack[depth++] = oneFirst ? box.right : i + 1;
-    stack[depth++] = oneFirst ? i + 1 : box.right;
-  }
+  visitNear(point, most, [&](std::uint32_t t, const Vector3d& at, double squared) {
+    if (squared == most && best.distance < kFar && t > best.triangle) return;
+    most = squared;
+    best = {std::sqrt(squared), t, at};
+  });
   return best;
 }
 
