@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kLeaf = 4;    // triangles
+constexpr std::uint32_t kLeaf = 4;  // triangles
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Where a ray meets a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage

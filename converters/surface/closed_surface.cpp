@@ -16,6 +16,7 @@
 #include "converters/surface/overlaps.h"
 #include "converters/surface/remesh.h"
 #include "converters/surface/thick_wall.h"
+#include "converters/surface/thin_walls.h"
 #include "converters/surface/to_surface_mesh.h"
 #include "formats/case/case_field.h"
 #include "formats/view/text_rules.h"
@@ -92,7 +93,7 @@ private:
   // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each
   // and its lumen.
   CaseSurface wall() {
-    const CaseSurface inner = lumen();
+    CaseSurface inner = lumen();
     const Length& thickness = *m_options.thickness;
     // beyond its ends, so that the outer surface is cut where it runs on
     CaseSurface prolonged = inner;
@@ -100,9 +101,15 @@ private:
     const OffsetField around(m_source, m_blended, m_field.options().gap / 3, prolonged, thickness);
     SurfaceReport ofOuter;
     CaseSurface outer = extract(around, ofOuter);
-    cutLike(outer, around, inner, m_progress);
+    EndsReport ends;
+    ends.messages = cutLike(outer, around, inner, m_progress);
+    ends.flat = m_result.report.flatEnds - ends.messages.size();
+    ends.rounded = m_result.report.roundedEnds + ends.messages.size();
+    noteEnds(std::move(ends));
     refine(outer, around, edgeOf(m_options));
     mendCrossings(outer, around, m_progress);
+    for (std::string& sentence : thinWalls(outer, around))
+      m_result.report.messages.push_back(std::move(sentence));
     return thickWall(inner, outer, m_source);
   }
 

@@ -130,8 +130,7 @@ private:
     double cost = 0;
     Mesh::HalfedgeHandle halfedge;
     bool operator<(const Candidate& other) const {
-      return cost < other.cost ||
-             (cost == other.cost && halfedge.idx() < other.halfedge.idx());
+      return cost < other.cost || (cost == other.cost && halfedge.idx() < other.halfedge.idx());
     }
   };
   struct Entry {
@@ -188,9 +187,9 @@ private:
     if (outcome.isTurned || outcome.quality < std::min(outcome.before, kNoSharper)) return false;
     findFaces(h);
     if (m_deviation && !m_deviation->isWithin(m_bounds.maxError, m_before, m_after)) return false;
-    return std::none_of(m_after.begin(), m_after.end(), [&](const GroupedFace& face) {
-             return m_now.meets(face.corner, m_before);
-           }) &&
+    return std::none_of(
+               m_after.begin(), m_after.end(),
+               [&](const GroupedFace& face) { return m_now.meets(face.corner, m_before); }) &&
            !areCrossed();
   }
 

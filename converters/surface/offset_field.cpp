@@ -16,9 +16,9 @@ namespace {
 // times their width: 1 / sin(10 degrees).
 constexpr double kLeastWay = 6;
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-constexpr double kReach = 3;       // thicknesses: what is farther off is nobody's wall
-constexpr double kOnEdge = 1e-6;   // of a triangle: a foot so near to an edge is on it
-constexpr double kOnWall = 1e-9;   // mm: where the way to the foot has no direction
+constexpr double kReach = 3;      // thicknesses: what is farther off is nobody's wall
+constexpr double kOnEdge = 1e-6;  // of a triangle: a foot so near to an edge is on it
+constexpr double kOnWall = 1e-9;  // mm: where the way to the foot has no direction
 
 // The corners' angles are the weights (J. Baerentzen and H. Aanaes, *Signed distance computation
 // using the angle weighted pseudonormal*, 2005).
@@ -130,8 +130,7 @@ SheetSample OffsetField::sampleOf(const Eigen::Vector3d& point, const Foot& own)
       (own.distance / own.thickness - other.distance / other.thickness) * harmonic +
       0.5 * options().gap;
   if (apart <= sample.distance) return sample;
-  const Eigen::Vector3d gradient =
-      own.gradient / own.thickness - other.gradient / other.thickness;
+  const Eigen::Vector3d gradient = own.gradient / own.thickness - other.gradient / other.thickness;
   sample.distance = apart;
   sample.isSeparated = true;
   sample.other = other.node;
@@ -139,10 +138,16 @@ SheetSample OffsetField::sampleOf(const Eigen::Vector3d& point, const Foot& own)
   return sample;
 }
 
+OffsetField::Foot OffsetField::ownFoot(const Eigen::Vector3d& point, std::uint32_t node) const {
+  return footOf(point, kAnywhere, [&](std::uint32_t other) { return !isOther(node, other); });
+}
+
+double OffsetField::fromLumen(const Eigen::Vector3d& point, std::uint32_t node) const {
+  return ownFoot(point, node).distance;
+}
+
 SheetSample OffsetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
-  return sampleOf(point,
-                  footOf(point, kAnywhere,
-                         [&](std::uint32_t other) { return !isOther(node, other); }));
+  return sampleOf(point, ownFoot(point, node));
 }
 
 SheetSample OffsetField::deepest(const Eigen::Vector3d& point, std::uint32_t /*node*/) const {

@@ -34,8 +34,8 @@ public:
                                     std::uint32_t node) const override;
   [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
                                std::uint32_t to) const override;
-  /// The thickness that is asked for at a vertex of the lumen's surface, mm.
-  [[nodiscard]] double thicknessAt(std::uint32_t vertex) const { return m_thickness[vertex]; }
+  /// The distance of a point from the lumen's surface, mm, for a cursor at `node`; negative inside.
+  [[nodiscard]] double fromLumen(const Eigen::Vector3d& point, std::uint32_t node) const;
 
 private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
@@ -49,14 +49,15 @@ private:
   /// The foot with the least d - t of those within `reach` whose node `takes` takes.
   template <class Takes>
   [[nodiscard]] Foot footOf(const Eigen::Vector3d& point, double reach, const Takes& takes) const;
+  [[nodiscard]] Foot ownFoot(const Eigen::Vector3d& point, std::uint32_t node) const;
   [[nodiscard]] Foot footOn(std::uint32_t triangle, const Eigen::Vector3d& at,
                             const Eigen::Vector3d& point) const;
   [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, const Foot& own) const;
 
   const CaseSurface& m_inner;
   TriangleTree m_tree;
-  std::vector<double> m_thickness;       ///< of each vertex
-  std::vector<Eigen::Vector3d> m_normal; ///< of each vertex, by the angles of its faces
+  std::vector<double> m_thickness;        ///< of each vertex
+  std::vector<Eigen::Vector3d> m_normal;  ///< of each vertex, by the angles of its faces
   double m_thickest = 0;
 };
 

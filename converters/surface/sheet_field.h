@@ -92,8 +92,8 @@ public:
 
   /// The nodes that may touch a node, ascending.
   [[nodiscard]] std::span<const std::uint32_t> touching(std::uint32_t node) const {
-    return std::span(m_touching).subspan(m_touchingOffset[node],
-                                         m_touchingOffset[node + 1] - m_touchingOffset[node]);
+    return std::span(m_touching)
+        .subspan(m_touchingOffset[node], m_touchingOffset[node + 1] - m_touchingOffset[node]);
   }
 
   /// The point of the surface that Newton's method reaches from `start`, within 1e-4 of the local
@@ -149,6 +149,7 @@ private:
 /// mm, and the way along the tree is longer than 1.3 times that distance, and than `leastWay` times
 /// the sum of the radii plus `margin`. Symmetric, ascending.
 void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
-                       double leastWay, std::vector<std::uint32_t>& offset, std::vector<std::uint32_t>& node);
+                       double leastWay, std::vector<std::uint32_t>& offset,
+                       std::vector<std::uint32_t>& node);
 
 }  // namespace lumen::convert

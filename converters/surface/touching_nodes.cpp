@@ -88,7 +88,8 @@ private:
 }  // namespace
 
 void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
-                       double leastWay, std::vector<std::uint32_t>& offset, std::vector<std::uint32_t>& node) {
+                       double leastWay, std::vector<std::uint32_t>& offset,
+                       std::vector<std::uint32_t>& node) {
   const std::size_t count = tree.nodeCount();
   const formats::Neighbours edges(tree);
   std::vector<float> radii(tree.radius);
