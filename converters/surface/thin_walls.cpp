@@ -59,9 +59,8 @@ std::vector<std::string> thinWalls(const CaseSurface& outer, const OffsetField& 
   }
   std::vector<ThinWall> walls;
   for (const auto& entry : found) walls.push_back(entry.second);
-  std::stable_sort(walls.begin(), walls.end(), [](const ThinWall& a, const ThinWall& b) {
-    return a.thickness < b.thickness;
-  });
+  std::stable_sort(walls.begin(), walls.end(),
+                   [](const ThinWall& a, const ThinWall& b) { return a.thickness < b.thickness; });
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < std::min(kMostSentences, walls.size()); ++i)
     sentences.push_back(sentenceOf(walls[i], tree));
