@@ -63,17 +63,17 @@ public:
   [[nodiscard]] const TriangleMesh& mesh() const { return m_mesh; }
 
 private:
-  // Children of box i are i + 1 and `right` (0: a leaf of triangles m_order[first, last)).
+  // In floats that lie outside of what the box holds. A leaf holds m_order[at, at + count); without
+  // a count the children are the next box and box `at`.
   struct Box {
-    Eigen::Vector3d low, high;
-    std::uint32_t first, last, right;
+    std::array<float, 3> low, high;
+    std::uint32_t at, count;
   };
+  class Ray;
   std::uint32_t build(std::uint32_t first, std::uint32_t last,
                       const std::vector<Eigen::Vector3d>& centre);
   static constexpr std::size_t kDeepest = 64;  // of a tree that is split in halves
-  [[nodiscard]] static double squaredDistance(const Box& box, const Eigen::Vector3d& p) {
-    return (box.low - p).cwiseMax(p - box.high).cwiseMax(0).squaredNorm();
-  }
+  [[nodiscard]] static double squaredDistance(const Box& box, const Eigen::Vector3d& point);
   [[nodiscard]] int winding(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
   [[nodiscard]] Eigen::Vector3d corner(std::uint32_t triangle, std::size_t i) const {
     return m_mesh.position[m_mesh.triangle[triangle][i]];
@@ -85,6 +85,7 @@ private:
   const TriangleMesh& m_mesh;
   std::vector<Box> m_boxes;
   std::vector<std::uint32_t> m_order;
+  std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // of m_order, as leaves ask for them
 };
 
 template <class Visit>
@@ -96,19 +97,19 @@ void TriangleTree::visitNear(const Eigen::Vector3d& point, const double& most,
     const std::uint32_t i = stack[--depth];
     const Box& box = m_boxes[i];
     if (squaredDistance(box, point) > most) continue;
-    if (box.right == 0) {
-      for (std::uint32_t k = box.first; k < box.last; ++k) {
-        const std::uint32_t t = m_order[k];
-        const Eigen::Vector3d at = nearestPointOf(point, corner(t, 0), corner(t, 1), corner(t, 2));
+    if (box.count > 0) {
+      for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
+        const auto& [a, b, c] = m_corner[k];
+        const Eigen::Vector3d at = nearestPointOf(point, a, b, c);
         const double squared = (at - point).squaredNorm();
-        if (squared <= most) visit(t, at, squared);
+        if (squared <= most) visit(m_order[k], at, squared);
       }
       continue;
     }
     const bool oneFirst =
-        squaredDistance(m_boxes[i + 1], point) <= squaredDistance(m_boxes[box.right], point);
-    stack[depth++] = oneFirst ? box.right : i + 1;
-    stack[depth++] = oneFirst ? i + 1 : box.right;
+        squaredDistance(m_boxes[i + 1], point) <= squaredDistance(m_boxes[box.at], point);
+    stack[depth++] = oneFirst ? box.at : i + 1;
+    stack[depth++] = oneFirst ? i + 1 : box.at;
   }
 }
 
