@@ -17,7 +17,7 @@ struct EdgeLength {
   double minimum = 0;   ///< mm; gives way where fewer than eight edges would go round a vessel
   double maximum = std::numeric_limits<double>::infinity();  ///< mm
   /// How far the chord of a circle of the radius may be from it; 0: any distance.
-  Length sag;
+  Length sag{};
 };
 
 /// The radius of the vessel at each vertex, mm: between nodes of a branch it is linear.
