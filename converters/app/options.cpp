@@ -389,7 +389,8 @@ void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
       [&](const std::string& text) {
         surface.thickness = convert::parseLength(text, "--thickness");
       },
-      "A solid wall of this thickness around the lumen, such as 0.5 (mm) or 0.2r");
+      "A solid wall of this thickness around the lumen, such as 0.5 (mm) or 0.2r; thinner where "
+      "vessels touch, which is told");
   group
       .add(
           "--max-error", surface.maxError, "MM",

@@ -12,8 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kLeaf = 4;    // triangles
-constexpr std::size_t kDeepest = 64;  // of a tree that is split in halves
+constexpr std::uint32_t kLeaf = 4;  // triangles
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Where a ray meets a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
@@ -227,30 +226,11 @@ bool TriangleTree::contains(const Vector3d& point) const {
 NearestPoint TriangleTree::nearest(const Vector3d& point, double reach) const {
   NearestPoint best;
   double most = reach * reach;
-  std::array<std::uint32_t, kDeepest> stack{};
-  std::size_t depth = 1;
-  while (depth > 0) {
-    const std::uint32_t i = stack[--depth];
-    const Box& box = m_boxes[i];
-    if (squaredDistance(box, point) > most) continue;
-    if (box.count > 0) {
-      for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
-        const std::uint32_t t = m_order[k];
-        const auto& [a, b, c] = m_corner[k];
-        const Vector3d at = nearestPointOf(point, a, b, c);
-        const double squared = (at - point).squaredNorm();
-        if (squared > most || (squared == most && best.distance < kFar && t > best.triangle))
-          continue;
-        most = squared;
-        best = {std::sqrt(squared), t, at};
-      }
-      continue;
-    }
-    const bool oneFirst =
-        squaredDistance(m_boxes[i + 1], point) <= squaredDistance(m_boxes[box.at], point);
-    stack[depth++] = oneFirst ? box.at : i + 1;
-    stack[depth++] = oneFirst ? i + 1 : box.at;
-  }
+  visitNear(point, most, [&](std::uint32_t t, const Vector3d& at, double squared) {
+    if (squared == most && best.distance < kFar && t > best.triangle) return;
+    most = squared;
+    best = {std::sqrt(squared), t, at};
+  });
   return best;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -49,6 +50,10 @@ public:
   /// The nearest point of the mesh within `reach`; its distance is infinite if there is none.
   [[nodiscard]] NearestPoint nearest(const Eigen::Vector3d& point,
                                      double reach = std::numeric_limits<double>::infinity()) const;
+  /// Calls visit(triangle, its nearest point, squared distance) for the triangles whose boxes are
+  /// within the square root of `most`, which `visit` may lower, of the point: near ones first.
+  template <class Visit>
+  void visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit) const;
   /// Whether a closed mesh goes round the point: as most of three rays say, each by the number of
   /// times it leaves less that of the times it enters.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const;
@@ -67,6 +72,7 @@ private:
   class Ray;
   std::uint32_t build(std::uint32_t first, std::uint32_t last,
                       const std::vector<Eigen::Vector3d>& centre);
+  static constexpr std::size_t kDeepest = 64;  // of a tree that is split in halves
   [[nodiscard]] static double squaredDistance(const Box& box, const Eigen::Vector3d& point);
   [[nodiscard]] int winding(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
   [[nodiscard]] Eigen::Vector3d corner(std::uint32_t triangle, std::size_t i) const {
@@ -81,5 +87,30 @@ private:
   std::vector<std::uint32_t> m_order;
   std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // of m_order, as leaves ask for them
 };
+
+template <class Visit>
+void TriangleTree::visitNear(const Eigen::Vector3d& point, const double& most,
+                             Visit&& visit) const {
+  std::array<std::uint32_t, kDeepest> stack{};
+  std::size_t depth = 1;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const Box& box = m_boxes[i];
+    if (squaredDistance(box, point) > most) continue;
+    if (box.count > 0) {
+      for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
+        const auto& [a, b, c] = m_corner[k];
+        const Eigen::Vector3d at = nearestPointOf(point, a, b, c);
+        const double squared = (at - point).squaredNorm();
+        if (squared <= most) visit(m_order[k], at, squared);
+      }
+      continue;
+    }
+    const bool oneFirst =
+        squaredDistance(m_boxes[i + 1], point) <= squaredDistance(m_boxes[box.at], point);
+    stack[depth++] = oneFirst ? box.at : i + 1;
+    stack[depth++] = oneFirst ? i + 1 : box.at;
+  }
+}
 
 }  // namespace lumen::convert

@@ -2,21 +2,21 @@
 #include "converters/surface/closed_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 
 #include "converters/common/error.h"
-#include "converters/mesh/self_intersections.h"
 #include "converters/surface/cut_ends.h"
 #include "converters/surface/decimate.h"
 #include "converters/surface/end_planes.h"
 #include "converters/surface/extract.h"
 #include "converters/surface/flow_extension.h"
 #include "converters/surface/mend_crossings.h"
+#include "converters/surface/offset_field.h"
 #include "converters/surface/overlaps.h"
 #include "converters/surface/remesh.h"
 #include "converters/surface/thick_wall.h"
+#include "converters/surface/thin_walls.h"
 #include "converters/surface/to_surface_mesh.h"
 #include "formats/case/case_field.h"
 #include "formats/view/text_rules.h"
@@ -26,12 +26,33 @@ namespace {
 
 // Edges of the lattice in radii: half of them would give no truer topology, at four times the cost.
 constexpr double kLatticeShare = 1.0;
+// Of a wall's thickness: how far lumens that touch are drawn apart, so that each keeps a third of
+// that as its wall.
+constexpr double kSharedWall = 0.5;
+// Of the radius: how far a lumen is prolonged where its wall is made, a cell of the lattice.
+constexpr double kBeyondEnds = 1;
+// Of a wall's thickness: how much thinner it may be in the middle of a triangle.
+constexpr double kWallSag = 0.03;
 
 double gapOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
   if (options.gap) return *options.gap;
   if (source.metadata.voxelSize) return 0.1 * *source.metadata.voxelSize;
   const auto& radius = source.tree.radius;
   return 0.05 * double{*std::min_element(radius.begin(), radius.end())};
+}
+
+// Two walls need more of it than none.
+SheetOptions gapsOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
+  const Length wall = options.thickness.value_or(Length{});
+  return {.gap = std::max(gapOf(source, options), kSharedWall * wall.mm),
+          .gapShare = kSharedWall * wall.radii};
+}
+
+EdgeLength edgeOf(const ClosedSurfaceOptions& options) {
+  EdgeLength edge = options.edge;
+  const Length wall = options.thickness.value_or(Length{});
+  edge.sag = {kWallSag * wall.mm, kWallSag * wall.radii};
+  return edge;
 }
 
 class Making {
@@ -41,20 +62,14 @@ public:
         m_options(options),
         m_progress(progress),
         m_blended(formats::blendedFieldOf(source)),
-        m_field(source, m_blended, {gapOf(source, options), 0, 0}) {}
+        m_field(source, m_blended, gapsOf(source, options)) {}
 
   ClosedSurface run() {
     SurfaceReport& report = m_result.report;
     report.gap = m_field.options().gap;
-    std::vector<DetailLevel> levels;
-    if (m_options.thickness)
-      levels.push_back({wall(), -1});
-    else
-      levels = lumen();
+    std::vector<DetailLevel> levels = leveled(m_options.thickness ? wall() : lumen());
     for (DetailLevel& level : levels) {
-      const std::vector<std::string> said = extendEnds(level.surface, m_source, m_options.extend);
-      if (m_result.levels.empty())
-        report.messages.insert(report.messages.end(), said.begin(), said.end());
+      if (!m_options.extend.empty()) extend(level.surface);
       if (m_options.open && !m_options.thickness) openEnds(level.surface);
       m_result.levels.push_back(toSurfaceMesh(level.surface, m_field, m_progress));
       report.errors.push_back(level.error);
@@ -65,33 +80,43 @@ public:
   }
 
 private:
-  // The lumen's surface, in as many levels as are asked for.
-  std::vector<DetailLevel> lumen() {
+  // With ends, but not yet as asked for.
+  CaseSurface lumen() {
     CaseSurface surface = extract(m_field, m_result.report);
     noteEnds(cutEnds(surface, m_field, m_progress));
-    refine(surface, m_field);
+    refine(surface, m_field, edgeOf(m_options));
     m_result.report.crossings = mendCrossings(surface, m_field, m_progress);
     m_result.report.overlaps = overlapsOf(surface, m_field);
-    return leveled(std::move(surface));
+    return surface;
   }
 
   // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each
   // and its lumen.
   CaseSurface wall() {
-    const SheetField around(
-        m_source, m_blended,
-        {m_field.options().gap / 3, m_options.thickness->mm, m_options.thickness->radii});
-    CaseSurface inner = extract(m_field, m_result.report);
+    CaseSurface inner = lumen();
+    const Length& thickness = *m_options.thickness;
+    // beyond its ends, so that the outer surface is cut where it runs on
+    CaseSurface prolonged = inner;
+    extendEnds(prolonged, m_source, {{"", {thickness.mm, kBeyondEnds + thickness.radii}}});
+    const OffsetField around(m_source, m_blended, m_field.options().gap / 3, prolonged, thickness);
     SurfaceReport ofOuter;
     CaseSurface outer = extract(around, ofOuter);
-    const std::array<FieldSurface, 2> both{{{&inner, &m_field}, {&outer, &around}}};
-    noteEnds(cutEnds(both, endPlanes(m_source), m_progress));
-    refine(inner, m_field);
-    refine(outer, around);
-    mendCrossings(inner, m_field, m_progress);
+    EndsReport ends;
+    ends.messages = cutLike(outer, around, inner, m_progress);
+    ends.flat = m_result.report.flatEnds - ends.messages.size();
+    ends.rounded = m_result.report.roundedEnds + ends.messages.size();
+    noteEnds(std::move(ends));
+    refine(outer, around, edgeOf(m_options));
     mendCrossings(outer, around, m_progress);
-    m_result.report.overlaps = overlapsOf(inner, m_field);
+    for (std::string& sentence : thinWalls(outer, around))
+      m_result.report.messages.push_back(std::move(sentence));
     return thickWall(inner, outer, m_source);
+  }
+
+  void extend(CaseSurface& surface) {
+    const std::vector<std::string> said = extendEnds(surface, m_source, m_options.extend);
+    if (m_result.levels.empty())
+      m_result.report.messages.insert(m_result.report.messages.end(), said.begin(), said.end());
   }
 
   CaseSurface extract(const SheetField& field, SurfaceReport& report) {
@@ -111,8 +136,8 @@ private:
     for (const std::string& sentence : found.moved) m_progress.detail(sentence);
   }
 
-  void refine(CaseSurface& surface, const SheetField& field) {
-    const RemeshReport found = remesh(surface, field, m_options.edge, m_progress);
+  void refine(CaseSurface& surface, const SheetField& field, const EdgeLength& edge) {
+    const RemeshReport found = remesh(surface, field, edge, m_progress);
     m_result.report.offField += found.offField;
     m_result.report.sharpTriangles += found.sharp;
   }
@@ -150,6 +175,9 @@ ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOpti
   if (!source.models || source.tree.nodeCount() == 0)
     throw invalidInput(
         "the case has no models, and a mesh is made from them; lumen fit makes them");
+  if (options.thickness && (options.open || !options.extend.empty()))
+    throw Error(ErrorKind::Usage,
+                "--thickness gives a closed wall; it goes with neither --open nor --extend");
   return Making(source, options, progress).run();
 }
 

@@ -255,6 +255,36 @@ EndsReport cutEnds(CaseSurface& surface, const SheetField& field, Progress& prog
   return cutEnds(one, endPlanes(field.source()), progress);
 }
 
+std::vector<std::string> cutLike(CaseSurface& outer, const SheetField& field, CaseSurface& inner,
+                                 Progress& progress) {
+  std::vector<std::string> messages;
+  SurfaceFans fans(outer);
+  const std::vector<std::uint32_t> nodeOf = outer.node;
+  for (const SurfaceEnd& end : inner.ends) {
+    FaceGroup& group = inner.groups[end.group];
+    if (!isFlat(inner, end.group)) continue;
+    progress.check();
+    const EndPlane plane{end.branch, end.node, group.kind == FaceKind::Inlet, end.centre,
+                         end.normal};
+    const auto nodes = nodesNearEnd(field.source(), plane, kReach * field.radius(end.node));
+    std::vector<std::uint32_t> candidates;
+    for (std::uint32_t v = 0; v < nodeOf.size(); ++v)
+      if (std::binary_search(nodes.begin(), nodes.end(), nodeOf[v])) candidates.push_back(v);
+    const auto plan = planCut(fans, field, plane, nodes, candidates);
+    if (const NoCut* reason = std::get_if<NoCut>(&plan)) {
+      messages.push_back("the wall stays closed at " + formats::printable(group.name) + ": " +
+                         reasonOf(*reason));
+      group.kind = FaceKind::Cap;
+    } else {
+      applyCut(fans, plane, std::get<EndCut>(plan), end.group);
+    }
+  }
+  fans.compact();
+  outer.groups = inner.groups;
+  outer.ends = inner.ends;
+  return messages;
+}
+
 void openEnds(CaseSurface& surface) {
   SurfaceFans fans(surface);
   for (std::uint32_t t = 0; t < surface.group.size(); ++t)

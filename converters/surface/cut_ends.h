@@ -41,6 +41,12 @@ EndsReport cutEnds(std::span<const FieldSurface> surfaces, const std::vector<End
 /// The same for one surface and its case's own ends.
 EndsReport cutEnds(CaseSurface& surface, const SheetField& field, Progress& progress);
 
+/// Cuts `outer`, a surface that lies around `inner` and follows `field`, in the planes of its flat ends:
+/// groups and ends become the same. Where a plane meets no simple opening of it, the end becomes one
+/// that is not flat, of both; returns a sentence for each.
+std::vector<std::string> cutLike(CaseSurface& outer, const SheetField& field, CaseSurface& inner,
+                                 Progress& progress);
+
 /// Leaves out what closes the flat ends: a boundary at each rim. Rounded ends stay closed.
 void openEnds(CaseSurface& surface);
 

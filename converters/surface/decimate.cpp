@@ -15,7 +15,8 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kBoundShare =
-    0.98;  // what lies between the points that are looked at has the rest
+    0.98;                     // what lies between the points that are looked at has the rest
+constexpr int kAttempts = 3;  // where that was not enough
 
 // Where the surface looks, and how long its edges are, at each vertex.
 RemeshState stateOf(CaseSurface& surface) {
@@ -78,9 +79,15 @@ double decimate(CaseSurface& surface, const SheetField& field, const DecimateOpt
       (options.triangles == 0 && !(options.maxError > 0)))
     return 0;
   const CaseSurface before = surface;
-  collapse(surface, field, {kBoundShare * options.maxError, options.triangles}, progress);
-  progress.check();
-  return distanceBetween(surface, before);
+  double bound = kBoundShare * options.maxError;
+  for (int attempt = 1;; ++attempt) {
+    collapse(surface, field, {bound, options.triangles}, progress);
+    progress.check();
+    const double error = distanceBetween(surface, before);
+    if (!(options.maxError > 0) || error <= options.maxError || attempt == kAttempts) return error;
+    bound *= kBoundShare * options.maxError / error;
+    surface = before;
+  }
 }
 
 void addCoarserLevels(std::vector<DetailLevel>& levels, int count, const SheetField& field,

@@ -2,6 +2,7 @@
 #include "converters/surface/remesh_target.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <queue>
@@ -42,8 +43,10 @@ double radiusAt(const formats::CenterlineTree& tree, const formats::Neighbours& 
   return radius;
 }
 
-// Lowers what is too long beside a shorter one: shortest first, as Dijkstra's algorithm goes.
-void grade(const TriangleMesh& mesh, std::vector<double>& length) {
+}  // namespace
+
+// Shortest first, as Dijkstra's algorithm goes.
+void gradeLengths(const TriangleMesh& mesh, std::vector<double>& length) {
   std::vector<std::uint32_t> offset(mesh.position.size() + 1, 0), around;
   for (const Triangle& t : mesh.triangle)
     for (const std::uint32_t v : t) ++offset[v + 1];
@@ -72,20 +75,27 @@ void grade(const TriangleMesh& mesh, std::vector<double>& length) {
   }
 }
 
-}  // namespace
+std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& field) {
+  const formats::CenterlineTree& tree = field.source().tree;
+  const formats::Neighbours edges(tree);
+  std::vector<double> radius(surface.mesh.position.size());
+  tbb::parallel_for(std::size_t{0}, radius.size(), [&](std::size_t v) {
+    radius[v] = radiusAt(tree, edges, surface.mesh.position[v], surface.node[v]);
+  });
+  return radius;
+}
 
 std::vector<double> targetLengths(const CaseSurface& surface, const SheetField& field,
                                   const EdgeLength& edge) {
-  const formats::CenterlineTree& tree = field.source().tree;
-  const formats::Neighbours edges(tree);
-  std::vector<double> length(surface.mesh.position.size());
-  tbb::parallel_for(std::size_t{0}, length.size(), [&](std::size_t v) {
-    const double radius = radiusAt(tree, edges, surface.mesh.position[v], surface.node[v]);
-    const double longest = 2 * std::numbers::pi * radius / kEdgesAround;
-    length[v] = std::clamp(edge.share * radius, std::min(edge.minimum, edge.maximum), edge.maximum);
-    length[v] = std::min(length[v], longest);
-  });
-  grade(surface.mesh, length);
+  std::vector<double> length = vesselRadii(surface, field);
+  for (double& l : length) {
+    const double radius = l, longest = 2 * std::numbers::pi * radius / kEdgesAround;
+    l = std::clamp(edge.share * radius, std::min(edge.minimum, edge.maximum), edge.maximum);
+    l = std::min(l, longest);
+    if (const double sag = edge.sag.at(radius); sag > 0)
+      l = std::min(l, std::sqrt(8 * radius * sag));
+  }
+  gradeLengths(surface.mesh, length);
   return length;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "converters/surface/case_surface.h"
+#include "converters/surface/length.h"
 #include "converters/surface/sheet_field.h"
 
 namespace lumen::convert {
@@ -15,7 +16,15 @@ struct EdgeLength {
   double share = 0.25;  ///< of the radius
   double minimum = 0;   ///< mm; gives way where fewer than eight edges would go round a vessel
   double maximum = std::numeric_limits<double>::infinity();  ///< mm
+  /// How far the chord of a circle of the radius may be from it; 0: any distance.
+  Length sag{};
 };
+
+/// The radius of the vessel at each vertex, mm: between nodes of a branch it is linear.
+std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& field);
+
+/// Lowers what is longer than at another vertex by more than a quarter of the way to it.
+void gradeLengths(const TriangleMesh& mesh, std::vector<double>& length);
 
 /// The length that edges at each vertex should have, mm: as `edge` says for the radius there, at
 /// most an eighth of the circumference, and nowhere longer than at another vertex by more than a

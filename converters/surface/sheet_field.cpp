@@ -28,7 +28,8 @@ SheetField::SheetField(const formats::Case& source, const field::BlendedField& f
                        const SheetOptions& options)
     : m_source(source), m_field(field), m_options(options), m_edges(source.tree) {
   findTouchingNodes(source.tree, kTouchingReach + options.offsetShare,
-                    options.gap + 2 * options.offset, m_touchingOffset, m_touching);
+                    options.gap + 2 * options.offset, options.leastWay, m_touchingOffset,
+                    m_touching);
 }
 
 // docs/method.md, section 4.2, with the node's radius as the scale.
@@ -132,7 +133,9 @@ void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
   const Eigen::Vector3d gradient =
       harmonic * (own.gradient / own.radius - other.gradient / other.radius);
   const double slope = std::max(gradient.norm(), kLeastSlope);
-  const double apart = (own.share - other.share) * harmonic / slope + 0.5 * m_options.gap;
+  const double apart =
+      (own.share - other.share) * harmonic / slope +
+      0.5 * (m_options.gap + m_options.gapShare * std::min(own.radius, other.radius));
   if (apart <= sample.distance) return;
   sample.distance = apart;
   sample.gradient = gradient / slope;
@@ -143,7 +146,7 @@ void SheetField::separate(SheetSample& sample, const Eigen::Vector3d& point,
 SheetSample SheetField::sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const {
   const Wall wall = wallOf(point, node);
   SheetSample sample;
-  sample.distance = wall.distance - m_options.offset - m_options.offsetShare * radius(node);
+  sample.distance = wall.distance;
   sample.gradient = wall.gradient;
   sample.node = node;
   sample.wall = wall.distance;

@@ -20,10 +20,15 @@ namespace lumen::convert {
 struct SheetOptions {
   /// Distance that two vessels keep where their walls touch or overlap.
   double gap = 0;
-  /// How far outside of the lumen's wall the surface lies: 0, or a wall's thickness.
+  /// The same as a share of the lesser radius of both; added to `gap`.
+  double gapShare = 0;
+  /// How far outside of the lumen's wall the surface may lie: 0, or a wall's thickness.
   double offset = 0;
   /// The same as a share of the local radius; added to `offset`.
   double offsetShare = 0;
+  /// Vessels touch only where the way between them along the tree is longer than this many times
+  /// the width of both.
+  double leastWay = 0;
 };
 
 /// What SheetField says of a point.
@@ -43,7 +48,7 @@ struct SheetSample {
 /// one-evaluation distance of docs/method.md, section 4.2) and a the distance to its axis, as a
 /// share of the radius there, the surface is the zero of
 ///
-///     g = max(d - offset, (a - a') / |grad(a - a')| + gap/2)
+///     g = max(d, (a - a') / |grad(a - a')| + gap/2)
 ///
 /// where a' is that of the other sheet that gives most. So where two lumens overlap each
 /// ends half a gap before the place that is as far from both axes, and no vessel loses its axis to
@@ -56,21 +61,24 @@ public:
   /// `source` has models and, with `field`, must stay.
   SheetField(const formats::Case& source, const field::BlendedField& field,
              const SheetOptions& options);
+  virtual ~SheetField() = default;
+  SheetField(const SheetField&) = delete;
+  SheetField& operator=(const SheetField&) = delete;
 
   /// For a cursor that begins at `node` and follows.
-  [[nodiscard]] SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] virtual SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const;
 
   /// For the sheet of a point whose axis is the nearest in radii, of the one that following from
   /// `node` leads to and those that touch it.
-  [[nodiscard]] SheetSample deepest(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] virtual SheetSample deepest(const Eigen::Vector3d& point, std::uint32_t node) const;
 
   /// Whether two cursors that have followed a point are on one sheet of it.
   [[nodiscard]] bool areOneSheet(const Eigen::Vector3d& point, std::uint32_t a,
                                  std::uint32_t b) const;
 
   /// Whether a cursor at node `from` that follows to the point gets onto the sheet of node `to`.
-  [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
-                               std::uint32_t to) const;
+  [[nodiscard]] virtual bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
+                                       std::uint32_t to) const;
 
   /// Distance of a point from the axis at a node, as a share of the radius there.
   [[nodiscard]] double axisShare(const Eigen::Vector3d& point, std::uint32_t node) const {
@@ -80,6 +88,12 @@ public:
   /// Whether another vessel may be near a node.
   [[nodiscard]] bool mayTouch(std::uint32_t node) const {
     return m_touchingOffset[node] < m_touchingOffset[node + 1];
+  }
+
+  /// The nodes that may touch a node, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> touching(std::uint32_t node) const {
+    return std::span(m_touching)
+        .subspan(m_touchingOffset[node], m_touchingOffset[node + 1] - m_touchingOffset[node]);
   }
 
   /// The point of the surface that Newton's method reaches from `start`, within 1e-4 of the local
@@ -132,8 +146,10 @@ private:
 
 /// For each node, in CSR form, the nodes whose lumen may touch its own although they are not near
 /// along the tree: their centres are closer than `reach` times the sum of both radii plus `margin`
-/// mm, and the way along the tree is longer than 1.3 times that distance. Symmetric, ascending.
+/// mm, and the way along the tree is longer than 1.3 times that distance, and than `leastWay` times
+/// the sum of the radii plus `margin`. Symmetric, ascending.
 void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
-                       std::vector<std::uint32_t>& offset, std::vector<std::uint32_t>& node);
+                       double leastWay, std::vector<std::uint32_t>& offset,
+                       std::vector<std::uint32_t>& node);
 
 }  // namespace lumen::convert

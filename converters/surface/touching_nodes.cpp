@@ -88,7 +88,8 @@ private:
 }  // namespace
 
 void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
-                       std::vector<std::uint32_t>& offset, std::vector<std::uint32_t>& node) {
+                       double leastWay, std::vector<std::uint32_t>& offset,
+                       std::vector<std::uint32_t>& node) {
   const std::size_t count = tree.nodeCount();
   const formats::Neighbours edges(tree);
   std::vector<float> radii(tree.radius);
@@ -99,14 +100,14 @@ void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < count; ++i) {
     const double own = tree.radius[i], farthest = 2 * reach * own + margin;
-    ways.from(i, kDetour * farthest);
+    ways.from(i, std::max(kDetour * farthest, leastWay * (2 * own + margin)));
     // wide nodes look for narrow ones, not the other way round
     grid.visitNear(i, farthest, [&](std::uint32_t j) {
       const double sum = own + tree.radius[j];
       if (tree.radius[j] > own || (tree.radius[j] == own && j >= i)) return;
       const double distance = distanceOf(tree, i, j), way = ways.to(j);
       if (distance >= reach * sum + margin) return;
-      if (way >= 0 && way <= kDetour * distance) return;
+      if (way >= 0 && way <= std::max(kDetour * distance, leastWay * (sum + margin))) return;
       pairs.emplace_back(i, j);
       pairs.emplace_back(j, i);
     });

@@ -21,10 +21,10 @@ struct ClosedCase {
   convert::SheetField field;
   convert::CaseSurface surface;
 
-  explicit ClosedCase(formats::Case value, double offset = 0)
+  explicit ClosedCase(formats::Case value)
       : source(std::move(value)),
         blended(formats::blendedFieldOf(source)),
-        field(source, blended, {.gap = 0.02, .offset = offset}) {
+        field(source, blended, {.gap = 0.02}) {
     Progress silent;
     convert::ExtractionReport report;
     surface = convert::extractSurface(field, 0.5, report, silent);

@@ -1,28 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/surface/thick_wall.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "closed_cases.h"
 #include "converters/common/error.h"
 #include "converters/mesh/self_intersections.h"
+#include "converters/mesh/triangle_tree.h"
+#include "converters/surface/closed_surface.h"
+#include "converters/surface/flow_extension.h"
+#include "converters/surface/offset_field.h"
+#include "formats/case/case_file.h"
 
 namespace lumen::convert {
 namespace {
 
 // A case's lumen and the surface `thickness` mm around it, with the same ends.
 struct Walls {
-  test::ClosedCase inner, outer;
+  test::ClosedCase inner;
+  CaseSurface prolonged, outer;
   EndsReport report;
 
-  Walls(const formats::Case& source, double thickness) : inner(source), outer(source, thickness) {
-    const std::array<FieldSurface, 2> both{
-        {{&inner.surface, &inner.field}, {&outer.surface, &outer.field}}};
+  Walls(const formats::Case& source, double thickness) : inner(source) {
     Progress silent;
-    report = cutEnds(both, endPlanes(inner.source), silent);
+    report = cutEnds(inner.surface, inner.field, silent);
+    prolonged = inner.surface;
+    extendEnds(prolonged, inner.source, {{"", {thickness, 1}}});
+    const OffsetField around(inner.source, inner.blended, 0.02, prolonged, {thickness, 0});
+    ExtractionReport found;
+    outer = extractSurface(around, 0.5, found, silent);
+    cutLike(outer, around, inner.surface, silent);
   }
 };
 
@@ -36,13 +49,13 @@ double areaOf(const CaseSurface& surface, std::uint32_t group) {
 TEST(ThickWall, OfATubeIsAPipe) {
   const Walls walls(test::tubeCase(10), 0.3);
   EXPECT_EQ(walls.report.flat, 2U);
-  const CaseSurface pipe = thickWall(walls.inner.surface, walls.outer.surface, walls.inner.source);
+  const CaseSurface pipe = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
   const test::MeshFacts facts = test::factsOf(pipe.mesh);
   EXPECT_EQ(facts.euler, 0);  // a torus
   EXPECT_EQ(facts.boundaryEdges, 0U);
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_EQ(selfIntersections(pipe.mesh).pairs.size(), 0U);
-  const double outer = test::factsOf(walls.outer.surface.mesh).volume;
+  const double outer = test::factsOf(walls.outer.mesh).volume;
   const double inner = test::factsOf(walls.inner.surface.mesh).volume;
   EXPECT_NEAR(facts.volume, outer - inner, 1e-9 * outer);
   ASSERT_EQ(pipe.groups.size(), 4U);
@@ -53,7 +66,7 @@ TEST(ThickWall, OfATubeIsAPipe) {
   for (std::uint32_t e = 0; e < 2; ++e) {
     EXPECT_EQ(pipe.ends[e].group, e + 2);
     EXPECT_NEAR(areaOf(pipe, e + 2),
-                areaOf(walls.outer.surface, e + 1) - areaOf(walls.inner.surface, e + 1), 1e-9);
+                areaOf(walls.outer, e + 1) - areaOf(walls.inner.surface, e + 1), 1e-9);
   }
   EXPECT_GT(areaOf(pipe, 1), 1.2 * areaOf(pipe, 0));  // 1.3 times as wide
 }
@@ -61,7 +74,7 @@ TEST(ThickWall, OfATubeIsAPipe) {
 TEST(ThickWall, OfAForkHasAHandleForEachEndButOne) {
   const Walls walls(test::forkCase(), 0.25);
   EXPECT_EQ(walls.report.flat, 3U);
-  const CaseSurface solid = thickWall(walls.inner.surface, walls.outer.surface, walls.inner.source);
+  const CaseSurface solid = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
   const test::MeshFacts facts = test::factsOf(solid.mesh);
   EXPECT_EQ(facts.euler, 2 + 2 - 2 * 3);
   EXPECT_EQ(facts.boundaryEdges, 0U);
@@ -73,7 +86,7 @@ TEST(ThickWall, ARoundEndIsClosedOnBothSides) {
   formats::Case source = test::sphereCase(1.0, 1.2);
   const Walls walls(source, 0.2);
   EXPECT_EQ(walls.report.flat, 0U);
-  const CaseSurface shell = thickWall(walls.inner.surface, walls.outer.surface, walls.inner.source);
+  const CaseSurface shell = thickWall(walls.inner.surface, walls.outer, walls.inner.source);
   const test::MeshFacts facts = test::factsOf(shell.mesh);
   EXPECT_EQ(facts.euler, 4);  // two spheres
   EXPECT_GT(facts.volume, 0);
@@ -82,14 +95,113 @@ TEST(ThickWall, ARoundEndIsClosedOnBothSides) {
 
 TEST(ThickWall, RefusesSurfacesThatMeetOrHaveOtherEnds) {
   const Walls walls(test::tubeCase(10), 0.3);
-  EXPECT_THROW(thickWall(walls.outer.surface, walls.inner.surface, walls.inner.source), Error);
-  CaseSurface dented = walls.outer.surface;
+  EXPECT_THROW(thickWall(walls.outer, walls.inner.surface, walls.inner.source), Error);
+  CaseSurface dented = walls.outer;
   for (Eigen::Vector3d& p : dented.mesh.position)
     if (std::abs(p.x() - 5) < 0.3) p.z() *= 0.5;
   EXPECT_THROW(thickWall(walls.inner.surface, dented, walls.inner.source), Error);
-  CaseSurface other = walls.outer.surface;
+  CaseSurface other = walls.outer;
   other.ends.pop_back();
   EXPECT_THROW(thickWall(walls.inner.surface, other, walls.inner.source), Error);
+}
+
+TriangleMesh meshOf(const SurfaceMesh& surface) {
+  TriangleMesh mesh;
+  for (const Float3& p : surface.position) mesh.position.emplace_back(p[0], p[1], p[2]);
+  mesh.triangle = surface.triangle;
+  return mesh;
+}
+
+// The distances from the lumen's side at corners and in the middles of the outer wall's triangles, as
+// shares of what was asked, ascending.
+std::vector<double> thicknesses(const SurfaceMesh& solid, double asked) {
+  const TriangleMesh mesh = meshOf(solid);
+  TriangleMesh inner{mesh.position, {}};
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t)
+    if (solid.group[t] == 0) inner.triangle.push_back(mesh.triangle[t]);
+  const TriangleTree tree(inner);
+  std::vector<double> shares;
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
+    if (solid.group[t] != 1) continue;
+    const auto &a = mesh.position[mesh.triangle[t][0]], &b = mesh.position[mesh.triangle[t][1]],
+               &c = mesh.position[mesh.triangle[t][2]];
+    for (const Eigen::Vector3d& p : {a, Eigen::Vector3d((a + b + c) / 3)})
+      shares.push_back(tree.nearest(p).distance / asked);
+  }
+  std::sort(shares.begin(), shares.end());
+  return shares;
+}
+
+double at(const std::vector<double>& sorted, double share) {
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+ClosedSurface wallOf(const formats::Case& source, const Length& thickness) {
+  ClosedSurfaceOptions options;
+  options.thickness = thickness;
+  Progress silent;
+  return closedSurface(source, options, silent);
+}
+
+void expectSolid(const SurfaceMesh& solid, std::ptrdiff_t euler) {
+  const test::MeshFacts facts = test::factsOf(meshOf(solid));
+  EXPECT_EQ(facts.euler, euler);
+  EXPECT_EQ(facts.boundaryEdges, 0U);
+  EXPECT_EQ(facts.badEdges, 0U);
+  EXPECT_GT(facts.volume, 0);
+  EXPECT_EQ(selfIntersections(meshOf(solid), 5).pairs.size(), 0U);
+}
+
+TEST(ThickWall, IsAsThickAsWasAskedInTheCornerOfAForkToo) {
+  for (const double thickness : {0.1, 0.5, 1.5}) {
+    const ClosedSurface made = wallOf(test::forkCase(), {thickness, 0});
+    expectSolid(made.levels[0], 2 + 2 - 2 * 3);
+    const auto shares = thicknesses(made.levels[0], thickness);
+    EXPECT_NEAR(at(shares, 0.5), 1, 0.02) << thickness;
+    EXPECT_GT(at(shares, 0.01), 0.95) << thickness;
+    EXPECT_LT(at(shares, 0.99), 1.05) << thickness;
+    EXPECT_TRUE(made.report.messages.empty());
+  }
+}
+
+TEST(ThickWall, GoesWithCoarserLevelsAndABoundOfTheirError) {
+  ClosedSurfaceOptions options;
+  options.thickness = Length{0.4, 0};
+  options.maxError = 0.05;
+  options.levels = 3;
+  Progress silent;
+  const ClosedSurface made = closedSurface(test::forkCase(), options, silent);
+  ASSERT_EQ(made.levels.size(), 3U);
+  EXPECT_LE(made.report.errors[0], 0.05);
+  for (const SurfaceMesh& level : made.levels) expectSolid(level, 2 + 2 - 2 * 3);
+}
+
+TEST(ThickWall, GoesWithNeitherOpenEndsNorExtensions) {
+  ClosedSurfaceOptions options;
+  options.thickness = Length{0.4, 0};
+  Progress silent;
+  ClosedSurfaceOptions open = options, extended = options;
+  open.open = true;
+  extended.extend = {{"", {1, 0}}};
+  EXPECT_THROW(closedSurface(test::forkCase(), open, silent), Error);
+  EXPECT_THROW(closedSurface(test::forkCase(), extended, silent), Error);
+}
+
+// Two tubes that run side by side without a common root: 2.3 mm apart, each of radius 1 mm.
+TEST(ThickWall, IsThinnerWhereVesselsTouchAndSaysSo) {
+  formats::Case source;
+  source.metadata.voxelSize = 0.2;
+  test::addVessel(source, "left", test::straightPath({0, 0, 0}, {1, 0, 0}, 12), 1.0, 1.0);
+  test::addVessel(source, "right", test::straightPath({0, 2.3, 0}, {1, 0, 0}, 12), 1.0, 1.0);
+  test::addModels(source);
+  const ClosedSurface made = wallOf(source, {0.5, 0});
+  expectSolid(made.levels[0], 0 + 0);
+  const auto shares = thicknesses(made.levels[0], 0.5);
+  EXPECT_NEAR(at(shares, 0.5), 1, 0.02);
+  EXPECT_LT(shares.front(), 0.4);
+  ASSERT_EQ(made.report.messages.size(), 1U);
+  EXPECT_NE(made.report.messages[0].find("left"), std::string::npos);
+  EXPECT_NE(made.report.messages[0].find("right"), std::string::npos);
 }
 
 }  // namespace
