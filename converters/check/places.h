@@ -61,6 +61,17 @@ Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progres
 Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
                       const formats::CenterlineTree& tree, const Progress& progress);
 
+/// Where to click, so that a missing vessel is tracked.
+struct Clicks {
+  std::vector<Eigen::Vector3d>
+      points;                ///< on its way, mm, LPS: its middle, and the way on to its tip
+  double radius = 0;         ///< mm, at the first
+  std::uint32_t beside = 0;  ///< the node of the case that it begins at
+};
+/// At most three points, the first in the middle of the vessel, where its lumen is its own; the
+/// further ones, at least four radii on, tell which way it goes.
+Clicks clicksOn(const MissingVessel& vessel);
+
 /// mm of the tree's vessels whose axis the volume shows: where it is brighter than the half level,
 /// and counted once where branches lie in each other.
 double shownLength(const formats::CenterlineTree& tree, const LumenVoxels& lumen,
