@@ -35,9 +35,9 @@ enum class Rest : std::uint8_t {
 Change cutBefore(formats::Case& target, std::uint32_t node, Rest rest = Rest::OwnTree,
                  const std::string& label = {});
 
-/// Hangs a branch by its first node on `node`, with all that hangs on it, whatever it hung on before.
-/// A gap, as tracking knows it, is bridged by nodes along the straight line, half a radius apart, without
-/// wall points and marked as bridged. `node` is not of the branch, nor of one that hangs on it.
+/// Hangs a branch by its first node on `node`, with all that hangs on it, whatever it hung on before: a
+/// bridge to that goes. The way there is bridged by nodes along the straight line, half a radius apart,
+/// without wall points and marked as bridged. `node` is not of the branch, nor of one that hangs on it.
 Change joinBranch(formats::Case& target, std::uint32_t branch, std::uint32_t node);
 
 /// Makes a branch the rest of the one whose last node it hangs on, of the same kind.

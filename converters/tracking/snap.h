@@ -12,7 +12,8 @@ namespace lumen::convert {
 
 struct Snap {
   bool found = false;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< on the axis, mm, LPS; the click if none is found
+  Eigen::Vector3d position =
+      Eigen::Vector3d::Zero();  ///< on the axis, mm, LPS; the click if none is found
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit, along the vessel, either way
   double radius = 0;   ///< mm, of the wall as tracking corrects it
   std::string reason;  ///< why nothing was found
