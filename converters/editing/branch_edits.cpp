@@ -97,14 +97,16 @@ Change mergeIntoParent(Case& target, std::uint32_t branch) {
   whole.nodes.insert(whole.nodes.end(), rest.nodes.begin(), rest.nodes.end());
   whole.record.stopReason = rest.record.stopReason;
   whole.isOther = true;
-  const std::string sentence = "merged " + quoted(target, branch) + " into " + quoted(target, above);
+  const std::string sentence =
+      "merged " + quoted(target, branch) + " into " + quoted(target, above);
   draft.branches.erase(draft.branches.begin() + branch);
   return draft.finish(target, sentence);
 }
 
 Change setKind(Case& target, std::uint32_t branch, formats::BranchKind kind) {
   requireBranch(target, branch);
-  const std::string_view name = formats::enumName<formats::BranchKind>(formats::kBranchKindNames, kind);
+  const std::string_view name =
+      formats::enumName<formats::BranchKind>(formats::kBranchKindNames, kind);
   if (name.empty())
     throw invalidInput("found kind " + std::to_string(static_cast<int>(kind)) +
                        ", expected 0 for a vessel or 1 for an aneurysm");

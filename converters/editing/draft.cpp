@@ -9,8 +9,8 @@
 #include "converters/common/vectors.h"
 #include "converters/fitting/refit.h"
 #include "formats/case/validate.h"
-#include "formats/view/text_rules.h"
 #include "formats/view/limits.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
@@ -126,8 +126,9 @@ void Draft::putTree(const Layout& layout, Case& out) const {
     formats::Branch branch = draft.record;
     branch.firstNode = layout.index[draft.nodes.front()];
     branch.nodeCount = static_cast<std::uint32_t>(draft.nodes.size());
-    branch.parentNode = draft.parent == kNoNode ? formats::kNoParent
-                                                : static_cast<std::int32_t>(layout.index[draft.parent]);
+    branch.parentNode = draft.parent == kNoNode
+                            ? formats::kNoParent
+                            : static_cast<std::int32_t>(layout.index[draft.parent]);
     double rates = 0;
     for (const std::uint32_t node : draft.nodes) {
       rates += nodes[node].inlierRate;
@@ -183,8 +184,8 @@ void Draft::putModels(const Layout& layout, Case& out) const {
 }
 
 void Draft::putArrays(const Layout& layout, Case& out, Change& change) const {
-  const bool hasNew = std::find(layout.before.begin(), layout.before.end(), kNewNode) !=
-                      layout.before.end();
+  const bool hasNew =
+      std::find(layout.before.begin(), layout.before.end(), kNewNode) != layout.before.end();
   for (const formats::NodeArray& array : m_case.nodeArrays) {
     if (array.name == formats::kOriginArray) continue;
     if (hasNew) {
@@ -193,7 +194,9 @@ void Draft::putArrays(const Layout& layout, Case& out, Change& change) const {
     }
     formats::NodeArray kept{array.name, array.components, array.unit, {}};
     std::visit(
-        [&](const auto& values) { kept.values = gathered(values, array.components, layout.before); },
+        [&](const auto& values) {
+          kept.values = gathered(values, array.components, layout.before);
+        },
         array.values);
     out.nodeArrays.push_back(std::move(kept));
   }

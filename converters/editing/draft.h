@@ -43,7 +43,9 @@ public:
   std::vector<bool> isGone;  ///< for each wall point of the case; may be empty
 
   /// The branch of a node of the case, before anything was moved.
-  [[nodiscard]] std::uint32_t branchOf(std::uint32_t node) const { return m_case.tree.branch[node]; }
+  [[nodiscard]] std::uint32_t branchOf(std::uint32_t node) const {
+    return m_case.tree.branch[node];
+  }
   /// Turns some nodes to look the other way, and puts the last first.
   void reverse(std::vector<std::uint32_t>& chain);
   /// mm along a chain.

@@ -104,7 +104,8 @@ Change moveNode(Case& target, std::uint32_t node, const Vector3d& position, doub
     draft.branches[target.tree.branch[node]].isOther = true;
     dropPoints(target, place, {before, sectionOf(draft, place)}, draft);
   }
-  return draft.finish(target, "moved " + nodeText(target, node) + " to " + placeText(position, radius));
+  return draft.finish(target,
+                      "moved " + nodeText(target, node) + " to " + placeText(position, radius));
 }
 
 }  // namespace lumen::convert

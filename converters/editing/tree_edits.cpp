@@ -29,8 +29,9 @@ std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
   const double first = std::min(from.radius, to.radius), last = to.radius;
   const double count = std::floor(way.norm() / (kSpacing * first));
   if (!(count <= kLongestBridge))
-    throw invalidInput("the way there is " + std::to_string(std::lround(count * kSpacing)) +
-                       " radii long, which would take more than 20000 nodes; expected a nearer node");
+    throw invalidInput(
+        "the way there is " + std::to_string(std::lround(count * kSpacing)) +
+        " radii long, which would take more than 20000 nodes; expected a nearer node");
   std::vector<DraftNode> nodes;
   for (double n = 1; n < count; ++n) {
     DraftNode node;
@@ -140,7 +141,8 @@ Change makeRoot(Case& target, std::uint32_t branch) {
     leftAt = above;
     b = above == kNoNode ? UINT32_MAX : draft.branchOf(above);
   }
-  return draft.finish(target, "made the end of " + quoted(target, branch) + " the root of its tree");
+  return draft.finish(target,
+                      "made the end of " + quoted(target, branch) + " the root of its tree");
 }
 
 }  // namespace lumen::convert

@@ -39,7 +39,6 @@ LocalModelOptions localOptions(const FitOptions& o, double scale) {
   return local;
 }
 
-
 std::vector<std::uint32_t> allNodes(const formats::Case& value) {
   std::vector<std::uint32_t> nodes(value.tree.nodeCount());
   std::iota(nodes.begin(), nodes.end(), std::uint32_t{0});
@@ -118,7 +117,11 @@ Ball NodeModels::ball(std::uint32_t frame, std::uint32_t node) const {
 
 NodeData NodeModels::data(std::uint32_t node, const Worker& worker) const {
   const Vec3f& d = m_tree.direction[node];
-  return {worker.points, m_tree.radius[node] * m_scale,  {d.x, d.y, d.z}, worker.lumen, {},
+  return {worker.points,
+          m_tree.radius[node] * m_scale,
+          {d.x, d.y, d.z},
+          worker.lumen,
+          {},
           isInSac(node) ? kLobe : 1.0};
 }
 

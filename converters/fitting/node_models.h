@@ -68,10 +68,11 @@ private:
   LocalModelOptions m_local;
   formats::Neighbours m_neighbours;
   std::vector<std::uint32_t> m_nodes;  ///< that are fitted
-  std::vector<std::uint32_t> m_seams;  ///< nodes whose seam with their parent is theirs or next to it
-  std::vector<bool> m_isKept;          ///< nodes that are not fitted
-  std::vector<LocalModel> m_models;    ///< in the frame of their node
-  std::vector<std::vector<formats::Vec3d>> m_seam;  ///< of a node and its parent, in its frame
+  std::vector<std::uint32_t>
+      m_seams;                       ///< nodes whose seam with their parent is theirs or next to it
+  std::vector<bool> m_isKept;        ///< nodes that are not fitted
+  std::vector<LocalModel> m_models;  ///< in the frame of their node
+  std::vector<std::vector<formats::Vec3d>> m_seam;   ///< of a node and its parent, in its frame
   std::vector<std::vector<formats::Vec3f>> m_drawn;  ///< of each node that has no measured points
   tbb::enumerable_thread_specific<Worker> m_workers;
 };

@@ -90,8 +90,8 @@ std::vector<std::uint32_t> checkedNodes(const formats::Case& target,
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   if (!out.empty() && out.back() >= target.tree.nodeCount())
-    throw invalidInput("refit: found node " + std::to_string(out.back()) + ", expected one from 0 to " +
-                       std::to_string(target.tree.nodeCount() - 1));
+    throw invalidInput("refit: found node " + std::to_string(out.back()) +
+                       ", expected one from 0 to " + std::to_string(target.tree.nodeCount() - 1));
   return out;
 }
 

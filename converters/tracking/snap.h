@@ -19,7 +19,7 @@ struct Snap {
   std::string reason;  ///< why nothing was found
 };
 
-/// The cylinder that a track would begin with at a click: fitted there, or in the brightest place (darkest,
+/// The cylinder that a track would begin with at a click: fitted there, or at the brightest place (darkest,
 /// if vessels are dark) within two voxels. The same click gives the same answer.
 Snap snapToVessel(const TrackingVolume& volume, const Eigen::Vector3d& click);
 

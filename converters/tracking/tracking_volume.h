@@ -2,8 +2,8 @@
 // A volume that is tracked in again and again: what of it every track needs is made once.
 #pragma once
 
-#include <memory>
 #include <optional>
+#include <vector>
 
 #include "converters/common/progress.h"
 #include "converters/seeds/seeds.h"
@@ -31,7 +31,7 @@ public:
   [[nodiscard]] double noiseFloor() const { return m_smoothed.noiseFloor; }
   /// The smoothing is the one in use.
   [[nodiscard]] const TrackOptions& options() const { return m_options; }
-  /// By what walls are corrected, if a case's vessels have told.
+  /// By what walls are corrected, if the options or a case's vessels have told.
   [[nodiscard]] const std::optional<WallShape>& wallShape() const { return m_wallShape; }
 
 private:
@@ -39,6 +39,11 @@ private:
   SmoothedVolume m_smoothed;
   std::optional<WallShape> m_wallShape;
 };
+
+/// By what the walls of vessels are corrected, as they show it; with too few of them that show it, the blur
+/// is at least that of the voxel's own box and of the smoothing. `branches`: in the order of `seeds`.
+WallShape wallShapeOf(const TrackingVolume& volume, const std::vector<SeedBranch>& seeds,
+                      const std::vector<TrackedBranch>& branches);
 
 /// The options of a case's last "track" step, smoothing and blur as they were used; defaults for what it
 /// does not say. Empty if there is no such step.

@@ -124,7 +124,8 @@ TEST(DeleteBranch, TakesWhatHangsOnItWhenAsked) {
 }
 
 TEST(DeleteBranch, RefusesToLeaveNothing) {
-  EXPECT_NE(refusal(smallTree(), [](Case& c) { deleteBranch(c, 0, Hanging::Go); }).find("nothing would be left"),
+  EXPECT_NE(refusal(smallTree(), [](Case& c) { deleteBranch(c, 0, Hanging::Go); })
+                .find("nothing would be left"),
             std::string::npos);
   EXPECT_EQ(refusal(smallTree(), [](Case& c) { deleteBranch(c, 4); }),
             "found branch 4, expected one from 0 to 3");
@@ -230,7 +231,8 @@ TEST(MergeIntoParent, ContinuesTheParent) {
 
 TEST(MergeIntoParent, RefusesBranchesThatLeaveTheMiddle) {
   const std::string text = refusal(smallTree(), [](Case& c) { mergeIntoParent(c, 2); });
-  EXPECT_NE(text.find("\"c\" hangs on node 5 of \"a\", which goes on to node 11"), std::string::npos)
+  EXPECT_NE(text.find("\"c\" hangs on node 5 of \"a\", which goes on to node 11"),
+            std::string::npos)
       << text;
   EXPECT_NE(refusal(smallTree(), [](Case& c) { mergeIntoParent(c, 0); }).find("hangs on no branch"),
             std::string::npos);
@@ -343,10 +345,16 @@ TEST(MoveNode, LeavesTheWallOfASac) {
 
 TEST(MoveNode, RefusesWhatIsNoPlace) {
   for (const double radius : {0.0, -1.0, 1e-60, std::nan("")})
-    EXPECT_NE(refusal(smallTree(), [&](Case& c) { moveNode(c, 5, {0, 0, 0}, radius); })
+    EXPECT_NE(refusal(smallTree(),
+                      [&](Case& c) {
+                        moveNode(c, 5, {0, 0, 0}, radius);
+                      })
                   .find("a radius above 0"),
               std::string::npos);
-  EXPECT_NE(refusal(smallTree(), [](Case& c) { moveNode(c, 5, {1e30, 0, 0}, 1); })
+  EXPECT_NE(refusal(smallTree(),
+                    [](Case& c) {
+                      moveNode(c, 5, {1e30, 0, 0}, 1);
+                    })
                 .find("within a kilometre"),
             std::string::npos);
 }

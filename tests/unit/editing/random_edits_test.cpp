@@ -41,18 +41,28 @@ Case withModels(Case value) {
 
 /// One edit with arguments that may be wrong.
 Change randomEdit(Case& value, Random& random) {
-  const auto branch = [&] { return random.below(static_cast<std::uint32_t>(value.tree.branches.size() + 1)); };
-  const auto node = [&] { return random.below(static_cast<std::uint32_t>(value.tree.nodeCount() + 1)); };
+  const auto branch = [&] {
+    return random.below(static_cast<std::uint32_t>(value.tree.branches.size() + 1));
+  };
+  const auto node = [&] {
+    return random.below(static_cast<std::uint32_t>(value.tree.nodeCount() + 1));
+  };
   const bool coin = random.uniform() < 0.5;
   switch (random.below(10)) {
-    case 0: return deleteBranch(value, branch(), coin ? Hanging::Stay : Hanging::Go);
+    case 0:
+      return deleteBranch(value, branch(), coin ? Hanging::Stay : Hanging::Go);
     case 1:
-    case 2: return cutBefore(value, node(), coin ? Rest::OwnTree : Rest::Child);
+    case 2:
+      return cutBefore(value, node(), coin ? Rest::OwnTree : Rest::Child);
     case 3:
-    case 4: return joinBranch(value, branch(), node());
-    case 5: return mergeIntoParent(value, branch());
-    case 6: return reverseBranch(value, branch());
-    case 7: return makeRoot(value, branch());
+    case 4:
+      return joinBranch(value, branch(), node());
+    case 5:
+      return mergeIntoParent(value, branch());
+    case 6:
+      return reverseBranch(value, branch());
+    case 7:
+      return makeRoot(value, branch());
     case 8:
       return coin ? setKind(value, branch(), formats::BranchKind::Aneurysm)
                   : renameBranch(value, branch(), "name " + std::to_string(random.below(20)));
