@@ -63,13 +63,12 @@ Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
 
 /// Where to click, so that a missing vessel is tracked.
 struct Clicks {
-  std::vector<Eigen::Vector3d>
-      points;                ///< on its way, mm, LPS: its middle, and the way on to its tip
-  double radius = 0;         ///< mm, at the first
-  std::uint32_t beside = 0;  ///< the node of the case that it begins at
+  std::vector<Eigen::Vector3d> points;  ///< on its way, mm, LPS
+  double radius = 0;                    ///< mm
+  std::uint32_t beside = 0;             ///< the node of the case that it begins at
 };
-/// At most three points, the first in the middle of the vessel, where its lumen is its own; the
-/// further ones, at least four radii on, tell which way it goes.
+/// One click in the middle of the vessel, where its lumen is its own; a second halfway on to its tip, if
+/// that is far enough to tell which way it goes.
 Clicks clicksOn(const MissingVessel& vessel);
 
 /// mm of the tree's vessels whose axis the volume shows: where it is brighter than the half level,

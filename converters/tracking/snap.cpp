@@ -17,10 +17,13 @@ using Eigen::Vector3d;
 /// Voxels: how far the wall may be from a click that is on the vessel, and around a click among which
 /// the brightest place is tried, too: people click on the rims of thin vessels.
 constexpr double kAside = 2;
-/// Voxels: trial radii, as tracks begin with. Wide ones are tried where nothing narrow is found: their
-/// rays are long.
+/// Voxels: trial radii, as tracks begin with. Wide ones, whose rays are long, are tried where nothing
+/// narrow is sure.
 constexpr double kNarrow[] = {1.25, 1.875, 2.8125, 4.21875, 6.328125};
 constexpr double kWide[] = {9.4921875, 14.23828125, 21.357421875};
+/// Of the rays: a cylinder whose wall more of them see is sure, if it is accepted, too; and one whose wall
+/// so many see is no part of a wider vessel's.
+constexpr double kSeenWall = 0.5, kOwnWall = 0.25;
 /// Of random numbers: those of the first seed.
 constexpr std::uint64_t kStream = 0;
 
@@ -34,10 +37,10 @@ public:
         m_random(context.options.seed, kStream),
         m_workspace(context) {}
 
-  /// The best cylinder from a place whose lumen the click is in, or nearly; the first that is accepted.
-  std::optional<TrackedNode> from(const Vector3d& place, std::span<const double> radii) {
-    std::optional<TrackedNode> best;
+  /// Looks for cylinders from a place whose lumen the click is in, or nearly.
+  void from(const Vector3d& place, std::span<const double> radii) {
     for (const double voxels : radii) {
+      if (m_isSure) return;
       BranchStart start = startAtClick(m_context, {place, voxels * m_voxel}, Vector3d::UnitZ(),
                                        false, m_random, m_workspace);
       if (start.nodes.empty()) {
@@ -45,12 +48,19 @@ public:
         continue;
       }
       TrackedNode& node = start.nodes[0];
-      if (!holdsClick(node) || (best && node.inlierRate <= best->inlierRate)) continue;
-      best = std::move(node);
-      if (best->inlierRate >= m_context.options.inlierRate) break;
+      if (!holdsClick(node) || (m_best && node.inlierRate <= m_best->inlierRate)) continue;
+      m_best = std::move(node);
+      m_isSure = m_best->inlierRate >= m_context.options.inlierRate && seen() > kSeenWall;
     }
-    return best;
   }
+  /// Of the rays: those that see the wall of the best so far.
+  [[nodiscard]] double seen() const {
+    return m_best ? static_cast<double>(m_best->points.size()) /
+                        static_cast<double>(m_context.rays.size())
+                  : 0;
+  }
+  /// The best so far.
+  [[nodiscard]] const std::optional<TrackedNode>& found() const { return m_best; }
 
   /// The brightest place around the click.
   [[nodiscard]] Vector3d brightest() const {
@@ -95,6 +105,8 @@ private:
   double m_voxel;
   Random m_random;
   TrackWorkspace m_workspace;
+  std::optional<TrackedNode> m_best;
+  bool m_isSure = false;
   NodeFit m_failure;
 };
 
@@ -106,20 +118,20 @@ Snap snapToVessel(const TrackingVolume& volume, const Vector3d& click) {
   Search search(context, click);
   Snap snap;
   snap.position = click;
-  std::optional<TrackedNode> node = search.from(click, kNarrow);
-  if (!node) node = search.from(search.brightest(), kNarrow);
-  if (!node) node = search.from(click, kWide);
-  if (!node) {
+  search.from(click, kNarrow);
+  if (!search.found()) search.from(search.brightest(), kNarrow);
+  if (search.seen() < kOwnWall) search.from(click, kWide);
+  if (!search.found()) {
     snap.reason = search.failure();
     return snap;
   }
+  const TrackedNode& node = *search.found();
   snap.found = true;
-  snap.position = search.onAxis(*node);
-  snap.direction = node->direction;
+  snap.position = search.onAxis(node);
+  snap.direction = node.direction;
   TrackedBranch branch;
-  branch.nodes.push_back(*std::move(node));
-  if (volume.wallShape())
-    correctWalls(branch, formats::BranchKind::Vessel, *volume.wallShape());
+  branch.nodes.push_back(node);
+  if (volume.wallShape()) correctWalls(branch, formats::BranchKind::Vessel, *volume.wallShape());
   snap.radius = branch.nodes[0].radius;
   return snap;
 }

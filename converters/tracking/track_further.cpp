@@ -30,7 +30,8 @@ void requireNewLabels(const formats::Case& known, const std::vector<SeedBranch>&
   for (const formats::Branch& branch : known.tree.branches) labels.insert(branch.label);
   for (const SeedBranch& seed : seeds) {
     if (seed.points.empty())
-      throw invalidInput("the seed " + quotedLabel(seed.label) + " has no points; expected one or more");
+      throw invalidInput("the seed " + quotedLabel(seed.label) +
+                         " has no points; expected one or more");
     if (!labels.insert(seed.label).second)
       throw invalidInput("the name " + quotedLabel(seed.label) +
                          " is that of another branch or seed; expected one that none has");
@@ -59,8 +60,8 @@ void appendParentsFirst(std::vector<SeedBranch> seeds, std::vector<SeedBranch>& 
 
 /// Puts the wall points of known branches in the place of those that the case has, where they differ.
 /// Returns the nodes.
-std::vector<std::uint32_t> takePoints(const std::vector<TrackedBranch>& branches,
-                                      std::size_t known, formats::Case& out) {
+std::vector<std::uint32_t> takePoints(const std::vector<TrackedBranch>& branches, std::size_t known,
+                                      formats::Case& out) {
   std::vector<std::uint32_t> changed;
   formats::PointSets points;
   points.offset.push_back(0);

@@ -14,8 +14,7 @@ namespace lumen::convert {
 /// tracked already and stay as they are, but for wall points of vessels that new aneurysms open into.
 /// Returns by what walls were corrected. Throws Error(Cancelled).
 WallShape trackVessels(const TrackingVolume& volume, const std::vector<SeedBranch>& seeds,
-                       std::size_t known, std::vector<TrackedBranch>& branches,
-                       Progress& progress);
+                       std::size_t known, std::vector<TrackedBranch>& branches, Progress& progress);
 
 /// What became of the seeds behind the first `known`.
 TrackRemarks remarksOn(const std::vector<SeedBranch>& seeds,

@@ -15,8 +15,8 @@
 #include "converters/tracking/snap.h"
 #include "converters/tracking/track_further.h"
 #include "converters/volume/read_volume.h"
-#include "formats/case/case_file.h"
 #include "formats/case/case_field.h"
+#include "formats/case/case_file.h"
 #include "formats/case/reachability.h"
 #include "formats/case/topology.h"
 
@@ -34,7 +34,8 @@ double since(std::clock_t& start) {
 void again(const TrackingVolume& volume, const formats::Case& whole, const std::string& label) {
   formats::Case value = whole;
   std::uint32_t branch = 0;
-  while (branch < value.tree.branches.size() && value.tree.branches[branch].label != label) ++branch;
+  while (branch < value.tree.branches.size() && value.tree.branches[branch].label != label)
+    ++branch;
   if (branch == value.tree.branches.size()) return;
   const formats::Branch old = value.tree.branches[branch];
   SeedBranch seed;
@@ -61,7 +62,8 @@ void again(const TrackingVolume& volume, const formats::Case& whole, const std::
   const bool isNew = tracks.firstNewBranch < out.tree.branches.size();
   const auto reach = formats::reachabilityOf(out.tree, formats::blendedFieldOf(out));
   std::printf(
-      "%-12s %5.1f -> %5.1f mm, parent %5d; delete %5.1f refit %5.0f (%zu) snap %5.1f%s track %6.0f "
+      "%-12s %5.1f -> %5.1f mm, parent %5d; delete %5.1f refit %5.0f (%zu) snap %5.1f%s track "
+      "%6.0f "
       "compare %5.1f fit %6.0f (%zu) ms; reachable %.0f of %.0f; %s\n",
       label.c_str(), formats::branchLength(whole.tree, old),
       isNew ? formats::branchLength(out.tree, out.tree.branches.back()) : 0,
