@@ -136,7 +136,8 @@ TEST(Corrections, LeaveATreeThatIsReachableOnceWhatTheyChangedIsFitted) {
     refit(value, change.stale, recordedFitOptions(value), silent);
     expectReachable(value);
   };
-  const std::uint32_t middle = value.tree.branches[0].firstNode + value.tree.branches[0].nodeCount / 2;
+  const std::uint32_t middle =
+      value.tree.branches[0].firstNode + value.tree.branches[0].nodeCount / 2;
   fitted(cutBefore(value, middle));
   fitted(joinBranch(value, 1, middle - 1));
   fitted(moveNode(value, middle / 2, toEigen(value.tree.centre[middle / 2]),
@@ -151,8 +152,7 @@ TEST(Corrections, MakeTheVesselAsWideAsAMovedNodeSays) {
   Case value = fork.value;
   const std::uint32_t node = value.tree.branches[0].nodeCount / 3;
   const double radius = 1.3 * double{value.tree.radius[node]};
-  const Change change =
-      moveNode(value, node, toEigen(value.tree.centre[node]), radius);
+  const Change change = moveNode(value, node, toEigen(value.tree.centre[node]), radius);
   refit(value, change.stale, recordedFitOptions(value), silent);
   // the wall at the node, in the middle between where it was and is said to be, or farther
   const auto field = formats::blendedFieldOf(value);
@@ -191,8 +191,9 @@ TEST(OneClick, OnAReal3draJoinsItsVesselToTheTree) {
   const formats::Branch& branch = value.tree.branches.back();
   EXPECT_GT(formats::branchLength(value.tree, branch), 50);
   ASSERT_NE(branch.parentNode, formats::kNoParent);
-  EXPECT_EQ(value.tree.branches[value.tree.branch[static_cast<std::size_t>(branch.parentNode)]].label,
-            "ica");
+  EXPECT_EQ(
+      value.tree.branches[value.tree.branch[static_cast<std::size_t>(branch.parentNode)]].label,
+      "ica");
   expectReachable(value);
 }
 
