@@ -147,7 +147,7 @@ void expectEditsToKeepRules(const Case& start, int count, std::uint64_t seed) {
 }
 
 TEST(RandomEdits, OfACaseWithEverythingThatAFileCanHold) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+  for (std::uint64_t seed = 1; seed <= 8; ++seed)
     expectEditsToKeepRules(formats::test::fullCase(), 50, seed);
 }
 
@@ -156,7 +156,7 @@ TEST(RandomEdits, OfAPhantomsTree) {
   options.name = "patient";
   options.size = 128;
   Progress silent;
-  expectEditsToKeepRules(withModels(makePhantom(options, silent).truth), 40, 3);
+  expectEditsToKeepRules(withModels(makePhantom(options, silent).truth), 15, 3);
 }
 
 TEST(RandomEdits, OfRealArteries) {
@@ -167,7 +167,7 @@ TEST(RandomEdits, OfRealArteries) {
       if (entry.path().extension() == ".swc" && (file.empty() || entry.path() < file))
         file = entry.path();
   if (file.empty()) GTEST_SKIP() << "no arteries/*.swc in the shared data";
-  expectEditsToKeepRules(withModels(caseOfCenterline(readSwc(file), file.string())), 25, 4);
+  expectEditsToKeepRules(withModels(caseOfCenterline(readSwc(file), file.string())), 10, 4);
 }
 
 }  // namespace
