@@ -27,8 +27,11 @@ constexpr double kRound = 0.75;
 
 // A blunt cap, smoothed and uneven as of a segmentation: its normals agree within 25 degrees ...
 const double kNearlyFlat = std::cos(25 * std::numbers::pi / 180);
-// ... those within 3 degrees are not tried as the beginning of another one ...
-const double kSurelyFlat = std::cos(3 * std::numbers::pi / 180);
+// ... what belongs to one that is no cap is not tried as the beginning of another, and on rough surfaces no more
+// triangles are looked at than so many times those that there are ...
+constexpr std::size_t kMostLooks = 20;
+// ... and from a seed on the rim so many rounds lead to the mean of the whole cap.
+constexpr int kPasses = 5;
 // ... it fills an ellipse of up to 2.5:1 of its own moments (a square does by 0.95) ...
 constexpr double kFull = 0.9, kLongest = 2.5;
 // ... and of what lies around it, between so many of its radii, nine tenths have turned by 45 degrees.
@@ -177,12 +180,16 @@ private:
     m_isSeen.assign(m_isSeen.size(), false);
     std::vector<std::uint32_t> visit(m_isSeen.size(), 0);
     std::uint32_t round = 0;
+    std::size_t looks = 0;
     for (std::uint32_t t = 0; t < m_isSeen.size(); ++t) {
       if (m_isSeen[t] || m_out.end[t] != ClosedMesh::kWall) continue;
+      if (looks > kMostLooks * m_isSeen.size()) return;
       MeshEnd end;
       end.normal = m_normal[t];
-      for (int pass = 0; pass < 2; ++pass) {
-        growAround(t, end.normal, kNearlyFlat, visit, ++round);
+      for (int pass = 0; pass < kPasses; ++pass) {
+        growAround(t, Vector3d(end.normal), kNearlyFlat, visit, ++round);
+        looks += m_region.size();
+        if (m_region.size() < kFewest) break;
         measure(end, m_out.mesh, m_region);
       }
       const bool isEnd = fillsEllipse(end) && turnsAround(end, visit, ++round);
@@ -192,9 +199,8 @@ private:
       }
       for (const std::uint32_t inside : m_region) {
         if (isEnd) m_out.end[inside] = static_cast<std::uint32_t>(m_out.ends.size());
-        if (m_normal[inside].dot(end.normal) > kSurelyFlat) m_isSeen[inside] = true;
+        m_isSeen[inside] = true;
       }
-      m_isSeen[t] = true;
       if (isEnd) m_out.ends.push_back(end);
     }
   }

@@ -21,6 +21,8 @@ using Eigen::Vector3d;
 
 // Of the area: so much of a wall is its inner side, unless it is thicker than its lumen is wide.
 constexpr double kLeastInner = 0.25;
+// The outer side is the greater one; more than this, and the surface is merely rough.
+constexpr double kMostInner = 0.55;
 // Of the rays: a side from where so many meet the wall again is surely an inner one ...
 constexpr double kEnclosed = 0.75;
 // ... and one from where most do is, if it belongs to a greater region of such ones.
@@ -252,6 +254,12 @@ std::optional<TriangleMesh> innerSide(const ClosedMesh& surface, const TriangleT
   const Pairs pairs = neighboursOf(surface.mesh);
   vote(isInner, pairs);
   keepGreatRegions(isInner, pairs, facing);
+  double all = 0, taken = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    all += facing.area(t);
+    taken += isInner[t] ? facing.area(t) : 0;
+  }
+  if (taken > kMostInner * all) return {};
   TriangleMesh inner{surface.mesh.position, {}};
   for (std::size_t t = 0; t < count; ++t) {
     const Triangle& corner = surface.mesh.triangle[t];

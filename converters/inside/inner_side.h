@@ -13,7 +13,8 @@ namespace lumen::convert {
 
 /// The inner side of a wall with a thickness, of which inner and outer side make one surface: the triangles that
 /// face, away from the wall, little but the wall. Oriented out of the lumen, with an opening where the lumen is open;
-/// not repaired. Nothing if the surface is not that of such a wall: if less than a quarter of its area faces so.
+/// not repaired. Nothing if the surface is not that of such a wall: if less than a quarter of its area faces so, or more than
+/// a wall's inner side can have.
 /// `tree` is that of `surface`. Throws Error(Cancelled).
 std::optional<TriangleMesh> innerSide(const ClosedMesh& surface, const TriangleTree& tree,
                                       const Progress& progress);
