@@ -57,7 +57,7 @@ public:
   Session& operator=(const Session&) = delete;
 
   // session_files.cpp
-  /// Opens a file that the user has named, now.
+  /// Opens a file that the user has named, before anything else is done, or one that was dropped.
   void open(const Opening& opening, Progress& progress);
   /// `save` writes here from now on.
   void saveTo(const std::filesystem::path& file);
