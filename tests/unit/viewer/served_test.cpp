@@ -159,6 +159,33 @@ TEST_F(WorkTest, AClickBecomesAFittedVesselAndCanBeUndone) {
   EXPECT_EQ(state()["hasCase"], false);
 }
 
+TEST_F(WorkTest, ACutIsFittedAtOnceAndUndoneToTheSameBytes) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status, 200);
+  performAll({{"op", "track"}});
+  const std::string before = get("case.lumen").body;
+  const auto nodes = ReadPack(get("case").body).array<float>("radius").size();
+  performAll({{"op", "cut"}, {"node", nodes / 2}});
+  const ReadPack pack(get("case").body);
+  EXPECT_EQ(pack.json["branches"].size(), 2U);
+  EXPECT_EQ(pack.json["branches"][1]["parentNode"], -1);
+  EXPECT_EQ(pack.json["reachable"]["closed"].size(), 0U);
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(get("case.lumen").body, before);
+}
+
+TEST_F(WorkTest, APointerSnapsToTheAxisOfTheVessel) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  const Json snap = Json::parse(post("snap", R"({"position": [6.8, 6.2, 7]})").body);
+  EXPECT_EQ(snap["found"], true);
+  EXPECT_NEAR(snap["position"][0].get<double>(), 6.4, 0.1);
+  EXPECT_NEAR(snap["position"][1].get<double>(), 6.4, 0.1);
+  EXPECT_NEAR(snap["radius"].get<double>(), 1.0, 0.1);
+  EXPECT_EQ(Json::parse(post("snap", R"({"position": [-100, 0, 0]})").body)["found"], false);
+}
+
 TEST_F(WorkTest, SeedsAreMovedAndDeleted) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
