@@ -162,7 +162,8 @@ TEST_F(WorkTest, AClickBecomesAFittedVesselAndCanBeUndone) {
 TEST_F(WorkTest, ACutIsFittedAtOnceAndUndoneToTheSameBytes) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status, 200);
+  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+            200);
   performAll({{"op", "track"}});
   const std::string before = get("case.lumen").body;
   const auto nodes = ReadPack(get("case").body).array<float>("radius").size();
