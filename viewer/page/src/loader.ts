@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Keeps what is shown in step with the document: fetches the packs whose revision has changed, small ones first. */
+import { load as loadBlob, type Blob as BlobLibrary } from "../../../libblob/wasm/blob.mjs";
+import { Caster } from "./cast";
+import { fillValues } from "./colouring";
+import type { App, View } from "./model";
+import { headerEnd, Pack } from "./pack";
+import type { SceneView } from "./scene_view";
+import type { SliceView } from "./slice_view";
+import { Surface } from "./surface";
+import { Tree } from "./tree";
+import type { State } from "./types";
+import { reduce, Volume } from "./volume";
+import { VolumeTexture } from "./volume_texture";
+
+const kCastSoftware = 128, kCastHardware = 256; // texels along an axis for ray casting
+const kTrianglesSoftware = 260_000; // that software draws at a bearable rate
+
+export class Loader {
+  private seen = { case: -1, surface: -1, volume: -1, distance: -1 };
+  private library: Promise<BlobLibrary | null> | null = null;
+  private texture: VolumeTexture | null = null;
+  private surfaceRun = 0;
+  private first = true;
+
+  constructor(private readonly app: App, private readonly slices: SliceView[], private readonly scene: SceneView) {
+    app.store.watch(["colourBy", "surface", "distance"], view => { fillValues(view); app.stage.invalidate(scene); });
+  }
+
+  /** Takes a state as the new truth. */
+  async take(state: State): Promise<void> {
+    const { store } = this.app, r = state.revisions, jobs: Promise<void>[] = [];
+    store.set({ state, figures: state.figures ?? store.get().figures });
+    if (r.case !== this.seen.case) { this.seen.case = r.case; jobs.push(this.takeCase(state)); }
+    if (r.volume !== this.seen.volume) { this.seen.volume = r.volume; jobs.push(this.takeVolume(state)); }
+    await Promise.all(jobs);
+    if (r.surface !== this.seen.surface) { this.seen.surface = r.surface; void this.takeSurface(state); }
+    this.settle();
+    const distance = (r.truth ?? 0) + (r.distance ?? 0);
+    if (distance !== this.seen.distance) { this.seen.distance = distance; await this.takeDistance(state); }
+  }
+
+  /** Once: the crosshair into the middle of what there is, and the projection where there is no case. */
+  private settle(): void {
+    const { store, stage } = this.app, { tree, volume } = store.get();
+    if (!this.first || (tree === null && volume === null)) return;
+    this.first = false;
+    store.set({ crosshair: tree !== null && tree.count > 0 ? tree.position(thickest(tree)) : volume!.centre(), cast: tree === null && volume !== null ? "mip" : "off" });
+    stage.invalidate();
+  }
+
+  private async pack(name: string, query: Record<string, string> = {}): Promise<Pack | null> {
+    const bytes = await this.app.source.bytes(name, query);
+    return bytes === null ? null : new Pack(bytes);
+  }
+
+  private async takeCase(state: State): Promise<void> {
+    const { store } = this.app, pack = state.hasCase ? await this.pack("case") : null;
+    const tree = pack === null ? null : new Tree(pack), before = store.get();
+    const label = before.tree?.branches[before.selected]?.label;
+    const selected = tree?.branches.findIndex(b => b.label === label) ?? -1;
+    store.set({ tree, selected, node: -1, ...(tree === null ? { surface: null } : {}) });
+    this.settle();
+    void this.openModel(tree);
+  }
+
+  private async openModel(tree: Tree | null): Promise<void> {
+    const { store, source, say } = this.app;
+    if (tree?.hasModels !== true) { store.set({ blob: null }); return; }
+    try {
+      this.library ??= source.bytes("blob.wasm").then(wasm => (wasm === null ? null : loadBlob(wasm as BufferSource)));
+      const [library, file] = await Promise.all([this.library, source.bytes("case.lumen")]);
+      if (store.get().tree !== tree) return;
+      store.get().blob?.close();
+      store.set({ blob: library === null || file === null ? null : library.open(file) });
+    } catch (error) {
+      store.set({ blob: null });
+      say(`The probe and the wire are not available: ${error instanceof Error ? error.message : String(error)}`, "warning");
+    }
+  }
+
+  private async takeSurface(state: State): Promise<void> {
+    const { store, stage } = this.app, run = ++this.surfaceRun, live = (): boolean => run === this.surfaceRun;
+    if (!state.hasCase || !state.hasCase || store.get().tree?.hasModels !== true) { store.set({ surface: null }); return; }
+    const set = (pack: Pack): void => {
+      if (!live()) return;
+      store.set({ surface: new Surface(pack) });
+      const build = (): void => { if (live() && store.get().surface?.buildNext() === true) idle(build); };
+      idle(build);
+    };
+    try {
+      const quick = await this.pack("surface", { quick: "1" });
+      if (quick !== null) set(quick);
+      if (!live() || (quick !== null && quick.meta.kind !== "quick")) return;
+      const levels = Number(quick?.meta.levels ?? 1), closed = await this.pack("surface", { level: stage.software ? String(Math.max(1, levels - 1)) : "0" });
+      if (closed !== null && live() && (!stage.software || closed.shape("triangle")[0] <= kTrianglesSoftware || quick === null)) set(closed);
+    } catch (error) {
+      if (live()) this.app.say(`The surface could not be shown: ${error instanceof Error ? error.message : String(error)}`, "warning");
+    }
+  }
+
+  private async takeVolume(state: State): Promise<void> {
+    const { store, stage, source } = this.app;
+    if (!state.hasVolume) { this.replaceTexture(null); store.set({ volume: null, volumeReady: 0 }); return; }
+    let volume: Volume | null = null, texture: VolumeTexture | null = null;
+    const arrived = (bytes: Uint8Array, received: number): void => {
+      if (volume === null) {
+        if (received < 4 || received < headerEnd(bytes)) return;
+        volume = new Volume(new Pack(bytes));
+        texture = new VolumeTexture(stage.renderer, volume);
+        this.replaceTexture(texture);
+        store.set({ volume, volumeReady: 0, window: volume.meta.window as [number, number] });
+        this.settle();
+      }
+      const slice = volume.size[0] * volume.size[1] * volume.bytesPerVoxel;
+      volume.complete = Math.min(volume.size[2], Math.max(0, Math.floor((received - volume.begin) / slice)));
+      const upload = (): void => {
+        if (volume === null || this.texture !== texture) return;
+        const more = texture!.upload();
+        store.set({ volumeReady: volume.complete });
+        for (const each of this.slices) stage.invalidate(each);
+        if (more) stage.next(upload);
+      };
+      stage.next(upload);
+    };
+    if ((await source.bytes("volume", {}, arrived)) === null || volume === null) return;
+    idle(() => this.prepareCast(volume!));
+  }
+
+  private replaceTexture(texture: VolumeTexture | null): void {
+    this.texture?.dispose();
+    this.texture = texture;
+    this.scene.caster?.dispose();
+    this.scene.caster = null;
+    this.scene.texture = texture;
+    for (const slice of this.slices) slice.texture = texture;
+  }
+
+  private prepareCast(volume: Volume): void {
+    const { store, stage } = this.app;
+    if (this.texture?.volume !== volume) return;
+    const { low, high } = volume.histogram(256), window = volume.meta.window;
+    this.scene.caster = new Caster(volume, reduce(volume, stage.software ? kCastSoftware : kCastHardware, Math.min(window[0], high), Math.max(window[1], low)));
+    stage.invalidate(this.scene);
+    store.set({ volumeReady: volume.size[2] });
+  }
+
+  private async takeDistance(state: State): Promise<void> {
+    const { store } = this.app, pack = state.hasTruth && state.hasCase ? await this.pack("distance") : null;
+    const distance = pack?.optional("distance", "f32") ?? null;
+    const figures = (pack?.meta.figures ?? state.figures ?? null) as View["figures"];
+    store.set({ distance, figures, ...(distance !== null ? { colourBy: "compare" as const } : store.get().colourBy === "compare" ? { colourBy: "branch" as const } : {}) });
+  }
+}
+
+function thickest(tree: Tree): number {
+  let best = 0;
+  for (let i = 1; i < tree.count; ++i) if (tree.radius[i] > tree.radius[best]) best = i;
+  return best;
+}
+
+const kIdleBy = 300; // ms after which idle work is done anyway
+
+export function idle(call: () => void): void {
+  if ("requestIdleCallback" in window) window.requestIdleCallback(call, { timeout: kIdleBy });
+  else setTimeout(call, 0);
+}
