@@ -33,8 +33,8 @@ BranchInfo describeBranch(const formats::CenterlineTree& tree, const formats::Br
   return info;
 }
 
-/// The neighbourhood that the models were fitted over, from the newest "fit" step; 2 if it is not
-/// recorded.
+}  // namespace
+
 int fittedNeighbourhood(const formats::Metadata& metadata) {
   for (auto step = metadata.steps.rbegin(); step != metadata.steps.rend(); ++step) {
     if (step->name != "fit") continue;
@@ -45,6 +45,8 @@ int fittedNeighbourhood(const formats::Metadata& metadata) {
   }
   return 2;
 }
+
+namespace {
 
 std::optional<convert::ErrorOfFitSummary> describeError(const formats::Case& value,
                                                         Progress& progress) {

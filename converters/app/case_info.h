@@ -41,6 +41,10 @@ struct CaseInfo {
   formats::Metadata metadata;
 };
 
+/// The neighbourhood that the models were fitted over, from the newest "fit" step; 2 if it is not
+/// recorded.
+int fittedNeighbourhood(const formats::Metadata& metadata);
+
 CaseInfo describeCase(const formats::Case& value, Progress& progress);
 
 }  // namespace lumen::app

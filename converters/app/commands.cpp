@@ -11,14 +11,15 @@ std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeValidateCommand();
 std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeCheckCommand();
+std::unique_ptr<Command> makeViewCommand();  // viewer/server
 std::unique_ptr<Command> makePhantomCommand();
 std::unique_ptr<Command> makeCompletionCommand();
 
 std::vector<std::unique_ptr<Command>> allCommands() {
   std::vector<std::unique_ptr<Command>> commands;
-  for (const auto make :
-       {makeConvertCommand, makeTrackCommand, makeFitCommand, makeInfoCommand, makeValidateCommand,
-        makeCompareCommand, makeCheckCommand, makePhantomCommand, makeCompletionCommand})
+  for (const auto make : {makeConvertCommand, makeTrackCommand, makeFitCommand, makeInfoCommand,
+                          makeValidateCommand, makeCompareCommand, makeCheckCommand,
+                          makeViewCommand, makePhantomCommand, makeCompletionCommand})
     commands.push_back(make());
   return commands;
 }

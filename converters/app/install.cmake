@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 
 add_executable(write_man write_man.cpp)
-target_link_libraries(write_man PRIVATE lumen_app)
+target_link_libraries(write_man PRIVATE lumen_command_line)
 set(man_page ${CMAKE_CURRENT_BINARY_DIR}/lumen.1)
 set(completion ${CMAKE_CURRENT_BINARY_DIR}/completions/lumen)
 add_custom_command(OUTPUT ${man_page} COMMAND write_man ${man_page} DEPENDS write_man VERBATIM)

@@ -35,6 +35,8 @@ struct SurfaceMesh {
   std::vector<float> radius;          ///< of the vessel there, mm
   std::vector<float> confidence;      ///< the inlier rate there, in [0, 1]; empty if unknown
   std::vector<std::uint32_t> branch;  ///< index into `labels`
+  /// at which a cursor on the surface is there (libblob); empty if unknown
+  std::vector<std::uint32_t> node;
 
   std::vector<Triangle> triangle;    ///< indices of vertices, counter-clockwise seen from outside
   std::vector<std::uint32_t> group;  ///< of each triangle: index into `groups`

@@ -27,6 +27,7 @@ namespace {
 
 // Edges of the lattice in radii: half of them would give no truer topology, at four times the cost.
 constexpr double kLatticeShare = 1.0;
+constexpr double kQuickShare = 1.0;
 
 double gapOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
   if (options.gap) return *options.gap;
@@ -143,13 +144,25 @@ private:
   ClosedSurface m_result;
 };
 
-}  // namespace
-
-ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
-                            Progress& progress) {
+void requireModels(const formats::Case& source) {
   if (!source.models || source.tree.nodeCount() == 0)
     throw invalidInput(
         "the case has no models, and a mesh is made from them; lumen fit makes them");
+}
+
+}  // namespace
+
+SurfaceMesh quickSurface(const formats::Case& source, Progress& progress) {
+  requireModels(source);
+  const field::BlendedField blended = formats::blendedFieldOf(source);
+  const SheetField field(source, blended, {gapOf(source, {}), 0, 0});
+  ExtractionReport ignored;
+  return toSurfaceMesh(extractSurface(field, kQuickShare, ignored, progress), field, progress);
+}
+
+ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
+                            Progress& progress) {
+  requireModels(source);
   return Making(source, options, progress).run();
 }
 

@@ -60,6 +60,7 @@ SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field, P
   result.normal.resize(position.size());
   result.radius.resize(position.size());
   result.branch.resize(position.size());
+  result.node = surface.node;
   if (!tree.inlierRate.empty()) result.confidence.resize(position.size());
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
     if (v % kBatch == 0) progress.check();

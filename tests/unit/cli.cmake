@@ -1,6 +1,6 @@
 # The executable, from outside.
 lumen_test(cli_test
-  LIBS lumen_options lumen_terminal lumen_app lumen_case lumen::blob_static nlohmann_json::nlohmann_json
+  LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen::blob_static nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a page can see and do.
+#include "served.h"
+
+namespace lumen::test {
+
+using LookTest = ServedTest;
+using WorkTest = ServedTest;
+using FilesTest = ServedTest;
+
+TEST_F(LookTest, ThePageAndItsFilesAreServed) {
+  serve({});
+  EXPECT_EQ(get("").body, "<!doctype html><title>page</title>");
+  EXPECT_EQ(get("page.js").get_header_value("Content-Type"), "text/javascript; charset=utf-8");
+  EXPECT_EQ(get("state").status, 200);
+  EXPECT_EQ(get("case").status, 404);
+  EXPECT_EQ(get("volume").status, 404);
+  EXPECT_EQ(get("surface").status, 404);
+}
+
+TEST_F(LookTest, ThePackOfACaseHasItsTree) {
+  const formats::Case value = twoVessels();
+  writeCase("two.lumen", value);
+  serve({"two.lumen"});
+  const Json now = state();
+  EXPECT_EQ(now["title"], "two.lumen");
+  EXPECT_EQ(now["hasCase"], true);
+  EXPECT_EQ(now["saveAs"], "two.lumen");
+  EXPECT_EQ(now["unsaved"], false);
+  const ReadPack pack(get("case").body);
+  const auto centre = pack.array<float>("centre");
+  ASSERT_EQ(centre.size(), 3 * value.tree.nodeCount());
+  EXPECT_EQ(centre[3 * 7], value.tree.centre[7].x);
+  EXPECT_EQ(pack.array<std::int32_t>("parent"), value.tree.parent);
+  EXPECT_EQ(pack.json["branches"][1]["label"], "right");
+  EXPECT_FLOAT_EQ(pack.array<float>("rootDistance").at(7), 7);  // seven steps of 1 mm
+  EXPECT_EQ(pack.json["reachable"]["closed"].size(), 0U);
+}
+
+TEST_F(LookTest, ASurfaceComesAtOnceAndAFinerOneLater) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  const ReadPack quick(get("surface?quick=1").body);
+  EXPECT_EQ(quick.json["kind"], "quick");
+  const auto nodes = quick.array<std::uint32_t>("node");
+  EXPECT_LT(*std::max_element(nodes.begin(), nodes.end()), 14U);
+  std::size_t triangles = 0;
+  for (const Json& part : quick.json["parts"]) triangles += part["count"].get<std::size_t>();
+  EXPECT_EQ(3 * triangles, quick.array<std::uint32_t>("triangle").size());
+  ReadPack full(get("surface").body);
+  while (full.json["kind"] != "closed" || full.json["level"] != 0) full = ReadPack(get("surface").body);
+  EXPECT_GT(full.array<float>("radius").size(), nodes.size());
+  bool hasInlet = false;
+  for (const Json& part : full.json["parts"])
+    hasInlet = hasInlet || part["name"].get<std::string>().starts_with("inlet");
+  EXPECT_TRUE(hasInlet);
+}
+
+TEST_F(LookTest, AnUnchangedPartIsNotSentAgain) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  const std::string tag = get("case").get_header_value("ETag");
+  EXPECT_EQ(get("case", {{"If-None-Match", tag}}).status, 304);
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 0}, {"label", "other"}}).status, 200);
+  EXPECT_EQ(get("case", {{"If-None-Match", tag}}).status, 200);
+}
+
+TEST_F(LookTest, TheVolumeComesWhole) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  const ReadPack pack(get("volume").body);
+  const auto sent = pack.array<std::uint16_t>("voxel");
+  const auto volume = tubeVolume();
+  const auto& voxels = std::get<std::vector<std::int16_t>>(volume.voxels);
+  ASSERT_EQ(sent.size(), voxels.size());
+  const double offset = pack.json["offset"];
+  for (std::size_t i = 0; i < sent.size(); i += 97) ASSERT_EQ(sent[i] + offset, voxels[i]);
+}
+
+TEST_F(LookTest, TheCaseFileIsTheOneThatALibraryOpens) {
+  const formats::Case value = twoVessels();
+  writeCase("two.lumen", value);
+  serve({"two.lumen"});
+  const std::string bytes = get("case.lumen").body;
+  const auto read = formats::decodeCase(std::as_bytes(std::span(bytes)));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->tree, value.tree);
+}
+
+TEST_F(LookTest, DistancesToTheTruthBelongToTheSurfacesVertices) {
+  formats::Case truth = twoVessels();
+  for (float& radius : truth.tree.radius) radius -= 0.25F;
+  writeCase("two.lumen", twoVessels());
+  writeCase("truth.lumen", truth);
+  serve({"two.lumen"});
+  EXPECT_EQ(get("distance").status, 404);
+  Progress silent;
+  session->open({path("truth.lumen"), "truth.lumen", false, true}, silent);
+  const ReadPack surface(get("surface?quick=1").body), pack(get("distance?quick=1").body);
+  const auto distance = pack.array<float>("distance");
+  ASSERT_EQ(3 * distance.size(), surface.array<float>("position").size());
+  std::vector<float> sorted = distance;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  EXPECT_NEAR(sorted[sorted.size() / 2], 0.25, 0.05);
+  performAll({{"op", "compare"}});
+  EXPECT_GT(state()["figures"]["overlap"].get<double>(), 0.9);
+}
+
+TEST_F(WorkTest, AnOldRevisionIsAConflict) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  const Json old = {{"op", "rename"}, {"branch", 0}, {"label", "a"}, {"revision", state()["revision"]}};
+  ASSERT_EQ(post("do", old.dump()).status, 200);
+  const auto second = post("do", old.dump());
+  EXPECT_EQ(second.status, 409);
+  EXPECT_EQ(Json::parse(second.body)["error"], "the document has changed meanwhile; look, and try again");
+}
+
+TEST_F(WorkTest, RenameUndoRedoAndSaveLeaveExactlyThatInTheFile) {
+  writeCase("two.lumen", twoVessels());
+  const auto original = formats::readFileBytes(path("two.lumen"));
+  serve({"two.lumen"});
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "ica"}}).status, 200);
+  EXPECT_EQ(state()["unsaved"], true);
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(state()["unsaved"], false);
+  const std::string unchanged = get("save?format=lumen").body;
+  EXPECT_EQ(unchanged.size(), original->size());
+  EXPECT_EQ(std::memcmp(unchanged.data(), original->data(), unchanged.size()), 0);
+  ASSERT_EQ(perform({{"op", "redo"}}).status, 200);
+  ASSERT_EQ(perform({{"op", "save"}}).status, 200);
+  EXPECT_EQ(state()["unsaved"], false);
+  const auto saved = formats::readCaseFile(path("two.lumen"));
+  ASSERT_TRUE(saved);
+  EXPECT_EQ(saved->tree.branches[1].label, "ica");
+}
+
+TEST_F(WorkTest, AClickBecomesAFittedVesselAndCanBeUndone) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  const Json seed = {{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}};
+  ASSERT_EQ(perform(seed).status, 200);
+  EXPECT_EQ(state()["seeds"][0]["tracked"], false);
+  performAll({{"op", "track"}, {"labels", nullptr}});
+  const Json now = state();
+  EXPECT_EQ(now["hasCase"], true);
+  EXPECT_EQ(now["seeds"][0]["tracked"], true);
+  EXPECT_EQ(now["unsaved"], true);
+  const ReadPack pack(get("case").body);
+  EXPECT_EQ(pack.json["hasModels"], true);
+  const auto radius = pack.array<float>("radius");
+  EXPECT_NEAR(radius[radius.size() / 2], 1.0, 0.1);
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(state()["hasCase"], false);
+}
+
+TEST_F(WorkTest, SeedsAreMovedAndDeleted) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  ASSERT_EQ(perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status, 200);
+  EXPECT_EQ(perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status, 400);
+  ASSERT_EQ(perform({{"op", "seedMove"}, {"label", "a"}, {"point", 0}, {"position", {4, 5, 6}}}).status, 200);
+  EXPECT_EQ(state()["seeds"][0]["points"][0]["position"], Json({4.0, 5.0, 6.0}));
+  ASSERT_EQ(perform({{"op", "seedDelete"}, {"label", "a"}}).status, 200);
+  EXPECT_EQ(state()["seeds"].size(), 0U);
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(state()["seeds"].size(), 1U);
+}
+
+TEST_F(WorkTest, EveryFormatOfTheStateCanBeSaved) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status, 200);
+  performAll({{"op", "track"}});
+  for (const Json& format : state()["formats"]) {
+    const auto response = get("save?format=" + format.get<std::string>());
+    EXPECT_EQ(response.status, 200) << format << response.body;
+    EXPECT_GT(response.body.size(), 100U) << format;
+    EXPECT_NE(response.get_header_value("Content-Disposition").find("attachment; filename=\"tube."),
+              std::string::npos);
+  }
+}
+
+TEST_F(WorkTest, ALongJobIsCancelledAndLeavesTheDocumentAsItWas) {
+  writeTube("tube.nrrd");
+  viewer::SessionOptions endless;
+  endless.track.options.minTrials = endless.track.options.maxTrials = 1000000;
+  endless.track.options.inlierRate = 1;
+  session = std::make_unique<viewer::Session>(endless);
+  Progress silent;
+  session->open({path("tube.nrrd"), "tube.nrrd"}, silent);
+  const auto revision = session->now().revision;
+  session->run({{"op", "seedAdd"}, {"revision", revision}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}});
+  const Json job = session->run({{"op", "track"}, {"revision", revision + 1}});
+  EXPECT_THROW(session->run({{"op", "undo"}, {"revision", revision + 1}}), viewer::Conflict);
+  EXPECT_TRUE(session->cancel(job["job"]));
+  session->wait();
+  EXPECT_EQ(session->now().revision, revision + 1);
+  EXPECT_EQ(session->now().document.value, nullptr);
+}
+
+TEST_F(FilesTest, ADroppedCaseOpensAndItsBytesAreGoneAfterwards) {
+  writeCase("two.lumen", twoVessels());
+  const auto bytes = formats::readFileBytes(path("two.lumen"));
+  serve({});
+  const std::string body(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  ASSERT_EQ(post("file?name=a%20case.lumen&as=auto", body).status, 200);
+  waitForJob();
+  EXPECT_EQ(state()["title"], "a case.lumen");
+  EXPECT_EQ(state()["saveAs"], nullptr);
+  const auto probe = session->placeFor("x").parent_path();
+  std::size_t left = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(probe.parent_path()))
+    left += entry.path() != probe;
+  EXPECT_EQ(left, 0U);
+  server.reset();
+  session.reset();
+  EXPECT_FALSE(std::filesystem::exists(probe.parent_path()));
+}
+
+TEST_F(FilesTest, ABrokenFileIsRefusedByItsNameWithoutAPath) {
+  serve({});
+  const auto listener = session->events().listen();
+  ASSERT_EQ(post("file?name=broken.lumen", "nothing of a case").status, 200);
+  waitForJob();
+  std::string text;
+  while (const auto event = listener->wait(std::chrono::seconds(5)))
+    if (event->name == "done") {
+      const Json done = Json::parse(event->data);
+      EXPECT_EQ(done["ok"], false);
+      text = done["text"];
+      break;
+    }
+  EXPECT_TRUE(text.starts_with("broken.lumen: ")) << text;
+  EXPECT_EQ(text.find('/'), std::string::npos) << text;
+  EXPECT_EQ(state()["hasCase"], false);
+}
+
+TEST_F(FilesTest, AChangeOnDiskIsNoticedAndNotOverwritten) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  session->lookAtFiles();
+  EXPECT_EQ(state()["files"][0]["changed"], false);
+  formats::Case other = twoVessels();
+  other.tree.branches[0].label = "from elsewhere";
+  writeCase("two.lumen", other);
+  session->lookAtFiles();
+  EXPECT_EQ(state()["files"][0]["changed"], true);
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  EXPECT_EQ(perform({{"op", "save"}}).status, 409);
+  EXPECT_EQ(formats::readCaseFile(path("two.lumen"))->tree.branches[0].label, "from elsewhere");
+  EXPECT_EQ(perform({{"op", "save"}, {"force", true}}).status, 200);
+  EXPECT_EQ(formats::readCaseFile(path("two.lumen"))->tree.branches[1].label, "mine");
+  session->lookAtFiles();
+  EXPECT_EQ(state()["files"][0]["changed"], false);
+}
+
+TEST_F(FilesTest, WhatWasNotSavedIsRescued) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  EXPECT_EQ(session->rescue(), std::nullopt);
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  ASSERT_EQ(session->rescue(), path("two.unsaved.lumen").string());
+  EXPECT_EQ(formats::readCaseFile(path("two.unsaved.lumen"))->tree.branches[1].label, "mine");
+}
+
+}  // namespace lumen::test

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/server/html_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "converters/common/error.h"
+#include "converters/common/vectors.h"
+#include "formats/case/base64.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+// Nothing may be fetched, from anywhere: script, style and data are all in the file.
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
+    "img-src data: blob:; base-uri 'none'; form-action 'none'";
+
+// Around the case, as much as shows where its vessels lie.
+constexpr double kMargin = 3;  // radii of the widest vessel
+// A browser holds what is embedded three times while it opens.
+constexpr std::size_t kMostVoxels = std::size_t{192} * 192 * 192;
+
+/// Fit to stand in a script: no "<" can end it or begin a comment.
+std::string scriptSafe(const std::string& json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char c : json)
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  return text;
+}
+
+/// Code that stands in a script. Only these two can end or mislead one, and in what is bundled they
+/// occur in texts and regular expressions alone, where the backslash changes nothing.
+std::string inlineScript(std::string code) {
+  for (const auto& [from, to] : {std::pair<std::string_view, std::string_view>{"</script", "<\\/script"},
+                                 {"<!--", "<\\!--"}})
+    for (std::size_t at = 0; (at = code.find(from, at)) != code.npos; at += to.size())
+      code.replace(at, from.size(), to);
+  return code;
+}
+
+std::string htmlSafe(std::string_view text) {
+  std::string safe;
+  for (const char c : text) switch (c) {
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '&':
+        safe += "&amp;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  return safe;
+}
+
+std::string base64Of(std::string_view bytes) {
+  return formats::base64(std::as_bytes(std::span(bytes)));
+}
+
+/// The box of the volume around the case, with its margin; all of it if there is none.
+VolumeSending aroundCase(const Document& document) {
+  VolumeSending sending;
+  sending.eightBits = true;
+  sending.mostVoxels = kMostVoxels;
+  if (!document.value || document.value->tree.nodeCount() == 0) return sending;
+  const formats::CenterlineTree& tree = document.value->tree;
+  const convert::VolumeGeometry& geometry = document.volume->geometry;
+  const double margin = kMargin * *std::max_element(tree.radius.begin(), tree.radius.end());
+  Eigen::Vector3d low = geometry.indexFromWorld(toEigen(tree.centre.front())), high = low;
+  for (const formats::Vec3f& centre : tree.centre) {
+    const Eigen::Vector3d index = geometry.indexFromWorld(toEigen(centre));
+    low = low.cwiseMin(index);
+    high = high.cwiseMax(index);
+  }
+  for (int a = 0; a < 3; ++a) {
+    const auto axis = static_cast<std::size_t>(a);
+    const double last = geometry.size[axis] - 1, reach = margin / geometry.spacing[a];
+    sending.crop.low[axis] = static_cast<int>(std::clamp(std::floor(low[a] - reach), 0.0, last));
+    sending.crop.high[axis] = static_cast<int>(std::clamp(std::ceil(high[a] + reach), 0.0, last));
+  }
+  sending.cropped = true;
+  return sending;
+}
+
+std::string volumeOf(const Document& document) {
+  const VolumePack pack(document.volume, document.labelOf(FileRole::Volume), aroundCase(document));
+  std::string bytes;
+  while (bytes.size() < pack.size()) bytes += pack.bytes(bytes.size(), pack.size());
+  return bytes;
+}
+
+/// What the page finds instead of a server: names and base64.
+class Embedded {
+public:
+  void add(const std::string& name, std::string_view bytes) { m_parts[name] = base64Of(bytes); }
+  void add(const std::string& name, const Tagged& part) {
+    if (part.bytes) add(name, *part.bytes);
+  }
+  [[nodiscard]] std::string text(const Json& state) const {
+    Json all;
+    all["state"] = state;
+    all["parts"] = m_parts;
+    return scriptSafe(jsonText(all));
+  }
+
+private:
+  Json m_parts = Json::object();
+};
+
+/// What of the state concerns a page without a server.
+Json lookOnly(Json state) {
+  for (const char* const name : {"undo", "redo", "job", "saveAs"}) state[name] = nullptr;
+  state["formats"] = Json::array();
+  state["unsaved"] = false;
+  return state;
+}
+
+const std::string& fileOf(const PageFiles& page, const char* name) {
+  static const std::string none;
+  const auto found = page.find(name);
+  return found == page.end() ? none : found->second.bytes;
+}
+
+}  // namespace
+
+HtmlOptions htmlOptions(const std::vector<std::pair<std::string, std::string>>& options) {
+  HtmlOptions result;
+  for (const auto& [name, value] : options) {
+    if (name == "volume")
+      result.volume = value != "0" && value != "false";
+    else if (name == "level" && (value == "0" || value == "1"))
+      result.level = value == "1" ? 1 : 0;
+    else
+      throw Error(ErrorKind::Usage, "\"" + name + "\" is no option of the page as one file");
+  }
+  return result;
+}
+
+std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions& options) {
+  if (page.empty())
+    throw failed("the page of the viewer was not built; ./bootstrap.sh demo builds it, with npm");
+  const Document document = session.now().document;
+  if (!document.value && !document.volume)
+    throw Error(ErrorKind::Usage, "there is neither a case nor a volume for the page to show");
+  Embedded embedded;
+  embedded.add("case", session.casePack());
+  embedded.add("case.lumen", session.caseFile());
+  embedded.add("surface", session.finishedSurface(options.level));
+  if (document.volume && (options.volume || !document.value))
+    embedded.add("volume", volumeOf(document));
+  for (const OpenMesh& mesh : document.meshes)
+    embedded.add("mesh?id=" + std::to_string(mesh.id), session.meshPack(mesh.id));
+  if (!fileOf(page, "blob.wasm").empty()) embedded.add("blob.wasm", fileOf(page, "blob.wasm"));
+  Json state = lookOnly(session.state());
+  state["hasVolume"] = document.volume && (options.volume || !document.value);
+  std::string style = fileOf(page, "page.css");
+  if (style.find("</style") != style.npos) throw failed("page.css would end its own element");
+  std::string html = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
+  html += "<meta http-equiv=\"Content-Security-Policy\" content=\"";
+  html += kPolicy;
+  html += "\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
+          htmlSafe(state["title"].get<std::string>()) + "</title>\n<style>" + style +
+          "</style>\n</head>\n<body>\n";
+  html += "<script type=\"application/json\" id=\"lumen-embedded\">" + embedded.text(state) +
+          "</script>\n<script>" + inlineScript(fileOf(page, "page.js")) +
+          "</script>\n</body>\n</html>\n";
+  return html;
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page and what it shows as one file, which opens from disk and asks no network.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viewer/server/page_files.h"
+#include "viewer/session/session.h"
+
+namespace lumen::viewer {
+
+struct HtmlOptions {
+  bool volume = false;  ///< the volume too: around the case, with 8 bits a voxel
+  int level = 1;        ///< of the surface: see Surfaces
+};
+
+/// "volume" and "level". Throws Error(Usage) for others.
+HtmlOptions htmlOptions(const std::vector<std::pair<std::string, std::string>>& options);
+
+/// The page with everything in it. Throws Error(Failed) if the page was not built, and Error(Usage)
+/// if there is nothing to show.
+std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions& options);
+
+}  // namespace lumen::viewer

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/server/server.h"
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+#include <utility>
+
+#include <httplib.h>
+#include <sys/socket.h>
+
+#include "converters/app/message_text.h"
+#include "converters/common/error.h"
+#include "viewer/server/html_page.h"
+#include "viewer/server/token.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+
+constexpr const char* kHost = "127.0.0.1";
+constexpr const char* kBytes = "application/octet-stream";
+constexpr const char* kJson = "application/json";
+
+// Every request has a connection of its own, and a thread while it lasts. Listening pages hold one
+// each, of which EventHub allows 16: the others are free for requests.
+constexpr std::size_t kThreads = EventHub::kMostListeners + 16;
+
+// A click and its options are a few hundred bytes, a list of all labels of a large tree some 100 kB.
+constexpr std::size_t kMostRequest = 1 << 20;
+// Volumes beyond that are opened by name.
+constexpr std::uint64_t kMostFile = std::uint64_t{4} << 30;
+
+// A page that is gone is noticed at the next write.
+constexpr std::chrono::seconds kSign{2};
+
+/// What no answer is without. The page may run its own script and libblob, and talk to this server.
+httplib::Headers safeHeaders() {
+  return {{"Content-Security-Policy",
+           "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
+           "connect-src 'self'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; "
+           "frame-ancestors 'none'"},
+          {"X-Content-Type-Options", "nosniff"},
+          {"X-Frame-Options", "DENY"},
+          {"Referrer-Policy", "no-referrer"},
+          {"Cross-Origin-Resource-Policy", "same-origin"},
+          {"Cross-Origin-Opener-Policy", "same-origin"},
+          {"Cache-Control", "no-store"}};
+}
+
+void answerError(Response& response, int status, const std::string& sentence) {
+  response.status = status;
+  response.set_content(jsonText({{"error", messageText(sentence)}}), kJson);
+}
+
+int statusOf(ErrorKind kind) {
+  return kind == ErrorKind::Failed ? 500 : 400;
+}
+
+/// Runs what answers a request; what it throws is answered in JSON.
+template <class Answer>
+void guarded(Response& response, Answer&& answer) {
+  try {
+    answer();
+  } catch (const Conflict& conflict) {
+    answerError(response, 409, conflict.what());
+  } catch (const Error& error) {
+    answerError(response, statusOf(error.kind()), error.what());
+  } catch (const std::bad_alloc&) {
+    answerError(response, 500, "there is not enough memory");
+  } catch (const std::exception& error) {
+    answerError(response, 500, std::string("unexpected: ") + error.what());
+  }
+}
+
+/// The body, of at most `most` bytes, piece by piece.
+template <class Take>
+void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& take) {
+  std::uint64_t size = 0;
+  bool tooMuch = false;
+  const bool whole = reader([&](const char* data, std::size_t length) {
+    size += length;
+    tooMuch = size > most;
+    if (!tooMuch) take(data, length);
+    return !tooMuch;
+  });
+  if (tooMuch)
+    throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
+  if (!whole) throw Error(ErrorKind::Usage, "the request broke off");
+}
+
+Json readJson(const httplib::ContentReader& reader) {
+  std::string text;
+  readBody(reader, kMostRequest,
+           [&text](const char* data, std::size_t length) { text.append(data, length); });
+  return parseRequest(text, kMostRequest);
+}
+
+/// A part of the document; 304 if the page has it, 404 without a body if there is none.
+void answerPart(const Request& request, Response& response, const Tagged& part) {
+  if (!part.bytes) {
+    response.status = 404;
+    return;
+  }
+  const std::string tag = '"' + part.tag + '"';
+  response.set_header("ETag", tag);
+  if (request.get_header_value("If-None-Match") == tag) {
+    response.status = 304;
+    return;
+  }
+  response.set_content_provider(
+      part.bytes->size(), kBytes,
+      [bytes = part.bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(bytes->data() + offset, length);
+      });
+}
+
+int levelOf(const Request& request) {
+  const std::string text = request.get_param_value("level");
+  if (text.empty()) return 0;
+  if (text.size() > 1 || text[0] < '0' || text[0] > '9')
+    throw Error(ErrorKind::Usage, "\"level\" must be a digit");
+  return text[0] - '0';
+}
+
+int numberOf(const Request& request, const char* name) {
+  const std::string text = request.get_param_value(name);
+  if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != text.npos)
+    throw Error(ErrorKind::Usage, std::string("\"") + name + "\" must be a number");
+  return std::stoi(text);
+}
+
+/// A name for a download that every system takes.
+std::string downloadName(const std::string& title, const std::string& ending) {
+  std::string name;
+  for (const char c : title.substr(0, title.find('.')))
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+  return (name.empty() ? "lumen" : name.substr(0, 80)) + ending;
+}
+
+}  // namespace
+
+class Server::Requests {
+public:
+  Requests(Session& session, PageFiles page, int port)
+      : m_session(session), m_page(std::move(page)), m_token(randomToken()) {
+    m_http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    m_http.set_keep_alive_max_count(1);
+    m_http.set_payload_max_length(kMostFile);
+    m_http.set_default_headers(safeHeaders());
+    m_http.set_tcp_nodelay(true);
+    // and not SO_REUSEPORT, with which another program could listen on the same port
+    m_http.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    });
+    m_http.set_pre_routing_handler([this](const Request& request, Response& response) {
+      if (isAllowed(request)) return httplib::Server::HandlerResponse::Unhandled;
+      response.status = 404;
+      return httplib::Server::HandlerResponse::Handled;
+    });
+    addPage();
+    addParts();
+    addWork();
+    bind(port);
+    m_thread = std::thread([this] { m_http.listen_after_bind(); });
+    // stop() does nothing before that
+    while (!m_http.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+  ~Requests() {
+    stop();
+    m_thread.join();
+  }
+
+  void stop() {
+    m_session.events().close();
+    m_http.stop();
+  }
+
+  [[nodiscard]] std::string address() const { return origin() + "/" + m_token + "/"; }
+
+private:
+  using Handler = httplib::Server::Handler;
+
+  [[nodiscard]] std::string origin() const { return "http://" + m_authority; }
+  [[nodiscard]] std::string at(const std::string& name) const { return "/" + m_token + "/" + name; }
+
+  void bind(int port) {
+    const bool bound = port == 0 ? (port = m_http.bind_to_any_port(kHost)) > 0
+                                 : m_http.bind_to_port(kHost, port);
+    if (!bound)
+      throw failed(port > 0 ? "port " + std::to_string(port) +
+                                  " cannot be listened on; another program may have it"
+                            : std::string("no port of 127.0.0.1 can be listened on"));
+    m_authority = std::string(kHost) + ":" + std::to_string(port);
+  }
+
+  [[nodiscard]] bool isAllowed(const Request& request) const {
+    if (request.get_header_value_count("Host") != 1 ||
+        request.get_header_value("Host") != m_authority)
+      return false;
+    for (std::size_t i = 0; i < request.get_header_value_count("Origin"); ++i)
+      if (request.get_header_value("Origin", i) != origin()) return false;
+    const std::string& path = request.path;
+    return path.size() > m_token.size() + 1 && path[0] == '/' && path[m_token.size() + 1] == '/' &&
+           sameSecret(std::string_view(path).substr(1, m_token.size()), m_token);
+  }
+
+  void get(const std::string& name, const Handler& handler) {
+    m_http.Get(at(name), [handler](const Request& request, Response& response) {
+      guarded(response, [&] { handler(request, response); });
+    });
+  }
+
+  /// With a body in JSON, and an answer in JSON.
+  void post(const std::string& name, const std::function<Json(const Json&)>& answer) {
+    m_http.Post(at(name), [answer](const Request&, Response& response,
+                                   const httplib::ContentReader& reader) {
+      guarded(response, [&] { response.set_content(jsonText(answer(readJson(reader))), kJson); });
+    });
+  }
+
+  void addPage() {
+    if (m_page.empty())
+      get("", [](const Request&, Response& response) {
+        response.set_content(kNoPage, "text/html; charset=utf-8");
+      });
+    for (const auto& [name, file] : m_page)
+      get(name, [&file = file](const Request&, Response& response) {
+        response.set_content(file.bytes, file.type.c_str());
+      });
+  }
+
+  void addParts() {
+    get("state", [this](const Request&, Response& response) {
+      response.set_content(jsonText(m_session.state()), kJson);
+    });
+    get("case", [this](const Request& request, Response& response) {
+      answerPart(request, response, m_session.casePack());
+    });
+    get("case.lumen", [this](const Request& request, Response& response) {
+      answerPart(request, response, m_session.caseFile());
+    });
+    get("surface", [this](const Request& request, Response& response) {
+      answerPart(request, response,
+                 m_session.surfacePack(levelOf(request), request.has_param("quick")));
+    });
+    get("distance", [this](const Request& request, Response& response) {
+      answerPart(request, response,
+                 m_session.distancePack(levelOf(request), request.has_param("quick")));
+    });
+    get("mesh", [this](const Request& request, Response& response) {
+      answerPart(request, response, m_session.meshPack(numberOf(request, "id")));
+    });
+    get("volume", [this](const Request& request, Response& response) {
+      answerVolume(request, response);
+    });
+    get("events", [this](const Request&, Response& response) { answerEvents(response); });
+    get("save", [this](const Request& request, Response& response) { answerSave(request, response); });
+  }
+
+  void addWork() {
+    post("do", [this](const Json& request) { return m_session.run(request); });
+    post("snap", [this](const Json& request) { return m_session.snap(request); });
+    post("cancel", [this](const Json& request) -> Json {
+      const Arguments arguments(request);
+      return {{"cancelled", m_session.cancel(static_cast<int>(arguments.index("job", 1U << 30)))}};
+    });
+    m_http.Post(at("file"), [this](const Request& request, Response& response,
+                                   const httplib::ContentReader& reader) {
+      guarded(response, [&] { takeFile(request, response, reader); });
+    });
+  }
+
+  void answerVolume(const Request& request, Response& response) {
+    Tagged none;
+    const auto pack = m_session.volumePack(none.tag);
+    if (!pack || request.get_header_value("If-None-Match") == '"' + none.tag + '"') {
+      if (pack) none.bytes = std::make_shared<const std::string>();
+      return answerPart(request, response, none);
+    }
+    response.set_header("ETag", '"' + none.tag + '"');
+    // slices of two megabytes at a time: a volume is never in memory twice
+    response.set_content_provider(
+        pack->size(), kBytes,
+        [pack](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+          const std::string bytes =
+              pack->bytes(offset, std::min<std::size_t>(length, std::size_t{2} << 20));
+          return sink.write(bytes.data(), bytes.size());
+        });
+  }
+
+  void answerEvents(Response& response) {
+    const auto listener = m_session.events().listen();
+    if (!listener) return answerError(response, 503, "as many pages are open as there may be");
+    std::string first = "event: state\ndata: " + jsonText(m_session.state()) + "\n\n";
+    response.set_chunked_content_provider(
+        "text/event-stream",
+        [listener, first = std::move(first)](std::size_t, httplib::DataSink& sink) mutable {
+          std::string text = std::exchange(first, {});
+          if (text.empty()) {
+            if (const auto event = listener->wait(kSign))
+              text = "event: " + event->name + "\ndata: " + event->data + "\n\n";
+            else if (listener->closed())
+              return sink.done(), true;
+            else
+              text = ": still here\n\n";
+          }
+          return sink.write(text.data(), text.size());
+        });
+  }
+
+  void answerSave(const Request& request, Response& response) {
+    const std::string format = request.get_param_value("format");
+    std::vector<std::pair<std::string, std::string>> options;
+    for (const auto& [name, value] : request.params)
+      if (name != "format") options.emplace_back(name, value);
+    const bool isPage = format == "html";
+    std::string bytes = isPage ? htmlPage(m_session, m_page, htmlOptions(options))
+                               : m_session.encoded(format, options);
+    const std::string ending = format == "seeds" ? ".seeds.json" : "." + format;
+    const Json title = m_session.state()["title"];
+    response.set_header("Content-Disposition",
+                        "attachment; filename=\"" +
+                            downloadName(title.get<std::string>(), ending) + "\"");
+    response.set_content(std::move(bytes), kBytes);
+  }
+
+  void takeFile(const Request& request, Response& response, const httplib::ContentReader& reader) {
+    const std::string name = request.get_param_value("name"), as = request.get_param_value("as");
+    if (name.empty() || name.size() > 255) throw Error(ErrorKind::Usage, "a file needs a name");
+    if (!as.empty() && as != "auto" && as != "truth")
+      throw Error(ErrorKind::Usage, "\"as\" must be auto or truth");
+    const std::filesystem::path place = m_session.placeFor(name);
+    std::ofstream file(place, std::ios::binary);
+    readBody(reader, kMostFile, [&file](const char* data, std::size_t length) {
+      file.write(data, static_cast<std::streamsize>(length));
+    });
+    if (!file.flush()) throw failed("there is no room for this file");
+    response.set_content(jsonText(m_session.openDropped(place, name, as == "truth")), kJson);
+  }
+
+  Session& m_session;
+  const PageFiles m_page;
+  const std::string m_token;
+  std::string m_authority;  ///< "127.0.0.1:40123"
+  httplib::Server m_http;
+  std::thread m_thread;
+};
+
+Server::Server(Session& session, PageFiles page, int port)
+    : m_requests(std::make_unique<Requests>(session, std::move(page), port)) {}
+
+Server::~Server() = default;
+
+std::string Server::address() const {
+  return m_requests->address();
+}
+
+void Server::stop() {
+  m_requests->stop();
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/case_pack.h"
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include "converters/app/case_info.h"
+#include "converters/app/reachable.h"
+#include "converters/fitting/error_of_fit.h"
+#include "formats/case/enum_names.h"
+#include "formats/case/node_origin.h"
+#include "formats/case/topology.h"
+#include "viewer/session/pack.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+Json branchesJson(const formats::CenterlineTree& tree) {
+  Json list = Json::array();
+  for (const formats::Branch& branch : tree.branches) {
+    const auto mean = branch.meanInlierRate;
+    list.push_back({{"label", branch.label},
+                    {"kind", formats::enumName(formats::kBranchKindNames, branch.kind)},
+                    {"parentNode", branch.parentNode},
+                    {"firstNode", branch.firstNode},
+                    {"nodeCount", branch.nodeCount},
+                    {"stopReason", formats::enumName(formats::kStopReasonNames, branch.stopReason)},
+                    {"confidence", mean ? app::jsonNumber(*mean) : Json(nullptr)},
+                    {"length", app::jsonNumber(formats::branchLength(tree, branch))}});
+  }
+  return list;
+}
+
+Json stepsJson(const formats::Metadata& metadata) {
+  Json list = Json::array();
+  for (const formats::Step& step : metadata.steps) {
+    Json parameters = Json::object();
+    for (const auto& [name, value] : step.parameters)
+      std::visit([&](const auto& v) { parameters[name] = v; }, value);
+    list.push_back({{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
+  }
+  return list;
+}
+
+/// mm along the tree from each node's root; a node's parent has a smaller index.
+std::vector<float> rootDistances(const formats::CenterlineTree& tree) {
+  std::vector<double> distance(tree.nodeCount(), 0);
+  for (std::uint32_t node = 0; node < tree.nodeCount(); ++node)
+    if (const std::int32_t parent = tree.parent[node]; parent >= 0)
+      distance[node] =
+          distance[static_cast<std::size_t>(parent)] + formats::edgeLength(tree, node);
+  return {distance.begin(), distance.end()};
+}
+
+Json reachableJson(const formats::Case& value, const Progress& progress) {
+  const auto reach = app::reachOf(value, progress);
+  if (!reach) return nullptr;
+  Json closed = Json::array();
+  for (const app::ClosedWay& way : reach->closed)
+    closed.push_back({{"node", way.node},
+                      {"position", {way.position.x, way.position.y, way.position.z}},
+                      {"beyond", way.beyond}});
+  return {{"reached", reach->length}, {"total", reach->of}, {"closed", std::move(closed)}};
+}
+
+void addNodes(PackWriter& pack, const formats::CenterlineTree& tree) {
+  pack.add("centre", std::span(tree.centre));
+  pack.add("direction", std::span(tree.direction));
+  pack.add("radius", tree.radius);
+  pack.add("height", tree.height);
+  pack.add("parent", tree.parent);
+  pack.add("branch", tree.branch);
+  if (!tree.inlierRate.empty()) pack.add("inlierRate", tree.inlierRate);
+  pack.add("rootDistance", rootDistances(tree));
+  pack.add("links", std::span(tree.links));
+}
+
+void addOrigins(PackWriter& pack, const formats::Case& value) {
+  const bool stated = std::any_of(value.nodeArrays.begin(), value.nodeArrays.end(),
+                                  [](const auto& a) { return a.name == formats::kOriginArray; });
+  if (!stated) return;
+  std::vector<std::uint8_t> origins;
+  for (const formats::NodeOrigin origin : formats::nodeOriginsOf(value))
+    origins.push_back(static_cast<std::uint8_t>(origin));
+  pack.add("origin", origins);
+}
+
+}  // namespace
+
+std::string casePack(const formats::Case& value, Progress& progress) {
+  PackWriter pack;
+  addNodes(pack, value.tree);
+  addOrigins(pack, value);
+  if (value.points && value.models)
+    pack.add("error",
+             convert::errorOfFit(value, app::fittedNeighbourhood(value.metadata), progress));
+  if (value.points) {
+    pack.add("pointOffset", value.points->offset);
+    pack.add("point", std::span(value.points->position));
+  }
+  pack.set("branches", branchesJson(value.tree));
+  const auto& voxel = value.metadata.voxelSize;
+  pack.set("voxelSize", voxel ? app::jsonNumber(*voxel) : Json(nullptr));
+  pack.set("hasModels", value.models.has_value());
+  pack.set("reachable", reachableJson(value, progress));
+  pack.set("steps", stepsJson(value.metadata));
+  return pack.bytes();
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is open, at one moment. Its parts never change: a change makes other parts, and another
+// document, so any number of threads and of moments of the history share them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "converters/mesh/mesh_file.h"
+#include "converters/seeds/seeds.h"
+#include "converters/volume/volume.h"
+#include "formats/case/case.h"
+
+namespace lumen::viewer {
+
+enum class FileRole : std::uint8_t { Volume, Case, Truth, Seeds, Mesh };
+
+/// The word for a role, as the state has it.
+std::string roleName(FileRole role);
+
+/// A file as it was when it was read: another stamp means that it was written since.
+struct FileStamp {
+  std::int64_t time = 0;  ///< of its last change, ns
+  std::uintmax_t size = 0;
+  std::uintmax_t serial = 0;  ///< inode
+  friend bool operator==(const FileStamp&, const FileStamp&) = default;
+};
+
+/// Zeros for what is not there.
+FileStamp stampOf(const std::filesystem::path& file);
+
+struct OpenFile {
+  int id = 0;
+  FileRole role = FileRole::Volume;
+  std::string label;           ///< for people; any text
+  std::filesystem::path path;  ///< empty for what was dropped
+  FileStamp stamp;
+};
+
+struct OpenMesh {
+  int id = 0;  ///< of its file
+  std::string label;
+  std::shared_ptr<const convert::MeshFile> mesh;  ///< in mm
+};
+
+using Seeds = std::vector<convert::SeedBranch>;
+
+/// Parts are null where there are none, but `seeds`.
+struct Document {
+  std::shared_ptr<const convert::Volume> volume;
+  std::shared_ptr<const formats::Case> value;
+  std::shared_ptr<const formats::Case> truth;
+  std::shared_ptr<const Seeds> seeds = std::make_shared<const Seeds>();
+  std::vector<OpenMesh> meshes;
+  std::vector<OpenFile> files;
+
+  [[nodiscard]] bool hasModels() const { return value && value->models.has_value(); }
+  /// The label of the first file of that role; empty if there is none.
+  [[nodiscard]] std::string labelOf(FileRole role) const;
+  /// The file of that role, or null.
+  [[nodiscard]] const OpenFile* fileOf(FileRole role) const;
+};
+
+/// Bytes in memory of the parts of these documents, each part once.
+std::size_t bytesOf(const std::vector<const Document*>& documents);
+
+}  // namespace lumen::viewer

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/job_runner.h"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "converters/common/error.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kInterval{100};  // as often as a page redraws a bar
+
+/// Tells the pages how far a job is.
+class JobProgress : public Progress {
+public:
+  JobProgress(EventHub& events, int job,
+              const std::function<std::string(std::string_view)>& text)
+      : m_events(events), m_job(job), m_text(text) {}
+
+  void begin(std::string_view stage, std::size_t total) override {
+    {
+      const std::lock_guard lock(m_mutex);
+      m_stage = stage;
+    }
+    m_total = total;
+    m_done = 0;
+    tell();
+  }
+
+  void advance(std::size_t units) override {
+    m_done += units;
+    const auto now = Clock::now().time_since_epoch().count();
+    auto next = m_next.load();
+    if (now < next) return;
+    const auto then = now + std::chrono::duration_cast<Clock::duration>(kInterval).count();
+    if (m_next.compare_exchange_strong(next, then)) tell();
+  }
+
+  void warn(std::string_view message) override {
+    m_events.tell("message", {{"severity", "warning"}, {"text", m_text(message)}});
+  }
+
+private:
+  void tell() {
+    std::string stage;
+    {
+      const std::lock_guard lock(m_mutex);
+      stage = m_stage;
+    }
+    m_events.tell("progress", {{"job", m_job},
+                               {"stage", stage},
+                               {"done", m_done.load()},
+                               {"total", m_total.load()}});
+  }
+
+  EventHub& m_events;
+  const int m_job;
+  const std::function<std::string(std::string_view)>& m_text;
+  std::mutex m_mutex;  ///< guards the next
+  std::string m_stage;
+  std::atomic<std::size_t> m_total{0}, m_done{0};
+  std::atomic<Clock::rep> m_next{0};
+};
+
+}  // namespace
+
+JobRunner::JobRunner(EventHub& events, std::function<std::string(std::string_view)> text,
+                     std::function<void()> changed)
+    : m_events(events), m_text(std::move(text)), m_changed(std::move(changed)) {}
+
+JobRunner::~JobRunner() {
+  cancelAll();
+  if (m_thread.joinable()) m_thread.join();
+}
+
+int JobRunner::start(const std::string& name, Work work) {
+  int job = 0;
+  std::thread ended;
+  {
+    const std::lock_guard lock(m_mutex);
+    if (m_running)
+      throw failed("still busy with " + m_running->name + "; wait for its end, or cancel it");
+    job = ++m_last;
+    m_running = RunningJob{job, name};
+    ended = std::move(m_thread);
+  }
+  // without the lock, which its last words may need
+  if (ended.joinable()) ended.join();
+  m_changed();
+  const std::lock_guard lock(m_mutex);
+  m_progress = std::make_unique<JobProgress>(m_events, job, m_text);
+  m_thread = std::thread(
+      [this, job, work = std::move(work), &progress = *m_progress] { run(job, work, progress); });
+  return job;
+}
+
+void JobRunner::run(int job, const Work& work, Progress& progress) {
+  Json done = {{"job", job}, {"ok", false}};
+  try {
+    done["text"] = work(progress);
+    done["ok"] = true;
+  } catch (const Error& error) {
+    const bool cancelled = error.kind() == ErrorKind::Cancelled;
+    done["cancelled"] = cancelled;
+    done["text"] = cancelled ? std::string("cancelled; nothing has changed")
+                             : m_text(error.what());
+  } catch (const std::bad_alloc&) {
+    done["text"] = "there is not enough memory";
+  } catch (const std::exception& error) {
+    done["text"] = m_text(std::string("unexpected: ") + error.what());
+  }
+  {
+    const std::lock_guard lock(m_mutex);
+    m_running.reset();
+  }
+  m_events.tell("done", done);
+  m_changed();
+}
+
+bool JobRunner::cancel(int job) {
+  const std::lock_guard lock(m_mutex);
+  if (!m_running || m_running->job != job || !m_progress) return false;
+  m_progress->cancel();
+  return true;
+}
+
+void JobRunner::cancelAll() {
+  const std::lock_guard lock(m_mutex);
+  if (m_progress) m_progress->cancel();
+}
+
+std::optional<RunningJob> JobRunner::running() const {
+  const std::lock_guard lock(m_mutex);
+  return m_running;
+}
+
+void JobRunner::wait() {
+  std::thread thread;
+  {
+    const std::lock_guard lock(m_mutex);
+    thread = std::move(m_thread);
+  }
+  if (thread.joinable()) thread.join();
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Work that takes long: one piece at a time, on a thread of its own, with progress and an end.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "converters/common/progress.h"
+#include "viewer/session/events.h"
+
+namespace lumen::viewer {
+
+struct RunningJob {
+  int job = 0;       ///< from 1 on, never used again
+  std::string name;  ///< for people, such as "tracking"
+};
+
+/// All calls are thread-safe.
+class JobRunner {
+public:
+  /// Throws what a stage throws; gives the sentence that tells what was done.
+  using Work = std::function<std::string(Progress&)>;
+
+  /// `changed` is called, without any lock, when a job has begun or ended. `text` is the last thing
+  /// that happens to a message.
+  JobRunner(EventHub& events, std::function<std::string(std::string_view)> text,
+            std::function<void()> changed);
+  /// Cancels what runs and waits for its end.
+  ~JobRunner();
+  JobRunner(const JobRunner&) = delete;
+  JobRunner& operator=(const JobRunner&) = delete;
+
+  /// The number of the job, which begins at once. Throws Error(Failed) while another runs.
+  int start(const std::string& name, Work work);
+  /// False if no job of that number runs.
+  bool cancel(int job);
+  void cancelAll();
+  [[nodiscard]] std::optional<RunningJob> running() const;
+  /// Until nothing runs.
+  void wait();
+
+private:
+  void run(int job, const Work& work, Progress& progress);
+
+  EventHub& m_events;
+  const std::function<std::string(std::string_view)> m_text;
+  const std::function<void()> m_changed;
+  mutable std::mutex m_mutex;
+  std::optional<RunningJob> m_running;
+  std::unique_ptr<Progress> m_progress;
+  std::thread m_thread;
+  int m_last = 0;
+};
+
+}  // namespace lumen::viewer

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/opening.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "converters/app/centerline_input.h"
+#include "converters/app/file_access.h"
+#include "converters/app/file_content.h"
+#include "converters/app/file_format.h"
+#include "converters/app/stages.h"
+#include "converters/centerline/case_of_centerline.h"
+#include "converters/common/error.h"
+#include "converters/fitting/fit.h"
+#include "converters/seeds/place_seeds.h"
+#include "viewer/session/surface_pack.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
+             Progress& progress) {
+  const bool inVoxels = std::any_of(seeds.begin(), seeds.end(), [](const auto& seed) {
+    return seed.frame.system == convert::SeedSystem::Voxel;
+  });
+  if (!inVoxels) return seeds;
+  if (volume == nullptr)
+    throw invalidInput(opening.label + ": these seeds are in voxels; open their volume first");
+  auto result = convert::placeSeeds(seeds, volume->geometry, opening.path);
+  for (const convert::SeedFailure& failure : result.leftOut)
+    progress.warn(opening.label + ": seed \"" + failure.label + "\" is left out: " + failure.reason);
+  return std::move(result.seeds);
+}
+
+formats::Case caseOf(const Opening& opening, const app::FileFormat& format,
+                     const app::VolumeArguments& volume, Progress& progress) {
+  if (format.kind == app::FormatKind::Case) return format.readCase(opening.path);
+  const auto loaded = app::loadCenterline(opening.path, format, volume, {}, progress);
+  formats::Case value = convert::caseOfCenterline(loaded.file, opening.label);
+  convert::fit(value, app::fitOptionsFor(value, {}), progress);
+  return value;
+}
+
+void dropFiles(Document& document, FileRole role) {
+  std::erase_if(document.files, [role](const OpenFile& file) { return file.role == role; });
+}
+
+Document add(Document document, const Opening& opening, FileRole role, int id,
+             const app::VolumeArguments& arguments, Progress& progress) {
+  const FileStamp stamp = stampOf(opening.path);
+  switch (role) {
+    case FileRole::Volume:
+      document.volume = std::make_shared<const convert::Volume>(app::loadVolume(
+          opening.path, app::inputFormat(opening.path, ""), arguments, progress));
+      break;
+    case FileRole::Case:
+    case FileRole::Truth: {
+      auto value = std::make_shared<const formats::Case>(
+          caseOf(opening, app::inputFormat(opening.path, ""), arguments, progress));
+      (role == FileRole::Truth ? document.truth : document.value) = std::move(value);
+      break;
+    }
+    case FileRole::Seeds:
+      document.seeds = std::make_shared<const Seeds>(
+          placed(document.volume.get(), convert::readSeeds(opening.path), opening, progress));
+      break;
+    case FileRole::Mesh:
+      document.meshes.push_back(
+          {id, opening.label,
+           std::make_shared<const convert::MeshFile>(inMillimetres(
+               app::inputFormat(opening.path, "").readMesh(opening.path)))});
+      break;
+  }
+  if (role != FileRole::Mesh) dropFiles(document, role);
+  document.files.push_back(
+      {id, role, opening.label, opening.dropped ? fs::path() : opening.path, stamp});
+  return document;
+}
+
+}  // namespace
+
+FileRole roleOf(const Opening& opening) {
+  app::requireInput(opening.path, "file");
+  if (app::contentOf(opening.path).kind == app::ContentKind::Seeds) return FileRole::Seeds;
+  const app::FileFormat& format = app::inputFormat(opening.path, "");
+  if (opening.asTruth && format.kind != app::FormatKind::Case)
+    throw Error(ErrorKind::Usage, opening.label + ": the truth must be a case");
+  switch (format.kind) {
+    case app::FormatKind::Volume:
+      return FileRole::Volume;
+    case app::FormatKind::Mesh:
+      return FileRole::Mesh;
+    case app::FormatKind::Case:
+    case app::FormatKind::Centerline:
+      break;
+  }
+  return opening.asTruth ? FileRole::Truth : FileRole::Case;
+}
+
+Document withFile(const Document& document, const Opening& opening, int id,
+                  const app::VolumeArguments& volume, Progress& progress) {
+  return add(document, opening, roleOf(opening), id, volume, progress);
+}
+
+Document withoutFile(const Document& document, int id) {
+  Document result = document;
+  const auto file = std::find_if(result.files.begin(), result.files.end(),
+                                 [id](const OpenFile& f) { return f.id == id; });
+  if (file == result.files.end())
+    throw Error(ErrorKind::Usage, "no file of number " + std::to_string(id) + " is open");
+  switch (file->role) {
+    case FileRole::Volume:
+      result.volume.reset();
+      break;
+    case FileRole::Case:
+      result.value.reset();
+      break;
+    case FileRole::Truth:
+      result.truth.reset();
+      break;
+    case FileRole::Seeds:
+      result.seeds = std::make_shared<const Seeds>();
+      break;
+    case FileRole::Mesh:
+      std::erase_if(result.meshes, [id](const OpenMesh& mesh) { return mesh.id == id; });
+      break;
+  }
+  result.files.erase(file);
+  return result;
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays of numbers and what is said of them, in one run of bytes (viewer/README.md, "Packs").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "converters/app/report.h"
+#include "formats/case/case.h"
+
+namespace lumen::viewer {
+
+using app::Json;
+
+enum class NumberType : std::uint8_t { F32, U8, U16, U32, I32 };
+
+template <class T>
+constexpr NumberType numberType() {
+  if constexpr (std::is_same_v<T, float>) return NumberType::F32;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return NumberType::U8;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return NumberType::U16;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return NumberType::U32;
+  return NumberType::I32;
+}
+
+/// Gathers what a pack holds. Arrays are copied.
+class PackWriter {
+public:
+  /// A member of the JSON beside the arrays.
+  void set(const std::string& name, Json value) { m_members[name] = std::move(value); }
+
+  /// Of `shape`, rows first; its product is the number of values.
+  template <class T>
+  void add(const std::string& name, std::span<const T> values, std::vector<std::size_t> shape) {
+    append(name, numberType<T>(), std::move(shape), std::as_bytes(values));
+  }
+  template <class T>
+  void add(const std::string& name, const std::vector<T>& values) {
+    add(name, std::span<const T>(values), {values.size()});
+  }
+  void add(const std::string& name, std::span<const formats::Vec3f> values);
+  void add(const std::string& name, std::span<const std::array<float, 3>> values);
+  void add(const std::string& name, std::span<const std::array<std::uint32_t, 3>> values);
+  void add(const std::string& name, std::span<const std::array<std::uint32_t, 2>> values);
+
+  /// The whole pack.
+  [[nodiscard]] std::string bytes() const;
+
+  /// What comes before an array that is sent by itself, whose bytes follow; its values are the last
+  /// of the pack.
+  [[nodiscard]] std::string bytesBefore(const std::string& name, NumberType type,
+                                        const std::vector<std::size_t>& shape) const;
+
+private:
+  void append(const std::string& name, NumberType type, std::vector<std::size_t> shape,
+              std::span<const std::byte> bytes);
+  [[nodiscard]] std::string withHeader(const Json& members) const;
+
+  Json m_members = Json::object();
+  Json m_arrays = Json::object();
+  std::string m_body;
+};
+
+}  // namespace lumen::viewer

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The document that pages look at and work on, and what is done to it. See viewer/README.md.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/app/options.h"
+#include "converters/common/progress.h"
+#include "formats/case/atomic_file.h"
+#include "viewer/session/arguments.h"
+#include "viewer/session/document.h"
+#include "viewer/session/events.h"
+#include "viewer/session/history.h"
+#include "viewer/session/job_runner.h"
+#include "viewer/session/opening.h"
+#include "viewer/session/surfaces.h"
+#include "viewer/session/volume_pack.h"
+
+namespace lumen::viewer {
+
+/// What was asked for does not go with what has happened meanwhile.
+class Conflict : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What work is done with, as on the command line.
+struct SessionOptions {
+  app::VolumeArguments volume;
+  app::TrackArguments track;
+  app::FitArguments fit;
+};
+
+/// Bytes with a name: `tag` differs where the bytes do.
+struct Tagged {
+  std::string tag;
+  std::shared_ptr<const std::string> bytes;
+};
+
+/// All calls are thread-safe. Throws lumen::Error for what the page did wrong or a stage refused,
+/// and Conflict.
+class Session {
+public:
+  explicit Session(SessionOptions options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // session_files.cpp
+  /// Opens a file that the user has named, now.
+  void open(const Opening& opening, Progress& progress);
+  /// `save` writes here from now on.
+  void saveTo(const std::filesystem::path& file);
+  /// A place for the bytes of a file that is dropped, in a private folder that goes with this
+  /// object. `name` is a label; of it, only harmless letters are used.
+  std::filesystem::path placeFor(const std::string& name);
+  /// Opens a file that was dropped, as a job. It is removed after that.
+  Json openDropped(const std::filesystem::path& file, const std::string& label, bool asTruth);
+  /// Looks whether files have changed on disk, and tells.
+  void lookAtFiles();
+  /// Writes what has not been saved beside where it would be saved, and gives that file's name.
+  std::optional<std::string> rescue();
+
+  // session_state.cpp
+  [[nodiscard]] Json state();
+  EventHub& events() { return m_events; }
+
+  // session_parts.cpp. Empty `bytes` if there is no such part.
+  Tagged casePack();
+  Tagged caseFile();
+  Tagged surfacePack(int level, bool quick);
+  /// The surface of that level, once it has been made.
+  Tagged finishedSurface(int level);
+  Tagged meshPack(int id);
+  Tagged distancePack(int level, bool quick);
+  std::shared_ptr<const VolumePack> volumePack(std::string& tag);
+  [[nodiscard]] Moment now() const { return m_history.now(); }
+
+  // session_work.cpp
+  /// Does what the page asks for: {"revision"} or {"job"}.
+  Json run(const Json& request);
+  Json snap(const Json& request);
+  bool cancel(int job) { return m_jobs.cancel(job); }
+  void cancelAll();
+  [[nodiscard]] bool isBusy() const { return m_jobs.running().has_value(); }
+  /// Until no job runs.
+  void wait() { m_jobs.wait(); }
+
+  // session_saving.cpp
+  /// The case, its mesh, its centerline or the seeds as a file of that format, as `lumen convert`
+  /// with these options would write it: pairs of a name without hyphens, and a value.
+  std::string encoded(const std::string& format,
+                      const std::vector<std::pair<std::string, std::string>>& options);
+  [[nodiscard]] bool unsaved() const;
+
+private:
+  void changed();
+  [[nodiscard]] Moment momentFor(const Arguments& request) const;
+  void commit(const std::string& name, const Moment& from, Document document);
+  Json startJob(const std::string& name, bool changes, JobRunner::Work work);
+  void requireIdle() const;
+  /// Whether the case and the seeds have changed since they were read or saved.
+  [[nodiscard]] std::pair<bool, bool> unsavedParts() const;
+  std::string shownText(std::string_view message) const;
+
+  Json seedOperation(const std::string& op, const Arguments& request, const Moment& from);
+  Json editOperation(const std::string& op, const Arguments& request, const Moment& from);
+  Json track(const Arguments& request, const Moment& from);
+  Json fit(const Moment& from);
+  Json check(const Moment& from);
+  Json compare(const Moment& from);
+  Json save(const Arguments& request);
+  Json step(bool forward);
+
+  const SessionOptions m_options;
+  EventHub m_events;
+  History m_history;
+  std::unique_ptr<formats::PendingFolder> m_folder;  ///< of dropped files
+
+  mutable std::mutex m_mutex;  ///< guards what follows
+  int m_lastFile = 0, m_lastDropped = 0;
+  bool m_jobChanges = false;  ///< the job that runs will change the document
+  std::filesystem::path m_saveTo;
+  FileStamp m_saveStamp;
+  std::shared_ptr<const formats::Case> m_savedCase;
+  std::shared_ptr<const Seeds> m_savedSeeds;
+  std::set<int> m_changedFiles;
+  Json m_check, m_figures;  ///< null, or answers for the next two
+  std::shared_ptr<const formats::Case> m_checkedCase, m_comparedCase, m_comparedTruth;
+  std::shared_ptr<const formats::Case> m_packedCase;
+  Tagged m_casePack, m_caseFile;
+  std::shared_ptr<const convert::Volume> m_packedVolume;
+  std::shared_ptr<const VolumePack> m_volumePack;
+
+  Surfaces m_surfaces;
+  JobRunner m_jobs;  ///< the last, so the first to end
+};
+
+}  // namespace lumen::viewer

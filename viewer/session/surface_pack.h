@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles as the page shows them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "converters/mesh/mesh_file.h"
+#include "converters/mesh/surface_mesh.h"
+#include "converters/surface/closed_surface.h"
+
+namespace lumen::viewer {
+
+/// What a surface is among those of its case.
+struct SurfaceLevel {
+  std::string_view kind;  ///< "quick" or "closed"
+  int level = 0;          ///< 0: the finest
+  int levels = 1;         ///< that there will be
+};
+
+/// The pack `surface` of a case's surface, its triangles sorted by group and branch.
+std::string surfacePack(const convert::SurfaceMesh& surface, const SurfaceLevel& level,
+                        const convert::SurfaceReport& report);
+
+/// The pack `surface` of a mesh that was opened, in mm.
+std::string meshPack(const convert::MeshFile& mesh);
+
+/// The mesh, in mm: millimetres where its file does not say.
+convert::MeshFile inMillimetres(convert::MeshFile mesh);
+
+}  // namespace lumen::viewer

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/surfaces.h"
+
+#include <exception>
+#include <utility>
+
+#include "viewer/session/surface_pack.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+bool hasSurface(const std::shared_ptr<const formats::Case>& value) {
+  return value && value->models && value->tree.nodeCount() > 0;
+}
+
+}  // namespace
+
+Surfaces::Surfaces(std::function<void()> ready) : m_ready(std::move(ready)) {
+  m_thread = std::thread([this] { work(); });
+}
+
+Surfaces::~Surfaces() {
+  end();
+}
+
+void Surfaces::end() {
+  {
+    const std::lock_guard lock(m_mutex);
+    m_ended = true;
+    if (m_progress) m_progress->cancel();
+  }
+  m_wake.notify_all();
+  if (m_thread.joinable()) m_thread.join();
+}
+
+void Surfaces::show(std::shared_ptr<const formats::Case> value) {
+  const std::lock_guard lock(m_mutex);
+  if (value == m_case) return;
+  m_case = std::move(value);
+  m_quick.reset();
+  m_levels = {};
+  m_failed = {};
+  ++m_revision;
+  if (m_progress) m_progress->cancel();
+  m_wake.notify_all();
+}
+
+void Surfaces::allow(bool background) {
+  const std::lock_guard lock(m_mutex);
+  m_allowed = background;
+  if (!background && m_progress) m_progress->cancel();
+  m_wake.notify_all();
+}
+
+std::uint64_t Surfaces::revision() const {
+  const std::lock_guard lock(m_mutex);
+  return m_revision;
+}
+
+std::shared_ptr<const ReadySurface> Surfaces::get(int level) {
+  {
+    const std::lock_guard lock(m_mutex);
+    for (std::size_t l = static_cast<std::size_t>(level); l < kLevels; ++l)
+      if (m_levels[l]) return m_levels[l];
+  }
+  return quick();
+}
+
+void Surfaces::waitFor(int level) {
+  const auto l = static_cast<std::size_t>(level);
+  std::unique_lock lock(m_mutex);
+  m_wake.wait(lock, [&] {
+    return !hasSurface(m_case) || !m_allowed || m_ended || m_levels[l] || m_failed[l];
+  });
+}
+
+std::shared_ptr<const ReadySurface> Surfaces::quick() {
+  const std::lock_guard one(m_quickMutex);
+  std::shared_ptr<const formats::Case> value;
+  std::uint64_t number = 0;
+  {
+    const std::lock_guard lock(m_mutex);
+    if (!hasSurface(m_case)) return nullptr;
+    if (m_quick) return m_quick;
+    value = m_case;
+    number = ++m_number;
+  }
+  Progress silent;
+  auto made = make(*value, kLevels, number, silent);
+  const std::lock_guard lock(m_mutex);
+  if (m_case == value) m_quick = made;
+  return made;
+}
+
+std::shared_ptr<const ReadySurface> Surfaces::make(const formats::Case& value, int level,
+                                                   std::uint64_t number, Progress& progress) {
+  auto result = std::make_shared<ReadySurface>();
+  result->tag = std::to_string(number);
+  convert::ClosedSurface made;
+  const bool isQuick = level >= kLevels;
+  if (isQuick) {
+    made.levels.push_back(convert::quickSurface(value, progress));
+  } else {
+    convert::ClosedSurfaceOptions options;
+    options.edge.share *= 1 << level;
+    made = convert::closedSurface(value, options, progress);
+  }
+  result->pack = surfacePack(made.levels.front(), {isQuick ? "quick" : "closed", level, kLevels},
+                             made.report);
+  result->mesh = std::make_shared<const convert::SurfaceMesh>(std::move(made.levels.front()));
+  return result;
+}
+
+void Surfaces::work() {
+  std::unique_lock lock(m_mutex);
+  while (!m_ended) {
+    int level = kLevels - 1;
+    const auto isDone = [this](int l) {
+      return m_levels[static_cast<std::size_t>(l)] || m_failed[static_cast<std::size_t>(l)];
+    };
+    while (level >= 0 && isDone(level)) --level;
+    if (level < 0 || !m_allowed || !hasSurface(m_case)) {
+      m_wake.wait(lock);
+      continue;
+    }
+    const auto value = m_case;
+    const auto progress = std::make_shared<Progress>();
+    const std::uint64_t number = ++m_number;
+    m_progress = progress;
+    lock.unlock();
+    std::shared_ptr<const ReadySurface> made;
+    try {
+      made = make(*value, level, number, *progress);
+    } catch (const std::exception&) {
+      // cancelled, or a case that has no such surface: the quick one stays
+    }
+    lock.lock();
+    m_progress.reset();
+    if (m_case != value || (!made && progress->cancelled())) continue;
+    m_failed[static_cast<std::size_t>(level)] = !made;
+    m_wake.notify_all();
+    if (!made) continue;
+    m_levels[static_cast<std::size_t>(level)] = std::move(made);
+    ++m_revision;
+    m_wake.notify_all();
+    lock.unlock();
+    m_ready();
+    lock.lock();
+  }
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surfaces of the case that is open: a coarse one at once, finer ones from the background.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "converters/common/progress.h"
+#include "converters/surface/closed_surface.h"
+#include "formats/case/case.h"
+
+namespace lumen::viewer {
+
+/// A surface that is ready.
+struct ReadySurface {
+  std::string tag;   ///< names it: another surface has another one
+  std::string pack;  ///< viewer/README.md
+  std::shared_ptr<const convert::SurfaceMesh> mesh;
+};
+
+/// All calls are thread-safe.
+class Surfaces {
+public:
+  /// Of edges that are twice as long as those of the finest, and that.
+  static constexpr int kLevels = 2;
+
+  /// `ready` is called, without any lock, when another surface can be had.
+  explicit Surfaces(std::function<void()> ready);
+  ~Surfaces();
+  Surfaces(const Surfaces&) = delete;
+  Surfaces& operator=(const Surfaces&) = delete;
+
+  /// Ends the background for good; `ready` is not called any more.
+  void end();
+
+  /// The case whose surfaces are wanted; may be null or have no models.
+  void show(std::shared_ptr<const formats::Case> value);
+  /// Whether the background may work, which takes processors from what a person waits for.
+  void allow(bool background);
+
+  /// The finest that is ready and no finer than `level`, 0 for the finest of all, or the quick one.
+  /// Null if the case has no surface.
+  std::shared_ptr<const ReadySurface> get(int level);
+  /// Until that level is ready, or cannot be made, or no work is allowed.
+  void waitFor(int level);
+  /// The coarse one, which is made now unless it is there.
+  std::shared_ptr<const ReadySurface> quick();
+  /// Counts surfaces that have become ready, and cases.
+  [[nodiscard]] std::uint64_t revision() const;
+
+private:
+  void work();
+  std::shared_ptr<const ReadySurface> make(const formats::Case& value, int level,
+                                           std::uint64_t number, Progress& progress);
+
+  const std::function<void()> m_ready;
+  std::mutex m_quickMutex;  ///< one at a time; taken before the other
+  mutable std::mutex m_mutex;
+  std::condition_variable m_wake;
+  std::shared_ptr<const formats::Case> m_case;
+  std::shared_ptr<const ReadySurface> m_quick;
+  std::array<std::shared_ptr<const ReadySurface>, kLevels> m_levels;
+  std::array<bool, kLevels> m_failed{};
+  std::shared_ptr<Progress> m_progress;  ///< of what the background makes
+  std::uint64_t m_revision = 1, m_number = 0;
+  bool m_allowed = true, m_ended = false;
+  std::thread m_thread;
+};
+
+}  // namespace lumen::viewer
