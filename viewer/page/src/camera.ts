@@ -37,7 +37,7 @@ export class OrbitCamera {
     this.target = scale(add(low, high), 0.5);
     const radius = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2 || 1;
     this.reach = 2 * radius;
-    this.distance = (0.86 * radius) / Math.sin((kAngle * Math.PI) / 360) / Math.min(1, this.width / Math.max(this.height, 1));
+    this.distance = (0.7 * radius) / Math.sin((kAngle * Math.PI) / 360) / Math.min(1, this.width / Math.max(this.height, 1));
   }
 
   update(width: number, height: number): PerspectiveCamera | OrthographicCamera {

@@ -14,13 +14,13 @@ import { reduce, Volume } from "./volume";
 import { VolumeTexture } from "./volume_texture";
 
 const kCastSoftware = 128, kCastHardware = 256; // texels along an axis for ray casting
-const kTrianglesSoftware = 260_000; // that software draws at a bearable rate
 
 export class Loader {
   private seen = { case: -1, surface: -1, volume: -1, distance: -1 };
   private library: Promise<BlobLibrary | null> | null = null;
   private texture: VolumeTexture | null = null;
   private surfaceRun = 0;
+  private shown = { case: -1, kind: "", level: 0 };
   private first = true;
 
   constructor(private readonly app: App, private readonly slices: SliceView[], private readonly scene: SceneView) {
@@ -42,8 +42,8 @@ export class Loader {
 
   /** Once: the crosshair into the middle of what there is, and the projection where there is no case. */
   private settle(): void {
-    const { store, stage } = this.app, { tree, volume } = store.get();
-    if (!this.first || (tree === null && volume === null)) return;
+    const { store, stage } = this.app, { tree, volume, state } = store.get();
+    if (!this.first || (tree === null && (volume === null || state.hasCase))) return;
     this.first = false;
     store.set({ crosshair: tree !== null && tree.count > 0 ? tree.position(thickest(tree)) : volume!.centre(), cast: tree === null && volume !== null ? "mip" : "off" });
     stage.invalidate();
@@ -60,6 +60,7 @@ export class Loader {
     const label = before.tree?.branches[before.selected]?.label;
     const selected = tree?.branches.findIndex(b => b.label === label) ?? -1;
     store.set({ tree, selected, node: -1, ...(tree === null ? { surface: null } : {}) });
+    this.app.stage.firstPicture ||= tree !== null && !state.hasVolume;
     this.settle();
     void this.openModel(tree);
   }
@@ -79,24 +80,28 @@ export class Loader {
     }
   }
 
+  /** A coarse surface at once; finer ones as the server has made them, each announced by a revision of its own. */
   private async takeSurface(state: State): Promise<void> {
     const { store, stage } = this.app, run = ++this.surfaceRun, live = (): boolean => run === this.surfaceRun;
-    if (!state.hasCase || !state.hasCase || store.get().tree?.hasModels !== true) { store.set({ surface: null }); return; }
-    const set = (pack: Pack): void => {
-      if (!live()) return;
-      store.set({ surface: new Surface(pack) });
-      const build = (): void => { if (live() && store.get().surface?.buildNext() === true) idle(build); };
-      idle(build);
-    };
+    if (!state.hasCase || store.get().tree?.hasModels !== true) { store.set({ surface: null }); return; }
+    const ofCase = state.revisions.case, level = stage.software ? 1 : 0;
     try {
-      const quick = await this.pack("surface", { quick: "1" });
-      if (quick !== null) set(quick);
-      if (!live() || (quick !== null && quick.meta.kind !== "quick")) return;
-      const levels = Number(quick?.meta.levels ?? 1), closed = await this.pack("surface", { level: stage.software ? String(Math.max(1, levels - 1)) : "0" });
-      if (closed !== null && live() && (!stage.software || closed.shape("triangle")[0] <= kTrianglesSoftware || quick === null)) set(closed);
+      if (this.shown.case !== ofCase) this.showSurface(await this.pack("surface", { quick: "1" }), ofCase, live);
+      if (!live() || (this.shown.kind !== "quick" && this.shown.level <= level)) return;
+      this.showSurface(await this.pack("surface", { level: String(level) }), ofCase, live);
     } catch (error) {
       if (live()) this.app.say(`The surface could not be shown: ${error instanceof Error ? error.message : String(error)}`, "warning");
     }
+  }
+
+  private showSurface(pack: Pack | null, ofCase: number, live: () => boolean): void {
+    if (pack === null || !live()) return;
+    const kind = String(pack.meta.kind), level = Number(pack.meta.level ?? 0), { shown } = this;
+    if (shown.case === ofCase && shown.kind === kind && shown.level === level) return;
+    this.shown = { case: ofCase, kind, level };
+    this.app.store.set({ surface: new Surface(pack) });
+    const { surface } = this.app.store.get(), build = (): void => { if (live() && surface?.buildNext() === true) idle(build); };
+    idle(build);
   }
 
   private async takeVolume(state: State): Promise<void> {
@@ -118,6 +123,7 @@ export class Loader {
         if (volume === null || this.texture !== texture) return;
         const more = texture!.upload();
         store.set({ volumeReady: volume.complete });
+        stage.firstPicture ||= volume.complete === volume.size[2] && !more;
         for (const each of this.slices) stage.invalidate(each);
         if (more) stage.next(upload);
       };

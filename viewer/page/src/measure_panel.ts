@@ -26,7 +26,7 @@ function measureSection(app: App, hand: Hand): HTMLElement {
       button({ icon: "close", label: "Remove this measurement", class: "button" }, () => store.set({ measurements: store.get().measurements.filter(x => x !== m) })))));
     if (view.measurements.length === 0) list.append(h("li", { class: "hint" }, "Distance (D), angle (A), section (X), gap (G), probe (P, then click keeps)."));
   });
-  return section("section-measure", "Measure", true, list, h("div", { class: "row" }, here, keep, clear));
+  return section("section-measure", "Measure", true, list, h("div", { class: "row wrap" }, here, keep, clear));
 }
 
 function gapSection(app: App, hand: Hand): HTMLElement {

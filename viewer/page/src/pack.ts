@@ -40,8 +40,8 @@ export class Pack {
   begin(name: string): number { return this.base + this.place(name).offset; }
 
   private place(name: string): Place {
-    const place = this.places[name];
-    if (place === undefined || !(place.type in kTypes)) throw new Error(`The pack has no array "${name}".`);
+    const place = this.has(name) ? this.places[name] : undefined;
+    if (place === undefined || !Object.hasOwn(kTypes, place.type)) throw new Error(`The pack has no array "${name}".`);
     return place;
   }
 

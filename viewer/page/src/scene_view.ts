@@ -75,7 +75,7 @@ export class SceneView implements StageView {
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
   }
-  private setLines(view: View): void { this.replace(this.lines, view.tree !== null && view.layers.lines ? [centerlines(view)] : []); }
+  private setLines(view: View): void { this.replace(this.lines, view.tree !== null && view.layers.lines ? [centerlines(view, "others"), centerlines(view, "selected")] : []); }
   private setPoints(view: View): void {
     const points = view.tree !== null && view.layers.points ? wallPoints(view) : null;
     this.replace(this.points, points === null ? [] : [points]);

@@ -20,6 +20,8 @@ export function frameOf(name: SliceName, shared: Frame): Frame {
   return { right: scale(up, -1), up: head, normal: cross(scale(up, -1), head) };
 }
 
+const kAcross = 7; // radii of the vessel that half a section shows
+
 export class SliceView implements StageView {
   private readonly material = new SliceMaterial();
   readonly over: HTMLCanvasElement;
@@ -39,14 +41,15 @@ export class SliceView implements StageView {
   /** Half the height, mm: such that all of the volume or tree fits, until somebody zooms. */
   half(): number {
     if (this.halfHeight !== null) return this.halfHeight;
-    const { volume, tree, planes } = this.app.store.get(), frame = this.frame;
+    const { volume, tree, planes, node } = this.app.store.get(), frame = this.frame;
     const box = volume === null ? tree?.box() ?? null : null;
     const corners = volume?.corners() ?? (box === null ? [] : [0, 1, 2, 3, 4, 5, 6, 7].map(k =>
       [0, 1, 2].map(a => ((k >> a) & 1) === 1 ? box.high[a] : box.low[a]) as Vec3));
     if (corners.length === 0) return 50;
     const spread = (d: Vec3): number => { const x = corners.map(c => dot(c, d)); return (Math.max(...x) - Math.min(...x)) / 2; };
     const all = Math.max(spread(frame.up), spread(frame.right) * this.height / Math.max(this.width, 1));
-    return 1.04 * all * (planes === "vessel" ? 0.25 : 1);
+    if (planes !== "vessel" || tree === null || node < 0) return 1.04 * all;
+    return Math.min(all, Math.max(kAcross * tree.branches[tree.branch[node]].median, 10 * (tree.voxelSize || 0.1)));
   }
 
   get mmPerPixel(): number { return (2 * this.half()) / Math.max(this.height, 1); }
@@ -125,7 +128,7 @@ export class SliceView implements StageView {
 
 /** The shared frame across a vessel at a node: the axial plane becomes its cross-section. */
 export function vesselFrame(view: View, node: number): Frame {
-  const tree = view.tree!, normal = unit(scale(tree.axis(node), -1));
+  const tree = view.tree!, axis = unit(tree.axis(node)), normal = scale(axis, axis[2] > 0 ? -1 : 1); // seen from the feet
   // the patient's front stays up as far as it can, so that neighbouring sections are not turned against each other
   let up = sub([0, -1, 0], scale(normal, dot([0, -1, 0], normal)));
   if (Math.hypot(...up) < 0.3) up = sub([0, 0, 1], scale(normal, dot([0, 0, 1], normal)));

@@ -10,6 +10,8 @@ export interface StageView {
   drawOver?(width: number, height: number): void;
 }
 
+const kFirstPicture = "lumen-first-picture";
+
 export class Stage {
   readonly renderer: WebGLRenderer;
   /** Without a graphics processor: everything costs, so levels of detail and resolutions are lower. */
@@ -21,6 +23,8 @@ export class Stage {
   private readonly frames: (() => void)[] = [];
   /** Milliseconds of the last frame's drawing calls. */
   lastFrame = 0;
+  /** Set when there is something to see; the next frame is the first picture, and marked as such for measuring. */
+  firstPicture = false;
 
   /** Throws if there is no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -33,7 +37,6 @@ export class Stage {
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
-    this.renderer.setScissorTest(true);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
   }
 
@@ -78,6 +81,7 @@ export class Stage {
     for (const call of this.frames.splice(0)) call();
     const begin = performance.now(), views = [...this.dirty], all = this.canvas.getBoundingClientRect();
     this.dirty.clear();
+    this.renderer.setScissorTest(true); // uploads reset it
     for (const view of views) {
       const box = view.element.getBoundingClientRect();
       if (box.width < 1 || box.height < 1) continue;
@@ -96,6 +100,7 @@ export class Stage {
     }
     this.dirtyOver.clear();
     this.lastFrame = performance.now() - begin;
+    if (this.firstPicture && performance.getEntriesByName(kFirstPicture).length === 0) performance.mark(kFirstPicture);
   }
 
   /** The picture of all views as they are, with what lies over them. */

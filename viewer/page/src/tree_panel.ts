@@ -30,7 +30,7 @@ export class TreePanel {
     element.append(h("div", { class: "paneltop" }, h("h2", {}, "Vessels"), this.count,
       button({ icon: "eye", label: "Show all vessels, opaque", key: "Shift+H", id: "tree-show-all" }, () => showAll(app))),
       h("div", { class: "row filters" }, search, select("tree-sort", "Order of the list", kSorts, this.sort, sort => { this.sort = sort; this.fill(app.store.get()); })),
-      this.list, this.detail);
+      h("div", { class: "columns", "aria-hidden": "true" }, h("span", {}, "Length"), h("span", {}, "Radius"), h("span", {}, "Conf.")), this.list, this.detail);
     this.list.addEventListener("keydown", e => this.key(e));
     this.list.addEventListener("focus", () => { const v = app.store.get(); if (v.selected < 0 && this.rows.length > 0) selectBranch(app, this.rows[0].branch); });
     app.store.watch(["tree"], view => this.fill(view));
@@ -69,7 +69,7 @@ export class TreePanel {
     const low = b.confidence !== null && b.confidence < 0.45;
     const element = h("li", { class: `row branch${b.kind === "aneurysm" ? " aneurysm" : ""}`, role: "treeitem", id: `branch-${b.index}`, "aria-level": depth + 1,
       "data-branch": b.index, title: `${b.label}: ${b.kind}, ${mm(b.length)} long, radius ${brief(b.median)} (${brief(b.least)} to ${brief(b.greatest)}) mm` },
-    swatch, h("span", { class: "name" }, b.label), b.kind === "aneurysm" ? h("span", { class: "tag" }, "sac") : null,
+    swatch, h("span", { class: "name" }, b.label),
     h("span", { class: "number" }, brief(b.length)), h("span", { class: "number" }, brief(b.median)),
     h("span", { class: low ? "number low" : "number" }, b.confidence === null ? "–" : `${Math.round(100 * b.confidence)}%`), solo, eye);
     for (let d = 1; d <= 6; ++d) if (depth >= d) element.classList.add(`depth${d}`);
