@@ -19,7 +19,7 @@ export class Loader {
   private seen = { case: -1, surface: -1, volume: -1, distance: -1 };
   private library: Promise<BlobLibrary | null> | null = null;
   private texture: VolumeTexture | null = null;
-  private surfaceRun = 0;
+  private quickOf = -1;
   private shown = { case: -1, kind: "", level: 0 };
   private first = true;
 
@@ -30,7 +30,7 @@ export class Loader {
   /** Takes a state as the new truth. */
   async take(state: State): Promise<void> {
     const { store } = this.app, r = state.revisions, jobs: Promise<void>[] = [];
-    store.set({ state, figures: state.figures ?? store.get().figures });
+    store.set({ state, figures: state.figures ?? null });
     if (r.case !== this.seen.case) { this.seen.case = r.case; jobs.push(this.takeCase(state)); }
     if (r.volume !== this.seen.volume) { this.seen.volume = r.volume; jobs.push(this.takeVolume(state)); }
     await Promise.all(jobs);
@@ -82,12 +82,15 @@ export class Loader {
 
   /** A coarse surface at once; finer ones as the server has made them, each announced by a revision of its own. */
   private async takeSurface(state: State): Promise<void> {
-    const { store, stage } = this.app, run = ++this.surfaceRun, live = (): boolean => run === this.surfaceRun;
+    const { store, stage } = this.app, ofCase = state.revisions.case, live = (): boolean => ofCase === this.seen.case;
     if (!state.hasCase || store.get().tree?.hasModels !== true) { store.set({ surface: null }); return; }
-    const ofCase = state.revisions.case, level = stage.software ? 1 : 0;
+    const level = stage.software ? 1 : 0;
     try {
-      if (this.shown.case !== ofCase) this.showSurface(await this.pack("surface", { quick: "1" }), ofCase, live);
-      if (!live() || (this.shown.kind !== "quick" && this.shown.level <= level)) return;
+      if (this.shown.case !== ofCase && this.quickOf !== ofCase) {
+        this.quickOf = ofCase;
+        this.showSurface(await this.pack("surface", { quick: "1" }), ofCase, live);
+      }
+      if (!live() || (this.shown.case === ofCase && this.shown.kind !== "quick" && this.shown.level <= level)) return;
       this.showSurface(await this.pack("surface", { level: String(level) }), ofCase, live);
     } catch (error) {
       if (live()) this.app.say(`The surface could not be shown: ${error instanceof Error ? error.message : String(error)}`, "warning");
@@ -97,7 +100,7 @@ export class Loader {
   private showSurface(pack: Pack | null, ofCase: number, live: () => boolean): void {
     if (pack === null || !live()) return;
     const kind = String(pack.meta.kind), level = Number(pack.meta.level ?? 0), { shown } = this;
-    if (shown.case === ofCase && shown.kind === kind && shown.level === level) return;
+    if (shown.case === ofCase && (shown.kind !== "quick" || kind === "quick") && (kind === shown.kind ? level >= shown.level : true)) return;
     this.shown = { case: ofCase, kind, level };
     this.app.store.set({ surface: new Surface(pack) });
     const { surface } = this.app.store.get(), build = (): void => { if (live() && surface?.buildNext() === true) idle(build); };

@@ -61,6 +61,7 @@ export function makeShell(): Shell {
 const kShown = 6000; // ms that a note stays; errors stay until they are closed
 
 export function toast(shell: Shell, text: string, severity: "note" | "warning" | "error" = "note"): void {
+  for (const old of shell.toasts.children) if (old.firstElementChild?.textContent === text) old.remove(); // said again: once is enough
   const close = (): void => element.remove();
   const element = h("div", { class: `toast ${severity}`, role: severity === "error" ? "alert" : "status" }, h("span", {}, text),
     h("button", { type: "button", class: "button", "aria-label": "Close this message", onclick: close }, "×"));

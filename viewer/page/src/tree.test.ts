@@ -5,7 +5,7 @@ import { sampleTree } from "./sample_tree";
 
 describe("Tree", () => {
   const tree = sampleTree();
-  it("measuresABranchFromItsParentsNode", () => { expect(tree.branches.map(b => b.length)).toEqual([10, 5, 3]); });
+  it("measuresABranchAlongItsOwnNodes", () => { expect(tree.branches.map(b => b.length)).toEqual([10, 4, 3]); });
   it("knowsParents", () => { expect(tree.branches.map(b => b.parentBranch)).toEqual([-1, 0, -1]); });
   it("listsBranchesBelowTheirParents", () => { expect(tree.outline()).toEqual([{ branch: 0, depth: 0 }, { branch: 1, depth: 1 }, { branch: 2, depth: 0 }]); });
   it("leadsFromTheRootToAnEnd", () => { expect(tree.wayTo(1)).toEqual([0, 1, 2, 3, 4, 5, 11, 12, 13, 14, 15]); });

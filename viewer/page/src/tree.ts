@@ -6,7 +6,7 @@ import { at, distance } from "./vec";
 
 export interface Branch extends BranchRecord {
   index: number;
-  /** mm, along its nodes and from its parent's node. */
+  /** mm along its own nodes, as `lumen info` tells it. */
   length: number;
   median: number;
   least: number;
@@ -61,9 +61,8 @@ export class Tree {
 
   private describe(record: BranchRecord, index: number): Branch {
     const radii = Array.from(this.radius.subarray(record.firstNode, record.firstNode + record.nodeCount));
-    const path = this.nodesOf(record);
     let length = 0;
-    for (let i = 1; i < path.length; ++i) length += distance(this.position(path[i - 1]), this.position(path[i]));
+    for (let i = record.firstNode + 1; i < record.firstNode + record.nodeCount; ++i) length += distance(this.position(i - 1), this.position(i));
     return { ...record, index, length, median: median(radii), least: Math.min(...radii), greatest: Math.max(...radii),
       parentBranch: record.parentNode < 0 ? -1 : this.branch[record.parentNode] };
   }

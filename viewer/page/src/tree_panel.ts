@@ -34,6 +34,7 @@ export class TreePanel {
     this.list.addEventListener("keydown", e => this.key(e));
     this.list.addEventListener("focus", () => { const v = app.store.get(); if (v.selected < 0 && this.rows.length > 0) selectBranch(app, this.rows[0].branch); });
     app.store.watch(["tree"], view => this.fill(view));
+    app.store.watch(["state"], view => { if (view.tree === null) this.fill(view); });
     app.store.watch(["tree", "selected", "hidden", "solo", "colours", "opacity"], view => this.mark(view));
     app.store.watch(["tree", "selected", "opacity", "allOpacity", "state"], view => this.describe(view));
   }
