@@ -18,7 +18,9 @@ export class Actions {
   redo(): Promise<boolean> { return this.app.perform({ op: "redo" }); }
   track(labels: string[] | null): Promise<boolean> { return this.app.perform({ op: "track", labels }); }
   check(): Promise<boolean> { return this.app.perform({ op: "check" }); }
-  compare(): Promise<boolean> { return this.app.perform({ op: "compare" }); }
+  async compare(): Promise<void> {
+    if (await this.app.perform({ op: "compare" })) this.app.store.set({ colourBy: "compare" });
+  }
 
   /** To the file that it came from; a case without one is downloaded. */
   async save(): Promise<void> {

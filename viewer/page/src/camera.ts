@@ -15,8 +15,8 @@ export class OrbitCamera {
   azimuth = 0;
   elevation = 0;
   isParallel = false;
-  /** While set, the view is that of a flight: eye, where to, up. */
-  flight: { eye: Vec3; ahead: Vec3; up: Vec3 } | null = null;
+  /** While set, the view is that of a flight: eye, where to, up, and how the light fades, 1/mm. */
+  flight: { eye: Vec3; ahead: Vec3; up: Vec3; fade: number } | null = null;
   width = 1;
   height = 1;
   private reach = 500;

@@ -40,12 +40,13 @@ void main() {
   float t = from + each * jitter, most = 0.0, span = max(window.y - window.x, 1e-4);
   vec3 sum = vec3(0.0);
   float cover = 0.0;
+  float from0 = window.x + 0.15 * span; // what is darker is noise more than vessel
   vec3 toBlock = size / ${kBlock.toFixed(1)};
   for (int i = 0; i < 1400; ++i) {
     if (t >= to) break;
     vec3 p = here + t * d, cell = floor(p * toBlock);
     float peak = texture(blocks, (cell + 0.5) / blockCount).r;
-    if (peak <= (shaded > 0.5 ? window.x : max(most, window.x * 0.5))) {
+    if (peak <= (shaded > 0.5 ? from0 : max(most, window.x * 0.5))) {
       vec3 next = (cell + step3(d)) / toBlock;
       vec3 exits = (next - here) * inverse;
       t = max(min(exits.x, min(exits.y, exits.z)), t) + 0.5 * each;
@@ -53,8 +54,8 @@ void main() {
     }
     float v = texture(voxels, p).r;
     if (shaded < 0.5) { most = max(most, v); if (most >= window.y) break; }
-    else if (v > window.x) {
-      float x = clamp((v - window.x) / span, 0.0, 1.0), density = x * x * 0.5 * step;
+    else if (v > from0) {
+      float x = clamp((v - from0) / span, 0.0, 1.0), density = x * x * 0.5 * step;
       vec3 e = 1.0 / size;
       vec3 g = vec3(texture(voxels, p + vec3(e.x, 0, 0)).r - texture(voxels, p - vec3(e.x, 0, 0)).r,
         texture(voxels, p + vec3(0, e.y, 0)).r - texture(voxels, p - vec3(0, e.y, 0)).r,

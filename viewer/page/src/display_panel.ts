@@ -131,8 +131,8 @@ function planesSection(app: App): HTMLElement {
 
 /** The legend of the colours, in the corner of the 3D view. */
 export function legend(element: HTMLElement, app: App): void {
-  const bar = h("canvas", { width: 12, height: 120, "aria-hidden": "true" }), high = h("span", {}), low = h("span", {}), middle = h("span", {}), title = h("strong", {});
-  element.append(title, h("div", { class: "scale" }, bar, h("div", { class: "ends" }, high, middle, low)));
+  const bar = h("canvas", { width: 120, height: 8, "aria-hidden": "true" }), high = h("span", {}), low = h("span", {}), middle = h("span", {}), title = h("strong", {});
+  element.append(title, h("div", { class: "scale" }, bar, h("div", { class: "ends" }, low, middle, high)));
   app.store.watch(["colourBy", "surface", "distance", "tree"], view => {
     const c = colouring(view);
     element.hidden = !c.mapped;
@@ -143,6 +143,6 @@ export function legend(element: HTMLElement, app: App): void {
     low.textContent = brief(c.range[0]);
     element.setAttribute("aria-label", `${title.textContent}: from ${low.textContent} to ${high.textContent}`);
     const context = bar.getContext("2d")!;
-    for (let y = 0; y < bar.height; ++y) { context.fillStyle = toCss(mapColour(c.map, 1 - y / (bar.height - 1))); context.fillRect(0, y, bar.width, 1); }
+    for (let x = 0; x < bar.width; ++x) { context.fillStyle = toCss(mapColour(c.map, x / (bar.width - 1))); context.fillRect(x, 0, 1, bar.height); }
   });
 }

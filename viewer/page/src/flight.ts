@@ -33,7 +33,8 @@ export function pointAt(way: Way, s: number): Vec3 {
   return mix(way.points[i], way.points[Math.min(i + 1, way.points.length - 1)], share);
 }
 
-const kSpeed = 12; // mm a second to begin with
+const kSpeed = 6; // local radii a second to begin with
+const kFadePerRadius = 0.07; // of the light, for a local radius of distance
 const kAhead = 2.5; // of the local radius: where the eye looks
 const kMostStep = 0.1; // s; a page that was asleep does not leap
 
@@ -107,12 +108,17 @@ export class Flight {
       if (!this.playing || this.way === null) return;
       const dt = this.last === 0 ? 0 : Math.min(kMostStep, (now - this.last) / 1000);
       this.last = now;
-      this.s += this.speed * dt;
+      this.s += this.speed * dt * this.radiusHere();
       const end = this.way.at.at(-1)!;
       if (this.s >= end) { this.s = end; this.playing = false; }
       this.show();
       this.run();
     });
+  }
+
+  private radiusHere(): number {
+    const { tree } = this.app.store.get();
+    return this.way === null || tree === null ? 1 : tree.radius[this.way.nodes[locate(this.way, this.s).i]];
   }
 
   private show(): void {
@@ -126,7 +132,7 @@ export class Flight {
     // the up vector is carried along without turning about the way
     this.up = unit(sub(this.up, scale(d, dot(this.up, d))));
     if (!Number.isFinite(this.up[0])) this.up = unit(cross(d, across(d)));
-    this.scene.camera.flight = { eye, ahead: [eye[0] + d[0], eye[1] + d[1], eye[2] + d[2]], up: this.up };
+    this.scene.camera.flight = { eye, ahead: [eye[0] + d[0], eye[1] + d[1], eye[2] + d[2]], up: this.up, fade: kFadePerRadius / r };
     this.app.store.set({ crosshair: eye, node });
     this.app.stage.invalidate(this.scene);
     this.onChange?.();

@@ -158,7 +158,7 @@ export class Loader {
     const { store } = this.app, pack = state.hasTruth && state.hasCase ? await this.pack("distance") : null;
     const distance = pack?.optional("distance", "f32") ?? null;
     const figures = (pack?.meta.figures ?? state.figures ?? null) as View["figures"];
-    store.set({ distance, figures, ...(distance !== null ? { colourBy: "compare" as const } : store.get().colourBy === "compare" ? { colourBy: "branch" as const } : {}) });
+    store.set({ distance, figures, ...(distance === null && store.get().colourBy === "compare" ? { colourBy: "branch" as const } : {}) });
   }
 }
 

@@ -57,13 +57,13 @@ function wireSection(app: App, wire: WireTool): HTMLElement {
   };
   const controls = h("div", { class: "row" }, hold("wire-push", "Push", "Push the wire (arrow up)", () => wire.push(0.5)), hold("wire-pull", "Pull", "Pull the wire (arrow down)", () => wire.push(-0.5)),
     hold("wire-left", "↺", "Turn the wire to the left (arrow left)", () => wire.twist(-0.1)), hold("wire-right", "↻", "Turn the wire to the right (arrow right)", () => wire.twist(0.1)), remove);
-  const stiff = slider("wire-stiffness", "Stiffness of the wire", [0.05, 1, 0.05], wire.options.stiffness, value => { wire.options.stiffness = value; if (wire.now !== null) wire.now.options.stiffness = value; });
-  const tip = slider("wire-tip", "Bend of the tip, degrees", [0, 90, 5], 40, value => { wire.options.tipAngle = (value * Math.PI) / 180; if (wire.now !== null) wire.now.options.tipAngle = wire.options.tipAngle; });
+  const stiff = slider("wire-stiffness", "Stiffness of the wire", [3.5, 6, 0.1], Math.log10(wire.options.young), value => { wire.options.young = 10 ** value; if (wire.now !== null) wire.now.options.young = wire.options.young; });
+  const tip = slider("wire-tip", "Bend of the tip, degrees", [0, 120, 5], 45, value => { wire.options.tipAngle = (value * Math.PI) / 180; if (wire.now !== null) wire.now.options.tipAngle = wire.options.tipAngle; });
   const tell = (): void => {
     const w = wire.now, { tree } = app.store.get();
     controls.hidden = w === null;
     if (w === null || tree === null) { about.textContent = "A guidewire that is pushed through the lumen and turned: drag it in the 3D view, or use the arrow keys there."; return; }
-    about.textContent = `${brief(w.inserted)} mm in, tip in ${tree.branches[tree.branch[w.tipNode]]?.label ?? "–"}, ${w.contacts} points touch; ${w.options.count} points, ${wire.cost.toFixed(1)} ms a step.`;
+    about.textContent = `${brief(w.inserted)} mm in, tip in ${tree.branches[tree.branch[w.cursorOf(0)]]?.label ?? "–"}, ${w.contacts} points touch; ${w.options.count} points, ${wire.cost.toFixed(1)} ms a step.`;
   };
   wire.onChange = tell;
   app.store.watch(["tree", "blob"], view => { place.disabled = view.blob === null; tell(); });

@@ -43,6 +43,7 @@ uniform float mapped;      // 1: colour of the value
 uniform vec2 range;
 uniform sampler2D map;
 uniform float lit;         // 1: selected
+uniform float fade;        // 1/mm: darker with the distance, where the eye is inside
 uniform vec4 clip;         // n and d: what has n x + d > 0 is cut away; n = 0: nothing
 void main() {
   if (dot(clip.xyz, here) + clip.w > 0.0) discard;
@@ -54,8 +55,9 @@ void main() {
   if (mapped > 0.5) base = shown == shown ? texture(map, vec2((shown - range.x) / max(range.y - range.x, 1e-9), 0.5)).rgb : vec3(0.45);
   float shade = 0.34 + 0.66 * facing;
   vec3 colour = base * shade + vec3(0.16) * pow(facing, 24.0);
-  if (inner) colour = base * 0.42 * (0.6 + 0.4 * facing);
+  if (inner) colour = fade > 0.0 ? base * (0.25 + 0.75 * facing) : base * 0.42 * (0.6 + 0.4 * facing);
   colour += lit * (vec3(0.10) + vec3(0.65) * pow(1.0 - facing, 2.5));
+  colour *= exp(-fade * length(inView));
   float a = alpha < 1.0 ? alpha + (1.0 - alpha) * alpha * pow(1.0 - facing, 2.0) : 1.0;
   result = vec4(colour, a);
 }`;
@@ -74,12 +76,15 @@ function table(name: MapName): DataTexture {
 
 export interface Look { own: [number, number, number]; alpha: number; mapped: boolean; range: [number, number]; map: MapName; lit: boolean; clip: Vector4 }
 
+/** One for all: set to look along a vessel from inside. */
+export const kFade = { value: 0 };
+
 export class PartMaterial extends ShaderMaterial {
   constructor(hasValue: boolean) {
     super({
       glslVersion: GLSL3, vertexShader: kVertex, fragmentShader: kFragment, defines: hasValue ? { HAS_VALUE: "" } : {},
       uniforms: { own: { value: new Vector3(1, 1, 1) }, alpha: { value: 1 }, mapped: { value: 0 }, range: { value: new Vector2(0, 1) },
-        map: { value: table("sequential") }, lit: { value: 0 }, clip: { value: new Vector4(0, 0, 0, 0) } },
+        map: { value: table("sequential") }, lit: { value: 0 }, fade: kFade, clip: { value: new Vector4(0, 0, 0, 0) } },
     });
     this.side = DoubleSide;
   }

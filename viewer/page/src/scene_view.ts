@@ -5,7 +5,7 @@ import { OrbitCamera } from "./camera";
 import { Caster } from "./cast";
 import { colouring } from "./colouring";
 import { colourOf, isShown, opacityOf, type App, type View } from "./model";
-import { PartMaterial } from "./part_material";
+import { kFade, PartMaterial } from "./part_material";
 import { drawSceneOverlay } from "./scene_overlay";
 import { ball, centerlines, cylinders, wallPoints } from "./scene_parts";
 import { SlicePlanes } from "./slice_planes";
@@ -144,6 +144,7 @@ export class SceneView implements StageView {
       this.caster.draw(renderer, camera, this.camera.isParallel && this.camera.flight === null, [width, height], share, view.window, view.cast === "volume",
         this.clip(view), this.moving !== 0 || software ? 1 : 0.6);
     }
+    kFade.value = this.camera.flight === null ? 0 : this.camera.flight.fade;
     renderer.render(this.scene, camera);
   }
 

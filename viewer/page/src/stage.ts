@@ -19,6 +19,7 @@ export class Stage {
   private readonly views: StageView[] = [];
   private readonly dirty = new Set<StageView>();
   private readonly dirtyOver = new Set<StageView>();
+  private clearAll = true; // also what lies between views
   private scheduled = false;
   private readonly frames: (() => void)[] = [];
   /** Milliseconds of the last frame's drawing calls. */
@@ -47,7 +48,7 @@ export class Stage {
 
   /** Draws a view, or all of them, with the next frame. */
   invalidate(view?: StageView): void {
-    if (view === undefined) for (const each of this.views) this.dirty.add(each);
+    if (view === undefined) { for (const each of this.views) this.dirty.add(each); this.clearAll = true; }
     else this.dirty.add(view);
     this.schedule();
   }
@@ -81,6 +82,8 @@ export class Stage {
     for (const call of this.frames.splice(0)) call();
     const begin = performance.now(), views = [...this.dirty], all = this.canvas.getBoundingClientRect();
     this.dirty.clear();
+    if (this.clearAll) { this.renderer.setScissorTest(false); this.renderer.setClearColor(0x1c222b, 1); this.renderer.clear(); }
+    this.clearAll = false;
     this.renderer.setScissorTest(true); // uploads reset it
     for (const view of views) {
       const box = view.element.getBoundingClientRect();

@@ -9,6 +9,9 @@ import { scale, unit } from "./vec";
 
 const kSettle = 45; // steps after the last push
 const kPush = 0.25; // mm for a pixel; per step no more than half a spacing
+const kMostPush = 0.3; // spacings in a step
+const kStep = 1000 / 60; // ms of a step
+const kMostSteps = 4; // that a late frame makes up for
 const kTurn = 0.02; // radians for a pixel
 
 export class WireTool {
@@ -18,6 +21,7 @@ export class WireTool {
   private rest = 0;
   private last: { x: number; y: number } | null = null;
   private running = false;
+  private before = 0; // time of the last frame
   onChange: (() => void) | null = null;
   /** Milliseconds that the last step took. */
   cost = 0;
@@ -101,18 +105,26 @@ export class WireTool {
     requestAnimationFrame(() => {
       this.running = false;
       if (this.wire === null) return;
-      const begin = performance.now(), most = 0.5 * this.options.spacing, push = Math.min(most, Math.max(-most, this.wanted));
-      const turn = Math.min(0.1, Math.max(-0.1, this.turn));
-      this.wanted -= push;
-      this.turn -= turn;
-      this.wire.step(push, turn);
-      this.cost = performance.now() - begin;
+      const begin = performance.now(), due = Math.round((begin - this.before) / kStep), steps = this.before === 0 ? 1 : Math.min(kMostSteps, Math.max(1, due));
+      this.before = begin;
+      let moved = false;
+      for (let k = 0; k < steps; ++k) moved = this.advance(this.wire) || moved;
+      this.cost = (performance.now() - begin) / steps;
       wirePoints.points = this.wire.x;
       wirePoints.radius = this.options.radius;
       this.app.stage.invalidateOver();
       this.onChange?.();
-      if (push !== 0 || turn !== 0) this.rest = kSettle;
-      if (--this.rest > 0) this.run();
+      if (moved) this.rest = kSettle;
+      if (--this.rest > 0) this.run(); else this.before = 0;
     });
+  }
+
+  /** One step with a part of what is wanted; false: nothing is. */
+  private advance(wire: Wire): boolean {
+    const most = kMostPush * this.options.spacing, push = Math.min(most, Math.max(-most, this.wanted)), turn = Math.min(0.1, Math.max(-0.1, this.turn));
+    this.wanted -= push;
+    this.turn -= turn;
+    wire.step(push, turn);
+    return push !== 0 || turn !== 0;
   }
 }
