@@ -17,6 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Radii: two clicks that are nearer to one another say nothing of where a vessel goes.
+constexpr double kTelling = 4;
+
 constexpr double kDarkDepth = 1, kBrightAway = 2;         // voxels: the wall's own blur and error
 constexpr std::size_t kLeastDark = 4, kLeastBright = 20;  // voxels: less is a speck
 constexpr double kLeastLength = 4;                        // voxels
@@ -156,6 +159,15 @@ Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
                      return std::tie(a.length, a.volume) > std::tie(b.length, b.volume);
                    });
   return result;
+}
+
+Clicks clicksOn(const MissingVessel& vessel) {
+  const std::size_t middle = vessel.way.size() / 2, on = (middle + vessel.way.size()) / 2;
+  const Vector3d first = vessel.way[middle].position;
+  Clicks clicks{{first}, vessel.radius, vessel.way.front().node};
+  if (on < vessel.way.size() && (vessel.way[on].position - first).norm() > kTelling * vessel.radius)
+    clicks.points.push_back(vessel.way[on].position);
+  return clicks;
 }
 
 double shownLength(const formats::CenterlineTree& tree, const LumenVoxels& lumen,

@@ -61,6 +61,16 @@ Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progres
 Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
                       const formats::CenterlineTree& tree, const Progress& progress);
 
+/// Where to click, so that a missing vessel is tracked.
+struct Clicks {
+  std::vector<Eigen::Vector3d> points;  ///< on its way, mm, LPS
+  double radius = 0;                    ///< mm
+  std::uint32_t beside = 0;             ///< the node of the case that it begins at
+};
+/// One click in the middle of the vessel, where its lumen is its own; a second halfway on to its tip, if
+/// that is far enough to tell which way it goes.
+Clicks clicksOn(const MissingVessel& vessel);
+
 /// mm of the tree's vessels whose axis the volume shows: where it is brighter than the half level,
 /// and counted once where branches lie in each other.
 double shownLength(const formats::CenterlineTree& tree, const LumenVoxels& lumen,

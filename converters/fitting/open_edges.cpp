@@ -79,11 +79,14 @@ void openEdge(const field::BlendedField& field, const formats::BlobbyModels& mod
   }
 }
 
+using MayOpen = std::function<bool(std::uint32_t)>;
+
 /// What opens the edges that are closed.
-NewBlobs openingsOf(const formats::Case& value) {
+NewBlobs openingsOf(const formats::Case& value, const MayOpen& mayOpen) {
   const field::BlendedField field = formats::blendedFieldOf(value);
   std::map<std::uint32_t, std::vector<Lack>> closed;  // by the edge's farther end
   formats::findClosedPlaces(value.tree, field, [&](const formats::ClosedPlace& at) {
+    if (mayOpen && !mayOpen(at.node)) return false;
     const double f = field.blended(at.place, at.cursor).value;
     closed[at.node].push_back({at, (1 + kExcess) * field.level() - f});
     return true;
@@ -117,9 +120,9 @@ formats::BlobbyModels withBlobs(const formats::BlobbyModels& models, const NewBl
 
 }  // namespace
 
-void openEdges(formats::Case& target) {
+void openEdges(formats::Case& target, const MayOpen& mayOpen) {
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    const NewBlobs added = openingsOf(target);
+    const NewBlobs added = openingsOf(target, mayOpen);
     if (added.empty()) return;
     target.models = withBlobs(*target.models, added);
   }

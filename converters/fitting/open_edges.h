@@ -2,6 +2,9 @@
 // The lumen of a tree is one: no wall stands across an edge (docs/method.md, section 2.9).
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -9,6 +12,7 @@ namespace lumen::convert {
 /// Adds blobs to the models of a fitted case wherever a point that is pushed along an edge of the tree
 /// would leave the lumen: as small ones as make a way of four tenths of the edge's lesser radius.
 /// What stays closed is an edge so long that following does not lead along it; reachabilityOf() tells.
-void openEdges(formats::Case& target);
+/// `mayOpen`, if there is one, is asked about each edge, by its farther end: others are left alone.
+void openEdges(formats::Case& target, const std::function<bool(std::uint32_t node)>& mayOpen = {});
 
 }  // namespace lumen::convert

@@ -90,7 +90,7 @@ double power(const Ball& ball, const Vector3d& p) {
 }  // namespace
 
 std::vector<Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide& first,
-                              const SeamSide& second, std::span<const Ball> others) {
+                              const SeamSide& second, std::span<const Ball> others, double share) {
   std::vector<Vec3d> points;
   const Vector3d from = toEigen(first.node.centre), way = toEigen(second.node.centre) - from;
   const double distance = way.norm(), r0 = first.node.radius, r1 = second.node.radius;
@@ -106,7 +106,7 @@ std::vector<Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide
     if (!a) continue;
     const std::optional<double> b = ray.leave(second);
     if (!b || std::abs(*a - *b) > farthest) continue;
-    const Vector3d p = origin + 0.5 * (*a + *b) * direction;
+    const Vector3d p = origin + ((1 - share) * *a + share * *b) * direction;
     const double own = power(first.node, p);
     if (std::any_of(others.begin(), others.end(),
                     [&](const Ball& other) { return power(other, p) < own; })) {

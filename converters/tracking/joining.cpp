@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -96,6 +97,12 @@ void leaveAlone(TrackedBranch& branch, const ChainPoint& parent) {
   branch.parentBranch = branch.parentNode = -1;
 }
 
+/// The lumen of a branch at its first node.
+LumenLevels levelsAtStart(const TrackContext& context, const TrackedBranch& branch) {
+  const std::size_t near = std::min(branch.nodes.size(), kLevelNodes);
+  return levelsOf(context.volume, std::span(branch.nodes).first(near));
+}
+
 bool isGap(const TrackedNode& a, const TrackedNode& b) {
   const double distance = (b.centre - a.centre).norm();
   return distance > kLongEdge * 0.5 * (a.height + b.height) &&
@@ -127,12 +134,35 @@ void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random
   branch.clickNode = click;
 }
 
+std::optional<LumenWay> wayToOther(const TrackContext& context, std::span<const TrackedBranch> all,
+                                   std::span<const int> others, const TrackedBranch& branch) {
+  const TrackedNode& first = branch.nodes.front();
+  const double farthest = kLongestBridge * first.radius;
+  std::vector<Goal> goals;
+  std::vector<int> owner;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const int other : others)
+    for (const TrackedNode& node : all[static_cast<std::size_t>(other)].nodes) {
+      const double distance = (node.centre - first.centre).norm();
+      if (distance - node.radius > farthest) continue;
+      nearest = std::min(nearest, distance);
+      goals.push_back({node.centre, 0});
+      owner.push_back(other);
+    }
+  if (goals.empty()) return std::nullopt;
+  const auto way = findWay(context, levelsAtStart(context, branch), first.centre, goals,
+                           std::max(kReach * nearest, kLeastReach * first.radius));
+  if (!way || way->length > kLongestWay * nearest + 2 * first.radius ||
+      way->outside > 2 * first.radius)
+    return std::nullopt;
+  return LumenWay{owner[way->goal], way->outside};
+}
+
 void joinToParent(const TrackContext& context, std::span<const TrackedBranch> all,
                   std::span<const int> others, TrackedBranch& branch, Random& random,
                   TrackWorkspace& workspace) {
   const TrackedNode first = branch.nodes.front();
-  const std::size_t near = std::min(branch.nodes.size(), kLevelNodes);
-  const LumenLevels levels = levelsOf(context.volume, std::span(branch.nodes).first(near));
+  const LumenLevels levels = levelsAtStart(context, branch);
   const auto at = [&](int index) -> const TrackedBranch& {
     return all[static_cast<std::size_t>(index)];
   };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "converters/tracking/node_fit.h"
@@ -14,6 +15,18 @@ namespace lumen::convert {
 /// where the volume shows the vessel, else bridged. Throws Error(Cancelled).
 void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random,
               TrackWorkspace& workspace);
+
+/// A way through the lumen from the first node of a branch to another branch.
+struct LumenWay {
+  int branch = -1;     ///< position in the seeds' order
+  double outside = 0;  ///< mm of it that are darker than the wall
+};
+
+/// Whether the lumen leads from the first node of a branch to one of `others`, by position in the seeds'
+/// order, which have nodes: as near as a bridge may be long, and with no gap that is longer than the
+/// branch is wide. Throws Error(Cancelled).
+std::optional<LumenWay> wayToOther(const TrackContext& context, std::span<const TrackedBranch> all,
+                                   std::span<const int> others, const TrackedBranch& branch);
 
 /// Leads a branch back from its first node to the axis of its parent, by nodes before that one, and
 /// sets the parent's node that they hang on. A branch far from its parent with no lumen between them

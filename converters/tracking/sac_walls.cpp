@@ -53,9 +53,13 @@ struct Piece {
 };
 
 /// The aneurysms that hang on one another with their vessels, for each that hangs on none.
-std::vector<Sac> sacsOf(std::span<const SeedBranch> seeds, std::span<const TrackedBranch> all) {
+std::vector<Sac> sacsOf(std::span<const SeedBranch> seeds, std::size_t known,
+                        std::span<const TrackedBranch> all) {
+  const auto isVessel = [&](int i) {
+    return i >= 0 && seeds[static_cast<std::size_t>(i)].kind == BranchKind::Vessel;
+  };
   const auto isAneurysm = [&](int i) {
-    return i >= 0 && seeds[static_cast<std::size_t>(i)].kind == BranchKind::Aneurysm &&
+    return i >= static_cast<int>(known) && !isVessel(i) &&
            !all[static_cast<std::size_t>(i)].nodes.empty();
   };
   const auto headOf = [&](int i) {
@@ -68,8 +72,7 @@ std::vector<Sac> sacsOf(std::span<const SeedBranch> seeds, std::span<const Track
     const int self = static_cast<int>(i), parent = all[i].parentBranch;
     if (isAneurysm(self)) {
       sacOf[headOf(self)].parts.push_back(i);
-      if (parent >= 0 && !isAneurysm(parent))
-        sacOf[i].vessels.push_back(static_cast<std::size_t>(parent));
+      if (isVessel(parent)) sacOf[i].vessels.push_back(static_cast<std::size_t>(parent));
     } else if (isAneurysm(parent)) {
       sacOf[headOf(parent)].vessels.push_back(i);
     }
@@ -244,9 +247,9 @@ void capture(const TrackContext& context, const Sac& sac, std::vector<TrackedBra
 
 }  // namespace
 
-void captureSacs(const TrackContext& context, std::span<const SeedBranch> seeds,
+void captureSacs(const TrackContext& context, std::span<const SeedBranch> seeds, std::size_t known,
                  std::vector<TrackedBranch>& branches) {
-  for (const Sac& sac : sacsOf(seeds, branches)) capture(context, sac, branches);
+  for (const Sac& sac : sacsOf(seeds, known, branches)) capture(context, sac, branches);
 }
 
 }  // namespace lumen::convert

@@ -3,6 +3,7 @@
 // (docs/method.md, section 1.7).
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,10 @@ namespace lumen::convert {
 /// that it opens into. Nodes of these vessels that stand in the sac or at its neck get the wall
 /// that is nearest to them, and lose points within the lumen, which would be a wall across it. An
 /// aneurysm that hangs on another is one sac with it. `branches`: in the order of `seeds`. Where no
-/// sac is found, the points stay those that rays saw. Throws Error(Cancelled).
-void captureSacs(const TrackContext& context, std::span<const SeedBranch> seeds,
+/// sac is found, the points stay those that rays saw. Of the first `known` branches, vessels are
+/// treated like all others; aneurysms bound the new ones, and stay as they are. Throws
+/// Error(Cancelled).
+void captureSacs(const TrackContext& context, std::span<const SeedBranch> seeds, std::size_t known,
                  std::vector<TrackedBranch>& branches);
 
 }  // namespace lumen::convert

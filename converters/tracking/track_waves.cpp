@@ -36,8 +36,9 @@ double lengthOf(std::span<const TrackedNode> nodes) {
 struct Wave {
   const std::vector<SeedBranch>& seeds;
   std::vector<TrackedBranch>& branches;
-  std::vector<std::size_t> members;   ///< in the seeds' order
-  std::vector<std::size_t> finished;  ///< vessels with nodes
+  std::size_t known;                       ///< seeds that were tracked before all waves
+  std::vector<std::size_t> members = {};   ///< in the seeds' order
+  std::vector<std::size_t> finished = {};  ///< vessels with nodes
 
   [[nodiscard]] bool isVessel(std::size_t i) const { return seeds[i].kind == BranchKind::Vessel; }
 };
@@ -114,7 +115,8 @@ void giveTails(const Wave& wave) {
       if (giver.nodes.empty()) continue;
       const auto node = nodeAtClick(giver, seed, click);
       if (!node) continue;
-      const bool isBeyond = *node > lastClickNode(giver, wave.seeds[g]) + kBeyondClicks;
+      const bool isBeyond =
+          g >= wave.known && *node > lastClickNode(giver, wave.seeds[g]) + kBeyondClicks;
       if (seed.parent && isBeyond && *node + 1 < giver.nodes.size())
         giveTail(wave.branches, static_cast<int>(g), *node, branch);
       else if (branch.nodes.empty())
@@ -185,20 +187,19 @@ void trackWave(const TrackContext& context, const SeedTree& tree, Wave& wave, Pr
 
 }  // namespace
 
-std::vector<TrackedBranch> trackAll(const TrackContext& context,
-                                    const std::vector<SeedBranch>& seeds, const SeedTree& tree,
-                                    Progress& progress) {
-  std::vector<TrackedBranch> branches(seeds.size());
+void trackAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+              const SeedTree& tree, std::size_t known, std::vector<TrackedBranch>& branches,
+              Progress& progress) {
+  branches.resize(seeds.size());
   for (int depth = 0; depth <= tree.deepest; ++depth) {
-    Wave wave{seeds, branches, {}, {}};
+    Wave wave{seeds, branches, known};
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      if (tree.depth[i] == depth) wave.members.push_back(i);
-      if (tree.depth[i] < depth && wave.isVessel(i) && !branches[i].nodes.empty())
-        wave.finished.push_back(i);
+      const bool isDone = i < known || tree.depth[i] < depth;
+      if (!isDone && tree.depth[i] == depth) wave.members.push_back(i);
+      if (isDone && wave.isVessel(i) && !branches[i].nodes.empty()) wave.finished.push_back(i);
     }
     trackWave(context, tree, wave, progress);
   }
-  return branches;
 }
 
 }  // namespace lumen::convert

@@ -3,6 +3,7 @@
 // section 1.7).
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "converters/tracking/node_fit.h"
@@ -12,9 +13,11 @@ namespace lumen::convert {
 
 /// Tracks every seed, all children of a depth at a time, which do not see one another meanwhile: so
 /// the result does not depend on threads. A child whose parent has no track starts beside the
-/// nearest ancestor that has one, or as a root. Throws Error(Cancelled).
-std::vector<TrackedBranch> trackAll(const TrackContext& context,
-                                    const std::vector<SeedBranch>& seeds, const SeedTree& tree,
-                                    Progress& progress);
+/// nearest ancestor that has one, or as a root. `branches`: in the order of the seeds; the first
+/// `known` are tracked already and stay as they are, the others are written. Throws
+/// Error(Cancelled).
+void trackAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+              const SeedTree& tree, std::size_t known, std::vector<TrackedBranch>& branches,
+              Progress& progress);
 
 }  // namespace lumen::convert

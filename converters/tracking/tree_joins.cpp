@@ -29,16 +29,20 @@ constexpr double kNoWider = 1.2;
 /// What random numbers are for; each use of them has a stream of its own for every branch.
 enum class Use : std::size_t { Onward = 1, Gaps, Join };
 
-/// The vessels that have nodes, in the seeds' order, and work on them.
+/// The vessels that have nodes, in the seeds' order, and work on those that are new.
 class Vessels {
 public:
-  Vessels(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+  Vessels(const TrackContext& context, const std::vector<SeedBranch>& seeds, std::size_t known,
           std::vector<TrackedBranch>& branches)
       : m_context(context), m_branches(branches) {
-    for (std::size_t i = 0; i < seeds.size(); ++i)
-      if (seeds[i].kind == BranchKind::Vessel && !branches[i].nodes.empty()) m_members.push_back(i);
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      if (seeds[i].kind != BranchKind::Vessel || branches[i].nodes.empty()) continue;
+      m_members.push_back(i);
+      if (i >= known) m_new.push_back(i);
+    }
   }
   [[nodiscard]] const std::vector<std::size_t>& members() const { return m_members; }
+  [[nodiscard]] const std::vector<std::size_t>& newMembers() const { return m_new; }
   [[nodiscard]] TrackedBranch& operator[](std::size_t i) const { return m_branches[i]; }
 
   using Action = std::function<void(std::size_t, Random&, TrackWorkspace&)>;
@@ -72,7 +76,7 @@ public:
 private:
   const TrackContext& m_context;
   std::vector<TrackedBranch>& m_branches;
-  std::vector<std::size_t> m_members;
+  std::vector<std::size_t> m_members, m_new;
 };
 
 /// The centerlines of all vessels as they were, without wall points.
@@ -100,7 +104,7 @@ struct Snapshot {
 void trimGrowth(const Vessels& vessels, const std::vector<std::size_t>& before) {
   std::vector<const TrackedBranch*> grown;
   for (std::size_t m = 0; m < before.size(); ++m) {
-    TrackedBranch& branch = vessels[vessels.members()[m]];
+    TrackedBranch& branch = vessels[vessels.newMembers()[m]];
     if (branch.nodes.size() <= before[m]) continue;
     const auto first = branch.nodes.begin() + static_cast<std::ptrdiff_t>(before[m]);
     const auto met = std::find_if(first, branch.nodes.end(),
@@ -119,18 +123,19 @@ void growTips(const TrackContext& context, const Vessels& vessels,
   const Snapshot snapshot(vessels, context.volume.geometry());
   const auto& members = vessels.members();
   std::vector<std::size_t> before;
-  for (const std::size_t i : members) before.push_back(vessels[i].nodes.size());
-  vessels.forEach(Use::Onward, members, [&](std::size_t i, Random& random, TrackWorkspace& space) {
-    if (!may(vessels[i])) return;
-    std::vector<const TrackedBranch*> finished;
-    std::vector<Ball> others;
-    for (std::size_t m = 0; m < members.size(); ++m) {
-      if (members[m] == i) continue;
-      finished.push_back(&snapshot.lines[m]);
-      others.insert(others.end(), snapshot.balls[m].begin(), snapshot.balls[m].end());
-    }
-    goOnward(context, vessels[i], others, finished, random, space);
-  });
+  for (const std::size_t i : vessels.newMembers()) before.push_back(vessels[i].nodes.size());
+  vessels.forEach(
+      Use::Onward, vessels.newMembers(), [&](std::size_t i, Random& random, TrackWorkspace& space) {
+        if (!may(vessels[i])) return;
+        std::vector<const TrackedBranch*> finished;
+        std::vector<Ball> others;
+        for (std::size_t m = 0; m < members.size(); ++m) {
+          if (members[m] == i) continue;
+          finished.push_back(&snapshot.lines[m]);
+          others.insert(others.end(), snapshot.balls[m].begin(), snapshot.balls[m].end());
+        }
+        goOnward(context, vessels[i], others, finished, random, space);
+      });
   trimGrowth(vessels, before);
 }
 
@@ -155,7 +160,7 @@ int metAt(const Vessels& vessels, std::size_t root, const TrackedNode& end, Stop
 /// A root that ran into another tree, or up to its wall, hangs on it; by its tip only if it is not wider there, as a
 /// wide vessel does not come out of a narrow one.
 void tieRoots(const Vessels& vessels) {
-  for (const std::size_t i : vessels.members()) {
+  for (const std::size_t i : vessels.newMembers()) {
     TrackedBranch& branch = vessels[i];
     if (branch.parentBranch >= 0) continue;
     int met = metAt(vessels, i, reversed(branch.nodes.front()), branch.startReason);
@@ -171,9 +176,38 @@ void tieRoots(const Vessels& vessels) {
   }
 }
 
+/// Whether the lumen leads from the first node of a new root to another tree.
+std::optional<LumenWay> wayOf(const TrackContext& context, const Vessels& vessels,
+                              const std::vector<TrackedBranch>& branches, std::size_t root) {
+  std::vector<int> others;
+  for (const std::size_t i : vessels.members())
+    if (vessels.rootOf(i) != root) others.push_back(static_cast<int>(i));
+  return wayToOther(context, branches, others, vessels[root]);
+}
+
+/// Ties new roots to the known trees that the lumen leads to from one of their ends: who adds a vessel to
+/// a case need not say what it hangs on.
+void tieToKnown(const TrackContext& context, const Vessels& vessels,
+                const std::vector<TrackedBranch>& branches) {
+  for (const std::size_t i : vessels.newMembers()) {
+    TrackedBranch& branch = vessels[i];
+    if (branch.parentBranch >= 0) continue;
+    auto way = wayOf(context, vessels, branches, i);
+    if (!vessels.hasTail(i)) {
+      turnRound(branch);
+      const auto other = wayOf(context, vessels, branches, i);
+      if (other && (!way || other->outside < way->outside))
+        way = other;
+      else
+        turnRound(branch);
+    }
+    if (way) branch.parentBranch = way->branch;
+  }
+}
+
 /// Where tails hang on what they were taken from, which is joined by now, and may have gone on.
 void placeTails(const Vessels& vessels) {
-  for (const std::size_t i : vessels.members()) {
+  for (const std::size_t i : vessels.newMembers()) {
     TrackedBranch& branch = vessels[i];
     if (!branch.isTail) continue;
     const auto& parent = vessels[static_cast<std::size_t>(branch.parentBranch)];
@@ -187,7 +221,7 @@ void joinLevel(const TrackContext& context, const Vessels& vessels,
                const std::vector<TrackedBranch>& branches, const std::vector<int>& levels,
                int level) {
   std::vector<std::size_t> due;
-  for (const std::size_t i : vessels.members())
+  for (const std::size_t i : vessels.newMembers())
     if (!vessels[i].isTail && levels[i] == level) due.push_back(i);
   std::vector<std::vector<int>> others(branches.size());
   for (const std::size_t i : due)
@@ -202,27 +236,28 @@ void joinLevel(const TrackContext& context, const Vessels& vessels,
 }  // namespace
 
 void goOnwardAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-                 std::vector<TrackedBranch>& branches) {
-  const Vessels vessels(context, seeds, branches);
+                 std::size_t known, std::vector<TrackedBranch>& branches) {
+  const Vessels vessels(context, seeds, known, branches);
   growTips(context, vessels, [](const TrackedBranch&) { return true; });
   const auto isBothWays = [](const TrackedBranch& branch) {
     return branch.parentBranch < 0 && branch.startReason != StopReason::Unknown;
   };
-  for (const std::size_t i : vessels.members())
+  for (const std::size_t i : vessels.newMembers())
     if (isBothWays(vessels[i])) turnRound(vessels[i]);
   growTips(context, vessels, isBothWays);
-  for (const std::size_t i : vessels.members())
+  for (const std::size_t i : vessels.newMembers())
     if (isBothWays(vessels[i])) turnRound(vessels[i]);
 }
 
-void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds, std::size_t known,
              std::vector<TrackedBranch>& branches) {
-  const Vessels vessels(context, seeds, branches);
-  vessels.forEach(Use::Gaps, vessels.members(),
+  const Vessels vessels(context, seeds, known, branches);
+  vessels.forEach(Use::Gaps, vessels.newMembers(),
                   [&](std::size_t i, Random& random, TrackWorkspace& space) {
                     fillGaps(context, branches[i], random, space);
                   });
   tieRoots(vessels);
+  if (known > 0) tieToKnown(context, vessels, branches);
   std::vector<int> levels(branches.size(), 0);
   for (const std::size_t i : vessels.members()) levels[i] = vessels.levelOf(i);
   placeTails(vessels);
@@ -231,7 +266,7 @@ void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
     joinLevel(context, vessels, branches, levels, level);
     placeTails(vessels);
   }
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
+  for (std::size_t i = known; i < seeds.size(); ++i) {
     TrackedBranch& branch = branches[i];
     if (seeds[i].kind == BranchKind::Vessel || branch.nodes.empty() || branch.parentBranch < 0)
       continue;

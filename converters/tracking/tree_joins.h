@@ -3,6 +3,7 @@
 // parents (docs/method.md, section 1.12).
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "converters/seeds/seeds.h"
@@ -11,13 +12,15 @@
 namespace lumen::convert {
 
 /// Leads all vessels on from the ends at which they found nothing, as far as the lumen is not
-/// another vessel's. What two of them find is the earlier one's. Throws Error(Cancelled).
+/// another vessel's. What two of them find is the earlier one's. The first `known` branches stay as
+/// they are. Throws Error(Cancelled).
 void goOnwardAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-                 std::vector<TrackedBranch>& branches);
+                 std::size_t known, std::vector<TrackedBranch>& branches);
 
 /// Makes one lumen of each tree: fills the gaps of all vessels, leads children to the axis of their
-/// parents, and roots that the lumen ties to another tree to that. Throws Error(Cancelled).
-void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
+/// parents, and roots that the lumen ties to another tree to that. The first `known` branches, which
+/// are joined already, stay as they are. Throws Error(Cancelled).
+void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds, std::size_t known,
              std::vector<TrackedBranch>& branches);
 
 }  // namespace lumen::convert

@@ -105,8 +105,8 @@ void replaceSwollen(const TrackContext& context, std::vector<TrackedNode>& nodes
 }  // namespace
 
 void reviewWalls(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-                 std::vector<TrackedBranch>& branches) {
-  tbb::parallel_for(std::size_t{0}, branches.size(), [&](std::size_t i) {
+                 std::size_t known, std::vector<TrackedBranch>& branches) {
+  tbb::parallel_for(known, branches.size(), [&](std::size_t i) {
     if (seeds[i].kind != formats::BranchKind::Vessel) return;
     TrackWorkspace workspace(context);
     Random random(context.options.seed, kFirstStream + i);

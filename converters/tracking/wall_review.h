@@ -3,6 +3,7 @@
 // (docs/method.md, section 1.11).
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "converters/seeds/seeds.h"
@@ -13,8 +14,8 @@ namespace lumen::convert {
 /// Nodes that are much wider than the vessel on both sides of them, by a poor fit, are fitted anew to
 /// what the sides let expect; where nothing fits, they are marked as bridged and lose their points.
 /// Then vessels that are not round get their walls (wall_section.h). Other nodes stay as they are.
-/// `branches`: in the order of `seeds`; each on its own, in parallel.
+/// `branches`: in the order of `seeds`; each on its own, in parallel, but for the first `known`.
 void reviewWalls(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-                 std::vector<TrackedBranch>& branches);
+                 std::size_t known, std::vector<TrackedBranch>& branches);
 
 }  // namespace lumen::convert

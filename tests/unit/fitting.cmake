@@ -10,6 +10,7 @@ lumen_test(fitting_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/levenberg_marquardt_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/local_model_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/open_edges_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/refit_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/reproduce_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/seam_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/shapes.cpp

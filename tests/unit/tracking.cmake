@@ -1,6 +1,6 @@
 lumen_test(tracking_test
   LABELS threads
-  LIBS lumen_fitting lumen_tracking
+  LIBS lumen_fitting lumen_phantom lumen_tracking
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/statistics_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/aneurysm_test.cpp
@@ -11,6 +11,8 @@ lumen_test(tracking_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/rays_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/real_volumes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/smoothing_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/snap_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/track_further_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tracker_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/volume_doubt_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/wall_support_test.cpp)

@@ -63,6 +63,13 @@ std::optional<std::string> History::step(std::deque<Entry>& from, std::deque<Ent
   return entry.name;
 }
 
+void History::begin(Document document) {
+  const std::lock_guard lock(m_mutex);
+  m_undo.clear();
+  m_redo.clear();
+  replace(std::move(document));
+}
+
 void History::restamp(const std::vector<OpenFile>& files) {
   const std::lock_guard lock(m_mutex);
   const auto apply = [&files](Document& document) {

@@ -41,6 +41,8 @@ public:
                                       Document document);
   /// The files of these numbers were written, and are as they are now on disk.
   void restamp(const std::vector<OpenFile>& files);
+  /// The document is now this one, and nothing of what was before can be had again.
+  void begin(Document document);
   /// Gives the name of what was undone or done again; nothing if there is nothing.
   std::optional<std::string> undo();
   std::optional<std::string> redo();

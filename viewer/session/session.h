@@ -16,6 +16,7 @@
 
 #include "converters/app/options.h"
 #include "converters/common/progress.h"
+#include "converters/tracking/tracking_volume.h"
 #include "formats/case/atomic_file.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/document.h"
@@ -57,7 +58,7 @@ public:
   Session& operator=(const Session&) = delete;
 
   // session_files.cpp
-  /// Opens a file that the user has named, now.
+  /// Opens a file that the user has named, before anything else is done, or one that was dropped.
   void open(const Opening& opening, Progress& progress);
   /// `save` writes here from now on.
   void saveTo(const std::filesystem::path& file);
@@ -113,6 +114,12 @@ private:
   [[nodiscard]] std::pair<bool, bool> unsavedParts() const;
   std::string shownText(std::string_view message) const;
 
+  /// The volume as tracking and snapping take it; it is made once.
+  std::shared_ptr<const convert::TrackingVolume> trackingVolume(const Document& document,
+                                                                const Seeds& clicks,
+                                                                Progress& progress);
+  void tellDropped(const std::vector<std::string>& arrays);
+
   Json seedOperation(const std::string& op, const Arguments& request, const Moment& from);
   Json editOperation(const std::string& op, const Arguments& request, const Moment& from);
   Json track(const Arguments& request, const Moment& from);
@@ -141,6 +148,11 @@ private:
   Tagged m_casePack, m_caseFile;
   std::shared_ptr<const convert::Volume> m_packedVolume;
   std::shared_ptr<const VolumePack> m_volumePack;
+
+  std::mutex m_trackingMutex;  ///< guards the next three
+  std::shared_ptr<const convert::TrackingVolume> m_tracking;
+  std::shared_ptr<const convert::Volume> m_trackedVolume;
+  formats::Step m_trackStep;
 
   Surfaces m_surfaces;
   JobRunner m_jobs;  ///< the last, so the first to end

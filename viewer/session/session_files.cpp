@@ -81,7 +81,10 @@ void Session::open(const Opening& opening, Progress& progress) {
     if (document.value != before.document.value) m_savedCase = document.value;
     if (document.seeds != before.document.seeds) m_savedSeeds = document.seeds;
   }
-  commit("open " + opening.label, before, std::move(document));
+  if (opening.dropped) return commit("open " + opening.label, before, std::move(document));
+  // what the user began with is nothing to undo
+  m_history.begin(std::move(document));
+  changed();
 }
 
 void Session::saveTo(const fs::path& file) {

@@ -77,7 +77,9 @@ Json Session::state() {
   json["revision"] = now.revision;
   json["revisions"] = {{"case", now.parts.value},   {"surface", m_surfaces.revision()},
                        {"volume", now.parts.volume}, {"seeds", now.parts.seeds},
-                       {"meshes", now.parts.meshes}, {"truth", now.parts.truth}};
+                       {"meshes", now.parts.meshes}, {"truth", now.parts.truth},
+                       // of a surface and a truth
+                       {"distance", m_surfaces.revision() + now.parts.truth}};
   json["title"] = titleOf(document);
   json["hasVolume"] = document.volume != nullptr;
   json["hasCase"] = document.value != nullptr;

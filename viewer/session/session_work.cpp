@@ -15,6 +15,21 @@
 
 namespace lumen::viewer {
 
+namespace {
+
+/// Where to click for each missing vessel of `answer`, so that it is tracked.
+void addClicks(Json& answer, const convert::Missing& missing) {
+  for (std::size_t i = 0; i < missing.vessels.size(); ++i) {
+    const convert::Clicks clicks = convert::clicksOn(missing.vessels[i]);
+    Json points = Json::array();
+    for (const Eigen::Vector3d& p : clicks.points) points.push_back({p.x(), p.y(), p.z()});
+    answer["missing_vessels"][i]["clicks"] = {
+        {"points", std::move(points)}, {"radius", clicks.radius}, {"beside", clicks.beside}};
+  }
+}
+
+}  // namespace
+
 void Session::commit(const std::string& name, const Moment& from, Document document) {
   if (!m_history.commit(name, from.revision, std::move(document)))
     throw Conflict("the document has changed meanwhile; look, and try again");
@@ -105,6 +120,7 @@ Json Session::check(const Moment& from) {
     const auto result =
         convert::checkCase(*volume, *value, convert::recordedEdgeOptions(*value), progress);
     Json answer = app::checkJson(result.report, value->tree, source);
+    addClicks(answer, result.report.missing);
     const std::size_t missing = result.report.missing.vessels.size();
     const std::lock_guard lock(m_mutex);
     m_check = std::move(answer);

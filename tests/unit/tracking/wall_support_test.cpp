@@ -191,7 +191,7 @@ TEST(WallReview, SwollenNodesAreFittedAnewAndOthersKept) {
     branches[0].nodes[n].radius = 1.9;
     branches[0].nodes[n].centre.x() += 0.8;
   }
-  reviewWalls(context, {seedAt("tube", {6.4, 6.4, 6.4})}, branches);
+  reviewWalls(context, {seedAt("tube", {6.4, 6.4, 6.4})}, 0, branches);
   ASSERT_EQ(branches[0].nodes.size(), before.size());
   for (std::size_t n = 0; n < before.size(); ++n) {
     const TrackedNode& node = branches[0].nodes[n];
@@ -217,7 +217,7 @@ TEST(WallReview, SwollenNodesWithoutAVesselAreMarkedAsBridged) {
   std::vector<TrackedBranch> branches(1);
   branches[0].nodes = nodesAlongTube(1.0);
   branches[0].nodes[12].radius = 1.9;  // at z = 6.8
-  reviewWalls(context, {seedAt("tube", {6.4, 6.4, 3.0})}, branches);
+  reviewWalls(context, {seedAt("tube", {6.4, 6.4, 3.0})}, 0, branches);
   const TrackedNode& node = branches[0].nodes[12];
   EXPECT_EQ(node.origin, formats::NodeOrigin::Bridged);
   EXPECT_TRUE(node.points.empty());

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who gets an answer, and what nobody gets.
+#include <atomic>
+
 #include "served.h"
 
 namespace lumen::test {
@@ -67,7 +69,7 @@ TEST_F(SafetyTest, OnlyOneAddressOfTheLoopbackInterfaceIsListenedOn) {
 }
 
 TEST_F(SafetyTest, EveryAnswerForbidsWhatThePageDoesNotNeed) {
-  for (const std::string& name : {"", "state", "page.js", "case", "nothing"}) {
+  for (const char* const name : {"", "state", "page.js", "case", "nothing"}) {
     const auto response = get(name);
     const std::string policy = response.get_header_value("Content-Security-Policy");
     EXPECT_TRUE(policy.starts_with("default-src 'none'; script-src 'self' 'wasm-unsafe-eval';"));

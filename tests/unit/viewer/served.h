@@ -12,14 +12,17 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <httplib.h>
 #include <stdlib.h>
 
 #include "../mesh/synthetic.h"
 #include "../tracking/tube_volume.h"
 #include "converters/volume/write_volume.h"
 #include "formats/case/case_file.h"
+#include "viewer/server/html_page.h"
 #include "viewer/server/server.h"
+
+// behind Eigen: <resolv.h>, which it includes, has a macro that is a name there
+#include <httplib.h>
 
 namespace lumen::test {
 

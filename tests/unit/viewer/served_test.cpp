@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a page can see and do.
+#include <algorithm>
+
 #include "served.h"
 
 namespace lumen::test {

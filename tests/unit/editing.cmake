@@ -1,0 +1,13 @@
+lumen_test(editing_test
+  LABELS memory
+  LIBS lumen_editing lumen_centerline lumen_fitting lumen_phantom
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/edit_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/random_edits_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp)
+target_include_directories(editing_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+
+if(LUMEN_BUILD_BENCHMARKS)
+  add_executable(click_bench ${CMAKE_CURRENT_SOURCE_DIR}/bench/click_bench.cpp)
+  target_link_libraries(click_bench PRIVATE lumen_editing lumen_fitting lumen_tracking)
+endif()
