@@ -32,7 +32,6 @@ export class TreePanel {
       h("div", { class: "row filters" }, search, select("tree-sort", "Order of the list", kSorts, this.sort, sort => { this.sort = sort; this.fill(app.store.get()); })),
       h("div", { class: "columns", "aria-hidden": "true" }, h("span", {}, "Length"), h("span", {}, "Radius"), h("span", {}, "Conf.")), this.list, this.detail);
     this.list.addEventListener("keydown", e => this.key(e));
-    this.list.addEventListener("focus", () => { const v = app.store.get(); if (v.selected < 0 && this.rows.length > 0) selectBranch(app, this.rows[0].branch); });
     app.store.watch(["tree"], view => this.fill(view));
     app.store.watch(["state"], view => { if (view.tree === null) this.fill(view); });
     app.store.watch(["tree", "selected", "hidden", "solo", "colours", "opacity"], view => this.mark(view));
