@@ -44,7 +44,7 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
   const end = (e: PointerEvent): void => {
     pointers = Math.max(0, pointers - 1);
     if (drag?.kind === "tool") tools.releaseInScene();
-    else if (drag !== null && drag.kind !== "window" && drag.far <= kClick && e.type === "pointerup") tools.clickInScene(scene, drag.x, drag.y, e.detail);
+    else if (drag !== null && drag.kind !== "window" && drag.far <= kClick && e.type === "pointerup") tools.clickInScene(scene, drag.x, drag.y, 1);
     drag = null;
   };
   element.addEventListener("pointerup", end);
