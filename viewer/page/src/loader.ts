@@ -103,7 +103,12 @@ export class Loader {
     if (shown.case === ofCase && (shown.kind !== "quick" || kind === "quick") && (kind === shown.kind ? level >= shown.level : true)) return;
     this.shown = { case: ofCase, kind, level };
     this.app.store.set({ surface: new Surface(pack) });
-    const { surface } = this.app.store.get(), build = (): void => { if (live() && surface?.buildNext() === true) idle(build); };
+    const { surface } = this.app.store.get(), build = (): void => {
+      if (!live() || surface === null || this.app.store.get().surface !== surface) return;
+      const more = surface.buildNext();
+      this.app.stage.invalidateOver();
+      if (more) idle(build);
+    };
     idle(build);
   }
 

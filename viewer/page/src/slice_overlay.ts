@@ -7,18 +7,21 @@ import type { Surface } from "./surface";
 import type { Vec3 } from "./types";
 import { dot, orientation, scale } from "./vec";
 
-interface Cut { surface: Surface; key: string; parts: number[][] }
+interface Cut { surface: Surface; key: string; parts: (number[] | null)[] }
 const cuts = new WeakMap<SliceView, Cut>();
 
-/** The surface's outlines in the slice, kept until plane or surface change. */
-function outlines(slice: SliceView, surface: Surface): number[][] {
+/** The surface's outlines in the slice, kept until plane or surface change; null of parts whose tree of boxes is not built
+ * yet, for which a picture need not wait. */
+function outlines(slice: SliceView, surface: Surface): (number[] | null)[] {
   const { normal } = slice.frame, origin = slice.centre(), key = [...normal, dot(normal, origin)].map(x => x.toFixed(5)).join();
   let cut = cuts.get(slice);
   if (cut?.surface !== surface || cut.key !== key) {
-    cut = { surface, key, parts: surface.parts.map(part => surface.cut(part, normal, origin)) };
+    cut = { surface, key, parts: surface.parts.map(() => null) };
     cuts.set(slice, cut);
   }
-  return cut.parts;
+  const { parts } = cut;
+  surface.parts.forEach((part, i) => { if (part.bvh !== null) parts[i] ??= surface.cut(part, normal, origin); });
+  return parts;
 }
 
 type Context = CanvasRenderingContext2D;
@@ -30,7 +33,7 @@ function drawOutlines(c: Context, slice: SliceView, view: View): void {
   const x = scale(f.right, s), y = scale(f.up, -s);
   surface.parts.forEach((part, i) => {
     const points = parts[i];
-    if (points.length === 0 || !isShown(view, part.branch)) return;
+    if (points === null || points.length === 0 || !isShown(view, part.branch)) return;
     c.beginPath();
     for (let k = 0; k < points.length; k += 6) {
       c.moveTo(o.x + points[k] * x[0] + points[k + 1] * x[1] + points[k + 2] * x[2], o.y + points[k] * y[0] + points[k + 1] * y[1] + points[k + 2] * y[2]);

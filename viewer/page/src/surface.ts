@@ -6,7 +6,7 @@ import { MeshBVH } from "three-mesh-bvh";
 import type { Pack } from "./pack";
 import type { Vec3 } from "./types";
 
-export interface Part { name: string; branch: number; first: number; count: number; geometry: BufferGeometry; bvh: MeshBVH | null }
+export interface Part { name: string; branch: number; first: number; count: number; geometry: BufferGeometry; box: Box3; bvh: MeshBVH | null }
 
 export interface Hit { part: number; branch: number; point: Vec3; distance: number; vertex: number; node: number }
 
@@ -60,14 +60,24 @@ export class Surface {
     const position = new BufferAttribute(this.position, 3);
     const normal = new BufferAttribute(packed(vertexNormals(this.position, this.triangle)), 4, true);
     this.value = new BufferAttribute(new Float32Array(vertices), 1);
-    this.parts = (pack.meta.parts as Omit<Part, "geometry" | "bvh">[]).filter(part => part.count > 0).map(part => {
+    this.parts = (pack.meta.parts as Omit<Part, "geometry" | "box" | "bvh">[]).filter(part => part.count > 0).map(part => {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", position);
       geometry.setAttribute("normal", normal);
       geometry.setAttribute("value", this.value);
       geometry.setIndex(new BufferAttribute(this.triangle.subarray(3 * part.first, 3 * (part.first + part.count)), 1));
-      return { ...part, geometry, bvh: null };
+      return { ...part, geometry, box: this.boxOf(part), bvh: null };
     });
+  }
+
+  private boxOf(part: { first: number; count: number }): Box3 {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], p = this.position;
+    for (let i = 3 * part.first; i < 3 * (part.first + part.count); ++i)
+      for (let a = 0, v = 3 * this.triangle[i]; a < 3; ++a, ++v) {
+        if (p[v] < low[a]) low[a] = p[v];
+        if (p[v] > high[a]) high[a] = p[v];
+      }
+    return new Box3(new Vector3(...low), new Vector3(...high));
   }
 
   /** Sets the number that each vertex shows, from one for each node. */
@@ -96,10 +106,10 @@ export class Surface {
     const target = new Vector3();
     this.parts.forEach((part, index) => {
       if (!shown(part.branch)) return;
-      const bvh = this.tree(part), box = bvh.getBoundingBox(part.geometry.boundingBox ?? (part.geometry.boundingBox = new Box3()));
+      const { box } = part;
       if (ray.intersectBox(box, target) === null) return;
       if (best !== null && !box.containsPoint(ray.origin) && target.distanceTo(ray.origin) > best.distance) return;
-      for (const hit of bvh.raycast(ray, DoubleSide).sort((a, b) => a.distance - b.distance)) {
+      for (const hit of this.tree(part).raycast(ray, DoubleSide).sort((a, b) => a.distance - b.distance)) {
         const point = hit.point.toArray() as Vec3;
         if (!beyond(point)) continue;
         if (best === null || hit.distance < best.distance)
@@ -113,6 +123,7 @@ export class Surface {
   /** Segments in which a part meets a plane: x y z of both ends, one after the other. */
   cut(part: Part, normal: Vec3, origin: Vec3): number[] {
     const plane = new Plane().setFromNormalAndCoplanarPoint(new Vector3(...normal), new Vector3(...origin)), out: number[] = [];
+    if (!plane.intersectsBox(part.box)) return out;
     this.tree(part).shapecast({
       intersectsBounds: box => plane.intersectsBox(box),
       intersectsTriangle: triangle => {
