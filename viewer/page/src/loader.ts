@@ -57,9 +57,7 @@ export class Loader {
   private async takeCase(state: State): Promise<void> {
     const { store } = this.app, pack = state.hasCase ? await this.pack("case") : null;
     const tree = pack === null ? null : new Tree(pack), before = store.get();
-    const label = before.tree?.branches[before.selected]?.label;
-    const selected = tree?.branches.findIndex(b => b.label === label) ?? -1;
-    store.set({ tree, selected, node: -1, ...(tree === null ? { surface: null } : {}) });
+    store.set({ tree, ...sameVessel(before, tree), ...(tree === null ? { surface: null } : {}) });
     this.app.stage.firstPicture ||= tree !== null && !state.hasVolume;
     this.settle();
     void this.openModel(tree);
@@ -165,6 +163,16 @@ export class Loader {
     const figures = (pack?.meta.figures ?? state.figures ?? null) as View["figures"];
     store.set({ distance, figures, ...(distance === null && store.get().colourBy === "compare" ? { colourBy: "branch" as const } : {}) });
   }
+}
+
+/** The selected vessel and the cursor in another tree: by its name, or by where it begins if it was renamed. */
+export function sameVessel(before: Pick<View, "tree" | "selected" | "node">, tree: Tree | null): { selected: number; node: number } {
+  const old = before.tree?.branches[before.selected], none = { selected: -1, node: -1 };
+  if (old === undefined || tree === null || before.tree === null) return none;
+  const begin = before.tree.position(old.firstNode).join();
+  const found = tree.branches.find(b => b.label === old.label) ?? tree.branches.find(b => tree.position(b.firstNode).join() === begin);
+  if (found === undefined) return none;
+  return { selected: found.index, node: before.node < 0 ? -1 : tree.nearest(before.tree.position(before.node), b => b === found.index) };
 }
 
 function thickest(tree: Tree): number {
