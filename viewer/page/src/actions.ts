@@ -27,7 +27,7 @@ export class Actions {
     const { state } = this.app.store.get();
     if (!state.hasCase) { this.app.say("There is no case to save yet: track a vessel first.", "warning"); return; }
     if (state.saveAs === null) this.download("lumen");
-    else if (await this.app.perform({ op: "save" })) this.app.say(`Saved to ${state.saveAs}.`);
+    else await this.app.perform({ op: "save" }); // which tells where to
   }
   download(format: string): void {
     const link = h("a", { href: this.app.source.download(format), download: "" });
