@@ -21,7 +21,7 @@ packages=(
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
   libexpat1-dev robin-map-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
-  libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9
+  libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
 )
 
 say() { printf '\n== %s\n' "$*"; }

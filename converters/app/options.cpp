@@ -391,8 +391,10 @@ void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
       },
       "A solid wall of this thickness around the lumen, such as 0.5 (mm) or 0.2r");
   group
-      .add("--max-error", surface.maxError, "MM",
-           "Drop triangles as long as the surface stays within this distance; 0: none")
+      .add(
+          "--max-error", surface.maxError, "MM",
+          "Drop triangles as long as the surface stays within this distance of that with all, both "
+          "ways; 0: none")
       ->check(kNotNegative);
 }
 

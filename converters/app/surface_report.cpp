@@ -43,7 +43,7 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
   if (report->roundedEnds > 0)
     text += ", " + counted(report->roundedEnds, "rounded end", "rounded ends");
   if (!report->errors.empty() && report->errors.front() >= 0)
-    text += ", within " + fixed(report->errors.front(), 4) + " mm of the field";
+    text += ", within " + fixed(report->errors.front(), 4) + " mm of that with all triangles";
   text += "\n";
   constexpr std::size_t kMost = 5;
   const auto& branches = value.tree.branches;

@@ -102,6 +102,15 @@ public:
     return data;
   }
 
+  /// How many bytes it says that it has; consumes that.
+  std::uint64_t size() {
+    const std::uint64_t first = headers(1)[0];
+    if (!m_packing.zlib) return first;
+    if (first > 1) return std::numeric_limits<std::uint64_t>::max();  // blocks: nothing short
+    const std::vector<std::uint64_t> sizes = headers(2);
+    return first == 0 ? 0 : sizes[1] != 0 ? sizes[1] : sizes[0];
+  }
+
   std::vector<double> ascii(std::uint64_t count) const {
     std::vector<double> values;
     // a number takes a digit, and what parts it from the next
@@ -237,6 +246,25 @@ std::vector<double> decodeVtkNumbers(const VtkEncodedArray& array, const VtkPack
   if (array.type == "UInt8") return numbersOf<std::uint8_t>(decoder, packing, count);
   decoder.refuse("is of the type \"" + formats::printable(array.type.substr(0, kShownVtkBytes)) +
                  "\"; expected Int8 to Int64, UInt8 to UInt64, Float32 or Float64");
+}
+
+std::string decodeVtkText(const VtkEncodedArray& array, const VtkPacking& packing,
+                          std::uint64_t most) {
+  std::string text;
+  if (array.form == VtkForm::Ascii) {
+    if (array.text.size() > 16 * most) return {};
+    const std::string_view digits = array.text;
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < digits.size(); ++i)
+      count += !isSpace(digits[i]) && (i == 0 || isSpace(digits[i - 1])) ? 1 : 0;
+    for (const double code : VtkDecoder(array, packing).ascii(count))
+      text += code >= 1 && code < 128 ? static_cast<char>(code) : '\0';
+  } else {
+    const std::uint64_t size = VtkDecoder(array, packing).size();
+    if (size > most) return {};
+    text = VtkDecoder(array, packing).bytes(size);
+  }
+  return text.substr(0, text.find('\0'));
 }
 
 }  // namespace lumen

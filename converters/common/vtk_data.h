@@ -30,4 +30,8 @@ struct VtkEncodedArray {
 std::vector<double> decodeVtkNumbers(const VtkEncodedArray& array, const VtkPacking& packing,
                                      std::uint64_t count);
 
+/// The bytes of an array of characters up to the first zero; empty if it has more than `most`. Throws as above.
+std::string decodeVtkText(const VtkEncodedArray& array, const VtkPacking& packing,
+                          std::uint64_t most);
+
 }  // namespace lumen

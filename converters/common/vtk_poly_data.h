@@ -28,12 +28,13 @@ struct VtkArray {
   std::vector<double> values;  ///< components after another; may hold what is not finite
 };
 
-/// Lengths and axes are the file's, which says neither. Values may be infinite or no numbers.
+/// Lengths and axes are the file's: its words for both are `unit` and `space`, empty if it has none. Values may be infinite or no numbers.
 /// Values of cells are in the order verts, lines, polys, strips.
 struct VtkPolyData {
   std::vector<Eigen::Vector3d> position;
   VtkCells verts, lines, polys, strips;
   std::vector<VtkArray> pointData, cellData;
+  std::string unit, space;
 
   [[nodiscard]] const VtkArray* pointArray(std::string_view name) const;
   [[nodiscard]] const VtkArray* cellArray(std::string_view name) const;

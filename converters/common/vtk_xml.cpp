@@ -42,9 +42,23 @@ constexpr std::size_t kFed = std::size_t{16} << 20;
 constexpr std::uint32_t kMostComponents = 64;
 constexpr std::uint32_t kMostIndices = std::numeric_limits<std::uint32_t>::max();
 
-enum Section { kPoints, kPointData, kCellData, kVerts, kLines, kPolys, kStrips, kNoSection };
-constexpr std::array<const char*, 7> kSectionNames = {"Points", "PointData", "CellData", "Verts",
-                                                      "Lines",  "Polys",     "Strips"};
+// Unit and axes as lumen and 3D Slicer write them, texts of a few bytes.
+constexpr std::string_view kUnit = "Unit", kSpace = "SPACE";
+constexpr std::uint64_t kLongestText = 16;
+
+enum Section {
+  kPoints,
+  kPointData,
+  kCellData,
+  kVerts,
+  kLines,
+  kPolys,
+  kStrips,
+  kFieldData,
+  kNoSection
+};
+constexpr std::array<const char*, 8> kSectionNames = {
+    "Points", "PointData", "CellData", "Verts", "Lines", "Polys", "Strips", "FieldData"};
 
 // A <DataArray> as its tag has it.
 struct Element {
@@ -67,6 +81,7 @@ struct Piece {
 struct Document {
   VtkPacking packing;
   std::vector<Piece> pieces;
+  std::vector<Element> field;
   std::optional<std::size_t> appended;  // first byte behind the underscore
   bool isAppendedBase64 = false;
 };
@@ -127,7 +142,12 @@ private:
     if (name == "AppendedData") return beginAppended(attributes);
     if (name == "DataArray") return beginArray(attributes);
     for (std::size_t s = 0; s < kSectionNames.size(); ++s)
-      if (name == kSectionNames[s]) m_section = static_cast<Section>(s);
+      if (name == kSectionNames[s]) beginSection(static_cast<Section>(s));
+  }
+
+  void beginSection(Section section) {
+    m_section = section;
+    m_isOpen = false;  // an array that a section is within has no end
   }
 
   void end(const char* tag) {
@@ -136,12 +156,15 @@ private:
     const std::string_view name = tag;
     if (name == "DataArray" && m_isOpen) {
       m_isOpen = false;
-      Element& element = m_document.pieces.back().elements.back();
+      Element& element = elements().back();
       // keys may follow the data within the element
       element.to = std::min({byte(), m_text.find('<', element.from), m_text.size()});
       element.to = std::max(element.from, element.to);
     }
-    if (m_section != kNoSection && name == kSectionNames[m_section]) m_section = kNoSection;
+    if (m_section != kNoSection && name == kSectionNames[m_section]) {
+      m_section = kNoSection;
+      m_isOpen = false;
+    }
     if (name == "Piece") m_inPiece = false;
   }
 
@@ -177,11 +200,20 @@ private:
     m_isOpen = false;  // an array that this piece is within has no end
   }
 
+  // Where the open array is kept.
+  std::vector<Element>& elements() {
+    return m_section == kFieldData ? m_document.field : m_document.pieces.back().elements;
+  }
+
   void beginArray(const char** attributes) {
-    if (!m_inPiece || m_section == kNoSection) return;
+    const bool isField = m_section == kFieldData;
+    if (!(m_inPiece || isField) || m_section == kNoSection) return;
     Element element;
     element.section = m_section;
     element.name = attribute(attributes, "Name");
+    if (isField && (attribute(attributes, "type") != "String" ||
+                    (element.name != kUnit && element.name != kSpace)))
+      return;
     const bool isData = m_section == kPointData || m_section == kCellData;
     if (isData && std::find(m_wanted.begin(), m_wanted.end(), element.name) == m_wanted.end())
       return;
@@ -200,7 +232,7 @@ private:
       return refuse("has the format \"" + shown(form) + "\"; expected ascii, binary or appended");
     element.offset = element.isAppended ? count(attributes, "offset") : 0;
     element.from = byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(m_parser));
-    m_document.pieces.back().elements.push_back(std::move(element));
+    elements().push_back(std::move(element));
     m_isOpen = true;
   }
 
@@ -266,6 +298,8 @@ public:
     for (const Piece& piece : document.pieces)
       for (const Element& element : piece.elements)
         if (element.isAppended) m_offsets.push_back(element.offset);
+    for (const Element& element : document.field)
+      if (element.isAppended) m_offsets.push_back(element.offset);
     std::sort(m_offsets.begin(), m_offsets.end());
   }
 
@@ -277,6 +311,9 @@ public:
     addCells(kStrips, m_result.strips);
     addArrays(kPointData, m_result.pointData);
     addArrays(kCellData, m_result.cellData);
+    for (const Element& element : m_document.field)
+      (element.name == kUnit ? m_result.unit : m_result.space) =
+          decodeVtkText(encoded(element), m_document.packing, kLongestText);
     return std::move(m_result);
   }
 
@@ -362,6 +399,10 @@ private:
   }
 
   std::vector<double> numbers(const Element& element, std::uint64_t tuples) {
+    return decodeVtkNumbers(encoded(element), m_document.packing, tuples * element.components);
+  }
+
+  VtkEncodedArray encoded(const Element& element) {
     VtkEncodedArray array{element.type, element.form, {}, m_name + ": " + place(element)};
     if (element.isAppended) {
       array.form = m_document.isAppendedBase64 ? VtkForm::Base64 : VtkForm::Raw;
@@ -369,7 +410,7 @@ private:
     } else {
       array.text = m_text.substr(element.from, element.to - element.from);
     }
-    return decodeVtkNumbers(array, m_document.packing, tuples * element.components);
+    return array;
   }
 
   // Up to where the next array begins: no byte is of two arrays.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/fitting/local_model.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "converters/fitting/starting_blobs.h"
@@ -9,8 +10,8 @@
 namespace lumen::convert::fitting {
 namespace {
 
-/// A fit whose points are farther, in the mean and in accuracies asked for, is tried again from the
-/// inscribed balls: two blobs beside a much wider vessel may end in neither.
+/// A fit whose points are farther, in the mean and in accuracies asked for or twentieths of the radius, is tried again
+/// from the inscribed balls: two blobs beside a much wider vessel may end in neither.
 constexpr double kPoorFit = 1.0 / 3.0;
 constexpr MinimiseOptions kRefine{10, 1e-4};
 
@@ -37,7 +38,8 @@ LocalModel fitLocalModel(const LocalModelOptions& options, const NodeData& node,
   const NodeProblem problem = makeProblem(options, node, workspace.around);
   LocalModel first = growModel(problem, node.points, std::move(start), progress, workspace);
   const double distance = meanDistance(workspace.energy);
-  if (node.lumen.empty() || distance < kPoorFit * options.accuracy) return first;
+  const double coarser = std::max(options.accuracy, kRelativeAccuracy * problem.bulge);
+  if (node.lumen.empty() || distance < kPoorFit * coarser) return first;
   LocalModel second = growModel(problem, node.points, placeInLumen(options.energy, node.lumen),
                                 progress, workspace);
   return meanDistance(workspace.energy) < distance ? second : first;

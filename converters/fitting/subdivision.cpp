@@ -9,9 +9,6 @@
 namespace lumen::convert::fitting {
 namespace {
 
-/// A vessel is fitted to this share of its radius if that is finer than the accuracy asked for: 1.5
-/// voxels are most of the radius of the narrowest ones.
-constexpr double kRelativeAccuracy = 0.05;
 /// Unknowns of a blob: what one more must pay for in the Bayesian information criterion.
 constexpr double kUnknownsPerBlob = 4;
 /// The share of that cost which a blob must pay while a point is farther than the accuracy asked
@@ -148,7 +145,8 @@ bool subdivide(const NodeProblem& problem, GrowingModel& model, FitWorkspace& wo
   }
   model.refused.push_back(farthest);
   model.energy = energy.evaluate(model.blobs);
-  return distance >= accuracy && model.refused.size() < kMostRefusals;
+  return distance >= std::max(accuracy, kRelativeAccuracy * problem.bulge) &&
+         model.refused.size() < kMostRefusals;
 }
 
 }  // namespace lumen::convert::fitting

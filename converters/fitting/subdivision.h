@@ -11,6 +11,11 @@
 
 namespace lumen::convert::fitting {
 
+/// Of the radius (of the wall's finest bulges): what is nearer than this is fitted, however fine the accuracy asked
+/// for. Reversed, a vessel is fitted to this share of its radius if that is finer than the accuracy asked for: 1.5
+/// voxels are most of the radius of the narrowest ones.
+constexpr double kRelativeAccuracy = 0.05;
+
 /// Two blobs of equal width whose union has the surface of `blob`: the first in its place, the
 /// second moved by a tenth of the old width towards `point` (thesis eq. 4.26 and 4.27). Of a blob
 /// that is too narrow to reach the level, two of half its width.

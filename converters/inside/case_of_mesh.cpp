@@ -10,12 +10,18 @@
 
 #include "converters/common/error.h"
 #include "converters/inside/closed_mesh.h"
+#include "converters/inside/inner_side.h"
 #include "converters/inside/inside_voxels.h"
 #include "converters/inside/nodes_on_lines.h"
 #include "converters/inside/vessel_lines.h"
+#include "converters/mesh/repair.h"
+#include "converters/mesh/triangle_tree.h"
 
 namespace lumen::convert {
 namespace {
+
+/// Of the voxel of the search: half the least width that it can tell.
+constexpr double kLeastRadius = 0.5;
 
 /// "The surface has 3 loops; 2 of them became links". Empty if there are as many.
 std::string loopsNote(const ClosedMesh& surface, const formats::CenterlineTree& tree) {
@@ -29,28 +35,36 @@ std::string loopsNote(const ClosedMesh& surface, const formats::CenterlineTree& 
          std::to_string(links) + " of the tree are closed by a link";
 }
 
-// Of the area: so much of a tube's wall faces the tube itself across its lumen, if it has a thickness.
-constexpr double kFacing = 0.4;
-constexpr std::size_t kMostFacing = 4000;  // rays
-
-/// Whether the surface is that of a wall with a thickness: joined at its ends, inner and outer side make a
-/// ring, and the inner side faces itself from outside of what the surface encloses.
-bool isThickWall(const ClosedMesh& surface, const TriangleTree& tree) {
-  if (eulerCharacteristic(surface.mesh) > 0) return false;
-  const auto& position = surface.mesh.position;
-  const std::size_t stride = std::max<std::size_t>(1, surface.mesh.triangle.size() / kMostFacing);
-  double all = 0, facing = 0;
-  for (std::size_t t = 0; t < surface.mesh.triangle.size(); t += stride) {
-    const Triangle& corners = surface.mesh.triangle[t];
-    const Eigen::Vector3d a = position[corners[0]], b = position[corners[1]],
-                          c = position[corners[2]];
-    const double area = (b - a).cross(c - a).norm();
-    const auto hit = tree.firstHit((a + b + c) / 3, tree.normal(static_cast<std::uint32_t>(t)),
-                                   1e-6 * std::sqrt(area));
-    all += area;
-    if (hit && !hit->leaves) facing += area;
+/// A surface without openings of which no part is in another, and which is no wall with a thickness: of one that is,
+/// the inner side. Says in `notes` what was left out.
+ClosedMesh lumenSurface(TriangleMesh mesh, const std::string& name, std::vector<std::string>& notes,
+                        const Progress& progress) {
+  UnnestedMesh apart = unnested(std::move(mesh));
+  if (apart.outer > 0)
+    notes.push_back(name +
+                    ": this is a wall with a thickness, its inner and outer side apart; the inner "
+                    "side was taken for the lumen");
+  if (apart.enclosed > 0)
+    notes.push_back(name + ": " + std::to_string(apart.enclosed) +
+                    (apart.enclosed == 1 ? " part that lies" : " parts that lie") +
+                    " within another one was left out");
+  ClosedMesh surface = closeMesh(std::move(apart.mesh));
+  const auto inner = innerSide(surface, TriangleTree(surface.mesh), progress);
+  if (!inner) return surface;
+  const std::string wall = name + ": this is the surface of a wall that has a thickness";
+  const std::size_t taken = inner->triangle.size(), all = surface.mesh.triangle.size();
+  RepairResult repaired;
+  try {
+    repaired = repairMesh(*inner, name, progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::InvalidInput) throw;
+    throw invalidInput(wall +
+                       ", inner and outer side in one, and its inner side alone encloses no lumen; "
+                       "expected the surface of the lumen");
   }
-  return facing > kFacing * all;
+  notes.push_back(wall + "; its inner side, " + std::to_string(taken) + " of " +
+                  std::to_string(all) + " triangles, was taken for the lumen");
+  return closeMesh(std::move(repaired.mesh));
 }
 
 }  // namespace
@@ -59,15 +73,12 @@ MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
                     const std::optional<GivenCenterline>& centerline,
                     const std::map<std::string, formats::ParameterValue>& parameters,
                     Progress& progress) {
-  const ClosedMesh surface = closeMesh(std::move(mesh));
+  MeshCase out;
+  const ClosedMesh surface = lumenSurface(std::move(mesh), name, out.notes, progress);
   if (std::all_of(surface.end.begin(), surface.end.end(),
                   [](std::uint32_t end) { return end != ClosedMesh::kWall; }))
     throw invalidInput(name + ": this surface has no wall of a vessel, only flat ends");
   const LumenGeometry lumen(surface);
-  if (isThickWall(surface, lumen.tree()))
-    throw invalidInput(name +
-                       ": this is the surface of a wall that has a thickness, inner and outer side "
-                       "in one; expected the surface of the lumen, which is its inner side alone");
   const double width = leastWidth(surface, lumen.tree());
   if (!(width > 0))
     throw invalidInput(name +
@@ -75,14 +86,13 @@ MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
                        "it encloses no vessel");
   const VolumeGeometry grid = insideGrid(surface, width);
   progress.begin("tree", 0);
-  VesselLines lines = centerline ? linesOf(centerline->file, centerline->name, lumen)
-                                 : findLines(lumen, grid, progress);
+  const VesselLines lines = centerline ? linesOf(centerline->file, centerline->name, lumen)
+                                       : findLines(lumen, grid, progress);
   progress.end();
   if (lines.lines.empty())
     throw invalidInput(name + ": no vessel was found inside of this surface");
-  MeshCase out;
-  out.notes = std::move(lines.notes);
-  out.result = nodesOnLines(lines.lines, lumen, progress);
+  out.notes.insert(out.notes.end(), lines.notes.begin(), lines.notes.end());
+  out.result = nodesOnLines(lines.lines, lumen, kLeastRadius * grid.voxelSize(), progress);
   if (const std::string note = loopsNote(surface, out.result.tree); !note.empty())
     out.notes.push_back(name + ": " + note);
   out.result.metadata.voxelSize = grid.voxelSize();

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 namespace lumen::convert {
@@ -23,6 +24,22 @@ const double kSharp = std::cos(45 * std::numbers::pi / 180);
 constexpr double kSharpShare = 0.9;
 // ... and round: 4 pi area / outline^2 is 1 for a disc, 0.79 for a square, 0.81 for an ellipse of 2:1
 constexpr double kRound = 0.75;
+
+// A blunt cap, smoothed and uneven as of a segmentation: its normals agree within 25 degrees ...
+const double kNearlyFlat = std::cos(25 * std::numbers::pi / 180);
+// ... what belongs to one that is no cap is not tried as the beginning of another, and on rough surfaces no more
+// triangles are looked at than so many times those that there are ...
+constexpr std::size_t kMostLooks = 20;
+// ... and from a seed on the rim so many rounds lead to the mean of the whole cap.
+constexpr int kPasses = 5;
+// ... it fills an ellipse of up to 2.5:1 of its own moments (a square does by 0.95) ...
+constexpr double kFull = 0.9, kLongest = 2.5;
+// ... and of what lies around it, between so many of its radii, nine tenths have turned by 45 degrees.
+constexpr double kRimFrom = 1.1, kRimTo = 1.4;
+// Fewer triangles, in the cap or around it, do not tell a smoothed rim from a bend of few facets.
+constexpr std::size_t kFewest = 16;
+// Of the area around: what the normals there may add up to across the end's; all around a tube they add up to nothing.
+constexpr double kUneven = 0.3;
 
 struct Edge {
   std::uint32_t low, high;  ///< vertices
@@ -155,9 +172,108 @@ public:
         m_out.end[inside] = static_cast<std::uint32_t>(m_out.ends.size());
       m_out.ends.push_back(end);
     }
+    findBlunt();
   }
 
 private:
+  void findBlunt() {
+    m_isSeen.assign(m_isSeen.size(), false);
+    std::vector<std::uint32_t> visit(m_isSeen.size(), 0);
+    std::uint32_t round = 0;
+    std::size_t looks = 0;
+    for (std::uint32_t t = 0; t < m_isSeen.size(); ++t) {
+      if (m_isSeen[t] || m_out.end[t] != ClosedMesh::kWall) continue;
+      if (looks > kMostLooks * m_isSeen.size()) return;
+      MeshEnd end;
+      end.normal = m_normal[t];
+      for (int pass = 0; pass < kPasses; ++pass) {
+        growAround(t, Vector3d(end.normal), kNearlyFlat, visit, ++round);
+        looks += m_region.size();
+        if (m_region.size() < kFewest) break;
+        measure(end, m_out.mesh, m_region);
+      }
+      const bool isEnd = fillsEllipse(end) && turnsAround(end, visit, ++round);
+      if (isEnd) {  // with its bumps and half of its rim
+        growAround(t, Vector3d(end.normal), kSharp, visit, ++round);
+        measure(end, m_out.mesh, m_region);
+      }
+      for (const std::uint32_t inside : m_region) {
+        if (isEnd) m_out.end[inside] = static_cast<std::uint32_t>(m_out.ends.size());
+        m_isSeen[inside] = true;
+      }
+      if (isEnd) m_out.ends.push_back(end);
+    }
+  }
+
+  /// The region of a triangle in which normals have `least` along a direction; `visit` says `round` of it.
+  void growAround(std::uint32_t seed, const Vector3d& normal, double least,
+                  std::vector<std::uint32_t>& visit, std::uint32_t round) {
+    m_region.assign(1, seed);
+    visit[seed] = round;
+    for (std::size_t k = 0; k < m_region.size(); ++k)
+      for (const std::uint32_t other : m_beside[m_region[k]])
+        if (other != kNone && visit[other] != round && m_out.end[other] == ClosedMesh::kWall &&
+            m_normal[other].dot(normal) > least) {
+          visit[other] = round;
+          m_region.push_back(other);
+        }
+  }
+
+  /// Whether the region is as large as the ellipse that has its moments, and not long.
+  [[nodiscard]] bool fillsEllipse(const MeshEnd& end) const {
+    if (m_region.size() < kFewest) return false;
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    double area = 0;
+    for (const std::uint32_t t : m_region) {
+      const Triangle& corners = m_out.mesh.triangle[t];
+      const double size = 0.5 * areaVector(m_out.mesh, corners).norm();
+      area += size;
+      // the middles of the sides, a third of the area each, have the moments of the triangle
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3d p =
+            0.5 * (m_out.mesh.position[corners[i]] + m_out.mesh.position[corners[(i + 1) % 3]]) -
+            end.centre;
+        moments += size / 3 * p * p.transpose();
+      }
+    }
+    if (!(area > 0)) return false;
+    const Vector3d wide =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments / area, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    return wide[1] * kLongest * kLongest > wide[2] &&
+           area >= kFull * 4 * std::numbers::pi * std::sqrt(wide[1] * wide[2]);
+  }
+
+  /// Whether the surface goes on backwards around the region.
+  [[nodiscard]] bool turnsAround(const MeshEnd& end, std::vector<std::uint32_t>& visit,
+                                 std::uint32_t round) const {
+    std::vector<std::uint32_t> open = m_region;
+    for (const std::uint32_t t : open) visit[t] = round;
+    double rim = 0, turned = 0;
+    std::size_t count = 0;
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t k = 0; k < open.size(); ++k)
+      for (const std::uint32_t other : m_beside[open[k]]) {
+        if (other == kNone || visit[other] == round) continue;
+        visit[other] = round;
+        const Triangle& corners = m_out.mesh.triangle[other];
+        const Vector3d middle = (m_out.mesh.position[corners[0]] + m_out.mesh.position[corners[1]] +
+                                 m_out.mesh.position[corners[2]]) /
+                                    3 -
+                                end.centre;
+        const double away = middle.norm();
+        if (away > kRimTo * end.radius) continue;
+        open.push_back(other);
+        if (away < kRimFrom * end.radius) continue;
+        const double size = areaVector(m_out.mesh, corners).norm();
+        rim += size;
+        ++count;
+        sum += size * (m_normal[other] - m_normal[other].dot(end.normal) * end.normal);
+        if (m_normal[other].dot(end.normal) < kSharp && middle.dot(end.normal) < 0) turned += size;
+      }
+    return count >= kFewest && turned >= kSharpShare * rim && sum.norm() < kUneven * rim;
+  }
+
   /// The flat region of a triangle.
   void grow(std::uint32_t seed) {
     m_region.assign(1, seed);

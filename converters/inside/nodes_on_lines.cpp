@@ -217,7 +217,7 @@ private:
 };
 
 void addPoints(formats::Case& out, const std::vector<NodeOrigin>& origins,
-               const LumenGeometry& lumen, Progress& progress) {
+               const LumenGeometry& lumen, double least, Progress& progress) {
   const auto count = static_cast<std::uint32_t>(out.tree.nodeCount());
   progress.begin("wall points", count);
   std::vector<std::vector<formats::Vec3f>> of(count);
@@ -237,7 +237,7 @@ void addPoints(formats::Case& out, const std::vector<NodeOrigin>& origins,
     position.insert(position.end(), of[node].begin(), of[node].end());
     out.points->offset.push_back(static_cast<std::uint32_t>(position.size()));
     if (origins[node] != NodeOrigin::Measured) continue;
-    out.tree.radius[node] = static_cast<float>(radii[node].first);
+    out.tree.radius[node] = static_cast<float>(std::max(least, radii[node].first));
     out.tree.inlierRate[node] = static_cast<float>(radii[node].second);
   }
 }
@@ -245,7 +245,7 @@ void addPoints(formats::Case& out, const std::vector<NodeOrigin>& origins,
 }  // namespace
 
 formats::Case nodesOnLines(const std::vector<VesselLine>& lines, const LumenGeometry& lumen,
-                           Progress& progress) {
+                           double least, Progress& progress) {
   formats::Case out;
   std::vector<NodeOrigin> origins;
   for (const VesselLine& line : lines) {
@@ -255,7 +255,8 @@ formats::Case nodesOnLines(const std::vector<VesselLine>& lines, const LumenGeom
     append(line, stationsOn(line, parent, lumen), out, origins);
   }
   addLinks(lines, out.tree, out);
-  addPoints(out, origins, lumen, progress);
+  for (float& radius : out.tree.radius) radius = std::max(radius, static_cast<float>(least));
+  addPoints(out, origins, lumen, least, progress);
   for (formats::Branch& branch : out.tree.branches) {
     const auto first = out.tree.inlierRate.begin() + branch.firstNode;
     double sum = 0;

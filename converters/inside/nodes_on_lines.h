@@ -14,8 +14,9 @@ namespace lumen::convert {
 /// child within its parent's lumen are bridged and have no points. Wall points are where rays from a
 /// node's centre first meet the wall, but for what belongs to nodes near by along the tree: what lies
 /// more than three quarters of the way towards them, by power. So what another vessel's wall is, which
-/// no ray reaches, or the far wall of a fork, is no node's. Throws Error(Cancelled).
+/// no ray reaches, or the far wall of a fork, is no node's. No radius is below `least`, mm: where a line passes so
+/// near to the wall, nothing tells how wide the lumen is. Throws Error(Cancelled).
 formats::Case nodesOnLines(const std::vector<VesselLine>& lines, const LumenGeometry& lumen,
-                           Progress& progress);
+                           double least, Progress& progress);
 
 }  // namespace lumen::convert

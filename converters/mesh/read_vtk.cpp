@@ -63,7 +63,8 @@ MeshFile meshOf(const VtkPolyData& data, const StatedFrame& frame, MeshBuilder& 
 MeshFile parseVtp(std::string_view bytes, const std::string& name) {
   MeshBuilder builder(name);
   const std::array<std::string_view, 1> wanted = {kFaceId};
-  return meshOf(parseVtkXml(bytes, name, wanted), {}, builder);
+  const VtkPolyData data = parseVtkXml(bytes, name, wanted);
+  return meshOf(data, {data.space == "RAS", data.space == "LPS", data.unit == "mm"}, builder);
 }
 
 MeshFile parseVtk(std::string_view bytes, const std::string& name) {

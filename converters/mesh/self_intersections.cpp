@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kGreatest = 1e50, kLeast = 1e-50;  // what orientation() takes
 constexpr std::uint32_t kLeaf = 4;                  // triangles of a leaf of the tree
-constexpr std::size_t kBlock = 1 << 16;             // triangles that are asked for at once
+constexpr std::size_t kBlock = 1 << 14;             // leaves that are asked for at once
 constexpr int kMortonBits = 21;                     // of a coordinate, three of which fit 64 bits
 
 // Floats, rounded outwards: half the memory to walk through, and no box gets smaller.
@@ -109,33 +109,36 @@ public:
     }
   }
 
-  [[nodiscard]] std::size_t size() const { return m_order.size(); }
+  /// Of leaves.
+  [[nodiscard]] std::size_t size() const { return m_level.empty() ? 0 : m_level.front().size(); }
 
-  /// Adds the triangles behind the i-th of the order that intersect it, until there are more than
-  /// `most` pairs.
-  void findBehind(std::size_t i, std::size_t most,
+  /// Adds the pairs of a triangle of the leaf and one of it or behind it, until there are more than
+  /// `most`.
+  void findBehind(std::size_t leaf, std::size_t most,
                   std::vector<std::array<std::uint32_t, 2>>& pairs) const {
-    visit(m_level.size() - 1, 0, i, most, pairs);
+    visit(m_level.size() - 1, 0, leaf, most, pairs);
   }
 
 private:
-  void visit(std::size_t level, std::size_t index, std::size_t i, std::size_t most,
+  void visit(std::size_t level, std::size_t index, std::size_t leaf, std::size_t most,
              std::vector<std::array<std::uint32_t, 2>>& pairs) const {
-    const std::size_t end = (index + 1) * (std::size_t{kLeaf} << level);
-    if (end <= i + 1 || pairs.size() > most || !m_level[level][index].meets(m_box[i])) return;
+    const std::size_t end = (index + 1) << level;
+    if (end <= leaf || pairs.size() > most || !m_level[level][index].meets(m_level[0][leaf]))
+      return;
     if (level > 0) {
-      visit(level - 1, 2 * index, i, most, pairs);
+      visit(level - 1, 2 * index, leaf, most, pairs);
       if (2 * index + 1 < m_level[level - 1].size())
-        visit(level - 1, 2 * index + 1, i, most, pairs);
+        visit(level - 1, 2 * index + 1, leaf, most, pairs);
       return;
     }
-    const std::uint32_t mine = m_order[i];
-    for (std::size_t k = std::max(i + 1, index * kLeaf); k < std::min(end, m_order.size()); ++k) {
-      const std::uint32_t other = m_order[k];
-      if (m_box[k].meets(m_box[i]) &&
-          intersect(m_mesh, m_mesh.triangle[mine], m_mesh.triangle[other]))
-        pairs.push_back({std::min(mine, other), std::max(mine, other)});
-    }
+    for (std::size_t i = leaf * kLeaf; i < std::min((leaf + 1) * kLeaf, m_order.size()); ++i)
+      for (std::size_t k = std::max(i + 1, index * kLeaf);
+           k < std::min(end * kLeaf, m_order.size()); ++k) {
+        if (!m_box[k].meets(m_box[i])) continue;
+        const std::uint32_t one = m_order[i], other = m_order[k];
+        if (intersect(m_mesh, m_mesh.triangle[one], m_mesh.triangle[other]))
+          pairs.push_back({std::min(one, other), std::max(one, other)});
+      }
   }
 
   const TriangleMesh& m_mesh;
@@ -146,7 +149,7 @@ private:
 
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
-// The pairs of triangles first .. last - 1, in that order. Where there are more than `most`, threads
+// The pairs of leaves first .. last - 1, in that order. Where there are more than `most`, threads
 // may find different ones of them: then it is done again, one after the other.
 Pairs pairsOf(const BoxTree& tree, std::size_t first, std::size_t last, std::size_t most) {
   std::vector<Pairs> found(last - first);

@@ -18,8 +18,9 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Where a ray meets a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
 /// ray/triangle intersection", 1997), and whether it comes from behind. Nothing if it does not.
-std::optional<RayHit> meet(const Vector3d& origin, const Vector3d& direction, const Vector3d& a,
-                           const Vector3d& b, const Vector3d& c) {
+std::optional<RayHit> meet(const Vector3d& origin, const Vector3d& direction,
+                           const std::array<Vector3d, 3>& corner) {
+  const auto& [a, b, c] = corner;
   const Vector3d ab = b - a, ac = c - a;
   const Vector3d across = direction.cross(ac);
   const double det = ab.dot(across);
@@ -33,9 +34,59 @@ std::optional<RayHit> meet(const Vector3d& origin, const Vector3d& direction, co
   return RayHit{ac.dot(q) / det, 0, det < 0};
 }
 
-/// The point of a triangle that is nearest to `p` (C. Ericson, "Real-time collision detection", 2005,
-/// section 5.1.5).
-Vector3d nearestOf(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+float below(double x) {
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+
+float above(double x) {
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+/// A ray, as boxes ask for it.
+class TriangleTree::Ray {
+public:
+  Ray(const Vector3d& origin, const Vector3d& direction) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      m_origin[a] = origin[static_cast<Eigen::Index>(a)];
+      const double along = direction[static_cast<Eigen::Index>(a)];
+      m_inverse[a] = std::abs(along) > 1 / kSteep ? 1 / along : std::copysign(kSteep, along);
+    }
+  }
+
+  /// Where it enters a box, or behind all triangles if it does not. Boxes are larger than what they
+  /// hold by more than what is rounded here.
+  [[nodiscard]] double entry(const Box& box) const {
+    double from = 0, to = kFar;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double one = (double{box.low[a]} - m_origin[a]) * m_inverse[a];
+      const double two = (double{box.high[a]} - m_origin[a]) * m_inverse[a];
+      from = std::max(from, std::min(one, two));
+      to = std::min(to, std::max(one, two));
+    }
+    return from <= to ? from : kFar;
+  }
+
+private:
+  static constexpr double kSteep = 1e30;  // one by a direction that is as good as none
+  std::array<double, 3> m_origin{}, m_inverse{};
+};
+
+double TriangleTree::squaredDistance(const Box& box, const Vector3d& point) {
+  double sum = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double at = point[static_cast<Eigen::Index>(a)];
+    const double apart = std::max({double{box.low[a]} - at, at - double{box.high[a]}, 0.0});
+    sum += apart * apart;
+  }
+  return sum;
+}
+
+// The point of a triangle that is nearest to `p` (C. Ericson, "Real-time collision detection", 2005,
+// section 5.1.5).
+Vector3d nearestPointOf(const Vector3d& p, const Vector3d& a, const Vector3d& b,
+                        const Vector3d& c) {
   const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return a;
@@ -54,31 +105,6 @@ Vector3d nearestOf(const Vector3d& p, const Vector3d& a, const Vector3d& b, cons
   return sum > 0 ? Vector3d(a + ab * (vb / sum) + ac * (vc / sum)) : a;
 }
 
-/// Where a ray enters a box; infinite if it does not.
-double entry(const Vector3d& low, const Vector3d& high, const Vector3d& origin,
-             const Vector3d& direction) {
-  double from = -kFar, to = kFar;
-  for (int a = 0; a < 3; ++a) {
-    if (direction[a] == 0) {
-      if (origin[a] < low[a] || origin[a] > high[a]) return kFar;
-      continue;
-    }
-    const double near = (low[a] - origin[a]) / direction[a];
-    const double far = (high[a] - origin[a]) / direction[a];
-    from = std::max(from, std::min(near, far));
-    to = std::min(to, std::max(near, far));
-  }
-  // a rounding's worth more, for triangles that lie in a face of their box
-  const double slack = 1e-12 * (std::abs(from) + std::abs(to));
-  return from <= to + slack && to >= -slack ? from - slack : kFar;
-}
-
-double squaredDistance(const Vector3d& low, const Vector3d& high, const Vector3d& p) {
-  return (low - p).cwiseMax(p - high).cwiseMax(0).squaredNorm();
-}
-
-}  // namespace
-
 TriangleTree::TriangleTree(const TriangleMesh& mesh) : m_mesh(mesh), m_order(mesh.triangle.size()) {
   std::iota(m_order.begin(), m_order.end(), 0U);
   std::vector<Vector3d> centre(mesh.triangle.size());
@@ -86,23 +112,29 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) : m_mesh(mesh), m_order(mes
     centre[t] = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
   m_boxes.reserve(mesh.triangle.size());
   build(0, static_cast<std::uint32_t>(m_order.size()), centre);
+  m_corner.reserve(m_order.size());
+  for (const std::uint32_t t : m_order)
+    m_corner.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
 }
 
 std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last,
                                   const std::vector<Vector3d>& centre) {
   const auto self = static_cast<std::uint32_t>(m_boxes.size());
-  Box box{Vector3d::Constant(kFar), Vector3d::Constant(-kFar), first, last, 0};
-  Vector3d low = box.low, high = box.high;
+  Vector3d low = Vector3d::Constant(kFar), high = -low, least = low, most = high;
   for (std::uint32_t k = first; k < last; ++k) {
     for (std::size_t i = 0; i < 3; ++i) {
-      box.low = box.low.cwiseMin(corner(m_order[k], i));
-      box.high = box.high.cwiseMax(corner(m_order[k], i));
+      least = least.cwiseMin(corner(m_order[k], i));
+      most = most.cwiseMax(corner(m_order[k], i));
     }
     low = low.cwiseMin(centre[m_order[k]]);
     high = high.cwiseMax(centre[m_order[k]]);
   }
-  m_boxes.push_back(box);
-  if (last - first <= kLeaf) return self;
+  const bool isLeaf = last - first <= kLeaf;
+  m_boxes.push_back({{below(least.x()), below(least.y()), below(least.z())},
+                     {above(most.x()), above(most.y()), above(most.z())},
+                     first,
+                     isLeaf ? last - first : 0});
+  if (isLeaf) return self;
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const std::uint32_t middle = first + (last - first) / 2;
@@ -112,35 +144,40 @@ std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last,
                      return at < other || (at == other && a < b);
                    });
   build(first, middle, centre);
-  m_boxes[self].right = build(middle, last, centre);
+  m_boxes[self].at = build(middle, last, centre);
   return self;
 }
 
 template <class Visit>
 void TriangleTree::eachOnRay(const Vector3d& origin, const Vector3d& direction, double least,
                              const double& most, Visit&& visit) const {
-  std::array<std::uint32_t, kDeepest> stack{};
+  struct Waiting {
+    std::uint32_t box;
+    double from;
+  };
+  const Ray ray(origin, direction);
+  const auto waiting = [&](std::uint32_t i) { return Waiting{i, ray.entry(m_boxes[i])}; };
+  std::array<Waiting, kDeepest> stack;
+  stack[0] = waiting(0);
   std::size_t depth = 1;
   while (depth > 0) {
-    const std::uint32_t i = stack[--depth];
-    const Box& box = m_boxes[i];
-    const double from = entry(box.low, box.high, origin, direction);
-    if (from == kFar || from > most) continue;
-    if (box.right == 0) {
-      for (std::uint32_t k = box.first; k < box.last; ++k) {
-        const std::uint32_t t = m_order[k];
-        auto hit = meet(origin, direction, corner(t, 0), corner(t, 1), corner(t, 2));
-        if (!hit || !(hit->distance >= least)) continue;
-        hit->triangle = t;
-        visit(*hit);
-      }
-      continue;
+    const Waiting here = stack[--depth];
+    if (here.from == kFar || here.from > most) continue;
+    const Box& box = m_boxes[here.box];
+    for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
+      auto hit = meet(origin, direction, m_corner[k]);
+      if (!hit || !(hit->distance >= least)) continue;
+      hit->triangle = m_order[k];
+      visit(*hit);
     }
+    if (box.count > 0) continue;
     // the nearer child last, so that it is looked at first
-    const Box &one = m_boxes[i + 1], &two = m_boxes[box.right];
-    const bool oneFirst = (two.low + two.high - one.low - one.high).dot(direction) > 0;
-    stack[depth++] = oneFirst ? box.right : i + 1;
-    stack[depth++] = oneFirst ? i + 1 : box.right;
+    const Waiting one = waiting(here.box + 1), two = waiting(box.at);
+    const bool oneFirst = one.from < two.from;
+    if (one.from != kFar || two.from != kFar) {
+      stack[depth++] = oneFirst ? two : one;
+      stack[depth++] = oneFirst ? one : two;
+    }
   }
 }
 
@@ -195,11 +232,12 @@ NearestPoint TriangleTree::nearest(const Vector3d& point, double reach) const {
   while (depth > 0) {
     const std::uint32_t i = stack[--depth];
     const Box& box = m_boxes[i];
-    if (squaredDistance(box.low, box.high, point) > most) continue;
-    if (box.right == 0) {
-      for (std::uint32_t k = box.first; k < box.last; ++k) {
+    if (squaredDistance(box, point) > most) continue;
+    if (box.count > 0) {
+      for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
         const std::uint32_t t = m_order[k];
-        const Vector3d at = nearestOf(point, corner(t, 0), corner(t, 1), corner(t, 2));
+        const auto& [a, b, c] = m_corner[k];
+        const Vector3d at = nearestPointOf(point, a, b, c);
         const double squared = (at - point).squaredNorm();
         if (squared > most || (squared == most && best.distance < kFar && t > best.triangle))
           continue;
@@ -208,11 +246,10 @@ NearestPoint TriangleTree::nearest(const Vector3d& point, double reach) const {
       }
       continue;
     }
-    const Box &one = m_boxes[i + 1], &two = m_boxes[box.right];
     const bool oneFirst =
-        squaredDistance(one.low, one.high, point) <= squaredDistance(two.low, two.high, point);
-    stack[depth++] = oneFirst ? box.right : i + 1;
-    stack[depth++] = oneFirst ? i + 1 : box.right;
+        squaredDistance(m_boxes[i + 1], point) <= squaredDistance(m_boxes[box.at], point);
+    stack[depth++] = oneFirst ? box.at : i + 1;
+    stack[depth++] = oneFirst ? i + 1 : box.at;
   }
   return best;
 }

@@ -27,6 +27,10 @@ struct NearestPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
+/// The point of the triangle a, b, c that is nearest to `p`.
+Eigen::Vector3d nearestPointOf(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                               const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
 /// A tree of boxes around the triangles of a mesh, in doubles and in one fixed order: the same bits
 /// on every machine, which single-precision kernels that follow the instruction set do not promise.
 /// Never changed after construction: any number of threads may ask.
@@ -54,13 +58,16 @@ public:
   [[nodiscard]] const TriangleMesh& mesh() const { return m_mesh; }
 
 private:
-  // Children of box i are i + 1 and `right` (0: a leaf of triangles m_order[first, last)).
+  // In floats that lie outside of what the box holds. A leaf holds m_order[at, at + count); without
+  // a count the children are the next box and box `at`.
   struct Box {
-    Eigen::Vector3d low, high;
-    std::uint32_t first, last, right;
+    std::array<float, 3> low, high;
+    std::uint32_t at, count;
   };
+  class Ray;
   std::uint32_t build(std::uint32_t first, std::uint32_t last,
                       const std::vector<Eigen::Vector3d>& centre);
+  [[nodiscard]] static double squaredDistance(const Box& box, const Eigen::Vector3d& point);
   [[nodiscard]] int winding(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
   [[nodiscard]] Eigen::Vector3d corner(std::uint32_t triangle, std::size_t i) const {
     return m_mesh.position[m_mesh.triangle[triangle][i]];
@@ -72,6 +79,7 @@ private:
   const TriangleMesh& m_mesh;
   std::vector<Box> m_boxes;
   std::vector<std::uint32_t> m_order;
+  std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // of m_order, as leaves ask for them
 };
 
 }  // namespace lumen::convert

@@ -13,7 +13,6 @@
 #include "converters/surface/end_planes.h"
 #include "converters/surface/extract.h"
 #include "converters/surface/flow_extension.h"
-#include "converters/surface/levels_of_detail.h"
 #include "converters/surface/mend_crossings.h"
 #include "converters/surface/overlaps.h"
 #include "converters/surface/remesh.h"
@@ -51,7 +50,7 @@ public:
     report.gap = m_field.options().gap;
     std::vector<DetailLevel> levels;
     if (m_options.thickness)
-      levels.push_back({wall(), {}});
+      levels.push_back({wall(), -1});
     else
       levels = lumen();
     for (DetailLevel& level : levels) {
@@ -60,7 +59,7 @@ public:
         report.messages.insert(report.messages.end(), said.begin(), said.end());
       if (m_options.open && !m_options.thickness) openEnds(level.surface);
       m_result.levels.push_back(toSurfaceMesh(level.surface, m_field, m_progress));
-      report.errors.push_back(level.error.largest);
+      report.errors.push_back(level.error);
     }
     report.vertices = m_result.levels.front().position.size();
     report.triangles = m_result.levels.front().triangle.size();
@@ -72,16 +71,10 @@ private:
   std::vector<DetailLevel> lumen() {
     CaseSurface surface = extract(m_field, m_result.report);
     noteEnds(cutEnds(surface, m_field, m_progress));
-    const double error = refine(surface, m_field);
+    refine(surface, m_field);
     m_result.report.crossings = mendCrossings(surface, m_field, m_progress);
     m_result.report.overlaps = overlapsOf(surface, m_field);
-    std::vector<DetailLevel> levels;
-    if (m_options.levels <= 1) {
-      levels.push_back({std::move(surface), {error, 0}});
-      return levels;
-    }
-    return levelsOfDetail(std::move(surface), m_field, static_cast<std::size_t>(m_options.levels),
-                          m_progress);
+    return leveled(std::move(surface));
   }
 
   // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each
@@ -120,21 +113,28 @@ private:
     for (const std::string& sentence : found.moved) m_progress.detail(sentence);
   }
 
-  // The greatest distance from the field, mm, if triangles are dropped; else -1, not measured.
-  double refine(CaseSurface& surface, const SheetField& field) {
+  void refine(CaseSurface& surface, const SheetField& field) {
     const RemeshReport found = remesh(surface, field, m_options.edge, m_progress);
     m_result.report.offField += found.offField;
     m_result.report.sharpTriangles += found.sharp;
-    if (!(m_options.maxError > 0)) return -1;
-    CaseSurface whole = surface;
-    const double error = decimate(surface, field, {m_options.maxError, 0}, m_progress).largest;
-    if (error <= m_options.maxError && selfIntersections(surface.mesh, 1).pairs.empty())
-      return error;
-    surface = std::move(whole);
-    m_result.report.messages.push_back(
-        "no triangles are dropped: at creases of the field they would lie up to " +
-        formats::shortText(static_cast<float>(error)) + " mm off, which is more than --max-error");
-    return -1;
+  }
+
+  // The surface with as few triangles as --max-error allows, and in as many levels as are asked for.
+  std::vector<DetailLevel> leveled(CaseSurface surface) {
+    std::optional<CaseSurface> whole;
+    std::vector<DetailLevel> levels{{std::move(surface), -1}};
+    if (m_options.maxError > 0) {
+      whole = levels[0].surface;
+      levels[0].error = decimate(levels[0].surface, m_field, {m_options.maxError, 0}, m_progress);
+      if (levels[0].error > m_options.maxError)
+        throw failed("with fewer triangles the surface would lie " +
+                     formats::shortText(static_cast<float>(levels[0].error)) +
+                     " mm off, which is more than --max-error");
+    }
+    addCoarserLevels(levels, m_options.levels, m_field, m_progress);
+    for (std::size_t i = 1; i < levels.size(); ++i)
+      levels[i].error = distanceBetween(levels[i].surface, whole ? *whole : levels[0].surface);
+    return levels;
   }
 
   const formats::Case& m_source;

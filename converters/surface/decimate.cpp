@@ -1,173 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/surface/decimate.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <span>
-#include <vector>
+#include <utility>
 
-#include <tbb/parallel_for.h>
+#include <Eigen/Geometry>
 
-// First the mesh, whose headers QuadricT.hh needs and does not include.
-// clang-format off
-#include "converters/surface/remesh_mesh.h"
-#include <OpenMesh/Core/Geometry/QuadricT.hh>
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModBaseT.hh>
-// clang-format on
-
-#include "converters/surface/remesh_moves.h"
+#include "converters/surface/collapses.h"
+#include "converters/surface/deviation.h"
 #include "converters/surface/remesh_pieces.h"
-#include "converters/surface/remesh_target.h"
-#include "converters/surface/surface_error.h"
 
 namespace lumen::convert {
 namespace {
 
-using Quadric = OpenMesh::Geometry::Quadricd;
+constexpr double kBoundShare =
+    0.98;  // what lies between the points that are looked at has the rest
 
-constexpr double kNoSharper = 0.067;   // squared sine of 15 degrees
-constexpr double kQuadricShare = 0.5;  // of the bound: the rest is for what planes do not see
-constexpr int kRefinements = 8;        // each divides the error by about four
-constexpr int kCheckEvery = 4096;      // collapses looked at, about 10 ms
-
-// What a collapse costs: the root mean square distance of the vertex that stays from the planes
-// of the faces that went into it, mm or in targets.
-class CollapseCost : public OpenMesh::Decimater::ModBaseT<RemeshMesh> {
-public:
-  using Base = OpenMesh::Decimater::ModBaseT<RemeshMesh>;
-  using Handle = OpenMesh::Decimater::ModHandleT<CollapseCost>;
-  using CollapseInfo = Base::CollapseInfo;
-  DECIMATER_MODNAME(CollapseCost)
-  explicit CollapseCost(RemeshMesh& mesh) : Base(mesh, false) {}
-
-  void setUp(double largest, const Progress& progress) {
-    m_largest = largest;
-    m_progress = &progress;
-  }
-
-  void initialize() override {
-    m_quadric.assign(mesh().n_vertices(), Quadric());
-    m_area.assign(mesh().n_vertices(), 0);
-    for (const RemeshMesh::FaceHandle face : mesh().faces()) {
-      const auto c = mesh().cornersOf(face);
-      const Eigen::Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]);
-      const double twice = normal.norm();
-      if (!(twice > 0)) continue;
-      const Eigen::Vector3d n = normal / twice;
-      Quadric plane(n.x(), n.y(), n.z(), -n.dot(c[0]));
-      plane *= twice / 2;
-      for (const RemeshMesh::VertexHandle v : mesh().verticesOf(face)) {
-        m_quadric[indexOf(v)] += plane;
-        m_area[indexOf(v)] += twice / 2;
-      }
-    }
-  }
-
-  float collapse_priority(const CollapseInfo& info) override {
-    if (++m_looks % kCheckEvery == 0) m_progress->check();
-    Quadric quadric = m_quadric[indexOf(info.v0)];
-    quadric += m_quadric[indexOf(info.v1)];
-    const double area = m_area[indexOf(info.v0)] + m_area[indexOf(info.v1)];
-    const OpenMesh::Vec3d point(info.p1.x(), info.p1.y(), info.p1.z());
-    const double error = std::sqrt(std::max(0.0, quadric(point)) / area);
-    if (m_largest > 0 && error > m_largest) return ILLEGAL_COLLAPSE;
-    if (!mesh().mayCollapse(info.v0v1)) return ILLEGAL_COLLAPSE;
-    const RemeshMesh::Outcome outcome = mesh().afterCollapse(info.v0v1);
-    if (outcome.isTurned || outcome.quality < std::min(outcome.before, kNoSharper))
-      return ILLEGAL_COLLAPSE;
-    return static_cast<float>(m_largest > 0 ? error : error / mesh().data(info.v0).target);
-  }
-
-  void postprocess_collapse(const CollapseInfo& info) override {
-    m_quadric[indexOf(info.v1)] += m_quadric[indexOf(info.v0)];
-    m_area[indexOf(info.v1)] += m_area[indexOf(info.v0)];
-  }
-
-private:
-  static std::size_t indexOf(RemeshMesh::VertexHandle v) {
-    return static_cast<std::size_t>(v.idx());
-  }
-  std::vector<Quadric> m_quadric;
-  std::vector<double> m_area;  ///< of the faces that went into it
-  double m_largest = 0;
-  const Progress* m_progress = nullptr;
-  int m_looks = 0;
-};
-
-RemeshState stateOf(CaseSurface& surface, const SheetField& field) {
-  const std::size_t vertices = surface.mesh.position.size();
-  RemeshState state{surface, targetLengths(surface, field, {}), {}, {}, {}, {}};
-  state.gradient.resize(vertices);
+// Where the surface looks, and how long its edges are, at each vertex.
+RemeshState stateOf(CaseSurface& surface) {
+  const TriangleMesh& mesh = surface.mesh;
+  const std::size_t vertices = mesh.position.size();
+  RemeshState state{surface, std::vector<double>(vertices, 0), {}, {}, {}, {}};
+  state.gradient.assign(vertices, Eigen::Vector3d::Zero());
   state.isSeparated.assign(vertices, 0);
   state.isOffField.assign(vertices, 0);
   state.isBoundary.assign(vertices, 0);
-  tbb::parallel_for(std::size_t{0}, vertices, [&](std::size_t v) {
-    state.gradient[v] = field.at(surface.mesh.position[v], surface.node[v]).gradient;
-  });
+  std::vector<double> edges(vertices, 0);
+  for (std::size_t f = 0; f < mesh.triangle.size(); ++f) {
+    const Triangle& t = mesh.triangle[f];
+    const Eigen::Vector3d area = (mesh.position[t[1]] - mesh.position[t[0]])
+                                     .cross(mesh.position[t[2]] - mesh.position[t[0]]);
+    const bool isWall = surface.groups[surface.group[f]].kind == FaceKind::Wall;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (isWall) state.gradient[t[i]] += area;
+      state.target[t[i]] += (mesh.position[t[(i + 1) % 3]] - mesh.position[t[i]]).norm();
+      ++edges[t[i]];
+    }
+  }
+  for (std::size_t v = 0; v < vertices; ++v) {
+    state.gradient[v].normalize();
+    if (edges[v] > 0) state.target[v] /= edges[v];
+  }
   return state;
 }
 
-void collapseCheapest(RemeshMesh& mesh, const DecimateOptions& options, const Progress& progress) {
-  OpenMesh::Decimater::DecimaterT<RemeshMesh> decimater(mesh);
-  OpenMesh::Decimater::ModHandleT<CollapseCost> cost;
-  decimater.add(cost);
-  decimater.module(cost).setUp(kQuadricShare * options.maxError, progress);
-  if (!decimater.initialize()) return;
-  decimater.decimate_to_faces(0, options.triangles);
+std::vector<bool> flatGroups(const CaseSurface& surface) {
+  std::vector<bool> isFlat(surface.groups.size(), false);
+  for (const SurfaceEnd& end : surface.ends)
+    isFlat[end.group] = surface.groups[end.group].kind != FaceKind::Cap;
+  return isFlat;
 }
 
-// Halves the edges that are too far from the field, and the longest of faces that are.
-bool refineWhereFar(RemeshMesh& mesh, double maxError) {
-  const SheetField& field = mesh.rules().field;
-  const auto isFar = [&](const Eigen::Vector3d& point, RemeshMesh::VertexHandle v) {
-    return distanceToField(field, point, mesh.data(v).node) > maxError;
-  };
-  std::vector<RemeshMesh::EdgeHandle> far;
-  for (const RemeshMesh::EdgeHandle edge : mesh.edges()) {
-    const RemeshMesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
-    const RemeshMesh::VertexHandle v = mesh.from_vertex_handle(h);
-    if (mesh.isInPlane(edge) && !mesh.data(edge).isRim) continue;
-    if (isFar(0.5 * (mesh.point(v) + mesh.point(mesh.to_vertex_handle(h))), v)) far.push_back(edge);
-  }
-  for (const RemeshMesh::FaceHandle face : mesh.faces()) {
-    if (mesh.rules().plane[mesh.data(face).group]) continue;
-    const auto c = mesh.cornersOf(face);
-    if (isFar((c[0] + c[1] + c[2]) / 3, mesh.verticesOf(face)[0]))
-      far.push_back(mesh.longestOf(face));
-  }
-  std::sort(far.begin(), far.end());
-  far.erase(std::unique(far.begin(), far.end()), far.end());
-  for (const RemeshMesh::EdgeHandle edge : far) {
-    const RemeshMesh::VertexHandle v = mesh.splitEdge(edge);
-    if (mesh.data(v).kind != VertexKind::Flat) settle(mesh, v);
-  }
-  return !far.empty();
-}
-
-}  // namespace
-
-SurfaceError decimate(CaseSurface& surface, const SheetField& field, const DecimateOptions& options,
-                      Progress& progress) {
-  if (options.triangles >= surface.mesh.triangle.size() ||
-      (options.triangles == 0 && !(options.maxError > 0)))
-    return surfaceError(surface, field);
-  RemeshState state = stateOf(surface, field);
+void collapse(CaseSurface& surface, const SheetField& field, const CollapseBounds& bounds,
+              const Progress& progress) {
+  RemeshState state = stateOf(surface);
   const PieceRules rules = rulesOf(surface, field);
   TriangleList all(surface.mesh.triangle.size());
   std::iota(all.begin(), all.end(), 0U);
   std::vector<Piece> piece{cutOut(state, all)};
   RemeshMesh mesh(piece[0], rules);
-  collapseCheapest(mesh, options, progress);
+  collapseCheapest(mesh, bounds, progress);
   mesh.garbage_collection();
-  for (int i = 0; i < kRefinements && options.maxError > 0; ++i) {
-    progress.check();
-    if (!refineWhereFar(mesh, options.maxError)) break;
-  }
   piece[0] = mesh.toPiece();
   putBack(state, std::span(&all, 1), piece);
-  return surfaceError(surface, field);
+}
+
+}  // namespace
+
+double distanceBetween(const CaseSurface& one, const CaseSurface& other) {
+  return distanceBetween(one.mesh, one.group, other.mesh, other.group, flatGroups(one));
+}
+
+double decimate(CaseSurface& surface, const SheetField& field, const DecimateOptions& options,
+                Progress& progress) {
+  if (options.triangles >= surface.mesh.triangle.size() ||
+      (options.triangles == 0 && !(options.maxError > 0)))
+    return 0;
+  const CaseSurface before = surface;
+  collapse(surface, field, {kBoundShare * options.maxError, options.triangles}, progress);
+  progress.check();
+  return distanceBetween(surface, before);
+}
+
+void addCoarserLevels(std::vector<DetailLevel>& levels, int count, const SheetField& field,
+                      Progress& progress) {
+  while (static_cast<int>(levels.size()) < count) {
+    CaseSurface next = levels.back().surface;
+    collapse(next, field, {0, next.mesh.triangle.size() / 4}, progress);
+    levels.push_back({std::move(next), -1});
+  }
 }
 
 }  // namespace lumen::convert

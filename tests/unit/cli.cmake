@@ -27,6 +27,15 @@ lumen_test(cli_test
 target_compile_definitions(cli_test PRIVATE LUMEN_EXECUTABLE="$<TARGET_FILE:lumen>")
 add_dependencies(cli_test lumen)
 
+# The closed surfaces that it writes, measured with CGAL and filled by TetGen.
+lumen_test(closed_surface_test
+  LIBS lumen_surface_facts lumen_case nlohmann_json::nlohmann_json
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/closed_surface_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp)
+target_compile_definitions(closed_surface_test PRIVATE LUMEN_EXECUTABLE="$<TARGET_FILE:lumen>")
+add_dependencies(closed_surface_test lumen)
+
 # The program as it is installed, and its answers.
 find_program(PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(PYTHON NAMES python3)

@@ -98,12 +98,18 @@ TEST(CaseOfMesh, SaysThatACenterlineIsInAnotherFrame) {
   }
 }
 
-TEST(CaseOfMesh, RefusesAWallWithAThickness) {
-  TriangleMesh wall = test::tube(test::straight(40), 3, false);
-  TriangleMesh inner = test::tube(test::straight(40), 2.6, false);
-  for (Triangle& t : inner.triangle) std::swap(t[0], t[1]);
+/// A tube of radius 2.6 within one of radius 3, facing one another's backs; joined at the ends or not.
+TriangleMesh wallOfATube(bool isJoined) {
+  TriangleMesh wall = test::tube(test::straight(40), 3, !isJoined);
+  TriangleMesh inner = test::tube(test::straight(38), 2.6, !isJoined);
+  if (isJoined) inner = test::tube(test::straight(40), 2.6, false);
+  if (isJoined)
+    for (Triangle& t : inner.triangle) std::swap(t[0], t[1]);
+  for (Eigen::Vector3d& p : inner.position)
+    if (!isJoined) p.x() += 1;
   const auto first = static_cast<std::uint32_t>(wall.position.size());
   test::append(wall, inner);
+  if (!isJoined) return wall;
   for (std::uint32_t k = 0; k < 32; ++k) {
     const std::uint32_t n = (k + 1) % 32, far = 60 * 32;
     wall.triangle.push_back({n, k, first + k});
@@ -111,7 +117,28 @@ TEST(CaseOfMesh, RefusesAWallWithAThickness) {
     wall.triangle.push_back({far + k, far + n, first + far + n});
     wall.triangle.push_back({far + k, first + far + n, first + far + k});
   }
-  EXPECT_THROW(made(wall), Error);
+  return wall;
+}
+
+TEST(CaseOfMesh, OfAWallWithAThicknessTheInnerSideIsTaken) {
+  for (const bool isJoined : {true, false}) {
+    const MeshCase wall = made(wallOfATube(isJoined));
+    ASSERT_EQ(wall.notes.size(), 1U) << isJoined;
+    EXPECT_NE(wall.notes[0].find("inner side"), std::string::npos) << wall.notes[0];
+    EXPECT_EQ(wall.result.tree.branches.size(), 1U);
+    for (const float radius : wall.result.tree.radius) EXPECT_NEAR(radius, 2.6, 0.03);
+  }
+}
+
+TEST(CaseOfMesh, WhatLiesWithinALumenIsLeftOut) {
+  TriangleMesh mesh = test::tube(test::straight(40), 3, true);
+  TriangleMesh stone = test::tube(test::straight(2), 0.5, true);
+  for (Eigen::Vector3d& p : stone.position) p.x() += 20;
+  test::append(mesh, stone);
+  const MeshCase tube = made(mesh);
+  EXPECT_EQ(tube.notes,
+            std::vector<std::string>{"tube.stl: 1 part that lies within another one was left out"});
+  for (const float radius : tube.result.tree.radius) EXPECT_NEAR(radius, 3, 0.03);
 }
 
 TEST(CaseOfMesh, IsTheSameOnAnyNumberOfThreads) {

@@ -324,6 +324,39 @@ TEST(ReadVtk, WrongCountsAndIndicesAreRefused) {
       "4: a: line 4: the data set is \"STRUCTURED_GRID\"; lumen reads POLYDATA");
 }
 
+/// A triangle with field data of ASCII codes.
+std::string vtpWithField(const std::string& field) {
+  return "<VTKFile type=\"PolyData\"><PolyData><FieldData>" + field +
+         "</FieldData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points><DataArray "
+         "type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray>"
+         "</Points><Polys><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2"
+         "</DataArray><DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray>"
+         "</Polys></Piece></PolyData></VTKFile>";
+}
+
+std::string fieldText(const char* name, const char* codes) {
+  return std::string("<DataArray type=\"String\" Name=\"") + name + "\" format=\"ascii\">" + codes +
+         "</DataArray>";
+}
+
+TEST(ReadVtp, UnitAndAxesAreThoseOfTheFieldData) {
+  const MeshFile file =
+      parsed(vtpWithField(fieldText("Unit", "109 109 0") + fieldText("SPACE", "82 65 83 0")),
+             MeshFormat::Vtp);
+  EXPECT_EQ(file.unitMm, 1);
+  EXPECT_TRUE(file.frameStated);
+  EXPECT_EQ(file.mesh.position[1], Eigen::Vector3d(-1, 0, 0));
+}
+
+TEST(ReadVtp, OtherFieldDataStateNothing) {
+  const MeshFile file =
+      parsed(vtpWithField(fieldText("Unit", "99 109 0") + fieldText("SPACE", "76") +
+                          fieldText("Note", "no numbers")),
+             MeshFormat::Vtp);
+  EXPECT_EQ(file.unitMm, 0);
+  EXPECT_FALSE(file.frameStated);
+}
+
 TEST(ReadVtp, EveryEncodingOfVtkIsTheSameMesh) {
   const std::filesystem::path folder = std::filesystem::path(LUMEN_TEST_DATA) / "vtk";
   const MeshFile text = readMesh(folder / "ascii.vtp", MeshFormat::Vtp);

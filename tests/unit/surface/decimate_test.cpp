@@ -10,7 +10,6 @@
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
 #include "closed_surface.h"
-#include "converters/surface/levels_of_detail.h"
 #include "converters/surface/remesh.h"
 
 namespace lumen::convert {
@@ -40,22 +39,6 @@ double offAxis(const Eigen::Vector3d& p) {
   return std::hypot(p.y() - 0.05, p.z() - 0.07);
 }
 
-// Of a sphere of radius 1, triangles with edges of 0.4 are within 1 - sqrt(1 - 0.4^2 / 3).
-TEST(SurfaceError, OfATriangulatedSphereIsItsSagitta) {
-  const FieldOfCase of(test::sphereCase(1.0, 0.43));
-  CaseSurface surface = test::closedSurface(of, 0.3, 0);
-  Progress progress;
-  remesh(surface, of.sheet, {0.4}, progress);
-  double sagitta = 0;
-  const double radius = (surface.mesh.position[0] - Eigen::Vector3d(0.03, 0.05, 0.07)).norm();
-  for (const Triangle& t : surface.mesh.triangle) {
-    const auto& p = surface.mesh.position;
-    const Eigen::Vector3d middle = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
-    sagitta = std::max(sagitta, radius - (middle - Eigen::Vector3d(0.03, 0.05, 0.07)).norm());
-  }
-  EXPECT_NEAR(surfaceError(surface, of.sheet).largest, sagitta, 0.05 * sagitta);
-}
-
 class DecimateTo : public testing::TestWithParam<double> {};
 
 TEST_P(DecimateTo, StaysWithinTheErrorAndSaysIt) {
@@ -64,11 +47,12 @@ TEST_P(DecimateTo, StaysWithinTheErrorAndSaysIt) {
   CaseSurface surface = fineTube(of);
   const std::size_t before = surface.mesh.triangle.size();
   Progress progress;
-  const SurfaceError error = decimate(surface, of.sheet, {maxError}, progress);
+  const CaseSurface whole = surface;
+  const double error = decimate(surface, of.sheet, {maxError}, progress);
   expectClosed(surface);
   EXPECT_LT(surface.mesh.triangle.size(), before / 2);
-  EXPECT_LE(error.largest, maxError);
-  EXPECT_EQ(error.largest, surfaceError(surface, of.sheet).largest);
+  EXPECT_LE(error, maxError);
+  EXPECT_EQ(error, distanceBetween(surface, whole));
   // The wall is nearly a cylinder: its points, however they are taken, are no farther from it.
   for (std::size_t t = 0; t < surface.group.size(); ++t) {
     if (surface.group[t] != 0) continue;
@@ -99,7 +83,8 @@ TEST(Decimate, KeepsGroupsAndTheirPlanes) {
 TEST(LevelsOfDetail, HaveAQuarterOfTheTrianglesEach) {
   const FieldOfCase of(test::tubeCase(6));
   Progress progress;
-  const auto levels = levelsOfDetail(fineTube(of), of.sheet, 3, progress);
+  std::vector<DetailLevel> levels{{fineTube(of), -1}};
+  addCoarserLevels(levels, 3, of.sheet, progress);
   ASSERT_EQ(levels.size(), 3U);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     expectClosed(levels[i].surface);
@@ -107,8 +92,11 @@ TEST(LevelsOfDetail, HaveAQuarterOfTheTrianglesEach) {
     const auto triangles = static_cast<double>(levels[i].surface.mesh.triangle.size());
     const auto finer = static_cast<double>(levels[i - 1].surface.mesh.triangle.size());
     EXPECT_NEAR(triangles / finer, 0.25, 0.02);
-    EXPECT_GT(levels[i].error.largest, levels[i - 1].error.largest);
-    EXPECT_LT(levels[i].error.largest, 0.3);
+    const auto error = [&](std::size_t level) {
+      return distanceBetween(levels[level].surface, levels[0].surface);
+    };
+    EXPECT_GT(error(i), error(i - 1));
+    EXPECT_LT(error(i), 0.3);
   }
 }
 
