@@ -19,7 +19,7 @@ packages=(
   build-essential cmake ninja-build ccache git ca-certificates
   libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
-  libexpat1-dev robin-map-dev
+  libexpat1-dev robin-map-dev libcpp-httplib-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
 )
@@ -54,6 +54,24 @@ install_packages() {
     -o Acquire::Retries=5 --no-install-recommends "${missing[@]}"
 }
 
+# The page of the viewer: it runs without npm, but is built by it. A build that fails leaves the program without page.
+build_page() {
+  local folder=viewer/page
+  [ -f "$folder/package.json" ] || return 0
+  if ! have_node; then
+    say "The viewer's page: left out, as npm and Node 18 or newer are not here (apt install npm nodejs)"
+    return
+  fi
+  say "The viewer's page: building it in $folder"
+  local authorities=/etc/ssl/certs/ca-certificates.crt
+  [ ! -r "$authorities" ] || export NODE_EXTRA_CA_CERTS="${NODE_EXTRA_CA_CERTS:-$authorities}"
+  (
+    cd "$folder"
+    [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund --fetch-retries=5
+    npm run --silent build
+  )
+}
+
 # configure_and_build [TARGET...]: everything without a target.
 configure_and_build() {
   say "Configuring build/release"
@@ -68,7 +86,9 @@ json_figure() {
 }
 
 run_demo() {
+  have_node || packages+=(nodejs npm)
   install_packages "${packages[@]}"
+  build_page
   configure_and_build lumen
   local lumen=build/release/converters/app/lumen
   mkdir -p demo
@@ -107,6 +127,8 @@ close_demo() {
   wall distance, median and 90 %      $(json_figure $c median) mm, $(json_figure $c p90) mm
 
 == To look at it
+  The volume and the vessels in the browser, to see, measure and correct:
+    build/release/converters/app/lumen view demo/angiogram.nrrd demo/vessels.lumen
   Open demo/vessels.glb in any glTF viewer, such as Blender, or f3d from Debian (which cannot read --draco):
     apt install f3d && f3d demo/vessels.glb
   The command line is build/release/converters/app/lumen; --help lists what it can do.
@@ -155,6 +177,7 @@ install_test_packages() {
 
 run_tests() {
   install_test_packages
+  build_page
   configure_and_build
   install_validator
   run_ctest

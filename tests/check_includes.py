@@ -29,10 +29,15 @@ for stage, below in STAGES.items():
     MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]
 MAY_INCLUDE["converters/app"] = FORMATS + ["converters/common"] + ["converters/" + s for s in STAGES]
 
+# The viewer does what commands do; `app` has nothing of it but the name of a function that makes a command.
+VIEWER = MAY_INCLUDE["converters/app"] + ["converters/app"]
+MAY_INCLUDE["viewer/session"] = VIEWER
+MAY_INCLUDE["viewer/server"] = VIEWER + ["viewer/session"]
+
 
 def sources():
     """Every C or C++ file of the product, relative to the root."""
-    for top in ("formats", "libblob/include", "libblob/src", "converters"):
+    for top in ("formats", "libblob/include", "libblob/src", "converters", "viewer/session", "viewer/server"):
         yield from (p.relative_to(ROOT) for p in sorted((ROOT / top).rglob("*")) if p.suffix in (".h", ".cpp", ".c"))
 
 

@@ -42,6 +42,8 @@ find_program(PYTHON NAMES python3)
 if(PYTHON AND NOT LUMEN_SANITIZE)
   add_test(NAME Install.GivesAProgramThatRunsWhereverItIs
     COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_install.py ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR})
+  add_test(NAME View.StartsServesSavesAndEnds
+    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_view.py $<TARGET_FILE:lumen>)
   execute_process(COMMAND ${PYTHON} -c "import vtkmodules" RESULT_VARIABLE no_vtk OUTPUT_QUIET ERROR_QUIET)
   if(no_vtk)
     message(STATUS "Python's VTK (python3-vtk9) not found: lumen's files are not opened with it")

@@ -1,6 +1,5 @@
 # The document of the viewer, and its server as a page meets it.
 lumen_test(viewer_test
-  LABELS threads
   LIBS lumen_server lumen_httplib
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/document_test.cpp

@@ -29,8 +29,7 @@ bool openBrowser(const std::string& address) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
   const std::array<std::string, 5> words = {"sh", "-c", kStart, "sh", address};
   std::array<char*, 6> arguments{};
-  for (std::size_t i = 0; i < words.size(); ++i)
-    arguments[i] = const_cast<char*>(words[i].c_str());
+  for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = const_cast<char*>(words[i].c_str());
   pid_t child = 0;
   const int failed =
       posix_spawn(&child, "/bin/sh", nullptr, &attributes, arguments.data(), environ);

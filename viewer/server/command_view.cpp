@@ -25,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTick{100};      // how soon Ctrl-C is heard
-constexpr std::chrono::seconds kLook{1};             // between two looks at the files on disk
-constexpr std::chrono::seconds kWithoutPages{60};    // a page that is loaded again takes seconds
+constexpr std::chrono::milliseconds kTick{100};    // how soon Ctrl-C is heard
+constexpr std::chrono::seconds kLook{1};           // between two looks at the files on disk
+constexpr std::chrono::seconds kWithoutPages{60};  // a page that is loaded again takes seconds
 
 class ViewCommand : public app::Command {
 public:
@@ -77,7 +77,8 @@ private:
     for (const FileRole wanted :
          {FileRole::Volume, FileRole::Case, FileRole::Mesh, FileRole::Seeds})
       for (const std::string& file : m_files)
-        if (file != output && roleOf({file, file}) == wanted) openOne(session, file, wanted, context);
+        if (file != output && roleOf({file, file}) == wanted)
+          openOne(session, file, wanted, context);
     if (output) session.saveTo(*output);
   }
 
@@ -85,8 +86,7 @@ private:
                       app::Context& context) {
     const bool isTruth = role == FileRole::Case && session.now().document.value != nullptr;
     session.open({file, fs::path(file).filename().string(), false, isTruth}, context.progress);
-    const app::FileFormat* format =
-        role == FileRole::Case ? &app::inputFormat(file, "") : nullptr;
+    const app::FileFormat* format = role == FileRole::Case ? &app::inputFormat(file, "") : nullptr;
     if (format != nullptr && app::canWriteCase(*format) && !isTruth) session.saveTo(file);
   }
 

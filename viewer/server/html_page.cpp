@@ -39,8 +39,9 @@ std::string scriptSafe(const std::string& json) {
 /// Code that stands in a script. Only these two can end or mislead one, and in what is bundled they
 /// occur in texts and regular expressions alone, where the backslash changes nothing.
 std::string inlineScript(std::string code) {
-  for (const auto& [from, to] : {std::pair<std::string_view, std::string_view>{"</script", "<\\/script"},
-                                 {"<!--", "<\\!--"}})
+  for (const auto& [from, to] :
+       {std::pair<std::string_view, std::string_view>{"</script", "<\\/script"},
+        {"<!--", "<\\!--"}})
     for (std::size_t at = 0; (at = code.find(from, at)) != code.npos; at += to.size())
       code.replace(at, from.size(), to);
   return code;

@@ -29,8 +29,7 @@ PageFiles readFrom(const fs::path& folder) {
   for (const Known& known : kKnown) {
     const auto bytes = formats::readFileBytes(folder / known.file);
     if (!bytes) continue;
-    files[known.name] = {known.type,
-                         {reinterpret_cast<const char*>(bytes->data()), bytes->size()}};
+    files[known.name] = {known.type, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}};
   }
   // one without the others is a build that was interrupted
   return files.contains("") && files.contains("page.js") ? files : PageFiles();

@@ -190,8 +190,8 @@ private:
   [[nodiscard]] std::string at(const std::string& name) const { return "/" + m_token + "/" + name; }
 
   void bind(int port) {
-    const bool bound = port == 0 ? (port = m_http.bind_to_any_port(kHost)) > 0
-                                 : m_http.bind_to_port(kHost, port);
+    const bool bound =
+        port == 0 ? (port = m_http.bind_to_any_port(kHost)) > 0 : m_http.bind_to_port(kHost, port);
     if (!bound)
       throw failed(port > 0 ? "port " + std::to_string(port) +
                                   " cannot be listened on; another program may have it"
@@ -256,11 +256,11 @@ private:
     get("mesh", [this](const Request& request, Response& response) {
       answerPart(request, response, m_session.meshPack(numberOf(request, "id")));
     });
-    get("volume", [this](const Request& request, Response& response) {
-      answerVolume(request, response);
-    });
+    get("volume",
+        [this](const Request& request, Response& response) { answerVolume(request, response); });
     get("events", [this](const Request&, Response& response) { answerEvents(response); });
-    get("save", [this](const Request& request, Response& response) { answerSave(request, response); });
+    get("save",
+        [this](const Request& request, Response& response) { answerSave(request, response); });
   }
 
   void addWork() {
@@ -324,9 +324,9 @@ private:
                                : m_session.encoded(format, options);
     const std::string ending = format == "seeds" ? ".seeds.json" : "." + format;
     const Json title = m_session.state()["title"];
-    response.set_header("Content-Disposition",
-                        "attachment; filename=\"" +
-                            downloadName(title.get<std::string>(), ending) + "\"");
+    response.set_header(
+        "Content-Disposition",
+        "attachment; filename=\"" + downloadName(title.get<std::string>(), ending) + "\"");
     response.set_content(std::move(bytes), kBytes);
   }
 

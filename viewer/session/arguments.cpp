@@ -93,7 +93,8 @@ Eigen::Vector3d Arguments::position(const char* name) const {
 
 std::vector<std::string> Arguments::texts(const char* name) const {
   const Json& list = at(name);
-  if (!list.is_array() || list.size() > kMostTexts) refuse(quoted(name) + " must be a list of texts");
+  if (!list.is_array() || list.size() > kMostTexts)
+    refuse(quoted(name) + " must be a list of texts");
   std::vector<std::string> texts;
   for (const Json& value : list) texts.push_back(textOf(value, name));
   return texts;

@@ -28,7 +28,7 @@ public:
   [[nodiscard]] double number(const char* name) const;
   [[nodiscard]] std::string text(const char* name) const;  ///< at most 255 bytes
   [[nodiscard]] std::string text(const char* name, const std::string& otherwise) const;
-  [[nodiscard]] bool flag(const char* name) const;            ///< false if it is missing
+  [[nodiscard]] bool flag(const char* name) const;                 ///< false if it is missing
   [[nodiscard]] Eigen::Vector3d position(const char* name) const;  ///< finite
   [[nodiscard]] std::vector<std::string> texts(const char* name) const;
   [[nodiscard]] std::vector<convert::SeedPoint> points(const char* name) const;  ///< one to 1000

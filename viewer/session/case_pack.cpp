@@ -39,7 +39,8 @@ Json stepsJson(const formats::Metadata& metadata) {
     Json parameters = Json::object();
     for (const auto& [name, value] : step.parameters)
       std::visit([&](const auto& v) { parameters[name] = v; }, value);
-    list.push_back({{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
+    list.push_back(
+        {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
   }
   return list;
 }
@@ -49,8 +50,7 @@ std::vector<float> rootDistances(const formats::CenterlineTree& tree) {
   std::vector<double> distance(tree.nodeCount(), 0);
   for (std::uint32_t node = 0; node < tree.nodeCount(); ++node)
     if (const std::int32_t parent = tree.parent[node]; parent >= 0)
-      distance[node] =
-          distance[static_cast<std::size_t>(parent)] + formats::edgeLength(tree, node);
+      distance[node] = distance[static_cast<std::size_t>(parent)] + formats::edgeLength(tree, node);
   return {distance.begin(), distance.end()};
 }
 

@@ -23,8 +23,8 @@ std::size_t sizeOf(const formats::Case& value) {
                     sizeOf(tree.links);
   if (value.points) sum += sizeOf(value.points->offset) + sizeOf(value.points->position);
   if (value.models)
-    sum += sizeOf(value.models->offset) + sizeOf(value.models->centre) +
-           sizeOf(value.models->width);
+    sum +=
+        sizeOf(value.models->offset) + sizeOf(value.models->centre) + sizeOf(value.models->width);
   for (const formats::NodeArray& array : value.nodeArrays)
     std::visit([&sum](const auto& values) { sum += sizeOf(values); }, array.values);
   for (const formats::OtherChunk& chunk : value.otherChunks) sum += sizeOf(chunk.bytes);

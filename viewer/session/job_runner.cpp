@@ -20,8 +20,7 @@ constexpr std::chrono::milliseconds kInterval{100};  // as often as a page redra
 /// Tells the pages how far a job is.
 class JobProgress : public Progress {
 public:
-  JobProgress(EventHub& events, int job,
-              const std::function<std::string(std::string_view)>& text)
+  JobProgress(EventHub& events, int job, const std::function<std::string(std::string_view)>& text)
       : m_events(events), m_job(job), m_text(text) {}
 
   void begin(std::string_view stage, std::size_t total) override {
@@ -54,10 +53,9 @@ private:
       const std::lock_guard lock(m_mutex);
       stage = m_stage;
     }
-    m_events.tell("progress", {{"job", m_job},
-                               {"stage", stage},
-                               {"done", m_done.load()},
-                               {"total", m_total.load()}});
+    m_events.tell(
+        "progress",
+        {{"job", m_job}, {"stage", stage}, {"done", m_done.load()}, {"total", m_total.load()}});
   }
 
   EventHub& m_events;
@@ -109,8 +107,7 @@ void JobRunner::run(int job, const Work& work, Progress& progress) {
   } catch (const Error& error) {
     const bool cancelled = error.kind() == ErrorKind::Cancelled;
     done["cancelled"] = cancelled;
-    done["text"] = cancelled ? std::string("cancelled; nothing has changed")
-                             : m_text(error.what());
+    done["text"] = cancelled ? std::string("cancelled; nothing has changed") : m_text(error.what());
   } catch (const std::bad_alloc&) {
     done["text"] = "there is not enough memory";
   } catch (const std::exception& error) {

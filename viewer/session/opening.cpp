@@ -31,7 +31,8 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
     throw invalidInput(opening.label + ": these seeds are in voxels; open their volume first");
   auto result = convert::placeSeeds(seeds, volume->geometry, opening.path);
   for (const convert::SeedFailure& failure : result.leftOut)
-    progress.warn(opening.label + ": seed \"" + failure.label + "\" is left out: " + failure.reason);
+    progress.warn(opening.label + ": seed \"" + failure.label +
+                  "\" is left out: " + failure.reason);
   return std::move(result.seeds);
 }
 
@@ -53,8 +54,8 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
   const FileStamp stamp = stampOf(opening.path);
   switch (role) {
     case FileRole::Volume:
-      document.volume = std::make_shared<const convert::Volume>(app::loadVolume(
-          opening.path, app::inputFormat(opening.path, ""), arguments, progress));
+      document.volume = std::make_shared<const convert::Volume>(
+          app::loadVolume(opening.path, app::inputFormat(opening.path, ""), arguments, progress));
       break;
     case FileRole::Case:
     case FileRole::Truth: {
@@ -68,10 +69,9 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
           placed(document.volume.get(), convert::readSeeds(opening.path), opening, progress));
       break;
     case FileRole::Mesh:
-      document.meshes.push_back(
-          {id, opening.label,
-           std::make_shared<const convert::MeshFile>(inMillimetres(
-               app::inputFormat(opening.path, "").readMesh(opening.path)))});
+      document.meshes.push_back({id, opening.label,
+                                 std::make_shared<const convert::MeshFile>(inMillimetres(
+                                     app::inputFormat(opening.path, "").readMesh(opening.path)))});
       break;
   }
   if (role != FileRole::Mesh) dropFiles(document, role);

@@ -7,7 +7,8 @@
 
 namespace lumen::viewer {
 
-static_assert(std::endian::native == std::endian::little, "packs are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "packs are written as they lie in memory");
 
 namespace {
 
@@ -16,9 +17,8 @@ constexpr std::size_t kAlignment = 8;  // the reader's typed arrays lie on multi
 constexpr std::array<std::string_view, 5> kTypeNames = {"f32", "u8", "u16", "u32", "i32"};
 
 Json describe(NumberType type, const std::vector<std::size_t>& shape, std::size_t offset) {
-  return {{"type", kTypeNames[static_cast<std::size_t>(type)]},
-          {"shape", shape},
-          {"offset", offset}};
+  return {
+      {"type", kTypeNames[static_cast<std::size_t>(type)]}, {"shape", shape}, {"offset", offset}};
 }
 
 }  // namespace
@@ -31,11 +31,13 @@ void PackWriter::add(const std::string& name, std::span<const std::array<float, 
   append(name, NumberType::F32, {values.size(), 3}, std::as_bytes(values));
 }
 
-void PackWriter::add(const std::string& name, std::span<const std::array<std::uint32_t, 3>> values) {
+void PackWriter::add(const std::string& name,
+                     std::span<const std::array<std::uint32_t, 3>> values) {
   append(name, NumberType::U32, {values.size(), 3}, std::as_bytes(values));
 }
 
-void PackWriter::add(const std::string& name, std::span<const std::array<std::uint32_t, 2>> values) {
+void PackWriter::add(const std::string& name,
+                     std::span<const std::array<std::uint32_t, 2>> values) {
   append(name, NumberType::U32, {values.size(), 2}, std::as_bytes(values));
 }
 

@@ -26,15 +26,13 @@ Edit editFor(const std::string& op, const Arguments& request, const formats::Cen
   const auto branch = [&] { return request.index("branch", tree.branches.size()); };
   const auto node = [&] { return request.index("node", tree.nodeCount()); };
   if (op == "delete")
-    return [b = branch(), h = chosen(request, "hanging", "go", convert::Hanging::Stay,
-                                     convert::Hanging::Go)](formats::Case& value) {
-      return convert::deleteBranch(value, b, h);
-    };
+    return [b = branch(),
+            h = chosen(request, "hanging", "go", convert::Hanging::Stay, convert::Hanging::Go)](
+               formats::Case& value) { return convert::deleteBranch(value, b, h); };
   if (op == "cut")
-    return [n = node(), r = chosen(request, "rest", "child", convert::Rest::OwnTree,
-                                   convert::Rest::Child)](formats::Case& value) {
-      return convert::cutBefore(value, n, r);
-    };
+    return [n = node(),
+            r = chosen(request, "rest", "child", convert::Rest::OwnTree, convert::Rest::Child)](
+               formats::Case& value) { return convert::cutBefore(value, n, r); };
   if (op == "join")
     return [b = branch(), n = node()](formats::Case& value) {
       return convert::joinBranch(value, b, n);
@@ -50,13 +48,11 @@ Edit editFor(const std::string& op, const Arguments& request, const formats::Cen
       return convert::renameBranch(value, b, label);
     };
   if (op == "move")
-    return [n = node(), p = request.position("position"),
-            r = request.number("radius")](formats::Case& value) {
-      return convert::moveNode(value, n, p, r);
-    };
+    return [n = node(), p = request.position("position"), r = request.number("radius")](
+               formats::Case& value) { return convert::moveNode(value, n, p, r); };
   if (op != "kind") throw Error(ErrorKind::Usage, "there is no operation \"" + op + "\"");
-  const auto kind = formats::enumFromName<formats::BranchKind>(formats::kBranchKindNames,
-                                                               request.text("kind"));
+  const auto kind =
+      formats::enumFromName<formats::BranchKind>(formats::kBranchKindNames, request.text("kind"));
   if (!kind) throw Error(ErrorKind::Usage, "\"kind\" must be vessel or aneurysm");
   return [b = branch(), k = *kind](formats::Case& value) { return convert::setKind(value, b, k); };
 }
@@ -88,9 +84,10 @@ Json Session::editOperation(const std::string& op, const Arguments& request, con
 
 void Session::tellDropped(const std::vector<std::string>& arrays) {
   for (const std::string& name : arrays)
-    m_events.tell("message", {{"severity", "warning"},
-                              {"text", shownText("the node array " + name +
-                                                 " is dropped: nobody knows its values at new nodes")}});
+    m_events.tell("message",
+                  {{"severity", "warning"},
+                   {"text", shownText("the node array " + name +
+                                      " is dropped: nobody knows its values at new nodes")}});
 }
 
 }  // namespace lumen::viewer

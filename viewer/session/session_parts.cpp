@@ -72,14 +72,13 @@ Tagged Session::distancePack(int level, bool quick) {
   std::vector<float> distance(position.size());
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
     const auto& p = position[v];
-    distance[v] = static_cast<float>(
-        wall.nearest({double{p[0]}, double{p[1]}, double{p[2]}}).distance);
+    distance[v] =
+        static_cast<float>(wall.nearest({double{p[0]}, double{p[1]}, double{p[2]}}).distance);
   });
   PackWriter pack;
   pack.add("distance", distance);
   const std::lock_guard lock(m_mutex);
-  const bool isNew =
-      m_comparedCase == now.document.value && m_comparedTruth == now.document.truth;
+  const bool isNew = m_comparedCase == now.document.value && m_comparedTruth == now.document.truth;
   pack.set("figures", isNew ? m_figures : Json(nullptr));
   // the same surface, and the same truth
   return {surface->tag + "-" + std::to_string(now.parts.truth), shared(pack.bytes())};

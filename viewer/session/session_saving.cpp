@@ -54,8 +54,7 @@ std::pair<bool, bool> Session::unsavedParts() const {
   const std::lock_guard lock(m_mutex);
   // seeds that a case was tracked from are in it
   const bool areKept = document.fileOf(FileRole::Seeds) == nullptr && document.value != nullptr;
-  const bool otherSeeds =
-      m_savedSeeds ? document.seeds != m_savedSeeds : !document.seeds->empty();
+  const bool otherSeeds = m_savedSeeds ? document.seeds != m_savedSeeds : !document.seeds->empty();
   return {document.value && document.value != m_savedCase, otherSeeds && !areKept};
 }
 

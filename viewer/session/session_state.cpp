@@ -75,9 +75,12 @@ Json Session::state() {
   const Document& document = now.document;
   Json json;
   json["revision"] = now.revision;
-  json["revisions"] = {{"case", now.parts.value},   {"surface", m_surfaces.revision()},
-                       {"volume", now.parts.volume}, {"seeds", now.parts.seeds},
-                       {"meshes", now.parts.meshes}, {"truth", now.parts.truth},
+  json["revisions"] = {{"case", now.parts.value},
+                       {"surface", m_surfaces.revision()},
+                       {"volume", now.parts.volume},
+                       {"seeds", now.parts.seeds},
+                       {"meshes", now.parts.meshes},
+                       {"truth", now.parts.truth},
                        // of a surface and a truth
                        {"distance", m_surfaces.revision() + now.parts.truth}};
   json["title"] = titleOf(document);

@@ -54,8 +54,7 @@ formats::Case trackedAnew(const Document& document, const Seeds& seeds,
                           const SessionOptions& options, Progress& progress) {
   app::TrackArguments arguments = options.track;
   arguments.seeds = "the seeds";
-  formats::Case value =
-      app::trackSeeds(*document.volume, seeds, arguments, progress).result;
+  formats::Case value = app::trackSeeds(*document.volume, seeds, arguments, progress).result;
   convert::fit(value, app::fitOptionsFor(value, options.fit.options()), progress);
   return value;
 }
@@ -90,16 +89,16 @@ Json Session::track(const Arguments& request, const Moment& from) {
   return startJob("tracking", true, [this, from, seeds](Progress& progress) {
     std::vector<std::string> dropped;
     auto value = std::make_shared<formats::Case>(
-        hasVessels(from.document)
-            ? trackedFurther(*trackingVolume(from.document, seeds, progress), *from.document.value,
-                             seeds, dropped, progress)
-            : trackedAnew(from.document, seeds, m_options, progress));
+        hasVessels(from.document) ? trackedFurther(*trackingVolume(from.document, seeds, progress),
+                                                   *from.document.value, seeds, dropped, progress)
+                                  : trackedAnew(from.document, seeds, m_options, progress));
     const std::size_t had = from.document.value ? from.document.value->tree.branches.size() : 0;
     const std::size_t more = value->tree.branches.size() - had;
     Document document = from.document;
     document.value = std::move(value);
-    const std::string what = "track " + (seeds.size() == 1 ? seeds.front().label
-                                                           : app::counted(seeds.size(), "seed", "seeds"));
+    const std::string what =
+        "track " +
+        (seeds.size() == 1 ? seeds.front().label : app::counted(seeds.size(), "seed", "seeds"));
     commit(what, from, std::move(document));
     tellDropped(dropped);
     return app::counted(more, "vessel", "vessels") + " tracked";
@@ -115,12 +114,10 @@ std::shared_ptr<const convert::TrackingVolume> Session::trackingVolume(const Doc
   const std::lock_guard lock(m_trackingMutex);
   if (!m_tracking || m_trackedVolume != document.volume || !(m_trackStep == made)) {
     m_tracking.reset();
-    m_tracking =
-        step != nullptr
-            ? std::make_shared<const convert::TrackingVolume>(*document.volume, *document.value,
-                                                              progress)
-            : std::make_shared<const convert::TrackingVolume>(*document.volume, clicks,
-                                                              m_options.track.options, progress);
+    m_tracking = step != nullptr ? std::make_shared<const convert::TrackingVolume>(
+                                       *document.volume, *document.value, progress)
+                                 : std::make_shared<const convert::TrackingVolume>(
+                                       *document.volume, clicks, m_options.track.options, progress);
     m_trackedVolume = document.volume;
     m_trackStep = made;
   }
@@ -139,8 +136,7 @@ Json Session::snap(const Json& request) {
   const auto json = [](const Eigen::Vector3d& v) -> Json { return {v.x(), v.y(), v.z()}; };
   if (!document.volume->geometry.containsWorld(click))
     return {{"found", false}, {"position", json(click)}, {"reason", "outside of the volume"}};
-  const auto snap =
-      convert::snapToVessel(*trackingVolume(document, {seed}, silent), click);
+  const auto snap = convert::snapToVessel(*trackingVolume(document, {seed}, silent), click);
   return {{"found", snap.found},
           {"position", json(snap.position)},
           {"direction", json(snap.direction)},

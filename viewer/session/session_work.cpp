@@ -9,8 +9,8 @@
 #include "converters/app/stages.h"
 #include "converters/common/error.h"
 #include "converters/compare/compare.h"
-#include "converters/volume/write_volume.h"
 #include "converters/fitting/fit.h"
+#include "converters/volume/write_volume.h"
 #include "viewer/session/session.h"
 
 namespace lumen::viewer {

@@ -106,8 +106,8 @@ std::shared_ptr<const ReadySurface> Surfaces::make(const formats::Case& value, i
     options.edge.share *= 1 << level;
     made = convert::closedSurface(value, options, progress);
   }
-  result->pack = surfacePack(made.levels.front(), {isQuick ? "quick" : "closed", level, kLevels},
-                             made.report);
+  result->pack =
+      surfacePack(made.levels.front(), {isQuick ? "quick" : "closed", level, kLevels}, made.report);
   result->mesh = std::make_shared<const convert::SurfaceMesh>(std::move(made.levels.front()));
   return result;
 }
@@ -115,6 +115,18 @@ std::shared_ptr<const ReadySurface> Surfaces::make(const formats::Case& value, i
 void Surfaces::work() {
   std::unique_lock lock(m_mutex);
   while (!m_ended) {
+    if (hasSurface(m_case) && m_allowed && !m_quick && m_quickTried != m_case) {
+      // first what a page begins with
+      m_quickTried = m_case;
+      lock.unlock();
+      try {
+        quick();
+      } catch (const std::exception&) {
+        // whoever asks for it is told
+      }
+      lock.lock();
+      continue;
+    }
     int level = kLevels - 1;
     const auto isDone = [this](int l) {
       return m_levels[static_cast<std::size_t>(l)] || m_failed[static_cast<std::size_t>(l)];

@@ -65,6 +65,7 @@ private:
   std::condition_variable m_wake;
   std::shared_ptr<const formats::Case> m_case;
   std::shared_ptr<const ReadySurface> m_quick;
+  std::shared_ptr<const formats::Case> m_quickTried;
   std::array<std::shared_ptr<const ReadySurface>, kLevels> m_levels;
   std::array<bool, kLevels> m_failed{};
   std::shared_ptr<Progress> m_progress;  ///< of what the background makes

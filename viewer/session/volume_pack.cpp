@@ -138,7 +138,8 @@ std::pair<double, double> VolumePack::windowOf() const {
 }
 
 std::string VolumePack::slices(int first, int count) const {
-  const auto row = static_cast<std::size_t>(m_size[0]), plane = row * static_cast<std::size_t>(m_size[1]);
+  const auto row = static_cast<std::size_t>(m_size[0]),
+             plane = row * static_cast<std::size_t>(m_size[1]);
   std::string text(plane * static_cast<std::size_t>(count) * m_bytes, '\0');
   const auto& full = m_volume->geometry.size;
   const double blocks = double{1} * m_reduction[0] * m_reduction[1] * m_reduction[2];
@@ -190,7 +191,8 @@ std::string VolumePack::bytes(std::size_t offset, std::size_t length) const {
   const std::size_t plane =
       static_cast<std::size_t>(m_size[0]) * static_cast<std::size_t>(m_size[1]) * m_bytes;
   const std::size_t inside = offset - m_before.size();
-  const std::size_t end = std::min(inside + std::max<std::size_t>(length, 1), size() - m_before.size());
+  const std::size_t end =
+      std::min(inside + std::max<std::size_t>(length, 1), size() - m_before.size());
   const std::size_t first = inside / plane, last = (end - 1) / plane;
   const std::string made = slices(static_cast<int>(first), static_cast<int>(last - first + 1));
   return made.substr(inside - first * plane, end - inside);

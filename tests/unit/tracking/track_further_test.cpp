@@ -231,8 +231,9 @@ TEST(TrackFurther, GivesAnAneurysmItsWallAndItsVesselAnOpenNeck) {
   // as when all is tracked at once
   Progress silent;
   const Case whole = track(s.phantom.volume, s.phantom.seeds, TrackOptions{}, silent).result;
-  const auto at = std::find_if(whole.tree.branches.begin(), whole.tree.branches.end(),
-                               [](const auto& b) { return b.kind == formats::BranchKind::Aneurysm; });
+  const auto at =
+      std::find_if(whole.tree.branches.begin(), whole.tree.branches.end(),
+                   [](const auto& b) { return b.kind == formats::BranchKind::Aneurysm; });
   ASSERT_NE(at, whole.tree.branches.end());
   ASSERT_EQ(sac.nodeCount, at->nodeCount);
   const auto pointsOf = [](const Case& value, std::uint32_t node) {

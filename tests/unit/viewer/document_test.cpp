@@ -49,7 +49,9 @@ TEST(History, AChangeOfWhatHasChangedMeanwhileIsRefused) {
 
 TEST(History, OnlyRevisionsOfPartsThatChangedChange) {
   History history;
-  ASSERT_TRUE(history.commit("one", 1, withNodes(1)));
+  Document document = history.now().document;
+  document.value = withNodes(1).value;
+  ASSERT_TRUE(history.commit("one", 1, document));
   const auto now = history.now();
   EXPECT_EQ(now.parts.value, 2U);
   EXPECT_EQ(now.parts.seeds, 1U);

@@ -122,7 +122,8 @@ TEST_F(SafetyTest, RequestsAreBoundedInSizeAndDepth) {
 
 TEST_F(SafetyTest, NumbersFromThePageAreChecked) {
   for (const char* const request :
-       {R"({"op": "rename", "branch": 2, "label": "x"})", R"({"op": "rename", "branch": -1, "label": "x"})",
+       {R"({"op": "rename", "branch": 2, "label": "x"})",
+        R"({"op": "rename", "branch": -1, "label": "x"})",
         R"({"op": "rename", "branch": 1e3, "label": "x"})", R"({"op": "rename", "branch": 0})",
         R"({"op": "seedAdd", "points": [{"position": [1, 2]}]})",
         R"({"op": "seedAdd", "points": [{"position": [1, 2, 1e300]}]})",
@@ -169,8 +170,8 @@ TEST(HtmlSafety, LabelsOfACaseCannotEndTheScriptThatTheyStandIn) {
   formats::Case value = twoVessels();
   value.tree.branches[0].label = "</script><img src=x onerror=alert(1)>";
   value.tree.branches[1].label = "<!--<script>";
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("lumen-html-" + std::to_string(getpid()) + ".lumen");
+  const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                     ("lumen-html-" + std::to_string(getpid()) + ".lumen");
   ASSERT_TRUE(formats::writeCaseFile(value, file));
   viewer::Session session({});
   Progress silent;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a page can see and do.
-#include <algorithm>
-
 #include "served.h"
+
+#include <algorithm>
 
 namespace lumen::test {
 
@@ -50,7 +50,8 @@ TEST_F(LookTest, ASurfaceComesAtOnceAndAFinerOneLater) {
   for (const Json& part : quick.json["parts"]) triangles += part["count"].get<std::size_t>();
   EXPECT_EQ(3 * triangles, quick.array<std::uint32_t>("triangle").size());
   ReadPack full(get("surface").body);
-  while (full.json["kind"] != "closed" || full.json["level"] != 0) full = ReadPack(get("surface").body);
+  while (full.json["kind"] != "closed" || full.json["level"] != 0)
+    full = ReadPack(get("surface").body);
   EXPECT_GT(full.array<float>("radius").size(), nodes.size());
   bool hasInlet = false;
   for (const Json& part : full.json["parts"])
@@ -111,11 +112,13 @@ TEST_F(LookTest, DistancesToTheTruthBelongToTheSurfacesVertices) {
 TEST_F(WorkTest, AnOldRevisionIsAConflict) {
   writeCase("two.lumen", twoVessels());
   serve({"two.lumen"});
-  const Json old = {{"op", "rename"}, {"branch", 0}, {"label", "a"}, {"revision", state()["revision"]}};
+  const Json old = {
+      {"op", "rename"}, {"branch", 0}, {"label", "a"}, {"revision", state()["revision"]}};
   ASSERT_EQ(post("do", old.dump()).status, 200);
   const auto second = post("do", old.dump());
   EXPECT_EQ(second.status, 409);
-  EXPECT_EQ(Json::parse(second.body)["error"], "the document has changed meanwhile; look, and try again");
+  EXPECT_EQ(Json::parse(second.body)["error"],
+            "the document has changed meanwhile; look, and try again");
 }
 
 TEST_F(WorkTest, RenameUndoRedoAndSaveLeaveExactlyThatInTheFile) {
@@ -156,12 +159,46 @@ TEST_F(WorkTest, AClickBecomesAFittedVesselAndCanBeUndone) {
   EXPECT_EQ(state()["hasCase"], false);
 }
 
+TEST_F(WorkTest, ACutIsFittedAtOnceAndUndoneToTheSameBytes) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+            200);
+  performAll({{"op", "track"}});
+  const std::string before = get("case.lumen").body;
+  const auto nodes = ReadPack(get("case").body).array<float>("radius").size();
+  performAll({{"op", "cut"}, {"node", nodes / 2}});
+  const ReadPack pack(get("case").body);
+  EXPECT_EQ(pack.json["branches"].size(), 2U);
+  EXPECT_EQ(pack.json["branches"][1]["parentNode"], -1);
+  EXPECT_EQ(pack.json["reachable"]["closed"].size(), 0U);
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(get("case.lumen").body, before);
+}
+
+TEST_F(WorkTest, APointerSnapsToTheAxisOfTheVessel) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  const Json snap = Json::parse(post("snap", R"({"position": [6.8, 6.2, 7]})").body);
+  EXPECT_EQ(snap["found"], true);
+  EXPECT_NEAR(snap["position"][0].get<double>(), 6.4, 0.1);
+  EXPECT_NEAR(snap["position"][1].get<double>(), 6.4, 0.1);
+  EXPECT_NEAR(snap["radius"].get<double>(), 1.0, 0.1);
+  EXPECT_EQ(Json::parse(post("snap", R"({"position": [-100, 0, 0]})").body)["found"], false);
+}
+
 TEST_F(WorkTest, SeedsAreMovedAndDeleted) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  ASSERT_EQ(perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status, 200);
-  EXPECT_EQ(perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status, 400);
-  ASSERT_EQ(perform({{"op", "seedMove"}, {"label", "a"}, {"point", 0}, {"position", {4, 5, 6}}}).status, 200);
+  ASSERT_EQ(
+      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
+      200);
+  EXPECT_EQ(
+      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
+      400);
+  ASSERT_EQ(
+      perform({{"op", "seedMove"}, {"label", "a"}, {"point", 0}, {"position", {4, 5, 6}}}).status,
+      200);
   EXPECT_EQ(state()["seeds"][0]["points"][0]["position"], Json({4.0, 5.0, 6.0}));
   ASSERT_EQ(perform({{"op", "seedDelete"}, {"label", "a"}}).status, 200);
   EXPECT_EQ(state()["seeds"].size(), 0U);
@@ -172,7 +209,8 @@ TEST_F(WorkTest, SeedsAreMovedAndDeleted) {
 TEST_F(WorkTest, EveryFormatOfTheStateCanBeSaved) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status, 200);
+  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+            200);
   performAll({{"op", "track"}});
   for (const Json& format : state()["formats"]) {
     const auto response = get("save?format=" + format.get<std::string>());
@@ -192,7 +230,8 @@ TEST_F(WorkTest, ALongJobIsCancelledAndLeavesTheDocumentAsItWas) {
   Progress silent;
   session->open({path("tube.nrrd"), "tube.nrrd"}, silent);
   const auto revision = session->now().revision;
-  session->run({{"op", "seedAdd"}, {"revision", revision}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}});
+  session->run(
+      {{"op", "seedAdd"}, {"revision", revision}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}});
   const Json job = session->run({{"op", "track"}, {"revision", revision + 1}});
   EXPECT_THROW(session->run({{"op", "undo"}, {"revision", revision + 1}}), viewer::Conflict);
   EXPECT_TRUE(session->cancel(job["job"]));

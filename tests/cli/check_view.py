@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""lumen view as a user starts and ends it.
+
+check_view.py LUMEN"""
+import json, os, pathlib, signal, subprocess, sys, tempfile, time, urllib.error, urllib.request
+
+LUMEN = str(pathlib.Path(sys.argv[1]).resolve())
+OPENER = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+failures = 0
+
+
+def expect(what, found, wanted):
+    global failures
+    if found == wanted: return
+    failures += 1
+    print(f"FAILED: {what}: found {found!r}, expected {wanted!r}")
+
+
+def run(*words, cwd):
+    return subprocess.run([LUMEN, *words], cwd=cwd, capture_output=True, text=True)
+
+
+class Viewer:
+    """A running `lumen view`, whose temporary files lie in a folder of their own."""
+    def __init__(self, *words, cwd):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.process = subprocess.Popen([LUMEN, "view", *words, "--no-browser"], cwd=cwd, text=True, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, env={**os.environ, "TMPDIR": self.temporary.name})
+        self.address = self.process.stdout.readline().strip()
+
+    def get(self, name):
+        with OPENER.open(self.address + name, timeout=60) as answer: return answer.read()
+
+    def post(self, name, body):
+        with OPENER.open(urllib.request.Request(self.address + name, data=body), timeout=60) as answer:
+            return json.loads(answer.read())
+
+    def state(self): return json.loads(self.get("state"))
+
+    def do(self, **request):
+        return self.post("do", json.dumps({**request, "revision": self.state()["revision"]}).encode())
+
+    def wait(self):
+        while self.state()["job"]: time.sleep(0.05)
+
+    def end(self, number=signal.SIGINT):
+        self.process.send_signal(number)
+        _, err = self.process.communicate(timeout=60)
+        left = os.listdir(self.temporary.name)
+        self.temporary.cleanup()
+        return self.process.returncode, err, left
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        where = pathlib.Path(folder)
+        expect("phantom", run("phantom", "tube", "tube.nrrd", "--size", "48", "--seeds", "seeds.json", cwd=folder).returncode, 0)
+
+        first = Viewer("tube.nrrd", "tube.lumen", "seeds.json", cwd=folder)
+        expect("address", first.address.startswith("http://127.0.0.1:") and len(first.address.split("/")[3]) == 32, True)
+        state = first.state()
+        expect("new case", (state["hasVolume"], state["hasCase"], state["saveAs"], len(state["seeds"])), (True, False, "tube.lumen", 1))
+        first.do(op="track", labels=None)
+        first.wait()
+        expect("tracked", first.state()["hasCase"], True)
+        first.do(op="save")
+        expect("valid", run("validate", "tube.lumen", cwd=folder).returncode, 0)
+        expect("the same as lumen convert's", run("convert", "tube.nrrd", "other.lumen", "--seeds", "seeds.json", cwd=folder).returncode, 0)
+        expect("bytes", (where / "tube.lumen").read_bytes() == (where / "other.lumen").read_bytes(), True)
+
+        second = Viewer("tube.lumen", cwd=folder)
+        expect("a second one", second.state()["hasCase"], True)
+        second.do(op="rename", branch=0, label="renamed")
+        second.do(op="save")
+        first.do(op="rename", branch=0, label="mine")
+        try:
+            first.do(op="save")
+            expect("overwriting", "done", "refused")
+        except urllib.error.HTTPError as error:
+            expect("overwriting", error.code, 409)
+        first.post("file?name=x.stl", b"solid x\n")
+        first.wait()
+        code, err, left = first.end()
+        expect("exit code after Ctrl-C", code, 0)
+        expect("temporary files", left, [])
+        expect("rescued", (where / "tube.unsaved.lumen").exists() and "tube.unsaved.lumen" in err, True)
+        expect("the file of the other", run("info", "tube.lumen", cwd=folder).stdout.count("renamed") > 0, True)
+        code, err, left = second.end(signal.SIGTERM)
+        expect("exit code after SIGTERM", (code, left), (0, []))
+        expect("nothing to rescue", "unsaved" in err, False)
+        if (pathlib.Path(LUMEN).parent / "../../viewer/page/page.js").exists():
+            answer = run("view", "tube.lumen", "--html", "page.html", "--json", "--quiet", cwd=folder)
+            expect("one file", answer.returncode, 0)
+            html = (where / "page.html").read_text()
+            expect("no address", "http-equiv=\"Content-Security-Policy\"" in html and "connect-src" not in html, True)
+            expect("no path", folder in html, False)
+        else:
+            print("the page was not built: --html is not tested")
+            expect("without the page", run("view", "tube.lumen", "--html", "page.html", cwd=folder).returncode, 1)
+    sys.exit(1 if failures else 0)
+
+
+main()
