@@ -6,7 +6,7 @@ import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
 import { openHelp } from "./help";
 import { Refused } from "./source";
-import { h } from "./ui";
+import { askYes, h } from "./ui";
 
 export class Actions {
   flight: Flight | null = null;
@@ -27,7 +27,17 @@ export class Actions {
     const { state } = this.app.store.get();
     if (!state.hasCase) { this.app.say("There is no case to save yet: track a vessel first.", "warning"); return; }
     if (state.saveAs === null) this.download("lumen");
-    else await this.app.perform({ op: "save" }); // which tells where to
+    else await this.saveFile(); // which tells where to
+  }
+  private async saveFile(): Promise<void> {
+    const { source, store, say } = this.app;
+    try {
+      await source.perform({ op: "save" }, store.get().state.revision);
+    } catch (error) {
+      const text = error instanceof Error ? error.message : String(error), { files, saveAs } = store.get().state;
+      if (!(error instanceof Refused) || error.status !== 409 || !files.some(f => f.name === saveAs && f.changed)) { say(text, "error"); return; }
+      if (await askYes("Overwrite the file?", text, "Overwrite")) await this.app.perform({ op: "save", force: true });
+    }
   }
   download(format: string): void {
     const link = h("a", { href: this.app.source.download(format), download: "" });

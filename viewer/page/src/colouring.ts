@@ -18,7 +18,7 @@ export function numbersOf(view: View, by: ColourBy): { nodes: ArrayLike<number> 
     case "confidence": return tree.inlierRate === null ? null : { nodes: tree.inlierRate };
     case "error": return tree.error === null ? null : { nodes: tree.error };
     case "root": return { nodes: tree.rootDistance };
-    case "compare": return view.distance === null ? null : { vertices: view.distance };
+    case "compare": return view.distance?.length !== surface.radius.length ? null : { vertices: view.distance };
     default: return null;
   }
 }

@@ -97,9 +97,9 @@ function sceneSection(app: App, actions: Actions): HTMLElement {
   store.watch(["layers"], view => { for (const { name, element } of boxes) element.querySelector("input")!.checked = view.layers[name]; });
   store.watch(["clip"], view => { clip.querySelector("input")!.checked = view.clip.on; flip.querySelector("input")!.checked = view.clip.flip; });
   store.watch(["allOpacity"], view => { opacity.value = String(view.allOpacity); });
-  store.watch(["colourBy", "tree", "surface", "distance"], view => {
+  store.watch(["colourBy", "tree", "surface", "distance", "state"], view => {
     by.value = view.colourBy;
-    for (const option of by.options) option.disabled = option.value !== "branch" && numbersOf(view, option.value as ColourBy) === null;
+    for (const option of by.options) option.disabled = option.value !== "branch" && (option.value === "compare" ? !view.state.hasTruth : numbersOf(view, option.value as ColourBy) === null);
   });
   return section("section-scene", "3D view", true, h("label", { class: "line" }, "Colour by", by), h("label", { class: "line" }, "Opacity", opacity),
     h("div", { class: "checks" }, ...boxes.map(b => b.element)), h("div", { class: "row" }, clip, flip),

@@ -7,11 +7,19 @@ import { probe } from "./probe";
 import { goToNode, select } from "./selection";
 import type { SliceView } from "./slice_view";
 import type { Hit } from "./surface";
-import type { Seed, Snap, Vec3 } from "./types";
+import type { MissingVessel, Seed, Snap, Vec3 } from "./types";
 import { distance } from "./vec";
 import { brief } from "./ui";
 
 const kNearSeed = 8; // pixels within which a press takes hold of a seed
+
+const sentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1).replace(/\.$/, "")}.`;
+
+/** The clicks that the check proposes, of which the first has a radius. */
+function seedPoints(place: MissingVessel): Seed["points"] {
+  const points = place.clicks?.points ?? [place.position], radius = place.clicks === undefined ? place.radius_mm : place.clicks.radius;
+  return points.map((position, i) => ({ position, radius: i === 0 ? radius : null }));
+}
 
 export class Hand {
   /** What the next clicks make: a vessel of one click, one through several, or an aneurysm. */
@@ -79,7 +87,7 @@ export class Hand {
     try { snap = await source.snap(p); } catch (error) { app.say(error instanceof Error ? error.message : String(error), "error"); return; }
     const point = snap.found ? snap.position : p;
     store.set({ crosshair: point });
-    if (!snap.found) app.say("No vessel was found near there; the seed stays where you clicked.", "warning");
+    if (!snap.found) app.say(`${sentence(snap.reason ?? "no vessel was found near there")} The seed stays where you clicked.`, "warning");
     else app.say(`On the axis of a vessel, radius ${brief(snap.radius)} mm.`);
     const made = { position: point, radius: snap.found ? snap.radius : null };
     if (this.seedKind === "vessel") await this.addSeed([made], "vessel");
@@ -111,7 +119,7 @@ export class Hand {
     if (place === undefined) return;
     this.app.store.set({ crosshair: place.position });
     if (this.app.source.live)
-      void this.app.perform({ op: "seedAdd", kind: "vessel", points: [{ position: place.position, radius: place.radius_mm }] }).then(done => {
+      void this.app.perform({ op: "seedAdd", kind: "vessel", points: seedPoints(place) }).then(done => {
         if (done) this.app.say("A seed was placed there. Track it with “Track all”, key T.");
       });
   }

@@ -12,7 +12,7 @@ const kGroups: Group[] = [
     ["Ctrl+drag, Ctrl+← →", "Turn the planes"], ["Arrows", "Crosshair by a voxel, with Shift by five"], ["Enter", "Click at the crosshair"], ["0, double click", "Fit"]]],
   ["3D view", [["Drag, arrows", "Turn"], ["Shift+drag, Shift+arrows", "Move"], ["Wheel, + and -", "Nearer, farther"], ["Click, Enter", "Select the vessel there, or the tool"], ["Double click", "Turn about this point"], ["C", "Clip at the crosshair"], ["M", "Projection, volume, or neither"], ["0", "Fit"]]],
   ["Vessels", [["/", "Search"], ["↑ ↓", "Select in the list"], ["Space", "Show or hide"], ["H", "Show or hide the selected"], ["O", "The selected alone"], ["Shift+H", "Show all"], ["F2", "Rename"], ["[ and ]", "Cursor along the vessel"], ["Q", "Slices across the vessel, or patient axes"], ["F", "Flight through the vessel: ↑ ↓ go, Space stops, + and - speed"]]],
-  ["Work", [["T", "Track all seeds that are placed"], ["K", "Check against the volume"], ["Enter", "Finish a vessel of several clicks"], ["Delete", "Delete the selected vessel"], ["Shift+X", "Cut it at the cursor"], ["Ctrl+Enter", "Refit what has changed"]], "live"],
+  ["Work", [["T", "Track all seeds that are placed"], ["K", "Check against the volume"], ["Enter", "Finish a vessel of several clicks"], ["Delete", "Delete the selected vessel"], ["Shift+X", "Cut it at the cursor"], ["Shift+Delete", "Delete it with all that leave it"], ["Ctrl+Enter", "Fit all models anew"]], "live"],
   ["Guidewire", [["Enter", "Place it, in the 3D view"], ["↑ ↓, wheel", "Push, pull"], ["← →", "Turn"], ["Drag the wire", "Along it pushes, across it turns"], ["Delete", "Remove"]]],
 ];
 

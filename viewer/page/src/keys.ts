@@ -32,7 +32,7 @@ function withControl(e: KeyboardEvent, app: App, actions: Actions): boolean {
     case "s": if (live) void actions.save(); return true;
     case "o": if (live) actions.open(); return live;
     case "p": actions.picture(); return true;
-    case "enter": if (live) void app.perform({ op: "refit" }); return live;
+    case "enter": if (live) void app.perform({ op: "fit" }); return live;
     default: return false;
   }
 }
@@ -64,6 +64,7 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolea
     case "t": return working(() => void actions.track(null));
     case "k": return working(() => void actions.check());
     case "delete": return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected })));
+    case "Shift+DELETE": return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected, hanging: "go" })));
     case "Shift+X": return working(() => onVessel(() => { if (node >= 0) void app.perform({ op: "cut", node }); }));
     case "enter": return working(() => void hand.finish());
     case "escape": return giveUp(app, actions, hand);

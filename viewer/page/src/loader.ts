@@ -5,6 +5,7 @@ import { Caster } from "./cast";
 import { fillValues } from "./colouring";
 import type { App, View } from "./model";
 import { headerEnd, Pack } from "./pack";
+import { sameVessel } from "./same_vessel";
 import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
 import { Surface } from "./surface";
@@ -16,7 +17,7 @@ import { VolumeTexture } from "./volume_texture";
 const kCastSoftware = 128, kCastHardware = 256; // texels along an axis for ray casting
 
 export class Loader {
-  private seen = { case: -1, surface: -1, volume: -1, distance: -1 };
+  private seen = { case: -1, surface: -1, volume: -1, distance: "" };
   private library: Promise<BlobLibrary | null> | null = null;
   private texture: VolumeTexture | null = null;
   private quickOf = -1;
@@ -25,6 +26,7 @@ export class Loader {
 
   constructor(private readonly app: App, private readonly slices: SliceView[], private readonly scene: SceneView) {
     app.store.watch(["colourBy", "surface", "distance"], view => { fillValues(view); app.stage.invalidate(scene); });
+    app.store.watch(["colourBy", "surface", "state"], () => this.askDistance());
   }
 
   /** Takes a state as the new truth. */
@@ -36,8 +38,17 @@ export class Loader {
     await Promise.all(jobs);
     if (r.surface !== this.seen.surface) { this.seen.surface = r.surface; void this.takeSurface(state); }
     this.settle();
-    const distance = (r.truth ?? 0) + (r.distance ?? 0);
-    if (distance !== this.seen.distance) { this.seen.distance = distance; await this.takeDistance(state); }
+    this.askDistance();
+  }
+
+  /** Distances belong to one surface and one truth, and take a while: they are asked for when they are shown. */
+  private askDistance(): void {
+    const { state, surface, colourBy } = this.app.store.get(), r = state.revisions;
+    if (colourBy !== "compare" || surface === null || !state.hasTruth) return;
+    const key = `${r.case} ${r.truth ?? 0} ${this.shown.kind} ${this.shown.level}`;
+    if (key === this.seen.distance) return;
+    this.seen.distance = key;
+    void this.takeDistance(surface).catch((error: unknown) => this.app.say(error instanceof Error ? error.message : String(error), "error"));
   }
 
   /** Once: the crosshair into the middle of what there is, and the projection where there is no case. */
@@ -100,7 +111,7 @@ export class Loader {
     const kind = String(pack.meta.kind), level = Number(pack.meta.level ?? 0), { shown } = this;
     if (shown.case === ofCase && (shown.kind !== "quick" || kind === "quick") && (kind === shown.kind ? level >= shown.level : true)) return;
     this.shown = { case: ofCase, kind, level };
-    this.app.store.set({ surface: new Surface(pack) });
+    this.app.store.set({ surface: new Surface(pack), distance: null });
     const { surface } = this.app.store.get(), build = (): void => {
       if (!live() || surface === null || this.app.store.get().surface !== surface) return;
       const more = surface.buildNext();
@@ -157,22 +168,13 @@ export class Loader {
     store.set({ volumeReady: volume.size[2] });
   }
 
-  private async takeDistance(state: State): Promise<void> {
-    const { store } = this.app, pack = state.hasTruth && state.hasCase ? await this.pack("distance") : null;
-    const distance = pack?.optional("distance", "f32") ?? null;
-    const figures = (pack?.meta.figures ?? state.figures ?? null) as View["figures"];
-    store.set({ distance, figures, ...(distance === null && store.get().colourBy === "compare" ? { colourBy: "branch" as const } : {}) });
+  private async takeDistance(surface: Surface): Promise<void> {
+    const query: Record<string, string> = surface.kind === "quick" ? { quick: "1" } : { level: String(surface.level) };
+    const pack = await this.pack("distance", query), distance = pack?.optional("distance", "f32") ?? null, { store } = this.app;
+    if (store.get().surface !== surface) return;
+    if (distance !== null && distance.length !== surface.radius.length) { this.seen.distance = ""; return; } // of a finer one, which comes soon
+    store.set({ distance, figures: (pack?.meta.figures as View["figures"]) ?? store.get().figures });
   }
-}
-
-/** The selected vessel and the cursor in another tree: by its name, or by where it begins if it was renamed. */
-export function sameVessel(before: Pick<View, "tree" | "selected" | "node">, tree: Tree | null): { selected: number; node: number } {
-  const old = before.tree?.branches[before.selected], none = { selected: -1, node: -1 };
-  if (old === undefined || tree === null || before.tree === null) return none;
-  const begin = before.tree.position(old.firstNode).join();
-  const found = tree.branches.find(b => b.label === old.label) ?? tree.branches.find(b => tree.position(b.firstNode).join() === begin);
-  if (found === undefined) return none;
-  return { selected: found.index, node: before.node < 0 ? -1 : tree.nearest(before.tree.position(before.node), b => b === found.index) };
 }
 
 function thickest(tree: Tree): number {

@@ -8,6 +8,7 @@ import { Hand } from "./hand";
 import { listenToKeys } from "./keys";
 import { Loader } from "./loader";
 import { LocalModel } from "./local_model";
+import { MeshLayer } from "./mesh_layer";
 import { measurePanel } from "./measure_panel";
 import { newStore, type App } from "./model";
 import { ProbeLine } from "./probe_line";
@@ -57,7 +58,7 @@ async function start(): Promise<void> {
   listenToScene(scene, app, tools);
   makeBar(shell.bar, app, actions);
   new TreePanel(shell.left, app);
-  shell.right.append(...workPanel(app, actions, hand), ...displayPanel(app, actions), ...measurePanel(app, actions, hand, wire));
+  shell.right.append(...workPanel(app, actions, hand), ...displayPanel(app, actions), new MeshLayer(app, scene).panel, ...measurePanel(app, actions, hand, wire));
   new Strip(shell.strip, app, actions, flight);
   new ProbeLine(shell.probe, app, tools);
   new LocalModel(app, scene);

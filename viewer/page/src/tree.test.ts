@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { gaps, sectionFigures, wayBetween } from "./measure";
+import { sameVessel } from "./same_vessel";
 import { sampleTree } from "./sample_tree";
 
 describe("Tree", () => {
@@ -34,4 +35,10 @@ describe("sectionFigures", () => {
     expect([f.least, f.greatest]).toEqual([4, 4]);
     expect(f.perimeter).toBeCloseTo(2 * Math.PI * 2, 2);
   });
+});
+describe("sameVessel", () => {
+  const before = sampleTree(), renamed = sampleTree();
+  renamed.branches[1] = { ...renamed.branches[1], label: "other" };
+  it("followsAVesselThatWasRenamed", () => { expect(sameVessel({ tree: before, selected: 1, node: 13 }, renamed)).toEqual({ selected: 1, node: 13 }); });
+  it("isNoneWhereItIsGone", () => { expect(sameVessel({ tree: before, selected: 1, node: 13 }, null)).toEqual({ selected: -1, node: -1 }); });
 });

@@ -18,6 +18,8 @@ export interface MissingVessel {
   length_mm: number;
   radius_mm: number;
   branch: string;
+  /** Clicks that track it, and a node of the vessel that it leaves. */
+  clicks?: { points: Vec3[]; radius: number | null; beside: number | null };
 }
 
 export interface EndPlace {
@@ -89,4 +91,4 @@ export type Event =
 
 export type Operation = { op: string; [key: string]: unknown };
 
-export interface Snap { found: boolean; position: Vec3; radius: number; direction: Vec3 }
+export interface Snap { found: boolean; position: Vec3; radius: number; direction: Vec3; reason?: string }

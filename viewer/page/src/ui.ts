@@ -98,3 +98,15 @@ export function askText(title: string, label: string, value: string): Promise<st
     input.select();
   });
 }
+
+/** Asks whether to do something; false: no. */
+export function askYes(title: string, text: string, yes: string): Promise<boolean> {
+  return new Promise(resolve => {
+    const dialog = h("dialog", { class: "dialog", "aria-label": title }, h("h2", {}, title), h("p", {}, text),
+      h("form", { method: "dialog" }, h("div", { class: "row end" }, h("button", { type: "submit", class: "button text", value: "" }, "Cancel"),
+        h("button", { type: "submit", class: "button primary", value: "ok", id: "ask-yes" }, yes))));
+    dialog.addEventListener("close", () => { resolve(dialog.returnValue === "ok"); dialog.remove(); });
+    document.body.append(dialog);
+    dialog.showModal();
+  });
+}

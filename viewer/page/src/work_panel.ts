@@ -80,7 +80,9 @@ function editSection(app: App): HTMLElement {
     act("root", "Make root", "Let the tree begin at this vessel", v => ({ op: "root", branch: branch(v) })),
     act("merge", "Merge", "Make it the continuation of its parent", v => ({ op: "merge", branch: branch(v) })),
     act("kind", "Vessel ↔ sac", "Change between vessel and aneurysm", v => ({ op: "kind", branch: branch(v), kind: v.tree?.branches[v.selected].kind === "aneurysm" ? "vessel" : "aneurysm" })),
-    act("refit", "Refit", "Fit what has changed again", () => ({ op: "refit" })),
+    act("split", "Split here", "Cut the vessel at the cursor; what follows stays joined as a vessel of its own", v => (v.node < 0 ? null : { op: "cut", node: v.node, rest: "child" })),
+    act("prune", "Delete below", "Delete the vessel and all that leave it", v => ({ op: "delete", branch: branch(v), hanging: "go" }), undefined, "Shift+Delete"),
+    act("fit", "Fit all", "Fit all models anew", () => ({ op: "fit" }), undefined, "Control+Enter"),
   ];
   const join = act("join", "Join to", "Make its first node a child of the nearest node of the chosen vessel", v => {
     const { tree } = v, to = Number(target.value);
@@ -93,7 +95,7 @@ function editSection(app: App): HTMLElement {
     const b = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined;
     box.hidden = view.tree === null;
     name.textContent = b === undefined ? "Select a vessel." : `${b.label}${view.node >= 0 ? `, cursor at node ${view.node - b.firstNode + 1} of ${b.nodeCount}` : ""}`;
-    for (const each of [...buttons, join]) each.disabled = (b === undefined && each.id !== "edit-refit") || view.state.job !== null;
+    for (const each of [...buttons, join]) each.disabled = (b === undefined && each.id !== "edit-fit") || view.state.job !== null;
   });
   store.watch(["tree", "selected"], view => {
     const before = target.value;
