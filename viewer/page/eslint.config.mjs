@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+import js from "@eslint/js";
+import tseslint from "typescript-eslint";
+
+export default tseslint.config(
+  { ignores: ["dist/", "node_modules/"] },
+  js.configs.recommended,
+  {
+    files: ["src/**/*.ts"],
+    extends: [...tseslint.configs.strict],
+    rules: {
+      "max-lines": ["error", { max: 400 }],
+      "@typescript-eslint/no-non-null-assertion": "off",
+      "no-restricted-properties": ["error",
+        { property: "innerHTML", message: "Texts of a case are never markup: use textContent." },
+        { property: "outerHTML", message: "Texts of a case are never markup: use textContent." },
+        { property: "insertAdjacentHTML", message: "Texts of a case are never markup: use textContent." }],
+    },
+  },
+  { files: ["*.mjs"], languageOptions: { globals: { process: "readonly", console: "readonly", URL: "readonly" } } },
+);

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What buttons and keys do. */
+import type { Flight } from "./flight";
+import type { App, Tool } from "./model";
+import type { SceneView } from "./scene_view";
+import type { SliceView } from "./slice_view";
+import { openHelp } from "./help";
+import { Refused } from "./source";
+import { askYes, h } from "./ui";
+
+export class Actions {
+  flight: Flight | null = null;
+
+  constructor(private readonly app: App, private readonly scene: SceneView, private readonly slices: SliceView[]) {}
+
+  tool(tool: Tool): void { this.app.store.set({ tool, pending: [] }); }
+  undo(): Promise<boolean> { return this.app.perform({ op: "undo" }); }
+  redo(): Promise<boolean> { return this.app.perform({ op: "redo" }); }
+  track(labels: string[] | null): Promise<boolean> { return this.app.perform({ op: "track", labels }); }
+  check(): Promise<boolean> { return this.app.perform({ op: "check" }); }
+  async compare(): Promise<void> {
+    if (await this.app.perform({ op: "compare" })) this.app.store.set({ colourBy: "compare" });
+  }
+
+  /** To the file that it came from; a case without one is downloaded. */
+  async save(): Promise<void> {
+    const { state } = this.app.store.get();
+    if (!state.hasCase) { this.app.say("There is no case to save yet: track a vessel first.", "warning"); return; }
+    if (state.saveAs === null) this.download("lumen");
+    else await this.saveFile(); // which tells where to
+  }
+  private async saveFile(): Promise<void> {
+    const { source, store, say } = this.app;
+    try {
+      await source.perform({ op: "save" }, store.get().state.revision);
+    } catch (error) {
+      const text = error instanceof Error ? error.message : String(error), { files, saveAs } = store.get().state;
+      if (!(error instanceof Refused) || error.status !== 409 || !files.some(f => f.name === saveAs && f.changed)) { say(text, "error"); return; }
+      if (await askYes("Overwrite the file?", text, "Overwrite")) await this.app.perform({ op: "save", force: true });
+    }
+  }
+  download(format: string): void {
+    const link = h("a", { href: this.app.source.download(format), download: "" });
+    document.body.append(link);
+    link.click();
+    link.remove();
+  }
+
+  open(as: "auto" | "truth" = "auto"): void {
+    const input = h("input", { type: "file", multiple: true });
+    input.addEventListener("change", () => void this.openFiles([...(input.files ?? [])], as));
+    input.click();
+  }
+  async openFiles(files: File[], as: "auto" | "truth" = "auto"): Promise<void> {
+    for (const file of files) {
+      try {
+        this.app.say(`Opening ${file.name}…`);
+        await this.app.source.open(file.name, as, file);
+      } catch (error) {
+        this.app.say(error instanceof Refused || error instanceof Error ? error.message : String(error), "error");
+      }
+    }
+  }
+  async cancel(): Promise<void> {
+    const { job } = this.app.store.get();
+    if (job !== null) await this.app.source.cancel(job.job);
+  }
+
+  fly(): void {
+    if (this.flight?.running === true) { this.flight.stop(); return; }
+    const { layout } = this.app.store.get();
+    if (layout !== "four" && layout !== "rows" && layout !== "scene") this.app.store.set({ layout: "four" });
+    this.flight?.start();
+    this.scene.element.focus();
+  }
+  fit(): void {
+    this.scene.fit();
+    for (const slice of this.slices) slice.fit();
+  }
+  lookFrom(side: "A" | "P" | "L" | "R" | "S" | "I"): void { this.scene.camera.lookFrom(side); this.scene.moved(); }
+  parallel(): void { this.scene.camera.isParallel = !this.scene.camera.isParallel; this.scene.moved(); }
+  theme(): void {
+    const theme = this.app.store.get().theme === "dark" ? "light" : "dark";
+    this.app.store.set({ theme });
+    try { localStorage.setItem("lumen-theme", theme); } catch { /* a page from disk may keep nothing */ }
+  }
+  help(): void { openHelp(this.app.source.live); }
+
+  picture(): void {
+    const over = [...document.querySelectorAll<HTMLCanvasElement>("canvas.over")];
+    this.app.stage.picture(over, "#07090c").toBlob(blob => {
+      if (blob === null) return;
+      const address = URL.createObjectURL(blob), link = h("a", { href: address, download: `${this.app.store.get().state.title || "lumen"}.png` });
+      document.body.append(link);
+      link.click();
+      link.remove();
+      window.setTimeout(() => URL.revokeObjectURL(address), 10_000);
+    });
+  }
+}

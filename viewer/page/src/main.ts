@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The page begins here. */
+import { Actions } from "./actions";
+import { makeBar } from "./bar";
+import { displayPanel, legend } from "./display_panel";
+import { Flight } from "./flight";
+import { Hand } from "./hand";
+import { listenToKeys } from "./keys";
+import { Loader } from "./loader";
+import { LocalModel } from "./local_model";
+import { MeshLayer } from "./mesh_layer";
+import { measurePanel } from "./measure_panel";
+import { newStore, type App } from "./model";
+import { ProbeLine } from "./probe_line";
+import { listenToScene } from "./scene_input";
+import { SceneView } from "./scene_view";
+import { makeShell, toast, type Shell } from "./shell";
+import { listenToSlice } from "./slice_input";
+import { SliceView, type SliceName } from "./slice_view";
+import { Refused, type Source } from "./source";
+import { EmbeddedSource } from "./source_embedded";
+import { ServerSource } from "./source_server";
+import { Stage } from "./stage";
+import { Strip } from "./strip";
+import { Tools } from "./tools";
+import { TreePanel } from "./tree_panel";
+import { h } from "./ui";
+import { applyLayout, Watcher } from "./watcher";
+import { WireTool } from "./wire_tool";
+import { workPanel } from "./work_panel";
+
+function makeApp(source: Source, shell: Shell): App {
+  const store = newStore();
+  const app: App = {
+    store, source, stage: new Stage(shell.canvas), say: (text, severity) => toast(shell, text, severity),
+    perform: async operation => {
+      try {
+        await source.perform(operation, store.get().state.revision);
+        return true;
+      } catch (error) {
+        app.say(error instanceof Refused ? error.message : `That could not be done: ${error instanceof Error ? error.message : String(error)}`, "error");
+        return false;
+      }
+    },
+  };
+  return app;
+}
+
+async function start(): Promise<void> {
+  const shell = makeShell(), app = makeApp(EmbeddedSource.find() ?? new ServerSource(), shell), tools = new Tools(app);
+  const slices = (["axial", "coronal", "sagittal"] as SliceName[]).map(name => new SliceView(name, shell[name], app)), scene = new SceneView(shell.scene, app);
+  for (const view of [...slices, scene]) app.stage.add(view);
+  const actions = new Actions(app, scene, slices), hand = new Hand(app), flight = new Flight(app, scene), wire = new WireTool(app);
+  tools.hand = hand;
+  actions.flight = tools.flight = flight;
+  tools.wire = wire;
+  for (const slice of slices) listenToSlice(slice, app, tools);
+  listenToScene(scene, app, tools);
+  makeBar(shell.bar, app, actions);
+  new TreePanel(shell.left, app);
+  shell.right.append(...workPanel(app, actions, hand), ...displayPanel(app, actions), new MeshLayer(app, scene).panel, ...measurePanel(app, actions, hand, wire));
+  new Strip(shell.strip, app, actions, flight);
+  new ProbeLine(shell.probe, app, tools);
+  new LocalModel(app, scene);
+  legend(shell.legend, app);
+  listenToKeys(app, actions, hand);
+  applyLayout(app, shell);
+  const loader = new Loader(app, slices, scene), watcher = new Watcher(app, shell, loader, actions);
+  app.store.watch(["crosshair", "frame", "planes", "tree", "surface", "hidden", "solo", "selected", "colours", "layers", "window", "measurements", "pending", "state", "layout", "interpolate"], view => {
+    for (const slice of slices) { slice.texture?.interpolate(view.interpolate); app.stage.invalidate(slice); }
+  });
+  await watcher.begin();
+}
+
+start().catch((error: unknown) => {
+  const text = error instanceof Error ? error.message : String(error);
+  document.body.append(h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)));
+});

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What the page shows: one value that panels and views watch. */
+import type { Model } from "../../../libblob/wasm/blob.mjs";
+import { branchColour, type Rgb } from "./colour";
+import type { Source } from "./source";
+import type { Stage } from "./stage";
+import { Store } from "./store";
+import type { Surface } from "./surface";
+import type { Tree } from "./tree";
+import { kEmptyState, type State, type Vec3 } from "./types";
+import type { Frame } from "./vec";
+import type { Volume } from "./volume";
+
+export type Tool = "navigate" | "seed" | "probe" | "distance" | "angle" | "section" | "touch" | "wire" | "move";
+export type ColourBy = "branch" | "radius" | "confidence" | "error" | "root" | "compare";
+export type Cast = "off" | "mip" | "volume";
+export type Layout = "four" | "scene" | "rows" | "axial" | "coronal" | "sagittal";
+export type Planes = "patient" | "vessel" | "free";
+
+export interface Layers { surface: boolean; lines: boolean; nodes: boolean; points: boolean; local: boolean; contours: boolean; seeds: boolean; slices: boolean; places: boolean }
+
+export interface Measurement {
+  id: number;
+  kind: "distance" | "angle" | "section" | "touch" | "probe";
+  points: Vec3[];
+  text: string;
+  detail: string;
+}
+
+export interface View {
+  state: State;
+  tree: Tree | null;
+  surface: Surface | null;
+  volume: Volume | null;
+  /** Slices of the volume that can be shown. */
+  volumeReady: number;
+  blob: Model | null;
+
+  selected: number;
+  hidden: ReadonlySet<string>;
+  solo: string | null;
+  opacity: ReadonlyMap<string, number>;
+  allOpacity: number;
+  colours: ReadonlyMap<string, Rgb>;
+
+  crosshair: Vec3;
+  /** Node of the selected vessel that the cursor is at, or -1. */
+  node: number;
+  planes: Planes;
+  frame: Frame;
+
+  window: [number, number];
+  cast: Cast;
+  layers: Layers;
+  colourBy: ColourBy;
+  clip: { on: boolean; flip: boolean };
+  interpolate: boolean;
+  tool: Tool;
+  layout: Layout;
+  theme: "dark" | "light";
+  strip: boolean;
+
+  measurements: Measurement[];
+  /** Points of the measurement or seed that is being made. */
+  pending: Vec3[];
+  job: { job: number; name: string; stage: string; done: number; total: number } | null;
+  lost: boolean;
+  distance: Float32Array | null;
+  figures: Record<string, unknown> | null;
+}
+
+/** Axial as it is read: from the feet, the patient's left on the right. */
+export const kPatientFrame: Frame = { right: [1, 0, 0], up: [0, -1, 0], normal: [0, 0, -1] };
+
+export const kInitial: View = {
+  state: kEmptyState, tree: null, surface: null, volume: null, volumeReady: 0, blob: null,
+  selected: -1, hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1, colours: new Map(),
+  crosshair: [0, 0, 0], node: -1, planes: "patient", frame: kPatientFrame,
+  window: [0, 1], cast: "off",
+  layers: { surface: true, lines: true, nodes: false, points: false, local: false, contours: true, seeds: true, slices: false, places: true },
+  colourBy: "branch", clip: { on: false, flip: false }, interpolate: true, tool: "navigate", layout: "four", theme: "dark", strip: true,
+  measurements: [], pending: [], job: null, lost: false, distance: null, figures: null,
+};
+
+export interface App {
+  store: Store<View>;
+  source: Source;
+  stage: Stage;
+  /** Tells the user in a line that goes away, and to assistive technology. */
+  say: (text: string, severity?: "note" | "warning" | "error") => void;
+  /** Does something to the document; tells what is refused. Gives whether it was done. */
+  perform: (operation: { op: string; [key: string]: unknown }) => Promise<boolean>;
+}
+
+/** The colour of a branch: chosen, or of its place in the list. */
+export function colourOf(view: View, branch: number): Rgb {
+  const label = view.tree?.branches[branch]?.label ?? "";
+  return view.colours.get(label) ?? branchColour(branch);
+}
+
+export function isShown(view: View, branch: number): boolean {
+  const label = view.tree?.branches[branch]?.label;
+  if (label === undefined) return true;
+  return view.solo !== null ? view.solo === label : !view.hidden.has(label);
+}
+
+export function opacityOf(view: View, branch: number): number {
+  return (view.opacity.get(view.tree?.branches[branch]?.label ?? "") ?? 1) * view.allOpacity;
+}
+
+export const newStore = (): Store<View> => new Store<View>(kInitial);

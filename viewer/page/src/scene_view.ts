@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The 3D view: the surface or its stand-in, centerlines, points, the volume behind them, and letters over them. */
+import { Group, InstancedMesh, Mesh, Scene, Vector4, type Object3D, type WebGLRenderer } from "three";
+import { OrbitCamera } from "./camera";
+import { Caster } from "./cast";
+import { colouring } from "./colouring";
+import { colourOf, isShown, opacityOf, type App, type View } from "./model";
+import { kFade, PartMaterial } from "./part_material";
+import { drawSceneOverlay } from "./scene_overlay";
+import { ball, centerlines, cylinders, wallPoints } from "./scene_parts";
+import { SlicePlanes } from "./slice_planes";
+import type { StageView } from "./stage";
+import type { Surface } from "./surface";
+import type { Vec3 } from "./types";
+import { dot, scale } from "./vec";
+import type { VolumeTexture } from "./volume_texture";
+
+const kStill = 250; // ms after the last movement at which the volume is drawn again in full
+
+export class SceneView implements StageView {
+  readonly camera = new OrbitCamera();
+  readonly scene = new Scene();
+  readonly over: HTMLCanvasElement;
+  caster: Caster | null = null;
+  private readonly planes = new SlicePlanes();
+  private walls: Mesh<Surface["parts"][number]["geometry"], PartMaterial>[] = [];
+  private tubes: InstancedMesh[] = [];
+  private readonly lines = new Group();
+  private readonly points = new Group();
+  private readonly marks = new Group();
+  /** The model of one node alone, a wire: what other modules show. */
+  readonly extra = new Group();
+  private moving = 0;
+  private surface: Surface | null = null;
+  private fitted = false;
+  texture: VolumeTexture | null = null;
+
+  constructor(readonly element: HTMLElement, readonly app: App) {
+    this.over = element.querySelector("canvas")!;
+    this.scene.add(this.lines, this.points, this.marks, this.extra, this.planes.group);
+    const { store, stage } = app;
+    const all = (keys: (keyof View)[], call: (view: View) => void): void => { store.watch(keys, view => { call(view); stage.invalidate(this); }); };
+    all(["surface"], view => this.setSurface(view));
+    all(["tree"], view => this.setTubes(view));
+    all(["tree", "layers", "hidden", "solo", "selected", "colours"], view => this.setLines(view));
+    all(["tree", "layers", "hidden", "solo", "colours"], view => this.setPoints(view));
+    all(["state", "layers", "crosshair"], view => this.setMarks(view));
+    all(["surface", "tree", "layers", "hidden", "solo", "selected", "colours", "opacity", "allOpacity", "colourBy", "clip", "crosshair", "frame",
+      "distance", "window", "cast", "volumeReady", "measurements", "pending", "tool", "theme", "node"], view => this.setLooks(view));
+  }
+
+  private replace(group: Group, objects: Object3D[]): void {
+    for (const old of group.children as Mesh[]) { old.geometry?.dispose(); (old.material as PartMaterial | undefined)?.dispose(); }
+    group.clear();
+    if (objects.length > 0) group.add(...objects);
+  }
+
+  private setSurface(view: View): void {
+    if (view.surface === this.surface) return;
+    for (const wall of this.walls) { this.scene.remove(wall); wall.material.dispose(); }
+    this.surface?.dispose();
+    this.surface = view.surface;
+    this.walls = (view.surface?.parts ?? []).map(part => {
+      const wall = new Mesh(part.geometry, new PartMaterial(true));
+      wall.frustumCulled = false;
+      wall.userData.branch = part.branch;
+      this.scene.add(wall);
+      return wall;
+    });
+  }
+
+  private setTubes(view: View): void {
+    for (const tube of this.tubes) { this.scene.remove(tube); tube.dispose(); tube.geometry.dispose(); }
+    this.tubes = view.tree === null ? [] : cylinders(view.tree, this.app.stage.software ? 12 : 20);
+    if (this.tubes.length > 0) this.scene.add(...this.tubes);
+    if (!this.fitted) this.fit();
+  }
+  private setLines(view: View): void { this.replace(this.lines, view.tree !== null && view.layers.lines ? [centerlines(view, "others"), centerlines(view, "selected")] : []); }
+  private setPoints(view: View): void {
+    const points = view.tree !== null && view.layers.points ? wallPoints(view) : null;
+    this.replace(this.points, points === null ? [] : [points]);
+  }
+
+  private setMarks(view: View): void {
+    const marks: Object3D[] = [], least = Math.max(view.volume?.spacing[0] ?? 0, view.tree?.voxelSize ?? 0, 0.1);
+    if (view.layers.seeds)
+      for (const seed of view.state.seeds) for (const point of seed.points)
+        marks.push(ball(point.position, Math.max(point.radius ?? 0, 1.5 * least), seed.tracked ? [0.49, 0.83, 0.66] : [1, 0.82, 0.4], seed.tracked ? 0.5 : 0.9));
+    if (view.layers.places)
+      for (const place of view.state.check?.missing_vessels ?? []) marks.push(ball(place.position, Math.max(2 * place.radius_mm, 1.5 * least), [1, 0.48, 0.56], 0.75));
+    this.replace(this.marks, marks);
+  }
+
+  /** The plane that cuts away what is nearer than the crosshair; zero if it is off. */
+  private clip(view: View): Vector4 {
+    if (!view.clip.on) return new Vector4(0, 0, 0, 0);
+    const n: Vec3 = scale(view.frame.normal, view.clip.flip ? -1 : 1);
+    return new Vector4(...n, -dot(n, view.crosshair));
+  }
+
+  private setLooks(view: View): void {
+    const clip = this.clip(view), { mapped, range, map } = colouring(view), asTubes = view.surface === null || view.layers.nodes;
+    if (view.tree !== null && this.tubes.length === view.tree.branches.length)
+      this.tubes.forEach((tube, branch) => {
+        const alpha = opacityOf(view, branch);
+        tube.visible = asTubes && isShown(view, branch) && alpha > 0 && (view.layers.nodes || view.layers.surface);
+        (tube.material as PartMaterial).look({ own: colourOf(view, branch), alpha, mapped: false, range, map, lit: branch === view.selected, clip });
+      });
+    for (const wall of this.walls) {
+      const branch = wall.userData.branch as number, alpha = branch < 0 ? view.allOpacity : opacityOf(view, branch);
+      wall.visible = view.layers.surface && !view.layers.nodes && isShown(view, branch) && alpha > 0;
+      const own: [number, number, number] = branch < 0 ? [0.75, 0.72, 0.68] : colourOf(view, branch);
+      wall.material.look({ own, alpha, mapped, range, map, lit: branch === view.selected && branch >= 0, clip });
+      wall.renderOrder = alpha < 1 ? 2 : 0;
+    }
+    for (const child of this.points.children) ((child as Mesh).material as PartMaterial).uniforms.clip.value = clip;
+    this.planes.update(view, this.texture);
+  }
+
+  /** Shows everything that there is. */
+  fit(): void {
+    const { tree, volume } = this.app.store.get(), box = tree?.box() ?? null;
+    if (box !== null) this.camera.fit(box.low, box.high);
+    else if (volume !== null) {
+      const corners = volume.corners(), pick = (f: (...x: number[]) => number): Vec3 => [0, 1, 2].map(a => f(...corners.map(c => c[a]))) as Vec3;
+      this.camera.fit(pick(Math.min), pick(Math.max));
+    } else return;
+    this.fitted = true;
+    this.app.stage.invalidate(this);
+  }
+
+  /** The camera moved: coarse pictures of the volume until it rests. */
+  moved(): void {
+    window.clearTimeout(this.moving);
+    this.moving = window.setTimeout(() => { this.moving = 0; this.app.stage.invalidate(this); }, kStill);
+    this.app.stage.invalidate(this);
+  }
+
+  draw(renderer: WebGLRenderer, width: number, height: number): void {
+    const view = this.app.store.get(), camera = this.camera.update(width, height), software = this.app.stage.software;
+    if (!this.fitted) this.fit();
+    if (view.cast !== "off" && this.caster !== null) {
+      const share = this.moving !== 0 ? (software ? 0.22 : 0.6) : software ? 0.5 : 1;
+      this.caster.draw(renderer, camera, this.camera.isParallel && this.camera.flight === null, [width, height], share, view.window, view.cast === "volume",
+        this.clip(view), this.moving !== 0 || software ? 1 : 0.6);
+    }
+    kFade.value = this.camera.flight === null ? 0 : this.camera.flight.fade;
+    renderer.render(this.scene, camera);
+  }
+
+  drawOver(width: number, height: number): void {
+    const ratio = window.devicePixelRatio, over = this.over;
+    if (over.width !== Math.round(width * ratio) || over.height !== Math.round(height * ratio)) {
+      over.width = Math.round(width * ratio);
+      over.height = Math.round(height * ratio);
+    }
+    const c = over.getContext("2d")!;
+    c.setTransform(ratio, 0, 0, ratio, 0, 0);
+    c.clearRect(0, 0, width, height);
+    drawSceneOverlay(c, this.camera, this.app.store.get(), width, height);
+  }
+}

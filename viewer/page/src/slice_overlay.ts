@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Lines and letters over a slice. */
+import { toCss } from "./colour";
+import { colourOf, isShown, type View } from "./model";
+import type { SliceView } from "./slice_view";
+import type { Surface } from "./surface";
+import type { Vec3 } from "./types";
+import { dot, orientation, scale } from "./vec";
+
+interface Cut { surface: Surface; key: string; parts: (number[] | null)[] }
+const cuts = new WeakMap<SliceView, Cut>();
+
+/** The surface's outlines in the slice, kept until plane or surface change; null of parts whose tree of boxes is not built
+ * yet, for which a picture need not wait. */
+function outlines(slice: SliceView, surface: Surface): (number[] | null)[] {
+  const { normal } = slice.frame, origin = slice.centre(), key = [...normal, dot(normal, origin)].map(x => x.toFixed(5)).join();
+  let cut = cuts.get(slice);
+  if (cut?.surface !== surface || cut.key !== key) {
+    cut = { surface, key, parts: surface.parts.map(() => null) };
+    cuts.set(slice, cut);
+  }
+  const { parts } = cut;
+  surface.parts.forEach((part, i) => { if (part.bvh !== null) parts[i] ??= surface.cut(part, normal, origin); });
+  return parts;
+}
+
+type Context = CanvasRenderingContext2D;
+
+function drawOutlines(c: Context, slice: SliceView, view: View): void {
+  const { surface } = view;
+  if (surface === null || !view.layers.contours) return;
+  const parts = outlines(slice, surface), f = slice.frame, s = 1 / slice.mmPerPixel, o = slice.toPixel([0, 0, 0]);
+  const x = scale(f.right, s), y = scale(f.up, -s);
+  surface.parts.forEach((part, i) => {
+    const points = parts[i];
+    if (points === null || points.length === 0 || !isShown(view, part.branch)) return;
+    c.beginPath();
+    for (let k = 0; k < points.length; k += 6) {
+      c.moveTo(o.x + points[k] * x[0] + points[k + 1] * x[1] + points[k + 2] * x[2], o.y + points[k] * y[0] + points[k + 1] * y[1] + points[k + 2] * y[2]);
+      c.lineTo(o.x + points[k + 3] * x[0] + points[k + 4] * x[1] + points[k + 5] * x[2], o.y + points[k + 3] * y[0] + points[k + 4] * y[1] + points[k + 5] * y[2]);
+    }
+    c.strokeStyle = toCss(colourOf(view, part.branch), part.branch === view.selected ? 1 : 0.8);
+    c.lineWidth = part.branch === view.selected ? 2 : 1.2;
+    c.stroke();
+  });
+}
+
+function drawLines(c: Context, slice: SliceView, view: View): void {
+  const { tree } = view;
+  if (tree === null || !view.layers.lines) return;
+  const near = 2 * slice.mmPerPixel + (tree.voxelSize || 0.5);
+  for (const branch of tree.branches) {
+    if (!isShown(view, branch.index)) continue;
+    c.fillStyle = toCss(colourOf(view, branch.index), 0.9);
+    for (let i = branch.firstNode; i < branch.firstNode + branch.nodeCount; ++i) {
+      const p = slice.toPixel(tree.position(i));
+      if (Math.abs(p.depth) < near) c.fillRect(p.x - 1, p.y - 1, 2, 2);
+    }
+  }
+}
+
+/** A ring; fainter as the point is farther from the plane, not at all beyond `reach` mm. */
+function ring(c: Context, slice: SliceView, p: Vec3, radius: number, colour: string, reach: number, filled = false): void {
+  const at = slice.toPixel(p), far = Math.abs(at.depth);
+  if (far > reach) return;
+  c.globalAlpha = 1 - 0.75 * far / reach;
+  c.strokeStyle = c.fillStyle = colour;
+  c.lineWidth = 1.5;
+  c.beginPath();
+  c.arc(at.x, at.y, Math.max(radius, 3), 0, 2 * Math.PI);
+  if (filled) c.fill(); else c.stroke();
+  c.globalAlpha = 1;
+}
+
+function drawSeeds(c: Context, slice: SliceView, view: View): void {
+  const pixel = slice.mmPerPixel;
+  if (view.layers.seeds)
+    for (const seed of view.state.seeds) {
+      seed.points.forEach((point, i) => {
+        const r = point.radius ?? 0, reach = Math.max(r, 4 * pixel, 1.5);
+        if (r > 0) ring(c, slice, point.position, r / pixel, seed.tracked ? "#7dd3a8" : "#ffd166", reach);
+        ring(c, slice, point.position, 3, seed.tracked ? "#7dd3a8" : "#ffd166", reach, true);
+        const at = slice.toPixel(point.position);
+        if (i === 0 && Math.abs(at.depth) < reach) label(c, seed.label, at.x + 7, at.y - 6, "#ffe6a8");
+      });
+    }
+  if (view.layers.places)
+    for (const place of view.state.check?.missing_vessels ?? []) {
+      ring(c, slice, place.position, 7, "#ff7a90", Math.max(3, place.length_mm / 2));
+      ring(c, slice, place.position, 1.5, "#ff7a90", Math.max(3, place.length_mm / 2), true);
+    }
+}
+
+export function label(c: Context, text: string, x: number, y: number, colour: string, align: CanvasTextAlign = "left"): void {
+  c.font = "500 11px system-ui, sans-serif";
+  c.textAlign = align;
+  c.textBaseline = "middle";
+  c.lineWidth = 3;
+  c.strokeStyle = "rgb(0 0 0 / 0.7)";
+  c.strokeText(text, x, y);
+  c.fillStyle = colour;
+  c.fillText(text, x, y);
+}
+
+/** Measured points and the lines between them, in a slice or a projection. */
+export function drawMeasurements(c: Context, view: View, project: (p: Vec3) => { x: number; y: number; depth: number } | null, reach: number): void {
+  const groups = [...view.measurements.map(m => ({ points: m.points, text: m.text, kind: m.kind as string })),
+    ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : [])];
+  for (const { points, text, kind } of groups) {
+    const pixels = points.map(project);
+    if (pixels.every(p => p === null || Math.abs(p.depth) > reach)) continue;
+    const shown = pixels.filter(p => p !== null);
+    c.strokeStyle = c.fillStyle = kind === "pending" ? "#ffd166" : "#ffe08a";
+    c.lineWidth = 1.5;
+    c.setLineDash(pixels.some(p => p !== null && Math.abs(p.depth) > reach / 4) ? [4, 3] : []);
+    c.beginPath();
+    shown.forEach((p, i) => { if (i === 0) c.moveTo(p.x, p.y); else c.lineTo(p.x, p.y); });
+    if (kind === "section" && shown.length > 2) c.closePath();
+    c.stroke();
+    c.setLineDash([]);
+    if (kind !== "section") for (const p of shown) { c.beginPath(); c.arc(p.x, p.y, 3, 0, 2 * Math.PI); c.fill(); }
+    const last = shown.at(-1);
+    if (last !== undefined && text !== "") label(c, text, last.x + 8, last.y - 8, "#ffe08a");
+  }
+}
+
+export function drawWire(c: Context, points: Float64Array | null, project: (p: Vec3) => { x: number; y: number; depth: number } | null, reach: number): void {
+  if (points === null) return;
+  c.strokeStyle = "#f5f7ff";
+  c.lineWidth = 2;
+  c.beginPath();
+  let open = false;
+  for (let i = 0; i < points.length; i += 3) {
+    const p = project([points[i], points[i + 1], points[i + 2]]);
+    const drawn = p !== null && Math.abs(p.depth) <= reach;
+    if (drawn && open) c.lineTo(p.x, p.y);
+    else if (drawn) c.moveTo(p.x, p.y);
+    open = drawn;
+  }
+  c.stroke();
+}
+
+function drawCrosshair(c: Context, slice: SliceView, view: View, width: number, height: number): void {
+  const p = slice.toPixel(view.crosshair), gap = 9;
+  const colours: Record<string, [string, string]> = { // of the planes that the lines stand for: [across, up]
+    axial: ["#5ad1a0", "#f2c14e"], coronal: ["#e2605c", "#f2c14e"], sagittal: ["#e2605c", "#5ad1a0"] };
+  const [h, v] = colours[slice.name];
+  c.lineWidth = 1;
+  c.globalAlpha = 0.75;
+  c.strokeStyle = h;
+  c.beginPath();
+  c.moveTo(0, p.y); c.lineTo(p.x - gap, p.y); c.moveTo(p.x + gap, p.y); c.lineTo(width, p.y);
+  c.stroke();
+  c.strokeStyle = v;
+  c.beginPath();
+  c.moveTo(p.x, 0); c.lineTo(p.x, p.y - gap); c.moveTo(p.x, p.y + gap); c.lineTo(p.x, height);
+  c.stroke();
+  c.globalAlpha = 1;
+}
+
+/** A length of 1, 2 or 5 times a power of ten that takes at most `most` pixels. */
+export function niceLength(mmPerPixel: number, most: number): number {
+  const longest = most * mmPerPixel, power = 10 ** Math.floor(Math.log10(longest)), share = longest / power;
+  return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
+}
+
+export function drawScaleBar(c: Context, mmPerPixel: number, width: number, height: number): void {
+  const mm = niceLength(mmPerPixel, Math.min(140, width / 3)), pixels = mm / mmPerPixel, x = width - 14, y = height - 12;
+  c.strokeStyle = "#e8edf4";
+  c.lineWidth = 1.5;
+  c.beginPath();
+  c.moveTo(x - pixels, y - 4); c.lineTo(x - pixels, y); c.lineTo(x, y); c.lineTo(x, y - 4);
+  c.stroke();
+  label(c, mm >= 10 ? `${mm / 10} cm` : `${mm} mm`, x - pixels / 2, y - 9, "#e8edf4", "center");
+}
+
+function drawMarks(c: Context, slice: SliceView, width: number, height: number): void {
+  const { right, up } = slice.frame, colour = "#c9d4e3";
+  c.save();
+  c.font = "600 12px system-ui, sans-serif";
+  label(c, orientation(right), width - 8, height / 2, colour, "right");
+  label(c, orientation(scale(right, -1)), 8, height / 2, colour);
+  label(c, orientation(up), width / 2, 11, colour, "center");
+  label(c, orientation(scale(up, -1)), width / 2, height - 11, colour, "center");
+  c.restore();
+}
+
+/** What the slice is and where: the one coordinate in patient axes, or the distance along the vessel. */
+function title(slice: SliceView, view: View): string {
+  const name = { axial: "Axial", coronal: "Coronal", sagittal: "Sagittal" }[slice.name], n = slice.frame.normal;
+  if (view.planes === "vessel") return { axial: "Cross-section", coronal: "Along vessel, A", sagittal: "Along vessel, B" }[slice.name];
+  const axis = [0, 1, 2].find(a => Math.abs(n[a]) > 0.9999);
+  if (axis === undefined) return `${name}, oblique`;
+  const x = view.crosshair[axis];
+  return `${name}  ${orientation([0, 1, 2].map(a => (a === axis ? Math.sign(x) || 1 : 0)) as Vec3)} ${Math.abs(x).toFixed(1)}`;
+}
+
+export const wirePoints: { points: Float64Array | null; radius: number } = { points: null, radius: 0.2 };
+
+export function drawSliceOverlay(c: Context, slice: SliceView, view: View, width: number, height: number): void {
+  const project = (p: Vec3): { x: number; y: number; depth: number } => slice.toPixel(p);
+  drawOutlines(c, slice, view);
+  drawLines(c, slice, view);
+  drawSeeds(c, slice, view);
+  drawMeasurements(c, view, project, Math.max(1.5, 4 * slice.mmPerPixel));
+  drawWire(c, wirePoints.points, project, 1.5);
+  drawCrosshair(c, slice, view, width, height);
+  drawMarks(c, slice, width, height);
+  drawScaleBar(c, slice.mmPerPixel, width, height);
+  label(c, title(slice, view), 8, 12, "#e8edf4");
+}
+

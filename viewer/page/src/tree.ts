@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The centerline tree of a case: the arrays of its pack, and what follows from them. */
+import type { Pack } from "./pack";
+import type { BranchRecord, Vec3 } from "./types";
+import { at, distance } from "./vec";
+
+export interface Branch extends BranchRecord {
+  index: number;
+  /** mm along its own nodes, as `lumen info` tells it. */
+  length: number;
+  median: number;
+  least: number;
+  greatest: number;
+  /** Branch that its parent node belongs to, or -1. */
+  parentBranch: number;
+}
+
+function median(values: number[]): number {
+  const sorted = [...values].sort((a, b) => a - b), half = sorted.length >> 1;
+  return sorted.length === 0 ? NaN : sorted.length % 2 === 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
+export class Tree {
+  readonly centre: Float32Array;
+  readonly direction: Float32Array;
+  readonly radius: Float32Array;
+  readonly height: Float32Array;
+  readonly parent: Int32Array;
+  readonly branch: Uint32Array;
+  readonly inlierRate: Float32Array | null;
+  readonly error: Float32Array | null;
+  readonly rootDistance: Float32Array;
+  readonly pointOffset: Uint32Array | null;
+  readonly point: Float32Array | null;
+  readonly links: Uint32Array;
+  readonly branches: Branch[];
+  readonly hasModels: boolean;
+  readonly voxelSize: number;
+  readonly reachable: { reached: number; total: number } | null;
+  readonly count: number;
+
+  constructor(pack: Pack) {
+    this.centre = pack.get("centre", "f32");
+    this.direction = pack.get("direction", "f32");
+    this.radius = pack.get("radius", "f32");
+    this.height = pack.get("height", "f32");
+    this.parent = pack.get("parent", "i32");
+    this.branch = pack.get("branch", "u32");
+    this.inlierRate = pack.optional("inlierRate", "f32");
+    this.error = pack.optional("error", "f32");
+    this.rootDistance = pack.get("rootDistance", "f32");
+    this.pointOffset = pack.optional("pointOffset", "u32");
+    this.point = pack.optional("point", "f32");
+    this.links = pack.optional("links", "u32") ?? new Uint32Array(0);
+    this.hasModels = pack.meta.hasModels === true;
+    this.voxelSize = typeof pack.meta.voxelSize === "number" ? pack.meta.voxelSize : 0;
+    this.reachable = (pack.meta.reachable ?? null) as Tree["reachable"];
+    this.count = this.radius.length;
+    this.branches = (pack.meta.branches as BranchRecord[]).map((record, index) => this.describe(record, index));
+  }
+
+  private describe(record: BranchRecord, index: number): Branch {
+    const radii = Array.from(this.radius.subarray(record.firstNode, record.firstNode + record.nodeCount));
+    let length = 0;
+    for (let i = record.firstNode + 1; i < record.firstNode + record.nodeCount; ++i) length += distance(this.position(i - 1), this.position(i));
+    return { ...record, index, length, median: median(radii), least: Math.min(...radii), greatest: Math.max(...radii),
+      parentBranch: record.parentNode < 0 ? -1 : this.branch[record.parentNode] };
+  }
+
+  position(node: number): Vec3 { return at(this.centre, node); }
+  axis(node: number): Vec3 { return at(this.direction, node); }
+
+  /** Nodes of a branch, from the node that it leaves its parent at. */
+  nodesOf(record: BranchRecord): number[] {
+    const own = Array.from({ length: record.nodeCount }, (_, i) => record.firstNode + i);
+    return record.parentNode < 0 ? own : [record.parentNode, ...own];
+  }
+
+  /** Nodes from the root to the end of a branch: the way of a tool. */
+  wayTo(branch: number): number[] {
+    const record = this.branches[branch], way: number[] = [];
+    for (let node = record.firstNode + record.nodeCount - 1; node >= 0; node = this.parent[node]) way.push(node);
+    return way.reverse();
+  }
+
+  /** The node whose centre is nearest in terms of power |x - c|^2 - r^2. */
+  nearest(p: Vec3, among: (branch: number) => boolean = () => true): number {
+    let best = -1, least = Infinity;
+    for (let i = 0; i < this.count; ++i) {
+      const x = this.centre[3 * i] - p[0], y = this.centre[3 * i + 1] - p[1], z = this.centre[3 * i + 2] - p[2];
+      const power = x * x + y * y + z * z - this.radius[i] * this.radius[i];
+      if (power < least && among(this.branch[i])) { least = power; best = i; }
+    }
+    return best;
+  }
+
+  /** The box of all nodes' balls; null if there is no node. */
+  box(): { low: Vec3; high: Vec3 } | null {
+    if (this.count === 0) return null;
+    const low: Vec3 = [Infinity, Infinity, Infinity], high: Vec3 = [-Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < this.count; ++i)
+      for (let a = 0; a < 3; ++a) {
+        low[a] = Math.min(low[a], this.centre[3 * i + a] - this.radius[i]);
+        high[a] = Math.max(high[a], this.centre[3 * i + a] + this.radius[i]);
+      }
+    return { low, high };
+  }
+
+  /** Branches in the order of a walk from the roots, each with its depth. */
+  outline(): { branch: number; depth: number }[] {
+    const children = this.branches.map((): number[] => []), result: { branch: number; depth: number }[] = [];
+    const roots: number[] = [];
+    for (const b of this.branches) (b.parentBranch < 0 ? roots : children[b.parentBranch]).push(b.index);
+    const stack = roots.reverse().map(branch => ({ branch, depth: 0 }));
+    for (let top = stack.pop(); top !== undefined; top = stack.pop()) {
+      result.push(top);
+      for (const branch of children[top.branch].reverse()) stack.push({ branch, depth: top.depth + 1 });
+    }
+    return result;
+  }
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What the server and the page tell each other, as ../../README.md has it. Lengths in mm, positions in LPS. */
+
+export type Vec3 = [number, number, number];
+
+export interface Seed {
+  label: string;
+  kind: string;
+  parent: string | null;
+  points: { position: Vec3; radius: number | null }[];
+  tracked: boolean;
+}
+
+export interface MissingVessel {
+  position: Vec3;
+  start: Vec3;
+  tip: Vec3;
+  length_mm: number;
+  radius_mm: number;
+  branch: string;
+  /** Clicks that track it, and a node of the vessel that it leaves. */
+  clicks?: { points: Vec3[]; radius: number | null; beside: number | null };
+}
+
+export interface EndPlace {
+  position: Vec3;
+  branch: string;
+  first: boolean;
+  goes_on_mm: number;
+}
+
+export interface CheckAnswer {
+  missing_vessels?: MissingVessel[];
+  ends?: EndPlace[];
+  wall?: { offset_mm?: { median?: number; p90_absolute?: number } };
+  dark_places?: { position: Vec3 }[];
+}
+
+export interface FileEntry { id: number | string; kind: string; name: string; changed: boolean }
+
+/** Of the parts of the document; those of packs are their ETags. */
+export interface Revisions { case: number; surface: number; volume: number; seeds: number; meshes?: number; truth?: number; distance?: number }
+
+export interface State {
+  revision: number;
+  revisions: Revisions;
+  title: string;
+  files: FileEntry[];
+  hasVolume: boolean;
+  hasCase: boolean;
+  hasTruth: boolean;
+  meshes: { id: number | string; name: string }[];
+  seeds: Seed[];
+  undo: string | null;
+  redo: string | null;
+  unsaved: boolean;
+  saveAs: string | null;
+  job: { job: number; name: string } | null;
+  check: CheckAnswer | null;
+  /** The case has changed since it was checked. */
+  checkIsOld: boolean;
+  /** As `lumen compare` answers, or null. */
+  figures: Record<string, unknown> | null;
+  formats: string[];
+}
+
+export const kEmptyState: State = {
+  revision: 0,
+  revisions: { case: 0, surface: 0, volume: 0, seeds: 0 },
+  title: "", files: [], hasVolume: false, hasCase: false, hasTruth: false, meshes: [], seeds: [],
+  undo: null, redo: null, unsaved: false, saveAs: null, job: null, check: null, checkIsOld: false, figures: null, formats: [],
+};
+
+export interface BranchRecord {
+  label: string;
+  kind: string;
+  parentNode: number;
+  firstNode: number;
+  nodeCount: number;
+  stopReason: string;
+  confidence: number | null;
+}
+
+export type Event =
+  | { type: "state"; state: State }
+  | { type: "progress"; job: number; stage: string; done: number; total: number }
+  | { type: "message"; severity: "note" | "warning" | "error"; text: string }
+  | { type: "done"; job: number; ok: boolean; text: string }
+  | { type: "lost" }
+  | { type: "back" };
+
+export type Operation = { op: string; [key: string]: unknown };
+
+export interface Snap { found: boolean; position: Vec3; radius: number; direction: Vec3; reason?: string }

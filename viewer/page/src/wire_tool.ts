@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The guidewire in hand: pushed and turned by the pointer or keys, at sixty steps a second. */
+import type { App } from "./model";
+import type { SceneView } from "./scene_view";
+import { wirePoints } from "./slice_overlay";
+import { kWire, Wire } from "./wire";
+import type { Vec3 } from "./types";
+import { scale, unit } from "./vec";
+
+const kSettle = 45; // steps after the last push
+const kPush = 0.25; // mm for a pixel; per step no more than half a spacing
+const kMostPush = 0.3; // spacings in a step
+const kStep = 1000 / 60; // ms of a step
+const kMostSteps = 4; // that a late frame makes up for
+const kTurn = 0.02; // radians for a pixel
+
+export class WireTool {
+  private wire: Wire | null = null;
+  private wanted = 0;
+  private turn = 0;
+  private rest = 0;
+  private last: { x: number; y: number } | null = null;
+  private running = false;
+  private before = 0; // time of the last frame
+  onChange: (() => void) | null = null;
+  /** Milliseconds that the last step took. */
+  cost = 0;
+  options = { ...kWire };
+
+  constructor(private readonly app: App) {
+    app.store.watch(["blob"], () => this.remove());
+  }
+
+  get active(): boolean { return this.wire !== null; }
+  get now(): Wire | null { return this.wire; }
+
+  /** Places the wire at the root of the selected vessel's tree, or of the first one. */
+  place(): void {
+    const { tree, blob, selected } = this.app.store.get();
+    if (tree === null || blob === null) { this.app.say("The wire needs a case with models: fit it first.", "warning"); return; }
+    this.remove();
+    const way = tree.wayTo(Math.max(0, selected)), root = way[0], next = way[Math.min(3, way.length - 1)];
+    const from = tree.position(root), to = tree.position(next);
+    const d: Vec3 = next === root ? tree.axis(root) : unit([to[0] - from[0], to[1] - from[1], to[2] - from[2]]);
+    const all = way.length > 1 ? tree.rootDistance[way.at(-1)!] : 50;
+    const spacing = Math.max(0.5, Math.min(4, (1.15 * all) / kWire.count), 0.25 * tree.radius[root]);
+    const thin = Math.min(...way.map(n => tree.radius[n]));
+    this.options = { ...this.options, spacing, radius: Math.min(0.35 * Math.max(thin, 0.1), 0.5) };
+    this.wire = new Wire(blob, [from[0], from[1], from[2]], scale(d, 1), root, this.options);
+    this.rest = kSettle;
+    this.run();
+  }
+  remove(): void {
+    if (this.wire !== null && this.app.store.get().blob !== null) this.wire.close();
+    this.wire = null;
+    wirePoints.points = null;
+    this.app.stage.invalidateOver();
+    this.onChange?.();
+  }
+
+  push(steps: number): void { this.wanted += steps * this.options.spacing * 2; this.wake(); }
+  twist(radians: number): void { this.turn += radians; this.wake(); }
+  key(key: string): boolean {
+    if (key === "Enter" && this.wire === null) { this.place(); return true; }
+    if (this.wire === null) return false;
+    switch (key) {
+      case "ArrowUp": this.push(1); return true;
+      case "ArrowDown": this.push(-1); return true;
+      case "ArrowLeft": this.twist(-0.2); return true;
+      case "ArrowRight": this.twist(0.2); return true;
+      case "Delete": case "Escape": this.remove(); return true;
+      default: return false;
+    }
+  }
+
+  grab(scene: SceneView, x: number, y: number): boolean {
+    if (this.wire === null) return false;
+    const kReach = 24; // pixels around the wire that a pointer takes hold of
+    const points = this.wire.x, near = Array.from({ length: this.wire.free }, (_, i) => scene.camera.project([points[3 * i], points[3 * i + 1], points[3 * i + 2]]))
+      .some(p => p !== null && Math.hypot(p.x - x, p.y - y) < kReach);
+    this.last = near ? { x, y } : null;
+    return near;
+  }
+  /** Along the wire where it is held: pushes; across: turns. */
+  dragTo(scene: SceneView, x: number, y: number): void {
+    if (this.last === null || this.wire === null) return;
+    const dx = x - this.last.x, dy = y - this.last.y, tip = scene.camera.project(this.wire.tip);
+    const tail = Math.min(8, this.wire.options.count - 1), back = scene.camera.project([0, 1, 2].map(k => this.wire!.x[3 * tail + k]) as Vec3);
+    let ux = 0, uy = -1;
+    if (tip !== null && back !== null && Math.hypot(tip.x - back.x, tip.y - back.y) > 2) {
+      const n = Math.hypot(tip.x - back.x, tip.y - back.y);
+      ux = (tip.x - back.x) / n; uy = (tip.y - back.y) / n;
+    }
+    this.wanted += (dx * ux + dy * uy) * Math.max(kPush, scene.camera.mmPerPixel);
+    this.turn += (dx * -uy + dy * ux) * kTurn;
+    this.last = { x, y };
+    this.wake();
+  }
+  letGo(): void { this.last = null; }
+
+  private wake(): void { this.rest = kSettle; this.run(); }
+  private run(): void {
+    if (this.running || this.wire === null) return;
+    this.running = true;
+    requestAnimationFrame(() => {
+      this.running = false;
+      if (this.wire === null) return;
+      const begin = performance.now(), due = Math.round((begin - this.before) / kStep), steps = this.before === 0 ? 1 : Math.min(kMostSteps, Math.max(1, due));
+      this.before = begin;
+      let moved = false;
+      for (let k = 0; k < steps; ++k) moved = this.advance(this.wire) || moved;
+      this.cost = (performance.now() - begin) / steps;
+      wirePoints.points = this.wire.x;
+      wirePoints.radius = this.options.radius;
+      this.app.stage.invalidateOver();
+      this.onChange?.();
+      if (moved) this.rest = kSettle;
+      if (--this.rest > 0) this.run(); else this.before = 0;
+    });
+  }
+
+  /** One step with a part of what is wanted; false: nothing is. */
+  private advance(wire: Wire): boolean {
+    const most = kMostPush * this.options.spacing, push = Math.min(most, Math.max(-most, this.wanted)), turn = Math.min(0.1, Math.max(-0.1, this.turn));
+    this.wanted -= push;
+    this.turn -= turn;
+    wire.step(push, turn);
+    return push !== 0 || turn !== 0;
+  }
+}
