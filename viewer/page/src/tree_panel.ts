@@ -110,8 +110,8 @@ export class TreePanel {
     const b = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined, { app } = this;
     if (b === undefined) {
       const r = view.tree?.reachable ?? null;
-      this.detail.replaceChildren(...(view.tree === null ? [] : [h("p", { class: "hint" }, `${brief(view.tree.branches.reduce((s, x) => s + x.length, 0))} mm of vessels${
-        r === null ? "" : `, ${brief(r.reached)} mm of them reachable`}. Click one here or in a view.`)]));
+      this.detail.replaceChildren(...(view.tree === null ? [] : [h("p", { class: "hint" }, `${
+        r === null ? `${brief(view.tree.branches.reduce((s, x) => s + x.length, 0))} mm of vessels` : `${brief(r.reached)} of ${brief(r.total)} mm are reachable from the roots`}. Click a vessel here or in a view.`)]));
       return;
     }
     const parent = b.parentBranch < 0 ? "none: a root" : view.tree!.branches[b.parentBranch].label;
