@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "converters/common/error.h"
+#include "converters/surface/bare_stretches.h"
 #include "converters/surface/cut_ends.h"
 #include "converters/surface/decimate.h"
 #include "converters/surface/end_planes.h"
@@ -89,6 +90,8 @@ private:
     refine(surface, m_field, edgeOf(m_options));
     m_result.report.crossings = mendCrossings(surface, m_field, m_progress);
     m_result.report.overlaps = overlapsOf(surface, m_field);
+    for (std::string& sentence : bareStretches(surface, m_source.tree))
+      m_result.report.messages.push_back(std::move(sentence));
     return surface;
   }
 

@@ -17,6 +17,7 @@ lumen_test(surface_test
 lumen_test(ends_test
   LIBS lumen_surface
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/bare_stretches_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/ends_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extension_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp
