@@ -40,8 +40,9 @@ std::vector<Stretch> withoutVertices(const formats::CenterlineTree& tree,
 }
 
 std::string placeText(const formats::Vec3f& p) {
-  return "(" + formats::shortText(p.x) + ", " + formats::shortText(p.y) + ", " +
-         formats::shortText(p.z) + ")";
+  std::string text = "(";
+  text.append(formats::shortText(p.x)).append(", ").append(formats::shortText(p.y));
+  return text.append(", ").append(formats::shortText(p.z)).append(")");
 }
 
 }  // namespace
@@ -60,8 +61,8 @@ std::vector<std::string> bareStretches(const CaseSurface& surface,
                       [&](const Eigen::Vector3d& p) { return (p - centre).norm() < near; }))
         continue;
       sentences.push_back("the surface leaves out " +
-                          formats::shortText(static_cast<float>(stretch.length)) + " mm of branch " +
-                          formats::printable(branch.label) + ", from " +
+                          formats::shortText(static_cast<float>(stretch.length)) +
+                          " mm of branch " + formats::printable(branch.label) + ", from " +
                           placeText(tree.centre[stretch.first]) + " to " +
                           placeText(tree.centre[stretch.last - 1]));
     }
