@@ -45,7 +45,8 @@ public:
                    "Volumes, cases, seeds, centerlines and meshes, in any order; of two cases the "
                    "second is the truth. A case that is not there yet, beside a volume, is where "
                    "the page saves")
-        ->type_name("");
+        ->type_name("")
+        ->check(app::fileName());
     app.add_flag("--no-browser", m_noBrowser, "Print the address only, and open no browser");
     app.add_flag("--keep", m_keep, "Go on when the last page has been gone for a minute");
     app.add_option("--port", m_port, "Port of 127.0.0.1 to listen on; 0: any that is free")
