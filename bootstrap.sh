@@ -54,7 +54,7 @@ install_packages() {
     -o Acquire::Retries=5 --no-install-recommends "${missing[@]}"
 }
 
-# The page of the viewer: it runs without npm, but is built by it. A build that fails leaves the program without page.
+# The page of the viewer: it runs without npm, but is built by it. Fails if that does.
 build_page() {
   local folder=viewer/page
   [ -f "$folder/package.json" ] || return 0
@@ -66,9 +66,9 @@ build_page() {
   local authorities=/etc/ssl/certs/ca-certificates.crt
   [ ! -r "$authorities" ] || export NODE_EXTRA_CA_CERTS="${NODE_EXTRA_CA_CERTS:-$authorities}"
   (
-    cd "$folder"
-    [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund --fetch-retries=5
-    npm run --silent build
+    cd "$folder" &&
+      { [ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --no-audit --no-fund --fetch-retries=5; } &&
+      npm run --silent build
   )
 }
 
@@ -88,7 +88,7 @@ json_figure() {
 run_demo() {
   have_node || packages+=(nodejs npm)
   install_packages "${packages[@]}"
-  build_page
+  build_page || say "The viewer's page could not be built; all else goes on without it"
   configure_and_build lumen
   local lumen=build/release/converters/app/lumen
   mkdir -p demo
