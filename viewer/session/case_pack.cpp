@@ -38,7 +38,7 @@ Json stepsJson(const formats::Metadata& metadata) {
   for (const formats::Step& step : metadata.steps) {
     Json parameters = Json::object();
     for (const auto& [name, value] : step.parameters)
-      std::visit([&](const auto& v) { parameters[name] = v; }, value);
+      std::visit([&parameter = parameters[name]](const auto& v) { parameter = v; }, value);
     list.push_back(
         {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
   }
