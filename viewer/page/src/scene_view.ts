@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The 3D view: the surface or its stand-in, centerlines, points, the volume behind them, and letters over them. */
+import { clearedContext } from "./overlay_canvas";
 import { Group, InstancedMesh, Mesh, Scene, Vector4, type Object3D, type WebGLRenderer } from "three";
 import { OrbitCamera } from "./camera";
 import { Caster } from "./cast";
@@ -149,14 +150,7 @@ export class SceneView implements StageView {
   }
 
   drawOver(width: number, height: number): void {
-    const ratio = window.devicePixelRatio, over = this.over;
-    if (over.width !== Math.round(width * ratio) || over.height !== Math.round(height * ratio)) {
-      over.width = Math.round(width * ratio);
-      over.height = Math.round(height * ratio);
-    }
-    const c = over.getContext("2d")!;
-    c.setTransform(ratio, 0, 0, ratio, 0, 0);
-    c.clearRect(0, 0, width, height);
+    const c = clearedContext(this.over, width, height);
     drawSceneOverlay(c, this.camera, this.app.store.get(), width, height);
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One of three linked slices: the plane through the crosshair, seen along an axis of the shared frame. */
+import { clearedContext } from "./overlay_canvas";
 import type { WebGLRenderer } from "three";
 import type { App, View } from "./model";
 import { drawSliceOverlay } from "./slice_overlay";
@@ -84,14 +85,7 @@ export class SliceView implements StageView {
   }
 
   drawOver(width: number, height: number): void {
-    const ratio = window.devicePixelRatio, over = this.over;
-    if (over.width !== Math.round(width * ratio) || over.height !== Math.round(height * ratio)) {
-      over.width = Math.round(width * ratio);
-      over.height = Math.round(height * ratio);
-    }
-    const c = over.getContext("2d")!;
-    c.setTransform(ratio, 0, 0, ratio, 0, 0);
-    c.clearRect(0, 0, width, height);
+    const c = clearedContext(this.over, width, height);
     drawSliceOverlay(c, this, this.app.store.get(), width, height);
   }
 
