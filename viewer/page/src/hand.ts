@@ -84,9 +84,10 @@ export class Hand {
     if (!source.live) { app.say("This page is one file: seeds are placed in lumen view.", "warning"); return; }
     if (!store.get().state.hasVolume) { app.say("Seeds are placed in a volume: open one first.", "warning"); return; }
     let snap: Snap | null = null;
+    store.set({ crosshair: p });
     try { snap = await source.snap(p); } catch (error) { app.say(error instanceof Error ? error.message : String(error), "error"); return; }
     const point = snap.found ? snap.position : p;
-    store.set({ crosshair: point });
+    if (store.get().crosshair === p) store.set({ crosshair: point }); // unless the user has gone elsewhere meanwhile
     if (!snap.found) app.say(`${sentence(snap.reason ?? "no vessel was found near there")} The seed stays where you clicked.`, "warning");
     else app.say(`On the axis of a vessel, radius ${brief(snap.radius)} mm.`);
     const made = { position: point, radius: snap.found ? snap.radius : null };

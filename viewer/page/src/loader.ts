@@ -36,6 +36,7 @@ export class Loader {
     if (r.case !== this.seen.case) { this.seen.case = r.case; jobs.push(this.takeCase(state)); }
     if (r.volume !== this.seen.volume) { this.seen.volume = r.volume; jobs.push(this.takeVolume(state)); }
     await Promise.all(jobs);
+    store.set({ treeRevision: state.revision });
     if (r.surface !== this.seen.surface) { this.seen.surface = r.surface; void this.takeSurface(state); }
     this.settle();
     this.askDistance();

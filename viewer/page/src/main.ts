@@ -11,6 +11,7 @@ import { LocalModel } from "./local_model";
 import { MeshLayer } from "./mesh_layer";
 import { measurePanel } from "./measure_panel";
 import { newStore, type App } from "./model";
+import { Performer } from "./performer";
 import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
 import { SceneView } from "./scene_view";
@@ -30,12 +31,12 @@ import { WireTool } from "./wire_tool";
 import { workPanel } from "./work_panel";
 
 function makeApp(source: Source, shell: Shell): App {
-  const store = newStore();
+  const store = newStore(), performer = new Performer(store, source);
   const app: App = {
     store, source, stage: new Stage(shell.canvas), say: (text, severity) => toast(shell, text, severity),
     perform: async operation => {
       try {
-        await source.perform(operation, store.get().state.revision);
+        await performer.perform(operation);
         return true;
       } catch (error) {
         app.say(error instanceof Refused ? error.message : `That could not be done: ${error instanceof Error ? error.message : String(error)}`, "error");

@@ -30,6 +30,8 @@ export interface Measurement {
 export interface View {
   state: State;
   tree: Tree | null;
+  /** Revision of the document that the tree is of; the state's may be newer while the tree is on its way. */
+  treeRevision: number;
   surface: Surface | null;
   volume: Volume | null;
   /** Slices of the volume that can be shown. */
@@ -73,7 +75,7 @@ export interface View {
 export const kPatientFrame: Frame = { right: [1, 0, 0], up: [0, -1, 0], normal: [0, 0, -1] };
 
 export const kInitial: View = {
-  state: kEmptyState, tree: null, surface: null, volume: null, volumeReady: 0, blob: null,
+  state: kEmptyState, tree: null, treeRevision: 0, surface: null, volume: null, volumeReady: 0, blob: null,
   selected: -1, hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1, colours: new Map(),
   crosshair: [0, 0, 0], node: -1, planes: "patient", frame: kPatientFrame,
   window: [0, 1], cast: "off",
