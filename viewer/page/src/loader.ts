@@ -5,7 +5,7 @@ import { Caster } from "./cast";
 import { fillValues } from "./colouring";
 import type { App, View } from "./model";
 import { headerEnd, Pack } from "./pack";
-import { sameVessel } from "./same_vessel";
+import { sameVessels } from "./same_vessel";
 import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
 import { Surface } from "./surface";
@@ -69,7 +69,7 @@ export class Loader {
   private async takeCase(state: State): Promise<void> {
     const { store } = this.app, pack = state.hasCase ? await this.pack("case") : null;
     const tree = pack === null ? null : new Tree(pack), before = store.get();
-    store.set({ tree, ...sameVessel(before, tree), ...(tree === null ? { surface: null } : {}) });
+    store.set({ tree, ...sameVessels(before, tree), ...(tree === null ? { surface: null } : {}) });
     this.app.stage.firstPicture ||= tree !== null && !state.hasVolume;
     this.settle();
     void this.openModel(tree);

@@ -43,7 +43,10 @@ export interface View {
   solo: string | null;
   opacity: ReadonlyMap<string, number>;
   allOpacity: number;
+  /** Chosen by the user. */
   colours: ReadonlyMap<string, Rgb>;
+  /** Of each name its number in the walk of colours: a vessel keeps its colour when the list changes. */
+  colourNumbers: ReadonlyMap<string, number>;
 
   crosshair: Vec3;
   /** Node of the selected vessel that the cursor is at, or -1. */
@@ -76,7 +79,7 @@ export const kPatientFrame: Frame = { right: [1, 0, 0], up: [0, -1, 0], normal: 
 
 export const kInitial: View = {
   state: kEmptyState, tree: null, treeRevision: 0, surface: null, volume: null, volumeReady: 0, blob: null,
-  selected: -1, hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1, colours: new Map(),
+  selected: -1, hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1, colours: new Map(), colourNumbers: new Map(),
   crosshair: [0, 0, 0], node: -1, planes: "patient", frame: kPatientFrame,
   window: [0, 1], cast: "off",
   layers: { surface: true, lines: true, nodes: false, points: false, local: false, contours: true, seeds: true, slices: false, places: true },
@@ -94,10 +97,10 @@ export interface App {
   perform: (operation: { op: string; [key: string]: unknown }) => Promise<boolean>;
 }
 
-/** The colour of a branch: chosen, or of its place in the list. */
+/** The colour of a branch: chosen, or of the number that its name has. */
 export function colourOf(view: View, branch: number): Rgb {
   const label = view.tree?.branches[branch]?.label ?? "";
-  return view.colours.get(label) ?? branchColour(branch);
+  return view.colours.get(label) ?? branchColour(view.colourNumbers.get(label) ?? branch);
 }
 
 export function isShown(view: View, branch: number): boolean {
