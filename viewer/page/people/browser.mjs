@@ -36,8 +36,9 @@ export async function startBrowser(t) {
 }
 
 /** A page whose mistakes fail the test at its end: what it throws, what its policy refuses, what it warns of. */
-export async function openPage(t, browser, address, options = {}) {
+export async function openPage(t, browser, address, { prepare = () => undefined, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "dark", acceptDownloads: true, ...options });
+  await prepare(context);
   const page = await context.newPage(), mistakes = [];
   t.pages.push(page);
   page.setDefaultTimeout(kPatience);

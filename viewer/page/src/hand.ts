@@ -118,9 +118,10 @@ export class Hand {
   takePlace(index: number): void {
     const { state } = this.app.store.get(), place = state.check?.missing_vessels?.[index];
     if (place === undefined) return;
+    const points = seedPoints(place), same = (p: Vec3): boolean => distance(p, points[0].position) < 1e-6;
     this.app.store.set({ crosshair: place.position });
-    if (this.app.source.live)
-      void this.app.perform({ op: "seedAdd", kind: "vessel", points: seedPoints(place) }).then(done => {
+    if (this.app.source.live && !state.seeds.some(seed => same(seed.points[0].position)))
+      void this.app.perform({ op: "seedAdd", kind: "vessel", points }).then(done => {
         if (done) this.app.say("A seed was placed there. Track it with “Track all”, key T.");
       });
   }

@@ -4,7 +4,7 @@ import { toCss } from "./colour";
 import { colourOf, isShown, type View } from "./model";
 import type { SliceView } from "./slice_view";
 import type { Surface } from "./surface";
-import type { Vec3 } from "./types";
+import type { MissingVessel, Vec3 } from "./types";
 import { dot, orientation, scale } from "./vec";
 
 interface Cut { surface: Surface; key: string; parts: (number[] | null)[] }
@@ -72,6 +72,10 @@ function ring(c: Context, slice: SliceView, p: Vec3, radius: number, colour: str
   c.globalAlpha = 1;
 }
 
+export const kPlaceRing = 7; // pixels
+/** mm from a slice within which a missing vessel is marked in it. */
+export const placeReach = (place: MissingVessel): number => Math.max(3, place.length_mm / 2);
+
 function drawSeeds(c: Context, slice: SliceView, view: View): void {
   const pixel = slice.mmPerPixel;
   if (view.layers.seeds)
@@ -86,8 +90,8 @@ function drawSeeds(c: Context, slice: SliceView, view: View): void {
     }
   if (view.layers.places)
     for (const place of view.state.check?.missing_vessels ?? []) {
-      ring(c, slice, place.position, 7, "#ff7a90", Math.max(3, place.length_mm / 2));
-      ring(c, slice, place.position, 1.5, "#ff7a90", Math.max(3, place.length_mm / 2), true);
+      ring(c, slice, place.position, kPlaceRing, "#ff7a90", placeReach(place));
+      ring(c, slice, place.position, 1.5, "#ff7a90", placeReach(place), true);
     }
 }
 
