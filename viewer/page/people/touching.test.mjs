@@ -32,16 +32,17 @@ story("a wire is pushed past where two vessels touch, and every point of it stay
     await page.locator("#wire-place").click();
     await page.locator("#wire-about[data-nodes]").waitFor();
     await page.locator("#view-scene").focus();
-    for (let k = 0; k < 60; ++k) {
+    const kLength = 29, kEnough = 22; // mm of the vessel; past the place in its middle where they touch
+    for (let k = 0; k < 200 && inserted((await wire(page)).text) < kEnough; ++k) {
       await page.keyboard.press("ArrowUp");
       if (k % 6 === 0) await page.keyboard.press(k % 12 === 0 ? "ArrowLeft" : "ArrowRight");
       await frames(page, 1);
       assert.deepEqual((await wire(page)).vessels, [name], `after ${k} pushes`);
     }
-    await page.waitForFunction(() => parseFloat(document.getElementById("wire-about").textContent) > 25);
     const now = await wire(page);
+    assert.ok(inserted(now.text) >= kEnough && inserted(now.text) < kLength, now.text);
     assert.deepEqual(now.vessels, [name]);
-    assert.ok(now.nodes.length > 20 && new Set(now.nodes).size > 20, "the wire lies along the vessel, not in one place");
+    assert.ok(now.nodes.length > 20 && new Set(now.nodes).size > 15, "the wire lies along the vessel, not in one place");
     await picture(page, `6-wire-in-${name}`);
   }
 

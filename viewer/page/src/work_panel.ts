@@ -50,7 +50,7 @@ function checkSection(app: App, actions: Actions, hand: Hand): HTMLElement {
     run.disabled = !state.hasCase || !state.hasVolume || state.job !== null;
     const missing = state.check?.missing_vessels ?? [], wall = state.check?.wall?.offset_mm;
     about.textContent = state.check === null ? "Tells where the wall leaves the volume's edges, and what looks like a vessel and is none."
-      : `${missing.length === 0 ? "Nothing bright is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
+      : `${missing.length === 0 ? "Nothing bright is missing" : missing.length === 1 ? "One place looks like a vessel that is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
         state.checkIsOld ? " The case has changed since: check again." : ""}`;
     places.replaceChildren(...missing.map((m, i) => placeRow(app, hand, m, i)));
   });
