@@ -3,9 +3,8 @@
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { pathToFileURL } from "node:url";
-import { openPage, picture, settled, startBrowser, story } from "./browser.mjs";
-import { frames } from "./browser.mjs";
-import { vessel } from "./hand.mjs";
+import { frames, openPage, picture, settled, startBrowser, story } from "./browser.mjs";
+import { kissing, vessel } from "./hand.mjs";
 import { lumen, makeFolder } from "./lumen.mjs";
 
 /** The native library's distance and node at a position. */
@@ -18,8 +17,7 @@ function blobSays(model, position) {
 
 story("the page from disk, with the network off, probes what libblob answers", async t => {
   const file = makeFolder(t), browser = await startBrowser(t), asked = [];
-  lumen("phantom", "kissing", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"));
+  kissing(file);
   lumen("view", file("volume.nrrd"), file("vessels.lumen"), "--html", file("page.html"), "--html-volume");
   const address = pathToFileURL(file("page.html")).href;
   const page = await openPage(t, browser, address, {

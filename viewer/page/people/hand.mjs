@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hand on mouse and keys. Where it points it reads off the line below the views, as a person would.
+import { readFileSync } from "node:fs";
 import { frames } from "./browser.mjs";
+import { lumen } from "./lumen.mjs";
 
 const subtract = (a, b) => a.map((x, i) => x - b[i]);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -29,7 +31,6 @@ export async function clickIn(page, view, position, options = {}) {
 
 /** Puts the crosshair on a position with two clicks: the first brings the axial slice to its height. */
 export async function lookAt(page, position) {
-  await page.keyboard.press("Escape");
   await page.locator("#tool-navigate").click();
   await clickIn(page, "coronal", position);
   await clickIn(page, "axial", position);
@@ -63,4 +64,16 @@ export async function told(page, pattern, severity = "") {
   const toast = page.locator(`#toasts .toast${severity === "" ? "" : `.${severity}`}`).filter({ hasText: pattern }).last();
   await toast.waitFor();
   return toast.locator("span").textContent();
+}
+
+/** The bytes of the document's case, as a download. */
+export async function document(page) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#export").selectOption("lumen")]);
+  return readFileSync(await download.path());
+}
+
+/** Two vessels that touch: volume.nrrd, seeds.json and vessels.lumen. */
+export function kissing(file) {
+  lumen("phantom", "kissing", file("volume.nrrd"), "--seeds", file("seeds.json"));
+  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"));
 }

@@ -3,19 +3,8 @@
 import assert from "node:assert/strict";
 import { copyFileSync, readFileSync, utimesSync, writeFileSync } from "node:fs";
 import { openPage, picture, settled, startBrowser, story } from "./browser.mjs";
-import { clickIn, drop, lookAt, placeSeed, told, vessel, vessels } from "./hand.mjs";
+import { document, drop, kissing, told, vessel, vessels } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
-
-/** The bytes of the document's case, as a download. */
-async function document(page) {
-  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#export").selectOption("lumen")]);
-  return readFileSync(await download.path());
-}
-
-function kissing(file) {
-  lumen("phantom", "kissing", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"));
-}
 
 story("a broken file that is dropped is named with its fault, and changes nothing", async t => {
   const file = makeFolder(t), browser = await startBrowser(t);
@@ -96,7 +85,7 @@ story("long work that is cancelled has changed nothing", async t => {
   assert.equal(await page.locator("#seed-list .item").count(), 0);
 });
 
-story("two pages on one document see each other's changes, and the one that is late is refused", async t => {
+story("two pages on one document see each other's changes", async t => {
   const file = makeFolder(t), browser = await startBrowser(t);
   kissing(file);
   const server = await view(t, file("volume.nrrd"), file("vessels.lumen")), one = await openPage(t, browser, server.address), other = await openPage(t, browser, server.address);
@@ -151,35 +140,4 @@ story("a file that another program writes is told, and not overwritten unasked",
   await page.locator("dialog button", { hasText: "Overwrite" }).click();
   await page.locator("#unsaved").waitFor({ state: "hidden" });
   assert.notDeepEqual(readFileSync(file("vessels.lumen")), theirs);
-});
-
-story("a vessel is tracked without a pointer", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
-  lumen("phantom", "tube", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  const server = await view(t, file("volume.nrrd")), page = await openPage(t, browser, server.address);
-  await settled(page);
-  // with the tabulator alone into the axial slice, then S, steps of voxels to a place in the vessel, and Enter
-  for (let k = 0; k < 60 && (await page.locator("#view-axial:focus").count()) === 0; ++k) await page.keyboard.press("Tab");
-  assert.equal(await page.locator("#view-axial:focus").count(), 1, "the slice is reached by the tabulator");
-  await page.keyboard.press("s");
-  const wanted = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches[0].points[0].position;
-  const at = async () => (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number);
-  for (const [axis, more, less] of [[0, "ArrowRight", "ArrowLeft"], [1, "ArrowDown", "ArrowUp"], [2, "PageUp", "PageDown"]])
-    for (let k = 0; k < 200 && Math.abs((await at())[axis] - wanted[axis]) > 0.15; ++k) {
-      const key = (await at())[axis] < wanted[axis] ? more : less, was = (await at())[axis];
-      await page.keyboard.press(key);
-      await page.waitForFunction(([a, x]) => Number(document.getElementById("probe-position").dataset.mm.split(" ")[a]) !== x, [axis, was]);
-    }
-  await page.keyboard.press("Enter");
-  await page.locator("#seed-list .item").first().waitFor();
-  await picture(page, "10-seed-by-keys");
-  await page.keyboard.press("t");
-  await page.locator("#tree-list [role=treeitem]").first().waitFor();
-  await settled(page);
-  for (let k = 0; k < 60 && (await page.locator("#tree-list:focus").count()) === 0; ++k) await page.keyboard.press("Shift+Tab");
-  await page.keyboard.press("ArrowDown");
-  await page.locator("#branch-name").waitFor();
-  await page.keyboard.press("Enter");
-  await picture(page, "10-tracked-by-keys");
-  void clickIn; void lookAt; void placeSeed;
 });

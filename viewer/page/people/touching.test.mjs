@@ -2,8 +2,8 @@
 // Two vessels that touch: a wire that is pushed through one of them stays in it.
 import assert from "node:assert/strict";
 import { frames, openPage, picture, settled, startBrowser, story } from "./browser.mjs";
-import { vessel } from "./hand.mjs";
-import { lumen, makeFolder, view } from "./lumen.mjs";
+import { kissing, vessel } from "./hand.mjs";
+import { makeFolder, view } from "./lumen.mjs";
 
 const wire = async page => {
   const about = page.locator("#wire-about");
@@ -13,8 +13,7 @@ const inserted = text => Number(/^([\d.]+) mm in/.exec(text)[1]);
 
 story("a wire is pushed past where two vessels touch, and every point of it stays in its vessel", async t => {
   const file = makeFolder(t), browser = await startBrowser(t);
-  lumen("phantom", "kissing", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"));
+  kissing(file);
   const server = await view(t, file("vessels.lumen")), page = await openPage(t, browser, server.address);
   await settled(page);
   await page.locator("#probe-distance[data-mm]").waitFor({ state: "attached" });

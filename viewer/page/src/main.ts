@@ -67,7 +67,7 @@ async function start(): Promise<void> {
   listenToKeys(app, actions, hand);
   applyLayout(app, shell);
   const loader = new Loader(app, slices, scene), watcher = new Watcher(app, shell, loader, actions);
-  app.store.watch(["crosshair", "frame", "planes", "tree", "surface", "hidden", "solo", "selected", "colours", "layers", "window", "measurements", "pending", "state", "layout", "interpolate"], view => {
+  app.store.watch(["crosshair", "frame", "planes", "tree", "surface", "hidden", "solo", "selected", "colours", "layers", "window", "measurements", "pending", "clicks", "state", "layout", "interpolate"], view => {
     for (const slice of slices) { slice.texture?.interpolate(view.interpolate); app.stage.invalidate(slice); }
   });
   await watcher.begin();

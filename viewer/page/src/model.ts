@@ -7,7 +7,7 @@ import type { Stage } from "./stage";
 import { Store } from "./store";
 import type { Surface } from "./surface";
 import type { Tree } from "./tree";
-import { kEmptyState, type State, type Vec3 } from "./types";
+import { kEmptyState, type Seed, type State, type Vec3 } from "./types";
 import type { Frame } from "./vec";
 import type { Volume } from "./volume";
 
@@ -66,8 +66,10 @@ export interface View {
   strip: boolean;
 
   measurements: Measurement[];
-  /** Points of the measurement or seed that is being made. */
+  /** Points of the measurement that is being made, or of what is dragged. */
   pending: Vec3[];
+  /** Clicks of the seed that is being made; they stay while other tools are used to look for the next one. */
+  clicks: Seed["points"];
   job: { job: number; name: string; stage: string; done: number; total: number } | null;
   lost: boolean;
   distance: Float32Array | null;
@@ -84,7 +86,7 @@ export const kInitial: View = {
   window: [0, 1], cast: "off",
   layers: { surface: true, lines: true, nodes: false, points: false, local: false, contours: true, seeds: true, slices: false, places: true },
   colourBy: "branch", clip: { on: false, flip: false }, interpolate: true, tool: "navigate", layout: "four", theme: "dark", strip: true,
-  measurements: [], pending: [], job: null, lost: false, distance: null, figures: null,
+  measurements: [], pending: [], clicks: [], job: null, lost: false, distance: null, figures: null,
 };
 
 export interface App {

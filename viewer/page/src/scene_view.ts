@@ -47,7 +47,7 @@ export class SceneView implements StageView {
     all(["tree", "layers", "hidden", "solo", "colours"], view => this.setPoints(view));
     all(["state", "layers", "crosshair"], view => this.setMarks(view));
     all(["surface", "tree", "layers", "hidden", "solo", "selected", "colours", "opacity", "allOpacity", "colourBy", "clip", "crosshair", "frame",
-      "distance", "window", "cast", "volumeReady", "measurements", "pending", "tool", "theme", "node"], view => this.setLooks(view));
+      "distance", "window", "cast", "volumeReady", "measurements", "pending", "clicks", "tool", "theme", "node"], view => this.setLooks(view));
   }
 
   private replace(group: Group, objects: Object3D[]): void {

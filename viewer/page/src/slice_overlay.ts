@@ -109,7 +109,8 @@ export function label(c: Context, text: string, x: number, y: number, colour: st
 /** Measured points and the lines between them, in a slice or a projection. */
 export function drawMeasurements(c: Context, view: View, project: (p: Vec3) => { x: number; y: number; depth: number } | null, reach: number): void {
   const groups = [...view.measurements.map(m => ({ points: m.points, text: m.text, kind: m.kind as string })),
-    ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : [])];
+    ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : []),
+    ...(view.clicks.length > 0 ? [{ points: view.clicks.map(click => click.position), text: "", kind: "pending" }] : [])];
   for (const { points, text, kind } of groups) {
     const pixels = points.map(project);
     if (pixels.every(p => p === null || Math.abs(p.depth) > reach)) continue;

@@ -20,6 +20,7 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
   parent.addEventListener("change", () => { hand.parent = parent.value === "" ? null : parent.value; });
   const finish = button({ icon: "check", text: "Finish", label: "Finish this vessel's clicks", key: "Enter", id: "seed-finish", class: "button text" }, () => void hand.finish());
   finish.hidden = true;
+  store.watch(["clicks"], ({ clicks }) => { finish.disabled = clicks.length === 0; });
   const all = button({ icon: "play", text: "Track all", label: "Track all seeds that are placed", key: "T", id: "track-all", class: "button primary" }, () => void actions.track(null));
   store.watch(["state"], ({ state }) => {
     const waiting = state.seeds.filter(s => !s.tracked);
