@@ -52,9 +52,10 @@ export async function openPage(t, browser, address, { prepare = () => undefined,
 // software WebGL says so, and that reading pixels back is slow; a refusal by the server is logged as such
 const isOfTheDriver = text => /GPU stall|swiftshader|GL Driver Message/i.test(text) || /Failed to load resource.*(400|404|409)/.test(text);
 
-/** Until the models and their surface are there to look at, and nothing is loading or working. */
+/** Until nothing works any more, and the list of vessels is that of the document as it is. */
 export async function settled(page) {
   await page.locator("#progress").waitFor({ state: "hidden" });
+  await page.locator("#tree-list[aria-busy=false]").waitFor();
   await frames(page, 3);
 }
 

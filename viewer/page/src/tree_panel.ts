@@ -34,6 +34,7 @@ export class TreePanel {
     this.list.addEventListener("keydown", e => this.key(e));
     app.store.watch(["tree"], view => this.fill(view));
     app.store.watch(["state"], view => { if (view.tree === null) this.fill(view); });
+    app.store.watch(["state", "treeRevision"], view => { this.list.setAttribute("aria-busy", String(view.state.revision !== view.treeRevision)); });
     app.store.watch(["tree", "selected", "hidden", "solo", "colours", "opacity"], view => this.mark(view));
     app.store.watch(["tree", "selected", "opacity", "allOpacity", "state"], view => this.describe(view));
   }
