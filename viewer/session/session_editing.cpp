@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Session: corrections by hand. What moves a wall is fitted anew before anybody sees it.
 #include <functional>
-#include <map>
 #include <set>
 #include <utility>
 

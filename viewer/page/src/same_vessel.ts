@@ -35,9 +35,13 @@ export function sameVessels(before: Kept & Pick<View, "tree">, tree: Tree | null
   const names = renamed(old, tree), name = (label: string): string => names.get(label) ?? label;
   const byName = <T>(map: ReadonlyMap<string, T>): Map<string, T> => new Map([...map].map(([label, value]) => [name(label), value]));
   const wanted = before.selected < 0 ? null : name(old.branches[before.selected].label), selected = wanted === null ? -1 : tree.branches.findIndex(b => b.label === wanted);
+  const found = selected < 0 ? null : tree.branches[selected], was = old.branches[before.selected];
+  // in a branch with as many nodes the node is the same one, wherever it is now
+  const node = found === null || before.node < 0 ? -1
+    : found.nodeCount === was.nodeCount ? found.firstNode + before.node - was.firstNode : tree.nearest(old.position(before.node), b => b === selected);
   const alone = solo === null ? undefined : tree.branches.find(b => b.label === name(solo)); // one that is gone would leave nothing to see
   return {
-    selected, node: selected < 0 || before.node < 0 ? -1 : tree.nearest(old.position(before.node), b => b === selected),
+    selected, node,
     hidden: new Set([...hidden].map(name)), solo: alone?.label ?? null, opacity: byName(opacity), colours: byName(colours), colourNumbers: numbered(byName(colourNumbers), tree),
   };
 }
