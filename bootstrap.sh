@@ -170,6 +170,8 @@ install_test_packages() {
   have_node || packages+=(nodejs npm)
   # the JSON answers against their schemas, what judges the manual page, and what reads VTP
   packages+=(python3-jsonschema groff-base mandoc python3-vtk9)
+  # the viewer's page, as a person would use it
+  packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev emscripten python3-numpy)
   install_packages "${packages[@]}" "$@"

@@ -5,7 +5,7 @@ import { Caster } from "./cast";
 import { fillValues } from "./colouring";
 import type { App, View } from "./model";
 import { headerEnd, Pack } from "./pack";
-import { sameVessel } from "./same_vessel";
+import { sameVessels } from "./same_vessel";
 import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
 import { Surface } from "./surface";
@@ -37,6 +37,7 @@ export class Loader {
     if (r.case !== this.seen.case) { this.seen.case = r.case; jobs.push(this.takeCase(state)); }
     if (r.volume !== this.seen.volume) { this.seen.volume = r.volume; jobs.push(this.takeVolume(state)); }
     await Promise.all(jobs);
+    store.set({ treeRevision: state.revision });
     if (r.surface !== this.seen.surface) { this.seen.surface = r.surface; void this.takeSurface(state); }
     this.settle();
     this.askDistance();
@@ -69,7 +70,7 @@ export class Loader {
   private async takeCase(state: State): Promise<void> {
     const { store } = this.app, pack = state.hasCase ? await this.pack("case") : null;
     const tree = pack === null ? null : new Tree(pack), before = store.get();
-    store.set({ tree, ...sameVessel(before, tree), ...(tree === null ? { surface: null } : {}) });
+    store.set({ tree, ...sameVessels(before, tree), ...(tree === null ? { surface: null } : {}) });
     this.app.stage.firstPicture ||= tree !== null && !state.hasVolume;
     this.settle();
     void this.openModel(tree);

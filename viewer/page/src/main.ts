@@ -11,6 +11,7 @@ import { LocalModel } from "./local_model";
 import { MeshLayer } from "./mesh_layer";
 import { measurePanel } from "./measure_panel";
 import { newStore, type App } from "./model";
+import { Performer } from "./performer";
 import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
 import { SceneView } from "./scene_view";
@@ -30,12 +31,12 @@ import { WireTool } from "./wire_tool";
 import { workPanel } from "./work_panel";
 
 function makeApp(source: Source, shell: Shell): App {
-  const store = newStore();
+  const store = newStore(), performer = new Performer(store, source);
   const app: App = {
     store, source, stage: new Stage(shell.canvas), say: (text, severity) => toast(shell, text, severity),
     perform: async operation => {
       try {
-        await source.perform(operation, store.get().state.revision);
+        await performer.perform(operation);
         return true;
       } catch (error) {
         app.say(error instanceof Refused ? error.message : `That could not be done: ${error instanceof Error ? error.message : String(error)}`, "error");
@@ -69,7 +70,7 @@ async function start(): Promise<void> {
   app.store.watch(["crosshair", "frame", "planes", "tree", "window", "layout", "interpolate"], view => {
     for (const slice of slices) { slice.texture?.interpolate(view.interpolate); app.stage.invalidate(slice); }
   });
-  app.store.watch(["surface", "hidden", "solo", "selected", "colours", "layers", "measurements", "pending", "state"], () => {
+  app.store.watch(["surface", "hidden", "solo", "selected", "colours", "layers", "measurements", "pending", "clicks", "state"], () => {
     for (const slice of slices) app.stage.invalidateOver(slice);
   });
   await watcher.begin();

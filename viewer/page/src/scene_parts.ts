@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What stands in the 3D view besides the surface: centerlines, nodes as cylinders, wall points, balls. */
 import { BufferAttribute, BufferGeometry, Color, CylinderGeometry, GLSL3, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, Points,
-  Quaternion, ShaderMaterial, SphereGeometry, Vector3, Vector4 } from "three";
+  Quaternion, ShaderMaterial, SphereGeometry, Vector3 } from "three";
 import { colourOf, isShown, type View } from "./model";
-import { PartMaterial } from "./part_material";
+import { kNoClip, PartMaterial } from "./part_material";
 import type { Tree } from "./tree";
 import type { Vec3 } from "./types";
 
@@ -79,7 +79,7 @@ export function wallPoints(view: View): Points | null {
 
 function pointMaterial(): ShaderMaterial {
   return new ShaderMaterial({
-    glslVersion: GLSL3, uniforms: { clip: { value: new Vector4() } }, vertexColors: true,
+    glslVersion: GLSL3, uniforms: { clip: { value: kNoClip.clone() } }, vertexColors: true,
     vertexShader: "out vec3 tint; out vec3 here; void main() { tint = color; here = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); gl_PointSize = 1.6; }",
     fragmentShader: "precision highp float; in vec3 tint; in vec3 here; out vec4 result; uniform vec4 clip; void main() { if (dot(clip.xyz, here) + clip.w > 0.0) discard; result = vec4(tint, 1.0); }",
   });
@@ -87,7 +87,7 @@ function pointMaterial(): ShaderMaterial {
 
 export function ball(p: Vec3, radius: number, colour: [number, number, number], alpha = 1): Mesh {
   const material = new PartMaterial(false), mesh = new Mesh(new SphereGeometry(radius, 18, 12), material);
-  material.look({ own: colour, alpha, mapped: false, range: [0, 1], map: "sequential", lit: false, clip: new Vector4() });
+  material.look({ own: colour, alpha, mapped: false, range: [0, 1], map: "sequential", lit: false, clip: kNoClip });
   mesh.position.set(...p);
   mesh.renderOrder = 5;
   return mesh;

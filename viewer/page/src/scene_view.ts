@@ -35,6 +35,7 @@ export class SceneView implements StageView {
   private marking = 0;
   private surface: Surface | null = null;
   private fitted = false;
+  private touched = false; // the camera is no longer where all is shown
   texture: VolumeTexture | null = null;
 
   constructor(readonly element: HTMLElement, readonly app: App) {
@@ -49,7 +50,7 @@ export class SceneView implements StageView {
     all(["state", "layers", "crosshair"], view => this.setMarks(view));
     all(["surface", "tree", "layers", "hidden", "solo", "colours", "opacity", "allOpacity", "colourBy", "clip",
       "distance", "window", "cast", "volumeReady", "theme"], view => this.setLooks(view));
-    store.watch(["selected", "crosshair", "frame", "node", "measurements", "pending", "tool"], view => { this.setLooks(view); this.marked(); });
+    store.watch(["selected", "crosshair", "frame", "node", "measurements", "pending", "clicks", "tool"], view => { this.setLooks(view); this.marked(); });
   }
 
   private replace(group: Group, objects: Object3D[]): void {
@@ -129,6 +130,7 @@ export class SceneView implements StageView {
       this.camera.fit(pick(Math.min), pick(Math.max));
     } else return;
     this.fitted = true;
+    this.touched = false;
     this.app.stage.invalidate(this);
   }
 
@@ -143,14 +145,17 @@ export class SceneView implements StageView {
 
   /** The camera moved: coarse pictures of the volume until it rests. */
   moved(): void {
+    this.touched = true;
     window.clearTimeout(this.moving);
     this.moving = window.setTimeout(() => { this.moving = 0; this.app.stage.invalidate(this); }, kStill);
     this.app.stage.invalidate(this);
   }
 
   draw(renderer: WebGLRenderer, width: number, height: number): void {
-    const view = this.app.store.get(), camera = this.camera.update(width, height), software = this.app.stage.software;
-    if (!this.fitted) this.fit();
+    const view = this.app.store.get(), software = this.app.stage.software, resized = width !== this.camera.width || height !== this.camera.height;
+    this.camera.update(width, height);
+    if (!this.fitted || (resized && !this.touched)) this.fit();
+    const camera = this.camera.update(width, height);
     if (view.cast !== "off" && this.caster !== null) {
       const share = this.moving !== 0 ? (software ? 0.22 : 0.6) : software ? 0.5 : 1;
       this.caster.draw(renderer, camera, this.camera.isParallel && this.camera.flight === null, [width, height], share, view.window, view.cast === "volume",

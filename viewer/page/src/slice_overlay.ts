@@ -4,7 +4,7 @@ import { toCss } from "./colour";
 import { colourOf, isShown, type View } from "./model";
 import type { SliceView } from "./slice_view";
 import type { Surface } from "./surface";
-import type { Vec3 } from "./types";
+import type { MissingVessel, Vec3 } from "./types";
 import { dot, orientation, scale } from "./vec";
 
 interface Cut { surface: Surface; key: string; parts: (number[] | null)[] }
@@ -70,6 +70,10 @@ function ring(c: Context, slice: SliceView, p: Vec3, radius: number, colour: str
   c.globalAlpha = 1;
 }
 
+export const kPlaceRing = 7; // pixels
+/** mm from a slice within which a missing vessel is marked in it. */
+export const placeReach = (place: MissingVessel): number => Math.max(3, place.length_mm / 2);
+
 function drawSeeds(c: Context, slice: SliceView, view: View): void {
   const pixel = slice.mmPerPixel;
   if (view.layers.seeds)
@@ -84,8 +88,8 @@ function drawSeeds(c: Context, slice: SliceView, view: View): void {
     }
   if (view.layers.places)
     for (const place of view.state.check?.missing_vessels ?? []) {
-      ring(c, slice, place.position, 7, "#ff7a90", Math.max(3, place.length_mm / 2));
-      ring(c, slice, place.position, 1.5, "#ff7a90", Math.max(3, place.length_mm / 2), true);
+      ring(c, slice, place.position, kPlaceRing, "#ff7a90", placeReach(place));
+      ring(c, slice, place.position, 1.5, "#ff7a90", placeReach(place), true);
     }
 }
 
@@ -103,7 +107,8 @@ export function label(c: Context, text: string, x: number, y: number, colour: st
 /** Measured points and the lines between them, in a slice or a projection. */
 export function drawMeasurements(c: Context, view: View, project: (p: Vec3) => { x: number; y: number; depth: number } | null, reach: number): void {
   const groups = [...view.measurements.map(m => ({ points: m.points, text: m.text, kind: m.kind as string })),
-    ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : [])];
+    ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : []),
+    ...(view.clicks.length > 0 ? [{ points: view.clicks.map(click => click.position), text: "", kind: "pending" }] : [])];
   for (const { points, text, kind } of groups) {
     const pixels = points.map(project);
     if (pixels.every(p => p === null || Math.abs(p.depth) > reach)) continue;

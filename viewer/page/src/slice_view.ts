@@ -112,11 +112,18 @@ export class SliceView implements StageView {
     this.pan = [0, 0];
     this.app.stage.invalidate(this);
   }
-  /** Steps through the volume by as many voxels. */
+  /** Steps through the volume by as many voxels: to the head, to the front, to the left. */
   step(count: number): void {
-    const { volume, tree, crosshair } = this.app.store.get(), f = this.frame;
+    const { volume, tree } = this.app.store.get(), f = this.frame, upwards = this.name === "axial" ? -1 : 1; // it is seen from the feet
     const each = volume === null ? Math.max(tree?.voxelSize ?? 0, 0.1) : Math.min(...volume.spacing);
-    this.app.store.set({ crosshair: along(crosshair, f.normal, count * each) });
+    this.moveCrosshair(f.normal, upwards * count * each);
+  }
+  /** Moves the crosshair along a direction, but not out of the volume. */
+  moveCrosshair(direction: Vec3, mm: number): void {
+    const { volume, crosshair } = this.app.store.get(), to = along(crosshair, direction, mm);
+    if (volume !== null && volume.holds(crosshair) && !volume.holds(to)) return;
+    this.app.store.set({ crosshair: to });
+    this.reveal(to);
   }
   /** Brings a point into the middle where it would be out of sight. */
   reveal(p: Vec3): void {

@@ -20,6 +20,7 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
   parent.addEventListener("change", () => { hand.parent = parent.value === "" ? null : parent.value; });
   const finish = button({ icon: "check", text: "Finish", label: "Finish this vessel's clicks", key: "Enter", id: "seed-finish", class: "button text" }, () => void hand.finish());
   finish.hidden = true;
+  store.watch(["clicks"], ({ clicks }) => { finish.disabled = clicks.length === 0; });
   const all = button({ icon: "play", text: "Track all", label: "Track all seeds that are placed", key: "T", id: "track-all", class: "button primary" }, () => void actions.track(null));
   store.watch(["state"], ({ state }) => {
     const waiting = state.seeds.filter(s => !s.tracked);
@@ -50,7 +51,7 @@ function checkSection(app: App, actions: Actions, hand: Hand): HTMLElement {
     run.disabled = !state.hasCase || !state.hasVolume || state.job !== null;
     const missing = state.check?.missing_vessels ?? [], wall = state.check?.wall?.offset_mm;
     about.textContent = state.check === null ? "Tells where the wall leaves the volume's edges, and what looks like a vessel and is none."
-      : `${missing.length === 0 ? "Nothing bright is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
+      : `${missing.length === 0 ? "Nothing bright is missing" : missing.length === 1 ? "One place looks like a vessel that is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
         state.checkIsOld ? " The case has changed since: check again." : ""}`;
     places.replaceChildren(...missing.map((m, i) => placeRow(app, hand, m, i)));
   });
