@@ -58,12 +58,15 @@ public:
         ->check(app::fileName());
     app.add_flag("--html-volume", m_htmlVolume,
                  "With --html: the volume too, around the case and with 8 bits a voxel");
+    app.add_flag("--html-points", m_htmlPoints,
+                 "With --html: the wall points too, which are most of a case");
     app::addVolumeOptions(app, m_options.volume);
   }
 
   int run(app::Context& context) override {
-    if (m_htmlVolume && m_html.empty())
-      throw Error(ErrorKind::Usage, "--html-volume needs --html FILE");
+    if ((m_htmlVolume || m_htmlPoints) && m_html.empty())
+      throw Error(ErrorKind::Usage, std::string(m_htmlVolume ? "--html-volume" : "--html-points") +
+                                        " needs --html FILE");
     if (!m_html.empty()) app::requireWritable(m_html, app::ContentKind::Other);
     Session session(m_options);
     openFiles(session, context);
@@ -116,7 +119,8 @@ private:
     context.interrupts.watchOutput(m_html);
     HtmlOptions options;
     options.volume = m_htmlVolume;
-    const std::string page = htmlPage(session, findPageFiles(), options);
+    options.points = m_htmlPoints;
+    const std::string page = htmlPage(session, findPageFiles(), options, context.progress);
     app::writeText(page, m_html);
     if (context.common.json)
       app::answerJson({{"html", m_html}, {"bytes", page.size()}});
@@ -168,7 +172,7 @@ private:
 
   std::vector<std::string> m_files;
   std::string m_html;
-  bool m_noBrowser = false, m_keep = false, m_htmlVolume = false;
+  bool m_noBrowser = false, m_keep = false, m_htmlVolume = false, m_htmlPoints = false;
   int m_port = 0;
   SessionOptions m_options;
 };

@@ -320,7 +320,8 @@ private:
     for (const auto& [name, value] : request.params)
       if (name != "format") options.emplace_back(name, value);
     const bool isPage = format == "html";
-    std::string bytes = isPage ? htmlPage(m_session, m_page, htmlOptions(options))
+    Progress progress;
+    std::string bytes = isPage ? htmlPage(m_session, m_page, htmlOptions(options), progress)
                                : m_session.encoded(format, options);
     const std::string ending = format == "seeds" ? ".seeds.json" : "." + format;
     const Json title = m_session.state()["title"];

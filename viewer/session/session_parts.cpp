@@ -31,7 +31,7 @@ Tagged Session::casePack() {
     if (m_casePack.tag == tag) return m_casePack;
   }
   Progress silent;
-  Tagged made{tag, shared(viewer::casePack(*now.document.value, silent))};
+  Tagged made{tag, shared(viewer::casePack(*now.document.value, true, silent))};
   const std::lock_guard lock(m_mutex);
   return m_casePack = std::move(made);
 }
