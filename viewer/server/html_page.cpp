@@ -177,7 +177,7 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
   if (document.value) {
     embedded.add("case", casePack(*document.value, options.points, progress));
     if (document.hasModels()) embedded.add("case.lumen", modelsOf(*document.value));
-    embedded.addSurface("surface", session.finishedSurface(options.level));
+    embedded.addSurface("surface", session.finishedSurface(options.level, progress));
   }
   if (document.volume && (options.volume || !document.value))
     embedded.add("volume", volumeOf(document));

@@ -154,11 +154,9 @@ std::string compactPack(std::string_view bytes) {
     std::vector<std::uint32_t> node(old.size());
     for (std::size_t i = 0; i < old.size(); ++i) node[i] = all[old[i]];
     toDifferences(node, 1);
-    pack.addStored("node", planes(node, 1),
-                   {{"type", "u32"},
-                    {"shape", {node.size()}},
-                    {"stored", "u32"},
-                    {"coding", "differences"}});
+    pack.addStored(
+        "node", planes(node, 1),
+        {{"type", "u32"}, {"shape", {node.size()}}, {"stored", "u32"}, {"coding", "differences"}});
   }
   toDistancesBack(triangle);
   pack.addStored("triangle", planes(triangle, 3),
