@@ -75,6 +75,10 @@ void guarded(Response& response, Answer&& answer) {
   }
 }
 
+[[noreturn]] void refuseSize(std::uint64_t most) {
+  throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
+}
+
 /// The body, of at most `most` bytes, piece by piece.
 template <class Take>
 void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& take) {
@@ -86,8 +90,7 @@ void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& t
     if (!tooMuch) take(data, length);
     return !tooMuch;
   });
-  if (tooMuch)
-    throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
+  if (tooMuch) refuseSize(most);
   if (!whole) throw Error(ErrorKind::Usage, "the request broke off");
 }
 
@@ -351,13 +354,25 @@ private:
     if (name.empty() || name.size() > 255) throw Error(ErrorKind::Usage, "a file needs a name");
     if (!as.empty() && as != "auto" && as != "truth")
       throw Error(ErrorKind::Usage, "\"as\" must be auto or truth");
+    if (request.get_header_value<std::uint64_t>("Content-Length") > m_mostFile)
+      refuseSize(m_mostFile);
     const std::filesystem::path place = m_session.placeFor(name);
+    try {
+      writeBody(place, reader);
+    } catch (...) {
+      std::error_code ignored;
+      std::filesystem::remove_all(place.parent_path(), ignored);
+      throw;
+    }
+    response.set_content(jsonText(m_session.openDropped(place, name, as == "truth")), kJson);
+  }
+
+  void writeBody(const std::filesystem::path& place, const httplib::ContentReader& reader) const {
     std::ofstream file(place, std::ios::binary);
     readBody(reader, m_mostFile, [&file](const char* data, std::size_t length) {
       file.write(data, static_cast<std::streamsize>(length));
     });
     if (!file.flush()) throw failed("there is no room for this file");
-    response.set_content(jsonText(m_session.openDropped(place, name, as == "truth")), kJson);
   }
 
   Session& m_session;

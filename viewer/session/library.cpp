@@ -104,8 +104,9 @@ Json Library::json() const {
     }
     list.push_back(std::move(entry));
   }
-  return {{"name", formats::printable(fs::absolute(m_folder).lexically_normal().filename().string())},
-          {"cases", std::move(list)}};
+  return {
+      {"name", formats::printable(fs::absolute(m_folder).lexically_normal().filename().string())},
+      {"cases", std::move(list)}};
 }
 
 }  // namespace lumen::viewer

@@ -50,8 +50,11 @@ Json Session::openCase(const Arguments& request) {
     m_history.begin(std::move(document));
     saveTo(file);
     findUnsaved();
-    return name + " is open" + (kept.empty() ? "" : "; what was not saved before is in " +
-        formats::printable(std::filesystem::path(kept.front()).filename().string()));
+    return name + " is open" +
+           (kept.empty()
+                ? ""
+                : "; what was not saved before is in " +
+                      formats::printable(std::filesystem::path(kept.front()).filename().string()));
   });
 }
 
@@ -63,26 +66,27 @@ Json Session::reload(const Arguments& request, const Moment& from) {
   if (file == files.end() || file->path.empty())
     throw Error(ErrorKind::Usage, "no file of number " + std::to_string(id) + " was named");
   const Opening opening{file->path, file->label, false, file->role == FileRole::Truth};
-  return startJob(
-      "reading " + file->label + " again", true,
-      [this, from, opening, id, role = file->role](Progress& progress) {
-        if (roleOf(opening) != role)
-          throw invalidInput(opening.label + ": it was " + roleName(role) + ", and is " +
-                             roleName(roleOf(opening)) + " now; open it by itself");
-        // meshes are added, all else is replaced
-        const Document before =
-            role == FileRole::Mesh ? withoutFile(from.document, id) : from.document;
-        Document document = withFile(before, opening, id, m_options.volume, progress);
-        {
-          const std::lock_guard lock(m_mutex);
-          if (role == FileRole::Case) m_savedCase = document.value;
-          if (role == FileRole::Seeds) m_savedSeeds = document.seeds;
-          if (std::filesystem::absolute(opening.path) == m_saveTo) m_saveStamp = stampOf(m_saveTo);
-        }
-        commit("read " + opening.label + " again", from, std::move(document));
-        lookAtFiles();
-        return opening.label + " was read again";
-      });
+  return startJob("reading " + file->label + " again", true,
+                  [this, from, opening, id, role = file->role](Progress& progress) {
+                    if (roleOf(opening) != role)
+                      throw invalidInput(opening.label + ": it was " + roleName(role) +
+                                         ", and is " + roleName(roleOf(opening)) +
+                                         " now; open it by itself");
+                    // meshes are added, all else is replaced
+                    const Document before =
+                        role == FileRole::Mesh ? withoutFile(from.document, id) : from.document;
+                    Document document = withFile(before, opening, id, m_options.volume, progress);
+                    {
+                      const std::lock_guard lock(m_mutex);
+                      if (role == FileRole::Case) m_savedCase = document.value;
+                      if (role == FileRole::Seeds) m_savedSeeds = document.seeds;
+                      if (std::filesystem::absolute(opening.path) == m_saveTo)
+                        m_saveStamp = stampOf(m_saveTo);
+                    }
+                    commit("read " + opening.label + " again", from, std::move(document));
+                    lookAtFiles();
+                    return opening.label + " was read again";
+                  });
 }
 
 }  // namespace lumen::viewer

@@ -118,7 +118,9 @@ TEST_F(ReloadTest, AMeshTakesItsOwnPlace) {
   performAll({{"op", "reload"}, {"id", state()["files"][0]["id"]}});
   const Json now = state();
   ASSERT_EQ(now["meshes"].size(), 1U);
-  EXPECT_EQ(ReadPack(get("mesh?id=" + now["meshes"][0]["id"].dump()).body).array<float>("position")[7], 7);
+  EXPECT_EQ(
+      ReadPack(get("mesh?id=" + now["meshes"][0]["id"].dump()).body).array<float>("position")[7],
+      7);
 }
 
 TEST_F(ReloadTest, WhatHasBecomeAnotherKindOfFileIsNotTakenForTheOldOne) {
@@ -174,7 +176,9 @@ TEST_F(UnsavedTest, OfAnEarlierProgramIsOfferedAndNeverOverwritten) {
 TEST_F(UnsavedTest, SeedsAreKeptBesideTheirVolume) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
-  ASSERT_EQ(perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status, 200);
+  ASSERT_EQ(
+      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
+      200);
   ASSERT_EQ(session->keepUnsaved(), std::vector{path("tube.unsaved.seeds.json").string()});
   serve({"tube.nrrd"});
   ASSERT_EQ(session->findUnsaved().size(), 1U);

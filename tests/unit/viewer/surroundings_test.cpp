@@ -43,8 +43,9 @@ private:
 };
 
 TEST_F(BrowserTest, GetsTheAddressAsOneWord) {
-  write("xdg-open", "#!/bin/sh\nprintf '%s %s' \"$#\" \"$1\" >'" + path("said").string() + ".part'\nmv '" +
-                        path("said").string() + ".part' '" + path("said").string() + "'\n");
+  write("xdg-open", "#!/bin/sh\nprintf '%s %s' \"$#\" \"$1\" >'" + path("said").string() +
+                        ".part'\nmv '" + path("said").string() + ".part' '" +
+                        path("said").string() + "'\n");
   fs::permissions(path("xdg-open"), fs::perms::owner_all);
   setenv("PATH", (folder.string() + ":" + std::getenv("PATH")).c_str(), 1);
   const std::string address = "http://127.0.0.1:1/a;touch b $(c)/";
@@ -117,7 +118,11 @@ TEST_F(BoundsTest, ADroppedFileBeyondTheBoundIsRefusedAndNothingIsLeft) {
   session = std::make_unique<viewer::Session>(viewer::SessionOptions{});
   serveSession({.mostFile = 1000});
   const auto status = [this](std::size_t size) {
-    auto result = client().Post(root + "file?name=a.obj", std::string(size, ' '), "application/octet-stream");
+    auto result =
+        client().Post(root + "file?name=a.obj", std::string(size, ' '), "application/octet-stream");
+    if (result && result->status != 200) {
+      EXPECT_EQ(Json::parse(result->body)["error"], "at most 1000 bytes are taken here");
+    }
     return result ? result->status : 0;
   };
   EXPECT_EQ(status(1000), 200);  // taken, and then no mesh
@@ -130,8 +135,8 @@ TEST_F(BoundsTest, ADroppedFileBeyondTheBoundIsRefusedAndNothingIsLeft) {
     return files;
   };
   EXPECT_EQ(left(), 0U);
-  EXPECT_EQ(status(1001), 413);
-  EXPECT_EQ(status(1 << 20), 413);
+  EXPECT_EQ(status(1001), 400);
+  EXPECT_NE(status(1 << 20), 200);  // the connection may be closed before all of it was sent
   EXPECT_EQ(left(), 0U);
   EXPECT_TRUE(state()["job"].is_null());
 }
@@ -144,7 +149,10 @@ TEST_F(TrackFurtherTest, ASecondClickAddsAVesselAndLeavesTheFirstAsItIs) {
   convert::writeVolume(volume, path("tubes.nrrd"), convert::VolumeFormat::Nrrd, false);
   serve({"tubes.nrrd"});
   const auto click = [this](const std::string& label, double x) {
-    ASSERT_EQ(perform({{"op", "seedAdd"}, {"label", label}, {"points", {{{"position", {x, 6.4, 6.4}}}}}}).status, 200);
+    ASSERT_EQ(
+        perform({{"op", "seedAdd"}, {"label", label}, {"points", {{{"position", {x, 6.4, 6.4}}}}}})
+            .status,
+        200);
     performAll({{"op", "track"}, {"labels", {label}}});
   };
   click("first", 3.2);
@@ -167,7 +175,8 @@ namespace {
 /// A coded array, as the page decodes it.
 std::vector<std::uint32_t> stored(const ReadPack& pack, const std::string& name) {
   const Json& place = pack.json["arrays"][name];
-  const std::size_t rows = place["shape"][0], columns = place["shape"].size() > 1 ? place["shape"][1].get<std::size_t>() : 1,
+  const std::size_t rows = place["shape"][0],
+                    columns = place["shape"].size() > 1 ? place["shape"][1].get<std::size_t>() : 1,
                     size = place["stored"] == "u16" ? 2 : 4;
   std::vector<std::uint32_t> values(rows * columns);
   std::size_t at = pack.base + place["offset"].get<std::size_t>();
@@ -188,7 +197,8 @@ std::vector<std::uint32_t> stored(const ReadPack& pack, const std::string& name)
 
 TEST(CompactPack, HasTheSameTrianglesInTheSamePartsWithinItsSteps) {
   viewer::Session session({});
-  const fs::path file = fs::temp_directory_path() / ("lumen-compact-" + std::to_string(getpid()) + ".lumen");
+  const fs::path file =
+      fs::temp_directory_path() / ("lumen-compact-" + std::to_string(getpid()) + ".lumen");
   ASSERT_TRUE(formats::writeCaseFile(twoVessels(), file));
   Progress silent;
   session.open({file, "two.lumen"}, silent);
@@ -197,15 +207,18 @@ TEST(CompactPack, HasTheSameTrianglesInTheSamePartsWithinItsSteps) {
   const ReadPack before(full), after(viewer::compactPack(full));
   EXPECT_EQ(after.json["parts"], before.json["parts"]);
   const auto position = before.array<float>("position"), radius = before.array<float>("radius");
-  const auto node = before.array<std::uint32_t>("node"), triangle = before.array<std::uint32_t>("triangle");
-  const auto p = stored(after, "position"), n = stored(after, "node"), t = stored(after, "triangle"), r = stored(after, "radius");
+  const auto node = before.array<std::uint32_t>("node"),
+             triangle = before.array<std::uint32_t>("triangle");
+  const auto p = stored(after, "position"), n = stored(after, "node"),
+             t = stored(after, "triangle"), r = stored(after, "radius");
   ASSERT_EQ(t.size(), triangle.size());
   // a triangle by its corners in place of their numbers, turned to begin with the least
   using Corner = std::array<long, 5>;
   const auto sorted = [](std::size_t count, const auto& corner, const Json& parts) {
     std::vector<std::vector<Corner>> all;
     for (const Json& part : parts)
-      for (std::size_t i = part["first"]; i < part["first"].get<std::size_t>() + part["count"].get<std::size_t>(); ++i) {
+      for (std::size_t i = part["first"];
+           i < part["first"].get<std::size_t>() + part["count"].get<std::size_t>(); ++i) {
         EXPECT_LT(i, count);
         std::vector<Corner> c{corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)};
         std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
@@ -217,17 +230,24 @@ TEST(CompactPack, HasTheSameTrianglesInTheSamePartsWithinItsSteps) {
   };
   const Json& places = after.json["arrays"];
   const auto steps = [&places](const char* name, std::size_t column, double value) {
-    return std::lround((value - places[name]["low"][column].get<double>()) / places[name]["step"][column].get<double>());
+    return std::lround((value - places[name]["low"][column].get<double>()) /
+                       places[name]["step"][column].get<double>());
   };
-  const auto was = sorted(triangle.size() / 3, [&](std::size_t i) -> Corner {
-    const std::uint32_t v = triangle[i];
-    return {steps("position", 0, position[3 * v]), steps("position", 1, position[3 * v + 1]),
-            steps("position", 2, position[3 * v + 2]), steps("radius", 0, radius[v]), node[v]};
-  }, before.json["parts"]);
-  const auto is = sorted(t.size() / 3, [&](std::size_t i) -> Corner {
-    const std::uint32_t v = t[i];
-    return {p.at(3 * v), p.at(3 * v + 1), p.at(3 * v + 2), r.at(v), n.at(v)};
-  }, after.json["parts"]);
+  const auto was = sorted(
+      triangle.size() / 3,
+      [&](std::size_t i) -> Corner {
+        const std::uint32_t v = triangle[i];
+        return {steps("position", 0, position[3 * v]), steps("position", 1, position[3 * v + 1]),
+                steps("position", 2, position[3 * v + 2]), steps("radius", 0, radius[v]), node[v]};
+      },
+      before.json["parts"]);
+  const auto is = sorted(
+      t.size() / 3,
+      [&](std::size_t i) -> Corner {
+        const std::uint32_t v = t[i];
+        return {p.at(3 * v), p.at(3 * v + 1), p.at(3 * v + 2), r.at(v), n.at(v)};
+      },
+      after.json["parts"]);
   EXPECT_EQ(was, is);
   EXPECT_LT(viewer::deflated(after.bytes).size(), full.size() / 3);
 }
