@@ -50,9 +50,24 @@ httplib::Headers safeHeaders() {
           {"Cache-Control", "no-store"}};
 }
 
+/// Answers with these bytes as they are. What httplib is given whole, it compresses for a browser that can undo it,
+/// which takes longer than a loopback saves: seconds, for the page's script.
+void answerBytes(Response& response, std::shared_ptr<const std::string> bytes, const char* type) {
+  const std::size_t size = bytes->size();
+  response.set_content_provider(
+      size, type,
+      [bytes = std::move(bytes)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(bytes->data() + offset, length);
+      });
+}
+
+void answerText(Response& response, std::string text, const char* type = kJson) {
+  answerBytes(response, std::make_shared<const std::string>(std::move(text)), type);
+}
+
 void answerError(Response& response, int status, const std::string& sentence) {
   response.status = status;
-  response.set_content(jsonText({{"error", messageText(sentence)}}), kJson);
+  answerText(response, jsonText({{"error", messageText(sentence)}}));
 }
 
 int statusOf(ErrorKind kind) {
@@ -113,11 +128,7 @@ void answerPart(const Request& request, Response& response, const Tagged& part) 
     response.status = 304;
     return;
   }
-  response.set_content_provider(
-      part.bytes->size(), kBytes,
-      [bytes = part.bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(bytes->data() + offset, length);
-      });
+  answerBytes(response, part.bytes, kBytes);
 }
 
 int levelOf(const Request& request) {
@@ -235,24 +246,24 @@ private:
   void post(const std::string& name, const std::function<Json(const Json&)>& answer) {
     m_http.Post(at(name), [answer](const Request&, Response& response,
                                    const httplib::ContentReader& reader) {
-      guarded(response, [&] { response.set_content(jsonText(answer(readJson(reader))), kJson); });
+      guarded(response, [&] { answerText(response, jsonText(answer(readJson(reader)))); });
     });
   }
 
   void addPage() {
     if (m_page.empty())
       get("", [](const Request&, Response& response) {
-        response.set_content(kNoPage, "text/html; charset=utf-8");
+        answerText(response, kNoPage, "text/html; charset=utf-8");
       });
     for (const auto& [name, file] : m_page)
       get(name, [&file = file](const Request&, Response& response) {
-        response.set_content(file.bytes, file.type.c_str());
+        answerText(response, file.bytes, file.type.c_str());
       });
   }
 
   void addParts() {
     get("state", [this](const Request&, Response& response) {
-      response.set_content(jsonText(m_session.state()), kJson);
+      answerText(response, jsonText(m_session.state()));
     });
     getSlowly("case",
               [this](const Request&, Progress& progress) { return m_session.casePack(progress); });
@@ -346,7 +357,7 @@ private:
     response.set_header(
         "Content-Disposition",
         "attachment; filename=\"" + downloadName(title.get<std::string>(), ending) + "\"");
-    response.set_content(std::move(bytes), kBytes);
+    answerText(response, std::move(bytes), kBytes);
   }
 
   void takeFile(const Request& request, Response& response, const httplib::ContentReader& reader) {
@@ -364,7 +375,7 @@ private:
       std::filesystem::remove_all(place.parent_path(), ignored);
       throw;
     }
-    response.set_content(jsonText(m_session.openDropped(place, name, as == "truth")), kJson);
+    answerText(response, jsonText(m_session.openDropped(place, name, as == "truth")));
   }
 
   void writeBody(const std::filesystem::path& place, const httplib::ContentReader& reader) const {

@@ -6,6 +6,7 @@
 
 #include "converters/app/file_access.h"
 #include "converters/app/file_format.h"
+#include "converters/app/mesh_options.h"
 #include "converters/common/error.h"
 #include "converters/fitting/fit.h"
 #include "viewer/session/session.h"

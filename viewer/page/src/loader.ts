@@ -14,6 +14,7 @@ import type { State } from "./types";
 import { reduce, Volume } from "./volume";
 import { VolumeTexture } from "./volume_texture";
 
+const kArriving = 200; // ms from one picture of a volume that is arriving to the next
 const kCastSoftware = 128, kCastHardware = 256; // texels along an axis for ray casting
 
 export class Loader {
@@ -124,7 +125,7 @@ export class Loader {
   private async takeVolume(state: State): Promise<void> {
     const { store, stage, source } = this.app;
     if (!state.hasVolume) { this.replaceTexture(null); store.set({ volume: null, volumeReady: 0 }); return; }
-    let volume: Volume | null = null, texture: VolumeTexture | null = null;
+    let volume: Volume | null = null, texture: VolumeTexture | null = null, last = -Infinity;
     const arrived = (bytes: Uint8Array, received: number): void => {
       if (volume === null) {
         if (received < 4 || received < headerEnd(bytes)) return;
@@ -136,18 +137,23 @@ export class Loader {
       }
       const slice = volume.size[0] * volume.size[1] * volume.bytesPerVoxel;
       volume.complete = Math.min(volume.size[2], Math.max(0, Math.floor((received - volume.begin) / slice)));
+      const whole = volume.complete === volume.size[2], now = performance.now();
+      if (!whole && now - last < kArriving) return; // each picture of what has arrived delays the rest
+      last = now;
       const upload = (): void => {
         if (volume === null || this.texture !== texture) return;
         const more = texture!.upload();
-        store.set({ volumeReady: volume.complete });
-        stage.firstPicture ||= volume.complete === volume.size[2] && !more;
-        for (const each of this.slices) stage.invalidate(each);
         if (more) stage.next(upload);
+        else {
+          store.set({ volumeReady: volume.complete });
+          stage.firstPicture ||= volume.complete === volume.size[2];
+        }
+        for (const each of this.slices) stage.invalidate(each);
       };
       stage.next(upload);
     };
     if ((await source.bytes("volume", {}, arrived)) === null || volume === null) return;
-    idle(() => this.prepareCast(volume!));
+    stage.afterFirstPicture(() => idle(() => this.prepareCast(volume!)));
   }
 
   private replaceTexture(texture: VolumeTexture | null): void {

@@ -67,8 +67,11 @@ async function start(): Promise<void> {
   listenToKeys(app, actions, hand);
   applyLayout(app, shell);
   const loader = new Loader(app, slices, scene), watcher = new Watcher(app, shell, loader, actions);
-  app.store.watch(["crosshair", "frame", "planes", "tree", "surface", "hidden", "solo", "selected", "colours", "layers", "window", "measurements", "pending", "state", "layout", "interpolate"], view => {
+  app.store.watch(["crosshair", "frame", "planes", "tree", "window", "layout", "interpolate"], view => {
     for (const slice of slices) { slice.texture?.interpolate(view.interpolate); app.stage.invalidate(slice); }
+  });
+  app.store.watch(["surface", "hidden", "solo", "selected", "colours", "layers", "measurements", "pending", "state"], () => {
+    for (const slice of slices) app.stage.invalidateOver(slice);
   });
   await watcher.begin();
 }

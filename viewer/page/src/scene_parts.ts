@@ -7,26 +7,26 @@ import { PartMaterial } from "./part_material";
 import type { Tree } from "./tree";
 import type { Vec3 } from "./types";
 
-/** The centerlines of branches that are shown, each in its colour; the selected one shows through walls. */
-export function centerlines(view: View, which: "selected" | "others"): LineSegments {
+/** The centerlines of branches that are shown, each in its colour. */
+export function centerlines(view: View): LineSegments {
   const tree = view.tree!, position: number[] = [], colour: number[] = [], one = new Color(), inside = view.layers.surface || view.layers.nodes;
   for (const branch of tree.branches) {
-    if (!isShown(view, branch.index) || (branch.index === view.selected) !== (which === "selected")) continue;
+    if (!isShown(view, branch.index)) continue;
     const nodes = tree.nodesOf(branch);
-    one.setRGB(...colourOf(view, branch.index)).lerp(new Color(1, 1, 1), branch.index === view.selected ? 0.7 : 0.25);
+    one.setRGB(...colourOf(view, branch.index)).lerp(new Color(1, 1, 1), 0.25);
     for (let i = 1; i < nodes.length; ++i) {
       position.push(...tree.position(nodes[i - 1]), ...tree.position(nodes[i]));
       colour.push(one.r, one.g, one.b, one.r, one.g, one.b);
     }
   }
-  for (let k = 0; which === "others" && k + 1 < tree.links.length; k += 2) {
+  for (let k = 0; k + 1 < tree.links.length; k += 2) {
     position.push(...tree.position(tree.links[k]), ...tree.position(tree.links[k + 1]));
     colour.push(1, 1, 1, 1, 1, 1);
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(position), 3));
   geometry.setAttribute("color", new BufferAttribute(new Float32Array(colour), 3));
-  const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.95, depthTest: inside && which === "others", toneMapped: false }));
+  const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.95, depthTest: inside, toneMapped: false }));
   lines.renderOrder = 10;
   lines.frustumCulled = false;
   return lines;

@@ -29,8 +29,7 @@ type Context = CanvasRenderingContext2D;
 function drawOutlines(c: Context, slice: SliceView, view: View): void {
   const { surface } = view;
   if (surface === null || !view.layers.contours) return;
-  const parts = outlines(slice, surface), f = slice.frame, s = 1 / slice.mmPerPixel, o = slice.toPixel([0, 0, 0]);
-  const x = scale(f.right, s), y = scale(f.up, -s);
+  const parts = outlines(slice, surface), map = slice.toPixels(), x = map.x.by, y = map.y.by, o = { x: map.x.offset, y: map.y.offset };
   surface.parts.forEach((part, i) => {
     const points = parts[i];
     if (points === null || points.length === 0 || !isShown(view, part.branch)) return;
@@ -48,14 +47,13 @@ function drawOutlines(c: Context, slice: SliceView, view: View): void {
 function drawLines(c: Context, slice: SliceView, view: View): void {
   const { tree } = view;
   if (tree === null || !view.layers.lines) return;
-  const near = 2 * slice.mmPerPixel + (tree.voxelSize || 0.5);
+  const near = 2 * slice.mmPerPixel + (tree.voxelSize || 0.5), { x, y, depth } = slice.toPixels(), p = tree.centre;
+  const on = (row: { by: Vec3; offset: number }, k: number): number => p[k] * row.by[0] + p[k + 1] * row.by[1] + p[k + 2] * row.by[2] + row.offset;
   for (const branch of tree.branches) {
     if (!isShown(view, branch.index)) continue;
     c.fillStyle = toCss(colourOf(view, branch.index), 0.9);
-    for (let i = branch.firstNode; i < branch.firstNode + branch.nodeCount; ++i) {
-      const p = slice.toPixel(tree.position(i));
-      if (Math.abs(p.depth) < near) c.fillRect(p.x - 1, p.y - 1, 2, 2);
-    }
+    for (let k = 3 * branch.firstNode; k < 3 * (branch.firstNode + branch.nodeCount); k += 3)
+      if (Math.abs(on(depth, k)) < near) c.fillRect(on(x, k) - 1, on(y, k) - 1, 2, 2);
   }
 }
 

@@ -70,8 +70,14 @@ export class SliceView implements StageView {
     return along(along(this.centre(), f.right, (x - this.width / 2) * s), f.up, (this.height / 2 - y) * s);
   }
   toPixel(p: Vec3): { x: number; y: number; depth: number } {
-    const f = this.frame, s = this.mmPerPixel, d = sub(p, this.centre());
-    return { x: this.width / 2 + dot(d, f.right) / s, y: this.height / 2 - dot(d, f.up) / s, depth: dot(d, f.normal) };
+    const { x, y, depth } = this.toPixels();
+    return { x: dot(p, x.by) + x.offset, y: dot(p, y.by) + y.offset, depth: dot(p, depth.by) + depth.offset };
+  }
+  /** The same as an affine map, for many points. */
+  toPixels(): Record<"x" | "y" | "depth", { by: Vec3; offset: number }> {
+    const f = this.frame, s = 1 / this.mmPerPixel, centre = this.centre();
+    const row = (d: Vec3, origin: number): { by: Vec3; offset: number } => ({ by: d, offset: origin - dot(centre, d) });
+    return { x: row(scale(f.right, s), this.width / 2), y: row(scale(f.up, -s), this.height / 2), depth: row(f.normal, 0) };
   }
 
   draw(renderer: WebGLRenderer, width: number, height: number): void {
