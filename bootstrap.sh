@@ -21,6 +21,7 @@ packages=(
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
   libexpat1-dev robin-map-dev libcpp-httplib-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
+  clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
   libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
 )
 
@@ -173,7 +174,7 @@ install_test_packages() {
   # the viewer's page, as a person would use it
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
-  packages+=(libembree-dev libmujoco-dev emscripten python3-numpy)
+  packages+=(libembree-dev libmujoco-dev python3-numpy)
   install_packages "${packages[@]}" "$@"
 }
 

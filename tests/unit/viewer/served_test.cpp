@@ -328,13 +328,4 @@ TEST_F(FilesTest, AChangeOnDiskIsNoticedAndNotOverwritten) {
   EXPECT_EQ(state()["files"][0]["changed"], false);
 }
 
-TEST_F(FilesTest, WhatWasNotSavedIsRescued) {
-  writeCase("two.lumen", twoVessels());
-  serve({"two.lumen"});
-  EXPECT_EQ(session->rescue(), std::nullopt);
-  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
-  ASSERT_EQ(session->rescue(), path("two.unsaved.lumen").string());
-  EXPECT_EQ(formats::readCaseFile(path("two.unsaved.lumen"))->tree.branches[1].label, "mine");
-}
-
 }  // namespace lumen::test

@@ -6,6 +6,7 @@ import { displayPanel, legend } from "./display_panel";
 import { Flight } from "./flight";
 import { Hand } from "./hand";
 import { listenToKeys } from "./keys";
+import { libraryPanel } from "./library_panel";
 import { Loader } from "./loader";
 import { LocalModel } from "./local_model";
 import { MeshLayer } from "./mesh_layer";
@@ -59,7 +60,7 @@ async function start(): Promise<void> {
   listenToScene(scene, app, tools);
   makeBar(shell.bar, app, actions);
   new TreePanel(shell.left, app);
-  shell.right.append(...workPanel(app, actions, hand), ...displayPanel(app, actions), new MeshLayer(app, scene).panel, ...measurePanel(app, actions, hand, wire));
+  shell.right.append(...libraryPanel(app), ...workPanel(app, actions, hand), ...displayPanel(app, actions), new MeshLayer(app, scene).panel, ...measurePanel(app, actions, hand, wire));
   new Strip(shell.strip, app, actions, flight);
   new ProbeLine(shell.probe, app, tools);
   new LocalModel(app, scene);
