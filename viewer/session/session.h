@@ -148,6 +148,9 @@ private:
   Json forget(const Arguments& request);
   /// Where the document would be saved.
   [[nodiscard]] std::filesystem::path savingPlace(const Document& document) const;
+  /// The file that `save` writes, or none: not that of a case that another, dropped one has replaced. Call it
+  /// with the mutex held.
+  [[nodiscard]] std::filesystem::path saveTarget(const Document& document) const;
   [[nodiscard]] std::filesystem::path leftBehind(const Arguments& request) const;
 
   const SessionOptions m_options;

@@ -95,12 +95,18 @@ std::string Session::encoded(const std::string& format,
   return textOf(file);
 }
 
+fs::path Session::saveTarget(const Document& document) const {
+  const OpenFile* open = document.fileOf(FileRole::Case);
+  const bool wasDropped = open != nullptr && open->path.empty();
+  return wasDropped && m_saveStamp != FileStamp{} ? fs::path() : m_saveTo;
+}
+
 Json Session::save(const Arguments& request) {
   const Moment now = momentFor(request);
   fs::path file;
   {
     const std::lock_guard lock(m_mutex);
-    file = m_saveTo;
+    file = saveTarget(now.document);
     if (!file.empty() && stampOf(file) != m_saveStamp && !request.flag("force"))
       throw Conflict(file.filename().string() +
                      " was changed by another program since it was read; saving would undo that");

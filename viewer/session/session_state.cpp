@@ -104,7 +104,8 @@ Json Session::state() {
   for (const auto& file : m_leftBehind)
     json["unsavedBefore"].push_back(formats::printable(file.filename().string()));
   json["openCase"] = m_openCase ? Json(*m_openCase) : Json(nullptr);
-  json["saveAs"] = m_saveTo.empty() ? Json(nullptr) : Json(m_saveTo.filename().string());
+  const auto target = saveTarget(document);
+  json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
   json["check"] = m_check;
   json["checkIsOld"] = m_check.is_object() && m_checkedCase != document.value;
   json["figures"] = m_comparedCase == document.value && m_comparedTruth == document.truth

@@ -291,6 +291,23 @@ TEST_F(FilesTest, ADroppedCaseOpensAndItsBytesAreGoneAfterwards) {
   EXPECT_FALSE(std::filesystem::exists(probe.parent_path()));
 }
 
+TEST_F(FilesTest, ADroppedCaseIsNotSavedIntoTheFileOfTheOneItReplaces) {
+  writeCase("one.lumen", twoVessels());
+  serve({"one.lumen"});
+  EXPECT_EQ(state()["saveAs"], "one.lumen");
+  const auto before = formats::readFileBytes(path("one.lumen"));
+  const std::string body(reinterpret_cast<const char*>(before->data()), before->size());
+  ASSERT_EQ(post("file?name=other.lumen&as=auto", body).status, 200);
+  waitForJob();
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  EXPECT_EQ(state()["saveAs"], nullptr);
+  EXPECT_EQ(perform({{"op", "save"}}).status, 400);
+  EXPECT_EQ(*formats::readFileBytes(path("one.lumen")), *before);
+  performAll({{"op", "undo"}});
+  performAll({{"op", "undo"}});
+  EXPECT_EQ(state()["saveAs"], "one.lumen");
+}
+
 TEST_F(FilesTest, ABrokenFileIsRefusedByItsNameWithoutAPath) {
   serve({});
   const auto listener = session->events().listen();
