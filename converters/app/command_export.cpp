@@ -87,7 +87,8 @@ public:
     if (!value.models)
       throw invalidInput(m_input + ": this case has no models, so there is no wall to export; " +
                          "lumen fit makes them");
-    auto folder = formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
+    auto folder =
+        formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
     context.interrupts.watchOutput(m_output);
     warnOfClosed(reachOf(value, context.progress), context.progress);
@@ -129,15 +130,15 @@ private:
                          {"holds", target.holds},
                          {"lacks", target.lacks},
                          {"options", target.options}});
-      text += (text.empty() ? "" : "\n") + Lines()
-                                               .add(target.name, target.title)
-                                               .add("files", joined(target.files))
-                                               .add("unit, frame", std::string(target.unit) + ", " +
-                                                                       std::string(target.frame))
-                                               .add("holds", target.holds)
-                                               .add("lacks", target.lacks)
-                                               .add("options", joined(target.options))
-                                               .text();
+      text += (text.empty() ? "" : "\n") +
+              Lines()
+                  .add(target.name, target.title)
+                  .add("files", joined(target.files))
+                  .add("unit, frame", std::string(target.unit) + ", " + std::string(target.frame))
+                  .add("holds", target.holds)
+                  .add("lacks", target.lacks)
+                  .add("options", joined(target.options))
+                  .text();
     }
     if (context.common.json)
       answerJson(Json{{"targets", std::move(targets)}});

@@ -31,8 +31,9 @@ const std::map<std::string, SofaDialect> kDialects = {{"current", SofaDialect::C
 
 /// One of the words of `named`.
 template <class T>
-void addWord(CLI::App& app, const std::string& name, T& value, const std::map<std::string, T>& named,
-             const std::string& initial, const std::string& help) {
+void addWord(CLI::App& app, const std::string& name, T& value,
+             const std::map<std::string, T>& named, const std::string& initial,
+             const std::string& help) {
   std::vector<std::string> words;
   for (const auto& [word, meaning] : named) words.push_back(word);
   app.add_option_function<std::string>(
@@ -76,9 +77,10 @@ void addExportOptions(CLI::App& app, ExportOptions& options) {
       ->type_name("LENGTH")
       ->group(kSurface)
       ->default_str("0.5r");
-  app.add_option("--max-error", options.surface.maxError,
-                 "Drop triangles as long as the surface stays within this distance of that with all; "
-                 "0: none")
+  app.add_option(
+         "--max-error", options.surface.maxError,
+         "Drop triangles as long as the surface stays within this distance of that with all; "
+         "0: none")
       ->type_name("MM")
       ->group(kSurface)
       ->capture_default_str()

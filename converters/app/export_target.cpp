@@ -53,8 +53,9 @@ const ExportTarget& exportTarget(std::string_view name) {
     if (target.name == name) return target;
     names.emplace_back(target.name);
   }
-  throw unsupported(formats::printable(std::string(name)) + ": lumen does not export to this; it exports to " +
-                    alternatives(names) + didYouMean(name, names));
+  throw unsupported(formats::printable(std::string(name)) +
+                    ": lumen does not export to this; it exports to " + alternatives(names) +
+                    didYouMean(name, names));
 }
 
 }  // namespace lumen::app

@@ -99,7 +99,8 @@ void stateAtRestShape(SceneItem& node) {
   const double straight = numberOf(shaft, "length");
   const double whole = straight + (sections.size() > 1 ? numberOf(tip, "length") : 0);
   std::erase_if(shape->data, [](const SceneDatum& datum) { return datum.name == "wireMaterials"; });
-  shape->comment = "lengths and radii in mm, moduli in kPa, densities in kg / mm^3; Extremity: of the tip";
+  shape->comment =
+      "lengths and radii in mm, moduli in kPa, densities in kg / mm^3; Extremity: of the tip";
   shape->set("length", whole)
       .set("straightLength", straight)
       .set("spireDiameter", std::max(numberOf(tip, "spireDiameter"), 1.0))
@@ -114,7 +115,8 @@ void stateAtRestShape(SceneItem& node) {
       .set("keyPoints", sceneNumbers({0, straight, whole}))
       .set("densityOfBeams", shaft.value("nbBeams") + " " + tip.value("nbBeams"))
       .set("numEdgesCollis", shaft.value("nbBeams") + " " + tip.value("nbBeams"))
-      .set("numEdges", static_cast<int>(numberOf(shaft, "nbEdgesVisu") + numberOf(tip, "nbEdgesVisu")));
+      .set("numEdges",
+           static_cast<int>(numberOf(shaft, "nbEdgesVisu") + numberOf(tip, "nbEdgesVisu")));
 }
 
 void collectTypes(const SceneItem& item, std::set<std::string>& types) {

@@ -16,7 +16,8 @@ namespace {
 
 double insertedRadius(InstrumentKind kind) {
   double greatest = 0;
-  for (const Instrument& one : instrumentsOf(kind, 100, 1)) greatest = std::max(greatest, one.radius());
+  for (const Instrument& one : instrumentsOf(kind, 100, 1))
+    greatest = std::max(greatest, one.radius());
   return greatest;
 }
 

@@ -74,7 +74,9 @@ Insertion insertionOf(const CenterlineTree& tree, const std::string& label, doub
   std::vector<double> along = {0};
   for (std::size_t k = 1; k < way.size(); ++k)
     along.push_back(along.back() + (centreOf(tree, way[k]) - centreOf(tree, way[k - 1])).norm());
-  const double end = along.back() - tree.radius[way.back()];
+  // a vessel ends in front of an instrument, a sac is filled from its inside
+  const bool isSac = tree.branches[result.branch].kind == BranchKind::Aneurysm;
+  const double end = along.back() + (isSac ? clearance : -tree.radius[way.back()]);
 
   std::size_t k = 0;
   while (k < way.size() &&

@@ -12,11 +12,11 @@
 namespace lumen::convert {
 
 struct Insertion {
-  std::uint32_t branch = 0, node = 0;  ///< of the tree
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< mm, LPS
+  std::uint32_t branch = 0, node = 0;                    ///< of the tree
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< mm, LPS
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, into the vessels
-  double radius = 0;  ///< of the vessel there, mm
-  double way = 0;     ///< mm, along the widest branches, to a radius before the last one's end
+  double radius = 0;                                     ///< of the vessel there, mm
+  double way = 0;  ///< mm, along the widest branches, to a radius before the last one's end
 };
 
 /// The insertion at the beginning of the branch called `label`, or, if that is empty, of the first

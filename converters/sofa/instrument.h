@@ -22,8 +22,8 @@ struct RodSection {
 };
 
 struct Instrument {
-  std::string name;               ///< a word
-  double poissonRatio = 0;        ///< of all sections
+  std::string name;                  ///< a word
+  double poissonRatio = 0;           ///< of all sections
   std::vector<RodSection> sections;  ///< from handle to tip; only the first may be straight
   double color[3] = {1, 1, 1};
   [[nodiscard]] double length() const;  ///< mm

@@ -64,7 +64,8 @@ void addActions(SceneItem& node, const SceneInput& input, const SofaOptions& opt
     actions += std::to_string(list[k]);
   }
   node.add("BeamAdapterActionController",
-           "Pushes, one action in a time step: 1 forward by the controller's step, 8 and 9 choose the "
+           "Pushes, one action in a time step: 1 forward by the controller's step, 8 and 9 choose "
+           "the "
            "instrument. Without it the controller listens to the arrow keys.")
       .set("name", "script")
       .set("interventionController", "@controller")
@@ -89,12 +90,14 @@ void addInstruments(SceneItem& root, const SceneInput& input, const SofaOptions&
   }
   const Eigen::Quaterniond turn = turnTo(input.insertion.direction);
   const Eigen::Vector3d& at = input.insertion.position;
-  node.add("InterventionalRadiologyController",
-           "startingPos: mm and a quaternion that turns x into the direction of insertion; step: mm")
+  node.add(
+          "InterventionalRadiologyController",
+          "startingPos: mm and a quaternion that turns x into the direction of insertion; step: mm")
       .set("name", "controller")
       .set("template", "Rigid3d")
       .set("instruments", spaced(names))
-      .set("startingPos", sceneNumbers({at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()}))
+      .set("startingPos",
+           sceneNumbers({at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()}))
       .set("xtip", spaced(zeros))
       .set("rotationInstrument", spaced(zeros))
       .set("step", options.step)
@@ -142,13 +145,14 @@ std::vector<std::string> aboutScene(const SceneInput& input, const SofaOptions& 
   std::string names;
   for (const Instrument& instrument : input.instruments)
     names += (names.empty() ? "A " : " with a ") + instrument.name;
-  return {names + " in the vessels of case.lumen, inserted at the beginning of branch " +
-              formats::printable(input.branch) + ".",
-          "Positions are those of the case: patient coordinates, LPS, in mm. Masses are in kg and time",
-          "is in s, so moduli are in kPa (kg / (mm s^2)), forces in mN and densities in kg / mm^3.",
-          "The instrument advances " + sceneNumber(options.step) + " mm in a time step of " +
-              sceneNumber(kTimeStep) + " s, for " + std::to_string(stepsOf(input, options)) + " steps.",
-          "Sources of the instruments' values: docs/sofa.md of lumen."};
+  return {
+      names + " in the vessels of case.lumen, inserted at the beginning of branch " +
+          formats::printable(input.branch) + ".",
+      "Positions are those of the case: patient coordinates, LPS, in mm. Masses are in kg and time",
+      "is in s, so moduli are in kPa (kg / (mm s^2)), forces in mN and densities in kg / mm^3.",
+      "The instrument advances " + sceneNumber(options.step) + " mm in a time step of " +
+          sceneNumber(kTimeStep) + " s, for " + std::to_string(stepsOf(input, options)) + " steps.",
+      "Sources of the instruments' values: docs/sofa.md of lumen."};
 }
 
 }  // namespace lumen::convert

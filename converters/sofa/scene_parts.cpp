@@ -7,8 +7,8 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kFriction = 0.1;   // of hydrophilic coatings on vessels: docs/sofa.md
-constexpr double kFixation = 1e8;   // mN / mm and mN mm / rad: a hand that holds the instrument
+constexpr double kFriction = 0.1;  // of hydrophilic coatings on vessels: docs/sofa.md
+constexpr double kFixation = 1e8;  // mN / mm and mN mm / rad: a hand that holds the instrument
 constexpr int kViewEdgesPerMm = 1;
 
 std::string restNode(const Instrument& instrument) {
@@ -30,8 +30,7 @@ void setSection(SceneItem& item, const RodSection& section, double poissonRatio)
 }
 
 void addTriangles(SceneItem& vessel) {
-  vessel
-      .add("MeshTopology")
+  vessel.add("MeshTopology")
       .set("name", "triangles")
       .set("position", "@loader.position")
       .set("triangles", "@loader.triangles");
@@ -56,19 +55,24 @@ void addLoop(SceneItem& root, WallKind wall, double radius, double alarm) {
   root.add("CollisionPipeline").set("name", "pipeline");
   root.add("BruteForceBroadPhase").set("name", "broad");
   root.add("BVHNarrowPhase").set("name", "narrow");
-  root.add("LocalMinDistance",
-           "mm: contactDistance is the radius of the widest instrument; nearer than alarmDistance a "
-           "contact is looked after")
+  root.add(
+          "LocalMinDistance",
+          "mm: contactDistance is the radius of the widest instrument; nearer than alarmDistance a "
+          "contact is looked after")
       .set("name", "distances")
       .set("contactDistance", radius)
       .set("alarmDistance", radius + alarm)
       .set("angleCone", 0.2);
-  root.add("CollisionResponse").set("name", "response").set("response", "FrictionContactConstraint");
+  root.add("CollisionResponse")
+      .set("name", "response")
+      .set("response", "FrictionContactConstraint");
 }
 
 void addView(SceneItem& root, const std::array<double, 3>& low, const std::array<double, 3>& high) {
-  root.add("VisualStyle").set("name", "style").set(
-      "displayFlags", "showVisualModels hideBehaviorModels hideCollisionModels hideForceFields");
+  root.add("VisualStyle")
+      .set("name", "style")
+      .set("displayFlags",
+           "showVisualModels hideBehaviorModels hideCollisionModels hideForceFields");
   std::array<double, 3> middle{};
   double extent = 1;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -93,11 +97,10 @@ void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
         .set("domain", "local")
         .set("branch", input.branch);
   vessel
-      .add("MeshOBJLoader",
-           wall == WallKind::Mesh
-               ? "The surface in mm; its normals point out of the lumen, and are turned to where the "
-                 "instruments are"
-               : "The surface in mm, to be looked at only")
+      .add("MeshOBJLoader", wall == WallKind::Mesh ? "The surface in mm; its normals point out of "
+                                                     "the lumen, and are turned to where the "
+                                                     "instruments are"
+                                                   : "The surface in mm, to be looked at only")
       .set("name", "loader")
       .setFile("filename", "vessel.obj")
       .set("flipNormals", wall == WallKind::Mesh ? 1 : 0);
@@ -134,8 +137,10 @@ void addRestShape(SceneItem& root, const Instrument& instrument) {
 }
 
 void addBeamSolver(SceneItem& node, int frames) {
-  node.add("EulerImplicitSolver").set("name", "time").set("rayleighStiffness", 0.2).set(
-      "rayleighMass", 0.1);
+  node.add("EulerImplicitSolver")
+      .set("name", "time")
+      .set("rayleighStiffness", 0.2)
+      .set("rayleighMass", 0.1);
   node.add("BTDLinearSolver").set("name", "solver");
   node.add("RegularGridTopology", "As many frames as all instruments have when they are wholly in")
       .set("name", "lines")
@@ -163,7 +168,9 @@ void addBeams(SceneItem& node, const Instrument& instrument) {
 }
 
 void addEntry(SceneItem& node) {
-  node.add("LinearSolverConstraintCorrection").set("name", "correction").set("wire_optimization", 1);
+  node.add("LinearSolverConstraintCorrection")
+      .set("name", "correction")
+      .set("wire_optimization", 1);
   node.add("FixedProjectiveConstraint").set("name", "unused").set("indices", 0);
   node.add("RestShapeSpringsForceField", "Holds the instruments where they enter: at startingPos")
       .set("name", "entry")
