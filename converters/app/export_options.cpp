@@ -63,6 +63,13 @@ void addExportOptions(CLI::App& app, ExportOptions& options) {
       ->type_name("LABEL")
       ->group(kSofa);
 
+  app.add_option("--grid", options.sofa.grid,
+                 "Distance between the samples of --wall grid; 0: by the size of the vessels")
+      ->type_name("MM")
+      ->group(kSofa)
+      ->capture_default_str()
+      ->check(numberIn({0, 1e3}));
+
   // a wall of triangles is asked many times a step: half of the radius is what its curvature needs
   options.surface.edge.share = 0.5;
   convert::EdgeLength& edge = options.surface.edge;

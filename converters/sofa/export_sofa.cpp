@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "converters/mesh/write_plain.h"
+#include "converters/sofa/distance_grid.h"
 #include "formats/case/binary_encode.h"
 #include "formats/container/printable.h"
 
@@ -59,6 +61,7 @@ std::string readmeOf(const SceneInput& input, const SofaOptions& options) {
       "or with one by `runSofa scene.scn`, or `runSofa -l SofaPython3 scene.py`, which is the same "
       "scene for\nSofaPython3. It needs the plugin BeamAdapter";
   text += isImplicit ? ", and LumenSofa, which is built from converters/sofa/plugin of lumen" : "";
+  text += options.wall == WallKind::Grid ? ", SofaDistanceGrid and SofaImplicitField" : "";
   text += ".\n\n";
   text += options.dialect == SofaDialect::V23_06 ? "Written for SOFA v23.06.\n\n"
                                                  : "Written for SOFA v25.06.\n\n";
@@ -67,8 +70,30 @@ std::string readmeOf(const SceneInput& input, const SofaOptions& options) {
       "| `scene.scn`, `scene.py` | the scene; data that have units say them |\n"
       "| `vessel.obj` | the surface of the vessels, closed, normals outwards, mm, LPS |\n"
       "| `case.lumen` | the case: its tree, radii, names and models |\n"
-      "| `positions.txt` | written by a run: points along the instruments, each tenth step |\n";
-  return text;
+      "%GRID%| `positions.txt` | written by a run: points along the instruments, each tenth step "
+      "|\n";
+  const std::string place = "%GRID%";
+  const std::string grid =
+      options.wall == WallKind::Grid
+          ? "| `wall.raw` | distances to the wall, mm, positive in the lumen, doubles, x fastest "
+            "|\n"
+            "| `distance.mhd`, `distance.raw` | the same in floats, for a DiscreteGridField |\n"
+          : "";
+  return text.replace(text.find(place), place.size(), grid);
+}
+
+void addGridFiles(SofaExport& result, SceneInput& input, const formats::Case& source,
+                  std::span<const std::byte> bytes, const SofaOptions& options,
+                  Progress& progress) {
+  const auto& radius = source.tree.radius;
+  const double thinnest = *std::min_element(radius.begin(), radius.end());
+  const DistanceGrid grid =
+      distanceGrid(bytes, input.low, input.high, options.grid, thinnest, progress);
+  input.grid = {grid.size, grid.first, grid.last()};
+  result.gridSpacing = grid.spacing;
+  result.files.push_back({"wall.raw", encodeGridDoubles(grid)});
+  result.files.push_back({"distance.mhd", gridHeader(grid, "distance.raw")});
+  result.files.push_back({"distance.raw", encodeGridFloats(grid)});
 }
 
 }  // namespace
@@ -79,14 +104,17 @@ SofaExport exportSofa(const formats::Case& source, const SofaOptions& options,
   SceneInput input = inputOf(source, options);
   ClosedSurface made = closedSurface(source, surface, progress);
   setBox(input, made.levels.front());
+  const std::vector<std::byte> bytes = formats::encodeBinary(source);
+  if (options.wall == WallKind::Grid) addGridFiles(result, input, source, bytes, options, progress);
   const SceneItem scene = makeScene(input, options);
   const auto about = aboutScene(input, options);
-  const std::vector<std::byte> bytes = formats::encodeBinary(source);
-  result.files = {{"scene.scn", printXml(scene, about)},
-                  {"scene.py", printPython(scene, about)},
-                  {"vessel.obj", encodeObj(made.levels.front())},
-                  {"case.lumen", {reinterpret_cast<const char*>(bytes.data()), bytes.size()}},
-                  {"README.md", readmeOf(input, options)}};
+  std::vector<NamedFile> files = {
+      {"scene.scn", printXml(scene, about)},
+      {"scene.py", printPython(scene, about)},
+      {"vessel.obj", encodeObj(made.levels.front())},
+      {"case.lumen", {reinterpret_cast<const char*>(bytes.data()), bytes.size()}},
+      {"README.md", readmeOf(input, options)}};
+  result.files.insert(result.files.begin(), files.begin(), files.end());
   result.insertion = input.insertion;
   result.steps = stepsOf(input, options);
   result.surface = std::move(made.report);

@@ -15,8 +15,9 @@ namespace lumen::convert {
 struct SofaExport {
   std::vector<NamedFile> files;
   Insertion insertion;
-  int steps = 0;          ///< time steps that the insertion takes
-  SurfaceReport surface;  ///< of vessel.obj
+  int steps = 0;           ///< time steps that the insertion takes
+  double gridSpacing = 0;  ///< mm; 0 without a grid
+  SurfaceReport surface;   ///< of vessel.obj
 };
 
 /// The files, in mm and LPS. The case is valid. Throws as insertionOf() and closedSurface().

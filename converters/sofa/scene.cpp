@@ -15,6 +15,8 @@ namespace {
 // Alarm beyond the contact distance, mm: a tool that advances 0.1 mm a step swings sideways by no more
 // than that, and every 0.1 mm of alarm costs contacts (docs/sofa.md has the measurements).
 constexpr double kAlarm = 0.12;
+// A grid's contacts begin at the contact distance and not before it, so that is a step wider than the radius.
+constexpr double kGridSlack = 0.1;
 // A wire leads its catheter by the length of its shaped tip and as much again; strokes are a hand's.
 constexpr double kLead = 30, kStroke = 10;
 enum Action : int { kForward = 1, kUseOuter = 8, kUseInner = 9 };
@@ -74,6 +76,12 @@ void addActions(SceneItem& node, const SceneInput& input, const SofaOptions& opt
       .set("actions", actions);
 }
 
+double greatestRadius(const SceneInput& input) {
+  double greatest = 0;
+  for (const Instrument& one : input.instruments) greatest = std::max(greatest, one.radius());
+  return greatest;
+}
+
 void addInstruments(SceneItem& root, const SceneInput& input, const SofaOptions& options) {
   int beams = 0;
   for (const Instrument& instrument : input.instruments) {
@@ -109,14 +117,8 @@ void addInstruments(SceneItem& root, const SceneInput& input, const SofaOptions&
   if (options.wall == WallKind::Implicit)
     for (const Instrument& instrument : input.instruments)
       addBlobContact(node, instrument, kAlarm + instrument.radius());
-  addContactPoints(node, options.wall);
+  addContactPoints(node, options.wall, greatestRadius(input) + kGridSlack);
   for (const Instrument& instrument : input.instruments) addInstrumentView(node, instrument);
-}
-
-double greatestRadius(const SceneInput& input) {
-  double greatest = 0;
-  for (const Instrument& one : input.instruments) greatest = std::max(greatest, one.radius());
-  return greatest;
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ struct SofaOptions {
   InstrumentKind instrument = InstrumentKind::Guidewire;
   WallKind wall = WallKind::Mesh;
   SofaDialect dialect = SofaDialect::Current;
-  double step = 0.1;     ///< mm that an instrument advances in a time step
+  double step = 0.1;  ///< mm that an instrument advances in a time step
+  double grid = 0;    ///< mm between the samples of WallKind::Grid; 0: by the size of the vessels
   std::string insert{};  ///< label of a branch; empty: the root
 };
 

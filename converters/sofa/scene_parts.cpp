@@ -40,6 +40,31 @@ void addTriangles(SceneItem& vessel) {
     vessel.add(model).set("moving", 0).set("simulated", 0).set("group", 1);
 }
 
+void addGrid(SceneItem& vessel, const SceneGrid& grid) {
+  // without a frame of its own a contact of the grid brings SOFA v25.06 down
+  vessel.add("MechanicalObject").set("name", "frame").set("template", "Rigid3d");
+  vessel
+      .add("RigidDistanceGridCollisionModel",
+           "Distances in mm, positive in the lumen; box: where the first and the last sample are, "
+           "mm")
+      .set("name", "wall")
+      .setFile("filename", "wall.raw")
+      .set("nx", grid.size[0])
+      .set("ny", grid.size[1])
+      .set("nz", grid.size[2])
+      .set("box", sceneNumbers({grid.first[0], grid.first[1], grid.first[2], grid.last[0],
+                                grid.last[1], grid.last[2]}))
+      .set("usePoints", 0)
+      .set("moving", 0)
+      .set("simulated", 0)
+      .set("group", 1);
+  vessel
+      .add("DiscreteGridField",
+           "The same for components that ask a ScalarField, which here none does")
+      .set("name", "field")
+      .setFile("file", "distance.mhd");
+}
+
 }  // namespace
 
 void addLoop(SceneItem& root, WallKind wall, double radius, double alarm) {
@@ -55,6 +80,13 @@ void addLoop(SceneItem& root, WallKind wall, double radius, double alarm) {
   root.add("CollisionPipeline").set("name", "pipeline");
   root.add("BruteForceBroadPhase").set("name", "broad");
   root.add("BVHNarrowPhase").set("name", "narrow");
+  if (wall == WallKind::Grid) {
+    root.add("DiscreteIntersection").set("name", "distances");
+    root.add("CollisionResponse")
+        .set("name", "response")
+        .set("response", "FrictionContactConstraint");
+    return;
+  }
   root.add(
           "LocalMinDistance",
           "mm: contactDistance is the radius of the widest instrument; nearer than alarmDistance a "
@@ -105,6 +137,7 @@ void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
       .setFile("filename", "vessel.obj")
       .set("flipNormals", wall == WallKind::Mesh ? 1 : 0);
   if (wall == WallKind::Mesh) addTriangles(vessel);
+  if (wall == WallKind::Grid) addGrid(vessel, input.grid);
   vessel.addNode("view_vessel")
       .add("OglModel")
       .set("name", "surface")
@@ -192,7 +225,7 @@ void addBlobContact(SceneItem& node, const Instrument& instrument, double alarm)
       .set("alarmDistance", alarm);
 }
 
-void addContactPoints(SceneItem& node, WallKind wall) {
+void addContactPoints(SceneItem& node, WallKind wall, double proximity) {
   SceneItem& points = node.addNode("points", "Points along the instruments, a beam's length apart");
   points.add("EdgeSetTopologyContainer").set("name", "lines");
   points.add("EdgeSetTopologyModifier").set("name", "modifier");
@@ -201,9 +234,14 @@ void addContactPoints(SceneItem& node, WallKind wall) {
       .set("name", "mapping")
       .set("controller", "../controller")
       .set("useCurvAbs", 1);
-  if (wall != WallKind::Implicit)
+  if (wall == WallKind::Mesh)
     for (const char* const model : {"LineCollisionModel", "PointCollisionModel"})
       points.add(model).set("group", 2);
+  if (wall == WallKind::Grid)
+    points
+        .add("PointCollisionModel", "proximity: the radius of the widest instrument and a step, mm")
+        .set("group", 2)
+        .set("proximity", proximity);
   points.add("WriteState", "Their positions, mm: a line T=, seconds, and a line X= for each record")
       .set("name", "recorder")
       .setFile("filename", "positions.txt")

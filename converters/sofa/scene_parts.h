@@ -26,8 +26,9 @@ void addBeams(SceneItem& node, const Instrument& instrument);
 /// What holds the instruments where they enter.
 void addEntry(SceneItem& node);
 void addBlobContact(SceneItem& node, const Instrument& instrument, double alarm);
-/// Points along the instruments, recorded, and in contact with a wall of triangles.
-void addContactPoints(SceneItem& node, WallKind wall);
+/// Points along the instruments, recorded, and in contact with a wall of triangles, or with one of a
+/// grid at `proximity`, mm.
+void addContactPoints(SceneItem& node, WallKind wall, double proximity);
 void addInstrumentView(SceneItem& node, const Instrument& instrument);
 
 /// The plugins of the components that are in the scene, before all else.

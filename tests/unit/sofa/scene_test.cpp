@@ -65,7 +65,8 @@ TEST(Scene, HasARestShapeAndForcesForEachInstrument) {
 
 TEST(Scene, OnlyTheFirstSectionOfAnInstrumentIsStraight) {
   // SOFA v25.06 puts a straight section that is not the first in the wrong place
-  for (const auto kind : {InstrumentKind::Guidewire, InstrumentKind::Catheter, InstrumentKind::Coil})
+  for (const auto kind :
+       {InstrumentKind::Guidewire, InstrumentKind::Catheter, InstrumentKind::Coil})
     for (const Instrument& instrument : instrumentsOf(kind, 80, 4)) {
       ASSERT_EQ(instrument.sections.size(), 2U);
       EXPECT_EQ(instrument.sections[0].curlDiameter, 0);
@@ -74,7 +75,8 @@ TEST(Scene, OnlyTheFirstSectionOfAnInstrumentIsStraight) {
 }
 
 TEST(Scene, NeitherPushesAnInstrumentOutOfItsHandleNorBeyondTheWay) {
-  for (const auto kind : {InstrumentKind::Guidewire, InstrumentKind::Catheter, InstrumentKind::Coil}) {
+  for (const auto kind :
+       {InstrumentKind::Guidewire, InstrumentKind::Catheter, InstrumentKind::Coil}) {
     const SceneInput in = input(kind);
     const SceneItem scene = makeScene(in, {.instrument = kind, .step = 0.5});
     std::vector<double> tips(in.instruments.size(), 0);
@@ -85,8 +87,7 @@ TEST(Scene, NeitherPushesAnInstrumentOutOfItsHandleNorBeyondTheWay) {
       if (c == '8' || c == '9') active = static_cast<std::size_t>(c - '8');
     }
     EXPECT_NEAR(tips.back(), std::min(60.0, in.instruments.back().length() - 1), 1.0);
-    for (std::size_t k = 0; k < tips.size(); ++k)
-      EXPECT_LT(tips[k], in.instruments[k].length());
+    for (std::size_t k = 0; k < tips.size(); ++k) EXPECT_LT(tips[k], in.instruments[k].length());
     if (tips.size() == 2) {
       EXPECT_NEAR(tips[0], 30, 1.0);
     }
@@ -145,9 +146,9 @@ TEST(Scene, NamesThePluginsOfItsComponents) {
 TEST(Scene, HasTheNamesOfItsDialect) {
   const SceneItem scene =
       makeScene(input(InstrumentKind::Guidewire), {.dialect = SofaDialect::V23_06});
-  for (const char* const newer : {"CollisionPipeline", "CollisionResponse",
-                                  "FixedProjectiveConstraint", "RodStraightSection",
-                                  "RodSpireSection"})
+  for (const char* const newer :
+       {"CollisionPipeline", "CollisionResponse", "FixedProjectiveConstraint", "RodStraightSection",
+        "RodSpireSection"})
     EXPECT_EQ(count(scene, newer), 0U) << newer;
   for (const char* const old : {"DefaultPipeline", "DefaultContactManager", "FixedConstraint"})
     EXPECT_EQ(count(scene, old), 1U) << old;
