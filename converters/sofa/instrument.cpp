@@ -17,7 +17,7 @@ constexpr double kShaftBeam = 2, kTipBeam = 1;
 Instrument guidewire(double length) {
   constexpr double kTip = 20;
   RodSection shaft{.length = length - kTip,
-                   .youngModulus = 60e6,
+                   .youngModulus = 10e6,
                    .radius = 0.18,
                    .density = 6.45e-6,
                    .beamLength = kShaftBeam};
