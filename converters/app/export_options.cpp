@@ -64,7 +64,8 @@ void addExportOptions(CLI::App& app, ExportOptions& options) {
       ->default_str("0.5r");
   OptionGroup(app, "Surface")
       .add("--max-error", options.surface.maxError, "MM",
-           "Drop triangles as long as the surface stays within this distance of that with all; 0: none")
+           "Drop triangles as long as the surface stays within this distance of that with all; 0: "
+           "none")
       ->check(kNotNegative);
 }
 

@@ -9,9 +9,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "blob.h"
 #include "converters/common/error.h"
 #include "converters/sofa/scene_tree.h"
-#include "blob.h"
 
 namespace lumen::convert {
 
@@ -27,7 +27,8 @@ using Model = std::unique_ptr<blob_model, void (*)(blob_model*)>;
 Model open(std::span<const std::byte> file) {
   blob_model* model = nullptr;
   const blob_status status = blob_model_open_bytes(file.data(), file.size(), nullptr, &model);
-  if (status != BLOB_OK) throw failed(std::string("the case's models: ") + blob_status_text(status));
+  if (status != BLOB_OK)
+    throw failed(std::string("the case's models: ") + blob_status_text(status));
   return {model, &blob_model_close};
 }
 
@@ -46,9 +47,9 @@ void setSize(DistanceGrid& grid, const std::array<double, 3>& low,
     const double cells = std::ceil((high[a] - low[a] + 2 * margin) / grid.spacing);
     samples *= cells + 1;
     if (samples > static_cast<double>(kMostGridSamples))
-      throw Error(ErrorKind::Usage, "--grid " + sceneNumber(grid.spacing) +
-                                        ": this makes more samples than " +
-                                        std::to_string(kMostGridSamples) + "; a wider spacing, please");
+      throw Error(ErrorKind::Usage,
+                  "--grid " + sceneNumber(grid.spacing) + ": this makes more samples than " +
+                      std::to_string(kMostGridSamples) + "; a wider spacing, please");
     grid.size[a] = static_cast<int>(cells) + 1;
     grid.first[a] = low[a] - margin;
   }
@@ -57,7 +58,8 @@ void setSize(DistanceGrid& grid, const std::array<double, 3>& low,
 
 /// One row along x.
 void fillRow(DistanceGrid& grid, const blob_model* model, std::size_t row) {
-  const auto nx = static_cast<std::size_t>(grid.size[0]), ny = static_cast<std::size_t>(grid.size[1]);
+  const auto nx = static_cast<std::size_t>(grid.size[0]),
+             ny = static_cast<std::size_t>(grid.size[1]);
   std::vector<std::array<double, 3>> points(nx);
   for (std::size_t i = 0; i < nx; ++i)
     points[i] = {grid.first[0] + static_cast<double>(i) * grid.spacing,
@@ -94,7 +96,8 @@ DistanceGrid distanceGrid(std::span<const std::byte> file, const std::array<doub
   grid.spacing = spacing > 0 ? spacing : usualSpacing(low, high, thinnest);
   setSize(grid, low, high);
   const Model model = open(file);
-  const std::size_t rows = static_cast<std::size_t>(grid.size[1]) * static_cast<std::size_t>(grid.size[2]);
+  const std::size_t rows =
+      static_cast<std::size_t>(grid.size[1]) * static_cast<std::size_t>(grid.size[2]);
   progress.begin("distances", rows);
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
     progress.check();
@@ -120,8 +123,8 @@ std::string gridHeader(const DistanceGrid& grid, const std::string& raw) {
          sceneNumbers({grid.first[0], grid.first[1], grid.first[2]}) +
          "\nCenterOfRotation = 0 0 0\nElementSpacing = " + spacing + " " + spacing + " " + spacing +
          "\nDimSize = " + std::to_string(grid.size[0]) + " " + std::to_string(grid.size[1]) + " " +
-         std::to_string(grid.size[2]) +
-         "\nElementType = MET_FLOAT\nElementDataFile = " + raw + "\n";
+         std::to_string(grid.size[2]) + "\nElementType = MET_FLOAT\nElementDataFile = " + raw +
+         "\n";
 }
 
 }  // namespace lumen::convert

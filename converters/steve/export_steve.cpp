@@ -66,14 +66,14 @@ std::vector<Path> pathsOf(const CenterlineTree& tree) {
     Path path = pathOf(tree, tree.branches[b], names[b]);
     if (path.points.size() > 1) paths.push_back(std::move(path));
   }
-  if (paths.empty()) throw invalidInput("this case has no branch with a length, so there is no path");
+  if (paths.empty())
+    throw invalidInput("this case has no branch with a length, so there is no path");
   return paths;
 }
 
 Eigen::Vector3d tangentAt(const Path& path, std::size_t k) {
   const std::size_t last = path.points.size() - 1;
-  const Eigen::Vector3d step =
-      path.points[std::min(k + 1, last)] - path.points[k == 0 ? 0 : k - 1];
+  const Eigen::Vector3d step = path.points[std::min(k + 1, last)] - path.points[k == 0 ? 0 : k - 1];
   return step.norm() > 0 ? Eigen::Vector3d(step.normalized()) : Eigen::Vector3d(1, 0, 0);
 }
 
@@ -112,7 +112,8 @@ std::string tuple(const Eigen::Vector3d& v) {
 
 std::string moduleOf(const std::vector<Path>& paths) {
   std::string text =
-      "# The vessels of a case as a vessel tree of stEVE: mm, patient coordinates, LPS, not turned.\n"
+      "# The vessels of a case as a vessel tree of stEVE: mm, patient coordinates, LPS, not "
+      "turned.\n"
       "import os\n\n"
       "HERE = os.path.dirname(os.path.abspath(__file__))\n"
       "MESH = os.path.join(HERE, \"vessel.obj\")\n\n"
@@ -141,7 +142,8 @@ std::string moduleOf(const std::vector<Path>& paths) {
          "        values = np.array(points, dtype=np.float32)\n"
          "        branches.append(BranchWithRadii(name, values[:, :3], values[:, 3]))\n"
          "    # without a rotation stEVE does not take one: [0, 0, 0] is none\n"
-         "    return FromMesh(MESH, INSERTION_POSITION, INSERTION_DIRECTION, branch_list=branches,\n"
+         "    return FromMesh(MESH, INSERTION_POSITION, INSERTION_DIRECTION, "
+         "branch_list=branches,\n"
          "                    rotation_yzx_deg=[0.0, 0.0, 0.0])\n";
 }
 
@@ -162,13 +164,17 @@ SurfaceMesh insideOut(SurfaceMesh mesh) {
 const char* const kReadme =
     "# Vessels for stEVE\n\n"
     "| file | unit | |\n|---|---|---|\n"
-    "| `vessels.py` | mm | `make_vessel_tree()` gives a `FromMesh` with a `BranchWithRadii` for each "
+    "| `vessels.py` | mm | `make_vessel_tree()` gives a `FromMesh` with a `BranchWithRadii` for "
+    "each "
     "branch and the insertion at the root |\n"
     "| `vessel.obj` | mm | the closed surface of the vessels, its normals into the lumen |\n"
-    "| `Paths/*.pth` | cm | paths as of SimVascular, which the class `VMR` reads and scales by ten |\n"
+    "| `Paths/*.pth` | cm | paths as of SimVascular, which the class `VMR` reads and scales by ten "
+    "|\n"
     "| `Meshes/vessel.vtp` | cm | the same surface, its normals out of the lumen |\n\n"
-    "Positions are patient coordinates, LPS, in the order x, y, z. A branch begins on its parent. The "
-    "class `VMR` also\nasks for a volume mesh, `Meshes/*.vtu`, which is not here; `vessels.py` needs "
+    "Positions are patient coordinates, LPS, in the order x, y, z. A branch begins on its parent. "
+    "The "
+    "class `VMR` also\nasks for a volume mesh, `Meshes/*.vtu`, which is not here; `vessels.py` "
+    "needs "
     "none.\n";
 
 }  // namespace
