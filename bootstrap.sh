@@ -175,6 +175,8 @@ install_test_packages() {
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev python3-numpy)
+  # what an installed SOFA runs with
+  packages+=(libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1 zlib1g)
   install_packages "${packages[@]}" "$@"
 }
 

@@ -5,6 +5,7 @@
 namespace lumen::app {
 
 std::unique_ptr<Command> makeConvertCommand();
+std::unique_ptr<Command> makeExportCommand();
 std::unique_ptr<Command> makeTrackCommand();
 std::unique_ptr<Command> makeFitCommand();
 std::unique_ptr<Command> makeInfoCommand();
@@ -17,9 +18,10 @@ std::unique_ptr<Command> makeCompletionCommand();
 
 std::vector<std::unique_ptr<Command>> allCommands() {
   std::vector<std::unique_ptr<Command>> commands;
-  for (const auto make : {makeConvertCommand, makeTrackCommand, makeFitCommand, makeInfoCommand,
-                          makeValidateCommand, makeCompareCommand, makeCheckCommand,
-                          makeViewCommand, makePhantomCommand, makeCompletionCommand})
+  for (const auto make :
+       {makeConvertCommand, makeExportCommand, makeTrackCommand, makeFitCommand, makeInfoCommand,
+        makeValidateCommand, makeCompareCommand, makeCheckCommand, makeViewCommand,
+        makePhantomCommand, makeCompletionCommand})
     commands.push_back(make());
   return commands;
 }

@@ -39,8 +39,8 @@ std::string completed(const std::string& word, const std::vector<std::string>& c
 }  // namespace
 
 std::string closest(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t kLongest = 64;  // no name is as long; the cost grows with the square
-  if (word.empty() || word.size() > kLongest) return {};
+  constexpr std::size_t kLongestWord = 64;  // no name is as long; the cost grows with the square
+  if (word.empty() || word.size() > kLongestWord) return {};
   const std::string typed = lowerCase(std::string(word));
   std::string best;
   std::size_t fewest = std::max<std::size_t>(1, typed.size() / 3) + 1;

@@ -78,12 +78,12 @@ std::string textArray(const char* name, const std::vector<std::string>& texts) {
                  std::as_bytes(std::span(bytes)));
 }
 
-std::string fieldData(const SurfaceMesh& surface) {
+std::string fieldData(const SurfaceMesh& surface, const std::string& unit) {
   std::vector<std::string> kinds;
   for (const FaceGroup& group : surface.groups) kinds.emplace_back(faceKindName(group.kind));
   return "<FieldData>\n" + textArray("GroupNames", namesOf(surface.groups)) +
          textArray("GroupKinds", kinds) + textArray("BranchLabels", surface.labels) +
-         textArray("Unit", {"mm"}) + textArray("SPACE", {"LPS"}) +
+         textArray("Unit", {unit}) + textArray("SPACE", {"LPS"}) +
          textArray("Generator", {"lumen " LUMEN_VERSION}) + "</FieldData>\n";
 }
 
@@ -121,10 +121,15 @@ std::string polygons(const SurfaceMesh& surface) {
 }  // namespace
 
 std::string encodeVtp(const SurfaceMesh& surface) {
+  return encodeVtpIn(surface, "mm");
+}
+
+std::string encodeVtpIn(const SurfaceMesh& surface, const std::string& unit) {
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n" +
-         fieldData(surface) + "<Piece NumberOfPoints=\"" + std::to_string(surface.position.size()) +
+         fieldData(surface, unit) + "<Piece NumberOfPoints=\"" +
+         std::to_string(surface.position.size()) +
          "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
          std::to_string(surface.triangle.size()) + "\">\n" + pointData(surface) +
          cellData(surface) + "<Points>\n" + dataArray("Float32", "Points", 3, surface.position) +

@@ -138,6 +138,9 @@ def make_cases(lumen, folder):
     lines = [f"{10 * y + x + 1} 3 {x} {1.2 * y} 0 1 {10 * y + x if x else -1}" for y in (0, 1) for x in range(10)]
     (folder / "two.swc").write_text("\n".join(lines) + "\n")
     go("convert.schema.json", "convert", "two.swc", "two.glb")
+    go("export-list.schema.json", "export", "--list")
+    go("convert.schema.json", "convert", "two.swc", "two.lumen")
+    go("export.schema.json", "export", "sofa", "two.lumen", "two-sofa")
     for case in ("tracked.lumen", "fitted.lumen", "rounded.lumen", "truth.lumen", "made.lumen.json"):
         go("info-case.schema.json", "info", case)
         if not case.endswith(".json"): go("info-chunks.schema.json", "info", case, "--chunks")
@@ -156,6 +159,7 @@ def bad_input(lumen, folder):
         say("fit.schema.json", "fit", name, "out.lumen")
         say("compare.schema.json", "compare", name, name)
         say("check.schema.json", "check", "a.nrrd", name)
+        say("export.schema.json", "export", "sofa", name, "out-sofa")
         say("check.schema.json", "check", name, "fitted.lumen")
         say("convert.schema.json", "convert", name, "out.glb", "--seeds", "astray.json")
         say("track.schema.json", "track", name, "out.lumen", "--seeds", "astray.json")

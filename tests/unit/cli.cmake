@@ -7,6 +7,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/completion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/config_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/end_to_end_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/export_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_format_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/interrupt_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/file_content_test.cpp

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of `lumen export`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "converters/app/export_target.h"
+
+namespace lumen::app {
+
+void addExportOptions(CLI::App& app, ExportOptions& options);
+
+}  // namespace lumen::app

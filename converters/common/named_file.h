@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a writer of several files gives.
+#pragma once
+
+#include <string>
+
+namespace lumen {
+
+/// A file of a folder. `name` is relative to it, with a / between folders.
+struct NamedFile {
+  std::string name;
+  std::string bytes;
+};
+
+}  // namespace lumen

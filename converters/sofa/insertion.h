@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where an instrument enters a case, and how far it can be pushed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+struct Insertion {
+  std::uint32_t branch = 0, node = 0;                    ///< of the tree
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< mm, LPS
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, into the vessels
+  double radius = 0;                                     ///< of the vessel there, mm
+  double way = 0;  ///< mm, along the widest branches, to a radius before the last one's end
+};
+
+/// The insertion at the beginning of the branch called `label`, or, if that is empty, of the first
+/// vessel that is a root; so far in that no end of the vessel is within `clearance`, mm, of it. Throws
+/// Error(Usage), with the labels that there are, for a label that no branch has, and
+/// Error(InvalidInput) for a case without a tree and for a lumen that is narrower than `clearance`.
+Insertion insertionOf(const formats::CenterlineTree& tree, const std::string& label,
+                      double clearance);
+
+/// Turns the x axis to `direction`, in the shortest way.
+Eigen::Quaterniond turnTo(const Eigen::Vector3d& direction);
+
+}  // namespace lumen::convert

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene of SOFA as a tree: the one description that scene.scn and scene.py are printed from.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lumen::convert {
+
+/// A datum of a component or node.
+struct SceneDatum {
+  std::string name, value;
+  bool isFile = false;  ///< a file beside the scene
+};
+
+/// A node, or a component of one.
+struct SceneItem {
+  std::string type;     ///< a component's class; "Node" for a node
+  std::string comment;  ///< what it does, with units; may be empty
+  std::vector<SceneDatum> data{};
+  std::vector<SceneItem> children{};  ///< of a node, in the order of their creation
+
+  [[nodiscard]] bool isNode() const { return type == "Node"; }
+  /// The value of a datum; empty if it is not there.
+  [[nodiscard]] std::string value(const std::string& name) const;
+  /// Adds a datum; gives the item itself.
+  SceneItem& set(const std::string& name, const std::string& value);
+  SceneItem& set(const std::string& name, double value);
+  SceneItem& set(const std::string& name, int value);
+  SceneItem& setFile(const std::string& name, const std::string& file);
+  /// Adds a component, or a node, which stays valid until the next is added.
+  SceneItem& add(const std::string& component, const std::string& about = {});
+  SceneItem& addNode(const std::string& name, const std::string& about = {});
+};
+
+/// The shortest decimal text of at most nine digits that SOFA reads as that number.
+std::string sceneNumber(double value);
+/// Numbers with spaces between them.
+std::string sceneNumbers(const std::vector<double>& values);
+
+/// As XML, which runSofa reads. `about`: lines of the comment at its head.
+std::string printXml(const SceneItem& root, const std::vector<std::string>& about);
+
+/// The same as Python for SofaPython3: a module with createScene(root).
+std::string printPython(const SceneItem& root, const std::vector<std::string>& about);
+
+}  // namespace lumen::convert

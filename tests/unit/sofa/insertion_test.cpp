@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/sofa/insertion.h"
+
+#include <gtest/gtest.h>
+
+#include "converters/common/error.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using formats::BranchKind;
+using formats::CenterlineTree;
+using formats::Vec3f;
+
+void addBranch(CenterlineTree& tree, const std::string& label, int parent, const Vec3f& from,
+               const Vec3f& step, int nodes, float radius, BranchKind kind = BranchKind::Vessel) {
+  formats::Branch branch;
+  branch.label = label;
+  branch.kind = kind;
+  branch.parentNode = parent;
+  branch.firstNode = static_cast<std::uint32_t>(tree.nodeCount());
+  branch.nodeCount = static_cast<std::uint32_t>(nodes);
+  for (int k = 0; k < nodes; ++k) {
+    const auto s = static_cast<float>(k);
+    tree.parent.push_back(k == 0 ? parent : static_cast<int>(tree.nodeCount()) - 1);
+    tree.centre.push_back({from.x + s * step.x, from.y + s * step.y, from.z + s * step.z});
+    tree.direction.push_back(step);
+    tree.radius.push_back(radius);
+    tree.height.push_back(1);
+    tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
+  }
+  tree.branches.push_back(branch);
+}
+
+/// A trunk along z of 20 mm that goes on in a wide branch of 9 mm; a thin one and a sac hang on it.
+CenterlineTree fork() {
+  CenterlineTree tree;
+  addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 21, 2);
+  addBranch(tree, "thin", 20, {1, 0, 20}, {1, 0, 0}, 30, 0.3F);
+  addBranch(tree, "wide", 20, {0, 0, 21}, {0, 0, 1}, 9, 1.5F);
+  addBranch(tree, "sac", 20, {0, 5, 20}, {0, 1, 0}, 3, 5, BranchKind::Aneurysm);
+  return tree;
+}
+
+TEST(Insertion, LiesAsFarInsideTheRootAsItNeedsAndFollowsTheWidestVessel) {
+  const Insertion in = insertionOf(fork(), "", 1.5);
+  EXPECT_EQ(in.branch, 0U);
+  EXPECT_EQ(in.position, Eigen::Vector3d(0, 0, 2));
+  EXPECT_EQ(in.direction, Eigen::Vector3d::UnitZ());
+  EXPECT_DOUBLE_EQ(in.radius, 2);
+  // to the last node, at z = 29, less its radius
+  EXPECT_DOUBLE_EQ(in.way, 29 - 1.5 - 2);
+}
+
+TEST(Insertion, IsAtTheBranchThatIsNamed) {
+  const Insertion in = insertionOf(fork(), "sac", 0.5);
+  EXPECT_EQ(in.branch, 3U);
+  EXPECT_EQ(in.position, Eigen::Vector3d(0, 6, 20));
+}
+
+TEST(Insertion, RefusesALabelThatNoBranchHasAndTellsThose) {
+  try {
+    insertionOf(fork(), "trunc", 0.5);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::Usage);
+    EXPECT_NE(std::string(error.what()).find("trunk, thin, wide, sac"), std::string::npos);
+  }
+}
+
+TEST(Insertion, RefusesAVesselThatIsTooNarrow) {
+  try {
+    insertionOf(fork(), "thin", 0.5);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
+  }
+}
+
+TEST(Insertion, TurnsTheXAxisIntoAnyDirection) {
+  for (const Eigen::Vector3d& to :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0.6, 0, -0.8)})
+    EXPECT_LT((turnTo(to) * Eigen::Vector3d::UnitX() - to).norm(), 1e-12);
+}
+
+}  // namespace
+
+}  // namespace lumen::convert

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/sofa/scene.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "converters/sofa/dialect.h"
+
+namespace lumen::convert {
+
+namespace {
+
+SceneInput input(InstrumentKind kind, double way = 60) {
+  SceneInput result;
+  result.insertion.position = {1, 2, 3};
+  result.insertion.direction = {0, 0, 1};
+  result.insertion.way = way;
+  result.branch = "a \"--\" <b>";
+  result.instruments = instrumentsOf(kind, way + 20, 4);
+  result.high = {10, 10, 10};
+  return result;
+}
+
+void each(const SceneItem& item, const std::function<void(const SceneItem&)>& visit) {
+  visit(item);
+  for (const SceneItem& child : item.children) each(child, visit);
+}
+
+std::size_t count(const SceneItem& root, const std::string& type) {
+  std::size_t found = 0;
+  each(root, [&](const SceneItem& item) { found += item.type == type ? 1 : 0; });
+  return found;
+}
+
+std::string valueOf(const SceneItem& root, const std::string& type, const std::string& name) {
+  std::string value;
+  each(root, [&](const SceneItem& item) {
+    if (item.type == type) value = item.value(name);
+  });
+  return value;
+}
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+TEST(Scene, HasARestShapeAndForcesForEachInstrument) {
+  for (const auto& [kind, instruments] :
+       {std::pair{InstrumentKind::Guidewire, 2U}, std::pair{InstrumentKind::Catheter, 1U},
+        std::pair{InstrumentKind::Coil, 1U}}) {
+    const SceneItem scene = makeScene(input(kind), {.instrument = kind});
+    EXPECT_EQ(count(scene, "WireRestShape"), instruments);
+    EXPECT_EQ(count(scene, "AdaptiveBeamForceFieldAndMass"), instruments);
+    // frames for all beams of all instruments
+    int beams = 0;
+    for (const Instrument& instrument : instrumentsOf(kind, 80, 4)) beams += instrument.beams();
+    EXPECT_EQ(valueOf(scene, "RegularGridTopology", "nx"), std::to_string(beams + 1));
+  }
+}
+
+TEST(Scene, OnlyTheFirstSectionOfAnInstrumentIsStraight) {
+  // SOFA v25.06 puts a straight section that is not the first in the wrong place
+  for (const auto kind :
+       {InstrumentKind::Guidewire, InstrumentKind::Catheter, InstrumentKind::Coil})
+    for (const Instrument& instrument : instrumentsOf(kind, 80, 4)) {
+      ASSERT_EQ(instrument.sections.size(), 2U);
+      EXPECT_EQ(instrument.sections[0].curlDiameter, 0);
+      EXPECT_GT(instrument.sections[1].curlDiameter, 0);
+    }
+}
+
+TEST(Scene, NeitherPushesAnInstrumentOutOfItsHandleNorBeyondTheWay) {
+  for (const auto kind :
+       {InstrumentKind::Guidewire, InstrumentKind::Catheter, InstrumentKind::Coil}) {
+    const SceneInput in = input(kind);
+    const SceneItem scene = makeScene(in, {.instrument = kind, .step = 0.5});
+    std::vector<double> tips(in.instruments.size(), 0);
+    std::size_t active = tips.size() - 1;
+    const std::string actions = valueOf(scene, "BeamAdapterActionController", "actions");
+    for (const char c : actions) {
+      if (c == '1') tips[active] += 0.5;
+      if (c == '8' || c == '9') active = static_cast<std::size_t>(c - '8');
+    }
+    EXPECT_NEAR(tips.back(), std::min(60.0, in.instruments.back().length() - 1), 1.0);
+    for (std::size_t k = 0; k < tips.size(); ++k) EXPECT_LT(tips[k], in.instruments[k].length());
+    if (tips.size() == 2) {
+      EXPECT_NEAR(tips[0], 30, 1.0);
+    }
+    EXPECT_EQ(stepsOf(in, {.instrument = kind, .step = 0.5}),
+              static_cast<int>(std::count(actions.begin(), actions.end(), ' ')) + 1);
+  }
+}
+
+TEST(Scene, IsTheSameInXmlAndInPython) {
+  for (const auto wall : {WallKind::Mesh, WallKind::Implicit})
+    for (const auto dialect : {SofaDialect::Current, SofaDialect::V23_06}) {
+      const SofaOptions options{.wall = wall, .dialect = dialect};
+      SceneInput plain = input(options.instrument);
+      plain.branch = "ica";
+      const SceneItem scene = makeScene(plain, options);
+      const std::string xml = printXml(scene, {}), python = printPython(scene, {});
+      std::size_t components = 0, nodes = 0;
+      each(scene, [&](const SceneItem& item) {
+        (item.isNode() ? nodes : components) += 1;
+        if (item.isNode()) return;
+        EXPECT_NE(python.find("addObject(\"" + item.type + "\""), std::string::npos) << item.type;
+        for (const SceneDatum& datum : item.data)
+          EXPECT_NE(xml.find(datum.name + "=\"" + datum.value + "\""), std::string::npos)
+              << datum.name;
+      });
+      EXPECT_EQ(occurrences(python, ".addObject("), components);
+      EXPECT_EQ(occurrences(python, ".addChild("), nodes - 1);
+      EXPECT_EQ(occurrences(xml, "<Node"), nodes);
+    }
+}
+
+TEST(Scene, EscapesWhatALabelMayHold) {
+  const SceneInput in = input(InstrumentKind::Catheter);
+  const SofaOptions options{.instrument = InstrumentKind::Catheter, .wall = WallKind::Implicit};
+  const std::string xml = printXml(makeScene(in, options), aboutScene(in, options));
+  EXPECT_NE(xml.find("branch=\"a &quot;--&quot; &lt;b>\""), std::string::npos);
+  // a comment ends at the first two hyphens
+  EXPECT_EQ(occurrences(xml, "<!--"), occurrences(xml, "-->"));
+  const std::string python = printPython(makeScene(in, options), aboutScene(in, options));
+  EXPECT_NE(python.find("branch=\"a \\\"--\\\" <b>\""), std::string::npos);
+}
+
+TEST(Scene, NamesThePluginsOfItsComponents) {
+  const SceneItem mesh = makeScene(input(InstrumentKind::Guidewire), {});
+  const SceneItem implicit =
+      makeScene(input(InstrumentKind::Guidewire), {.wall = WallKind::Implicit});
+  const auto requires_ = [](const SceneItem& scene, const std::string& plugin) {
+    return printXml(scene, {}).find("pluginName=\"" + plugin + "\"") != std::string::npos;
+  };
+  EXPECT_TRUE(requires_(mesh, "BeamAdapter"));
+  EXPECT_FALSE(requires_(mesh, "LumenSofa"));
+  EXPECT_TRUE(requires_(implicit, "LumenSofa"));
+  EXPECT_FALSE(requires_(implicit, "Sofa.Component.Collision.Detection.Algorithm"));
+}
+
+TEST(Scene, HasTheNamesOfItsDialect) {
+  const SceneItem scene =
+      makeScene(input(InstrumentKind::Guidewire), {.dialect = SofaDialect::V23_06});
+  for (const char* const newer :
+       {"CollisionPipeline", "CollisionResponse", "FixedProjectiveConstraint", "RodStraightSection",
+        "RodSpireSection"})
+    EXPECT_EQ(count(scene, newer), 0U) << newer;
+  for (const char* const old : {"DefaultPipeline", "DefaultContactManager", "FixedConstraint"})
+    EXPECT_EQ(count(scene, old), 1U) << old;
+  EXPECT_EQ(printXml(scene, {}).find("nbBeams"), std::string::npos);
+  // the guidewire, which is the last: 60 mm of shaft, 20 of tip
+  EXPECT_EQ(valueOf(scene, "WireRestShape", "straightLength"), "60");
+  EXPECT_EQ(valueOf(scene, "WireRestShape", "length"), "80");
+  EXPECT_EQ(valueOf(scene, "WireRestShape", "keyPoints"), "0 60 80");
+  EXPECT_EQ(valueOf(scene, "WireRestShape", "densityOfBeams"), "30 20");
+}
+
+}  // namespace
+
+}  // namespace lumen::convert
