@@ -10,6 +10,8 @@ rm -rf "$2"
 mkdir -p "$2"
 cp -rs "$sofa/." "$2"
 find "$2" -type d -exec chmod u+rwx {} +
+# runSofa looks for its libraries beside itself, wherever a link to it is
+for program in "$sofa"/bin/runSofa-*; do cp --remove-destination "$program" "$2/bin/"; done
 # shorter than any program or library
 find -L "$2/bin" "$2/lib" "$2"/plugins/*/lib -maxdepth 1 -type f -size -256c \( -name '*.so' -o -name runSofa \) |
 while read -r file; do

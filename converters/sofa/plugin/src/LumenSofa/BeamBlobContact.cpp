@@ -47,8 +47,7 @@ BeamBlobContact::BeamBlobContact()
       d_friction(initData(&d_friction, 0.0, "friction", "Coulomb's coefficient of friction")),
       d_samples(initData(&d_samples, 3u, "samples", "points along each beam")),
       d_alarmDistance(initData(&d_alarmDistance, 0.5, "alarmDistance",
-                               "mm: what would be nearer to the wall than this without contact "
-                               "is constrained")),
+                               "mm: samples nearer to the wall than this are constrained")),
       d_contacts(initData(&d_contacts, 0u, "contacts", "number of constraints of the last step")),
       d_penetration(initData(&d_penetration, 0.0, "penetration",
                              "mm: how deep the instrument was in the wall at its deepest sample, "
@@ -139,33 +138,22 @@ void BeamBlobContact::findSamples() {
   for (std::size_t i = 0; i < m_samples.size(); ++i) m_abscissae[i] = m_samples[i].abscissa;
 }
 
-double BeamBlobContact::gapAtStart(std::size_t sample) const {
-  return -m_atStart[sample].distance - m_samples[sample].radius;
-}
-
-// The wall is asked twice: where each sample is, and where it will about be, which is its free position pushed back
-// onto the wall's tangent plane. There the wall is linearised, so that its curvature does no harm within a step.
+// The wall is linearised where each sample is at the start of the step. Without contact the instrument springs far
+// from there, towards its rest shape, so its free position tells little about where the wall will be met.
 void BeamBlobContact::findContacts() {
-  const std::size_t count = m_samples.size();
-  const blob_model* model = l_field->model();
-  const std::uint32_t flags = l_field->flags();
-  m_atStart.resize(count);
-  blob_query_many(model, flags, count, packed(m_start), m_cursors.data(), m_atStart.data());
-  m_probe.resize(count);
+  m_walls.resize(m_samples.size());
+  blob_query_many(l_field->model(), l_field->flags(), m_samples.size(), packed(m_start),
+                  m_cursors.data(), m_walls.data());
+  m_contacts.clear();
   double deepest = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 normal = inwards(m_atStart[i]);
-    const double gap = gapAtStart(i);
+  for (std::size_t i = 0; i < m_samples.size(); ++i) {
+    const double gap = -m_walls[i].distance - m_samples[i].radius;
     deepest = std::max(deepest, -gap);
-    const double expected = gap + normal * (m_free[i] - m_start[i]);
-    m_probe[i] = m_free[i] - normal * std::min(expected, 0.0);
+    // a point that is not finite or has no normal cannot be held
+    const Vec3 normal = inwards(m_walls[i]);
+    if (gap < d_alarmDistance.getValue() && normal.norm2() > 0.5) addContact(i, gap, normal);
   }
   d_penetration.setValue(deepest);
-  m_cursorBuffer.assign(m_cursors.begin(), m_cursors.end());
-  m_atProbe.resize(count);
-  blob_query_many(model, flags, count, packed(m_probe), m_cursorBuffer.data(), m_atProbe.data());
-  m_contacts.clear();
-  for (std::size_t i = 0; i < count; ++i) addContact(i, m_atProbe[i], m_probe[i]);
   d_contacts.setValue(static_cast<unsigned>(m_contacts.size()));
   forgetOtherForces();
 }
@@ -181,26 +169,24 @@ void BeamBlobContact::forgetOtherForces() {
 
 // How much of the step's slide is in touch: all of it for a sample that rests on the wall, that after the first
 // touch for one that gets there, none for one that does not.
-double BeamBlobContact::shareOfSlide(std::size_t sample, double gap) const {
+double BeamBlobContact::shareOfSlide(double before, double after, double motion) const {
   constexpr double kResting = 0.01;
-  const double before = gapAtStart(sample);
-  if (before <= kResting * (m_free[sample] - m_start[sample]).norm()) return 1;
-  return gap < 0 ? gap / (gap - before) : 0;
+  if (before <= kResting * motion) return 1;
+  return after < 0 ? after / (after - before) : 0;
 }
 
-void BeamBlobContact::addContact(std::size_t sample, const blob_sample& wall, const Vec3& probe) {
+void BeamBlobContact::addContact(std::size_t sample, double gap, const Vec3& normal) {
+  const Vec3 motion = m_free[sample] - m_start[sample];
+  const double after = gap + normal * motion;
+  if (!(after < d_alarmDistance.getValue())) return;
   Contact contact;
   contact.sample = sample;
-  contact.axis[0] = inwards(wall);
-  const double gap =
-      -wall.distance - m_samples[sample].radius + contact.axis[0] * (m_free[sample] - probe);
-  // a point that is not finite or has no normal cannot be held
-  if (!(gap < d_alarmDistance.getValue()) || contact.axis[0].norm2() < 0.5) return;
+  contact.axis[0] = normal;
   setTangents(contact.axis);
-  const Vec3 slide = (m_free[sample] - m_start[sample]) * shareOfSlide(sample, gap);
-  contact.violation[0] = gap;
-  contact.violation[1] = contact.axis[1] * slide;
-  contact.violation[2] = contact.axis[2] * slide;
+  const double share = shareOfSlide(gap, after, motion.norm());
+  contact.violation[0] = after;
+  contact.violation[1] = contact.axis[1] * motion * share;
+  contact.violation[2] = contact.axis[2] * motion * share;
   m_contacts.push_back(contact);
 }
 

@@ -13,8 +13,8 @@
 namespace lumensofa {
 
 /// Contact with friction of an instrument's beams with the wall of a case. Samples along each beam are asked for
-/// their distance to the wall; those that would come near it without contact get one row (normal), or three with
-/// friction, of the Lagrangian constraints. Each sample has a cursor of its own, which follows the tree; when
+/// their distance to the wall; those near it get one row (normal), or three with friction, of the Lagrangian
+/// constraints. Each sample has a cursor of its own, which follows the tree; when
 /// beams are added or nodes placed anew, cursors go on by the abscissa along the instrument.
 class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Rigid3> {
  public:
@@ -74,9 +74,8 @@ class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Ri
   void startCursors();
   void findContacts();
   void forgetOtherForces();
-  void addContact(std::size_t sample, const blob_sample& wall, const Vec3& probe);
-  double gapAtStart(std::size_t sample) const;
-  double shareOfSlide(std::size_t sample, double gap) const;
+  void addContact(std::size_t sample, double gap, const Vec3& normal);
+  double shareOfSlide(double before, double after, double motion) const;
 
   // Kept from step to step, so that a step allocates nothing once they have grown.
   std::vector<BeamSample> m_samples;
@@ -86,8 +85,8 @@ class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Ri
   std::vector<std::size_t> m_nearest;
   std::vector<std::uint32_t> m_cursorBuffer;
   std::vector<Vec3> m_forceBuffer;
-  std::vector<Vec3> m_start, m_free, m_probe;  ///< mm
-  std::vector<blob_sample> m_atStart, m_atProbe;
+  std::vector<Vec3> m_start, m_free;  ///< mm
+  std::vector<blob_sample> m_walls;   ///< at the start of the step
   std::vector<Contact> m_contacts;
   unsigned int m_firstRow = 0;
 };

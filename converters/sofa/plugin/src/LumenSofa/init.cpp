@@ -2,7 +2,6 @@
 // What SOFA's plugin manager calls.
 #include <LumenSofa/config.h>
 #include <sofa/core/ObjectFactory.h>
-#include <sofa/helper/system/PluginManager.h>
 
 namespace lumensofa {
 
@@ -11,12 +10,7 @@ void registerBeamBlobContact(sofa::core::ObjectFactory* factory);
 
 extern "C" {
 
-LUMENSOFA_API void initExternalModule() {
-  static bool first = true;
-  if (!first) return;
-  first = false;
-  sofa::helper::system::PluginManager::getInstance().registerPlugin(kModuleName);
-}
+LUMENSOFA_API void initExternalModule() {}
 LUMENSOFA_API const char* getModuleName() { return kModuleName; }
 LUMENSOFA_API const char* getModuleVersion() { return LUMEN_VERSION; }
 LUMENSOFA_API const char* getModuleLicense() { return "Apache-2.0"; }

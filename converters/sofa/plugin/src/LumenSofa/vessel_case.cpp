@@ -18,7 +18,7 @@ using lumen::formats::printable;
 
 constexpr std::size_t kListedLabels = 20;
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   std::string sentence("'");
   return sentence.append(printable(text)).append("'");
 }
@@ -49,18 +49,18 @@ std::string labelsOf(const lumen::formats::CaseView& view) {
 std::string findBranch(std::span<const std::byte> bytes, const std::string& path,
                        const std::string& label, NodeRange& range) {
   const auto view = lumen::formats::viewCase(bytes, lumen::formats::Verify::Structure);
-  if (!view) return quoted(path) + ": " + printable(view.error().message);
+  if (!view) return inQuotes(path) + ": " + printable(view.error().message);
   for (std::size_t i = 0; i < view->branchCount(); ++i) {
     const lumen::formats::BranchView branch = view->branch(i);
     if (view->label(branch) != label || branch.nodeCount == 0) continue;
     range = {branch.firstNode, branch.nodeCount};
     return {};
   }
-  return quoted(path) + " has no branch " + quoted(label) + "; it has " + labelsOf(*view);
+  return inQuotes(path) + " has no branch " + inQuotes(label) + "; it has " + labelsOf(*view);
 }
 
 std::string sentenceFor(blob_status status, const std::string& path, const char* message) {
-  const std::string name = quoted(path);
+  const std::string name = inQuotes(path);
   if (status == BLOB_ERROR_NO_MODELS)
     return name + " has no models: 'lumen fit' makes them from the case's wall points";
   return name + " is not a case that can be used: " + printable(message);
@@ -78,7 +78,7 @@ VesselCase openVesselCase(const std::string& path, const std::string& branch) {
   VesselCase vessel;
   std::vector<std::byte> bytes;
   if (!readBytes(path, bytes) || bytes.empty()) {
-    vessel.problem.append("cannot read ").append(quoted(path));
+    vessel.problem.append("cannot read ").append(inQuotes(path));
     vessel.problem += ": there is no such file, or it is empty or may not be read";
     return vessel;
   }

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes of SOFA in which BeamAdapter's controller pushes an instrument into a vessel, whose wall is a case (the plugin
+LumenSofa) or a triangle mesh (SOFA's own collision). Both have the same instrument, solver, friction and distances.
+
+Units: mm, kg, s; so forces are mN and Young's moduli kPa.
+"""
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass
+class Section:
+    """A part of the instrument, from handle to tip. `turn` is the diameter of its rest shape's spire, mm; 0: straight."""
+    length: float
+    beams: int
+    young: float        # kPa
+    turn: float = 0.0
+    pitch: float = 0.0  # mm from spire to spire
+
+
+@dataclass
+class Instrument:
+    radius: float    # mm
+    density: float   # kg / mm^3
+    sections: list
+
+
+@dataclass
+class Scene:
+    instrument: Instrument
+    start: np.ndarray      # mm: where it comes out
+    direction: np.ndarray  # its direction there
+    speed: float           # mm/s
+    case: str = ""         # the wall: a case, or
+    mesh: str = ""         # an OBJ
+    domain: str = "local"
+    branch: str = ""
+    dt: float = 0.01
+    friction: float = 0.1
+    alarm: float = 0.5     # mm
+    samples: int = 3
+    rotation: float = 0.0
+    record: str = "instrument"
+    plugins: list = field(default_factory=list)
+
+
+PLUGINS = """BeamAdapter Sofa.Component.AnimationLoop Sofa.Component.Constraint.Lagrangian.Correction
+Sofa.Component.Constraint.Lagrangian.Solver Sofa.Component.Constraint.Projective Sofa.Component.LinearSolver.Direct
+Sofa.Component.ODESolver.Backward Sofa.Component.Playback Sofa.Component.SolidMechanics.Spring
+Sofa.Component.StateContainer Sofa.Component.Topology.Container.Dynamic Sofa.Component.Topology.Container.Grid""".split()
+OF_MESH = """Sofa.Component.Collision.Detection.Algorithm Sofa.Component.Collision.Detection.Intersection
+Sofa.Component.Collision.Geometry Sofa.Component.Collision.Response.Contact Sofa.Component.IO.Mesh
+Sofa.Component.Topology.Container.Constant""".split()
+
+
+def quaternion(direction):
+    """(x, y, z, w) that turns the x-axis to `direction`."""
+    d = np.asarray(direction) / np.linalg.norm(direction)
+    axis = np.array([0.0, -d[2], d[1]])
+    if np.linalg.norm(axis) < 1e-9:
+        return (0, 0, 0, 1) if d[0] > 0 else (0, 0, 1, 0)
+    axis /= np.linalg.norm(axis)
+    half = np.arccos(np.clip(d[0], -1, 1)) / 2
+    return (*(axis * np.sin(half)), np.cos(half))
+
+
+def sections_text(instrument):
+    lines, names = [], []
+    for i, s in enumerate(instrument.sections):
+        kind = "RodSpireSection" if s.turn else "RodStraightSection"
+        spire = f' spireDiameter="{s.turn}" spireHeight="{s.pitch}"' if s.turn else ""
+        lines.append(f'    <{kind} name="section{i}" length="{s.length}" nbBeams="{s.beams}" nbEdgesCollis="{s.beams}" '
+                     f'nbEdgesVisu="{s.beams}" youngModulus="{s.young}" poissonRatio="0.3" '
+                     f'radius="{instrument.radius}" massDensity="{instrument.density}"{spire}/>')
+        names.append(f"@section{i}")
+    return "\n".join(lines), " ".join(names)
+
+
+def wall_text(scene):
+    """The vessel's node."""
+    if scene.case:
+        branch = f' branch="{scene.branch}"' if scene.branch else ""
+        return f"""  <Node name="vessel">
+    <BlobField name="wall" filename="{scene.case}" domain="{scene.domain}"{branch}/>
+  </Node>"""
+    return f"""  <Node name="vessel">
+    <MeshOBJLoader name="loader" filename="{scene.mesh}"/>
+    <MeshTopology src="@loader"/>
+    <MechanicalObject name="dofs"/>
+    <TriangleCollisionModel moving="0" simulated="0"/>
+    <LineCollisionModel moving="0" simulated="0"/>
+    <PointCollisionModel moving="0" simulated="0"/>
+  </Node>"""
+
+
+def contact_text(scene):
+    """What is in the instrument's node for its contact."""
+    r = scene.instrument.radius
+    if scene.case:
+        return (f'    <BeamBlobContact name="contact" field="@/vessel/wall" interpolation="@interpolation" radius="{r}" '
+                f'friction="{scene.friction}" samples="{scene.samples}" alarmDistance="{scene.alarm}"/>')
+    return f"""    <Node name="collision">
+      <EdgeSetTopologyContainer name="edges"/>
+      <EdgeSetTopologyModifier name="modifier"/>
+      <MechanicalObject name="points"/>
+      <MultiAdaptiveBeamMapping name="mapping" controller="../controller" useCurvAbs="1"/>
+      <LineCollisionModel proximity="{r}"/>
+      <PointCollisionModel proximity="{r}"/>
+    </Node>"""
+
+
+def pipeline_text(scene):
+    if scene.case:
+        return ""
+    # distances between the surfaces, as those of the plugin: LocalMinDistance adds what the models have as proximity
+    return f"""  <CollisionPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <LocalMinDistance name="distances" alarmDistance="{scene.alarm}" contactDistance="0.01" angleCone="0.02"/>
+  <CollisionResponse name="response" response="FrictionContactConstraint" responseParams="mu={scene.friction}"/>
+"""
+
+
+def scene_text(scene):
+    plugins = PLUGINS + (["LumenSofa"] if scene.case else OF_MESH)
+    required = "\n".join(f'  <RequiredPlugin name="{p}"/>' for p in plugins)
+    sections, names = sections_text(scene.instrument)
+    nodes = sum(s.beams for s in scene.instrument.sections) + 1
+    place = " ".join(f"{v:.6g}" for v in (*scene.start, *quaternion(scene.direction)))
+    return f"""<?xml version="1.0"?>
+<Node name="root" dt="{scene.dt}" gravity="0 0 0">
+{required}
+  <FreeMotionAnimationLoop/>
+  <GenericConstraintSolver tolerance="1e-5" maxIterations="500"/>
+{pipeline_text(scene)}{wall_text(scene)}
+  <Node name="rest">
+{sections}
+    <WireRestShape template="Rigid3d" name="shape" wireMaterials="{names}"/>
+    <EdgeSetTopologyContainer name="lines"/>
+    <EdgeSetTopologyModifier name="modifier"/>
+    <EdgeSetGeometryAlgorithms name="algorithms" template="Rigid3d"/>
+    <MechanicalObject name="dofs" template="Rigid3d"/>
+  </Node>
+  <Node name="instrument">
+    <EulerImplicitSolver rayleighStiffness="0.2" rayleighMass="0.1"/>
+    <BTDLinearSolver/>
+    <RegularGridTopology name="grid" nx="{nodes}" ny="1" nz="1" xmin="0" xmax="0" ymin="0" ymax="0" zmin="0" zmax="0"/>
+    <MechanicalObject name="dofs" template="Rigid3d"/>
+    <WireBeamInterpolation name="interpolation" WireRestShape="@../rest/shape"/>
+    <AdaptiveBeamForceFieldAndMass name="forces" interpolation="@interpolation"/>
+    <InterventionalRadiologyController name="controller" template="Rigid3d" instruments="interpolation" topology="@grid"
+        startingPos="{place}" xtip="1" step="0.1" speed="{scene.speed}" rotationInstrument="{scene.rotation}"
+        controlledInstrument="0" threshold="0.001"/>
+    <LinearSolverConstraintCorrection wire_optimization="true"/>
+    <FixedProjectiveConstraint indices="0"/>
+    <RestShapeSpringsForceField points="@controller.indexFirstNode" external_rest_shape="@dofs" external_points="0"
+        stiffness="1e8" angularStiffness="1e8"/>
+    <WriteState filename="{scene.record}" writeX="1" writeV="1" period="{scene.dt}"/>
+{contact_text(scene)}
+  </Node>
+</Node>
+"""
