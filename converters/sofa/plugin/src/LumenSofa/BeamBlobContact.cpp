@@ -178,7 +178,6 @@ double BeamBlobContact::shareOfSlide(double before, double after, double motion)
 void BeamBlobContact::addContact(std::size_t sample, double gap, const Vec3& normal) {
   const Vec3 motion = m_free[sample] - m_start[sample];
   const double after = gap + normal * motion;
-  if (!(after < d_alarmDistance.getValue())) return;
   Contact contact;
   contact.sample = sample;
   contact.axis[0] = normal;
