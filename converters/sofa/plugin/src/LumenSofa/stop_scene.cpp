@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <LumenSofa/stop_scene.h>
+#include <sofa/core/behavior/BaseAnimationLoop.h>
 #include <sofa/core/objectmodel/BaseContext.h>
 
 namespace lumensofa {
@@ -9,7 +10,8 @@ void stopScene(sofa::core::objectmodel::BaseObject& component) {
   sofa::core::objectmodel::BaseContext* root = component.getContext()->getRootContext();
   if (root == nullptr) return;
   root->setAnimate(false);
-  root->setActive(false);
+  auto* loop = root->get<sofa::core::behavior::BaseAnimationLoop>();
+  if (loop != nullptr) loop->d_componentState.setValue(sofa::core::objectmodel::ComponentState::Invalid);
 }
 
 }  // namespace lumensofa
