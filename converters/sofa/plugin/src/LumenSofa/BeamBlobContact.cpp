@@ -15,6 +15,7 @@ namespace lumensofa {
 namespace {
 
 constexpr unsigned kMaxSamples = 64;
+constexpr double kMostAhead = 2;  // radii of the instrument: a tip that flicks does not go on so
 
 // libblob's points are packed triples of doubles.
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -138,24 +139,50 @@ void BeamBlobContact::findSamples() {
   for (std::size_t i = 0; i < m_samples.size(); ++i) m_abscissae[i] = m_samples[i].abscissa;
 }
 
-// The wall is linearised where each sample is at the start of the step. Without contact the instrument springs far
-// from there, towards its rest shape, so its free position tells little about where the wall will be met.
+// The wall is linearised where each sample comes to if it slides on as in the last step: where it is, a bump would be
+// met too high. Its free position would tell less: without contact the instrument springs far away, towards its rest shape.
 void BeamBlobContact::findContacts() {
-  m_walls.resize(m_samples.size());
-  blob_query_many(l_field->model(), l_field->flags(), m_samples.size(), packed(m_start),
-                  m_cursors.data(), m_walls.data());
-  m_contacts.clear();
+  const std::size_t count = m_samples.size();
+  const blob_model* model = l_field->model();
+  m_walls.resize(count);
+  blob_query_many(model, l_field->flags(), count, packed(m_start), m_cursors.data(), m_walls.data());
   double deepest = 0;
-  for (std::size_t i = 0; i < m_samples.size(); ++i) {
-    const double gap = -m_walls[i].distance - m_samples[i].radius;
-    deepest = std::max(deepest, -gap);
+  for (std::size_t i = 0; i < count; ++i) deepest = std::max(deepest, -gap(i));
+  d_penetration.setValue(deepest);
+  predict();
+  m_cursorBuffer.assign(m_cursors.begin(), m_cursors.end());
+  blob_query_many(model, l_field->flags(), count, packed(m_next), m_cursorBuffer.data(), m_walls.data());
+  m_contacts.clear();
+  for (std::size_t i = 0; i < count; ++i) {
     // a point that is not finite or has no normal cannot be held
     const Vec3 normal = inwards(m_walls[i]);
-    if (gap < d_alarmDistance.getValue() && normal.norm2() > 0.5) addContact(i, gap, normal);
+    if (gap(i) < d_alarmDistance.getValue() && normal.norm2() > 0.5) addContact(i, normal);
   }
-  d_penetration.setValue(deepest);
   d_contacts.setValue(static_cast<unsigned>(m_contacts.size()));
   forgetOtherForces();
+}
+
+double BeamBlobContact::gap(std::size_t sample) const {
+  return -m_walls[sample].distance - m_samples[sample].radius;
+}
+
+// A sample's velocity is the transpose of its Jacobian times those of its frames: v + w x arm.
+void BeamBlobContact::predict() {
+  const auto& velocity = getMState()->read(sofa::core::vec_id::read_access::velocity)->getValue();
+  const double dt = getContext()->getDt();
+  m_next.resize(m_samples.size());
+  for (std::size_t i = 0; i < m_samples.size(); ++i) {
+    const BeamSample& sample = m_samples[i];
+    Vec3 motion(0, 0, 0);
+    for (int end = 0; end < 2; ++end) {
+      const Deriv& v = velocity[sample.node[end]];
+      motion += getVCenter(v) * sample.weight[end] + sofa::type::cross(getVOrientation(v), sample.arm[end]);
+    }
+    const Vec3 normal = inwards(m_walls[i]);
+    motion = (motion - normal * (normal * motion)) * dt;
+    const double most = kMostAhead * m_samples[i].radius, length = motion.norm();
+    m_next[i] = m_start[i] + (length > most ? motion * (most / length) : motion);
+  }
 }
 
 void BeamBlobContact::forgetOtherForces() {
@@ -175,14 +202,15 @@ double BeamBlobContact::shareOfSlide(double before, double after, double motion)
   return after < 0 ? after / (after - before) : 0;
 }
 
-void BeamBlobContact::addContact(std::size_t sample, double gap, const Vec3& normal) {
+void BeamBlobContact::addContact(std::size_t sample, const Vec3& normal) {
+  const double before = gap(sample) + normal * (m_start[sample] - m_next[sample]);
+  const double after = gap(sample) + normal * (m_free[sample] - m_next[sample]);
   const Vec3 motion = m_free[sample] - m_start[sample];
-  const double after = gap + normal * motion;
   Contact contact;
   contact.sample = sample;
   contact.axis[0] = normal;
   setTangents(contact.axis);
-  const double share = shareOfSlide(gap, after, motion.norm());
+  const double share = shareOfSlide(before, after, motion.norm());
   contact.violation[0] = after;
   contact.violation[1] = contact.axis[1] * motion * share;
   contact.violation[2] = contact.axis[2] * motion * share;

@@ -74,7 +74,9 @@ class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Ri
   void startCursors();
   void findContacts();
   void forgetOtherForces();
-  void addContact(std::size_t sample, double gap, const Vec3& normal);
+  void predict();
+  double gap(std::size_t sample) const;
+  void addContact(std::size_t sample, const Vec3& normal);
   double shareOfSlide(double before, double after, double motion) const;
 
   // Kept from step to step, so that a step allocates nothing once they have grown.
@@ -85,8 +87,8 @@ class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Ri
   std::vector<std::size_t> m_nearest;
   std::vector<std::uint32_t> m_cursorBuffer;
   std::vector<Vec3> m_forceBuffer;
-  std::vector<Vec3> m_start, m_free;  ///< mm
-  std::vector<blob_sample> m_walls;   ///< at the start of the step
+  std::vector<Vec3> m_start, m_next, m_free;  ///< mm; m_next: where a sample slides to
+  std::vector<blob_sample> m_walls;           ///< at m_start, then at m_next
   std::vector<Contact> m_contacts;
   unsigned int m_firstRow = 0;
 };
