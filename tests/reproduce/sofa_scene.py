@@ -2,9 +2,11 @@
 """Scenes of SOFA in which BeamAdapter's controller pushes an instrument into a vessel, whose wall is a case (the plugin
 LumenSofa) or a triangle mesh (SOFA's own collision). Both have the same instrument, solver, friction and distances.
 
-Units: mm, kg, s; so forces are mN and Young's moduli kPa.
+Units: mm, kg, s; so forces are mN and Young's moduli kPa. What SOFA v25.06 wants: a straight section is the first one (its
+rest shape counts its start twice); the spring that holds the base takes its rest place from the first frame, not from the grid;
+triangles face inwards, or LocalMinDistance finds nothing from inside; a system that is not built (build_lcp) costs the least.
 """
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -39,10 +41,12 @@ class Scene:
     dt: float = 0.01
     friction: float = 0.1
     alarm: float = 0.5     # mm
-    samples: int = 3
+    mesh_alarm: float = 1.0
+    samples: int = 2
     rotation: float = 0.0
     record: str = "instrument"
-    plugins: list = field(default_factory=list)
+    iterations: int = 1000
+    initial: float = 1.0   # mm that are out at the beginning
 
 
 PLUGINS = """BeamAdapter Sofa.Component.AnimationLoop Sofa.Component.Constraint.Lagrangian.Correction
@@ -85,19 +89,19 @@ def wall_text(scene):
     <BlobField name="wall" filename="{scene.case}" domain="{scene.domain}"{branch}/>
   </Node>"""
     return f"""  <Node name="vessel">
-    <MeshOBJLoader name="loader" filename="{scene.mesh}"/>
+    <MeshOBJLoader name="loader" filename="{scene.mesh}" flipNormals="1"/>
     <MeshTopology src="@loader"/>
     <MechanicalObject name="dofs"/>
-    <TriangleCollisionModel moving="0" simulated="0"/>
-    <LineCollisionModel moving="0" simulated="0"/>
-    <PointCollisionModel moving="0" simulated="0"/>
+    <TriangleCollisionModel moving="0" simulated="0" group="2"/>
+    <LineCollisionModel moving="0" simulated="0" group="2"/>
+    <PointCollisionModel moving="0" simulated="0" group="2"/>
   </Node>"""
 
 
 def contact_text(scene):
     """What is in the instrument's node for its contact."""
-    r = scene.instrument.radius
     if scene.case:
+        r = scene.instrument.radius
         return (f'    <BeamBlobContact name="contact" field="@/vessel/wall" interpolation="@interpolation" radius="{r}" '
                 f'friction="{scene.friction}" samples="{scene.samples}" alarmDistance="{scene.alarm}"/>')
     return f"""    <Node name="collision">
@@ -105,20 +109,21 @@ def contact_text(scene):
       <EdgeSetTopologyModifier name="modifier"/>
       <MechanicalObject name="points"/>
       <MultiAdaptiveBeamMapping name="mapping" controller="../controller" useCurvAbs="1"/>
-      <LineCollisionModel proximity="{r}"/>
-      <PointCollisionModel proximity="{r}"/>
+      <LineCollisionModel group="1"/>
+      <PointCollisionModel group="1"/>
     </Node>"""
 
 
 def pipeline_text(scene):
     if scene.case:
         return ""
-    # distances between the surfaces, as those of the plugin: LocalMinDistance adds what the models have as proximity
+    # with a narrower cone the tip of the guidewire leaves by the first bend, as contacts of its last point are left out
+    r = scene.instrument.radius
     return f"""  <CollisionPipeline/>
   <BruteForceBroadPhase/>
   <BVHNarrowPhase/>
-  <LocalMinDistance name="distances" alarmDistance="{scene.alarm}" contactDistance="0.01" angleCone="0.02"/>
-  <CollisionResponse name="response" response="FrictionContactConstraint" responseParams="mu={scene.friction}"/>
+  <LocalMinDistance name="distances" contactDistance="{r}" alarmDistance="{r + scene.mesh_alarm}" angleCone="0.9"/>
+  <CollisionResponse name="response" response="FrictionContactConstraint"/>
 """
 
 
@@ -132,7 +137,7 @@ def scene_text(scene):
 <Node name="root" dt="{scene.dt}" gravity="0 0 0">
 {required}
   <FreeMotionAnimationLoop/>
-  <GenericConstraintSolver tolerance="1e-5" maxIterations="500"/>
+  <LCPConstraintSolver mu="{scene.friction}" tolerance="1e-6" maxIt="{scene.iterations}" build_lcp="0"/>
 {pipeline_text(scene)}{wall_text(scene)}
   <Node name="rest">
 {sections}
@@ -150,13 +155,13 @@ def scene_text(scene):
     <WireBeamInterpolation name="interpolation" WireRestShape="@../rest/shape"/>
     <AdaptiveBeamForceFieldAndMass name="forces" interpolation="@interpolation"/>
     <InterventionalRadiologyController name="controller" template="Rigid3d" instruments="interpolation" topology="@grid"
-        startingPos="{place}" xtip="1" step="0.1" speed="{scene.speed}" rotationInstrument="{scene.rotation}"
+        startingPos="{place}" xtip="{scene.initial}" step="0.1" speed="{scene.speed}" rotationInstrument="{scene.rotation}"
         controlledInstrument="0" threshold="0.001"/>
-    <LinearSolverConstraintCorrection wire_optimization="true"/>
+    <LinearSolverConstraintCorrection wire_optimization="1"/>
     <FixedProjectiveConstraint indices="0"/>
     <RestShapeSpringsForceField points="@controller.indexFirstNode" external_rest_shape="@dofs" external_points="0"
         stiffness="1e8" angularStiffness="1e8"/>
-    <WriteState filename="{scene.record}" writeX="1" writeV="1" period="{scene.dt}"/>
+    <WriteState filename="{scene.record}" writeX="1" writeV="1" time="0" period="{scene.dt}"/>
 {contact_text(scene)}
   </Node>
 </Node>

@@ -15,7 +15,6 @@ namespace lumensofa {
 namespace {
 
 constexpr unsigned kMaxSamples = 64;
-constexpr double kMostAhead = 2;  // radii of the instrument: a tip that flicks does not go on so
 
 // libblob's points are packed triples of doubles.
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -139,8 +138,9 @@ void BeamBlobContact::findSamples() {
   for (std::size_t i = 0; i < m_samples.size(); ++i) m_abscissae[i] = m_samples[i].abscissa;
 }
 
-// The wall is linearised where each sample comes to if it slides on as in the last step: where it is, a bump would be
-// met too high. Its free position would tell less: without contact the instrument springs far away, towards its rest shape.
+// The wall is linearised where each sample comes to if the instrument slides on along itself as in the last step: where the
+// sample is, a bump would be met too high. How it moves sideways is not known before: its free position is far away, as the
+// instrument springs towards its rest shape without contact, and a tip flicks to and fro.
 void BeamBlobContact::findContacts() {
   const std::size_t count = m_samples.size();
   const blob_model* model = l_field->model();
@@ -178,10 +178,7 @@ void BeamBlobContact::predict() {
       const Deriv& v = velocity[sample.node[end]];
       motion += getVCenter(v) * sample.weight[end] + sofa::type::cross(getVOrientation(v), sample.arm[end]);
     }
-    const Vec3 normal = inwards(m_walls[i]);
-    motion = (motion - normal * (normal * motion)) * dt;
-    const double most = kMostAhead * m_samples[i].radius, length = motion.norm();
-    m_next[i] = m_start[i] + (length > most ? motion * (most / length) : motion);
+    m_next[i] = m_start[i] + sample.tangent * (sample.tangent * motion * dt);
   }
 }
 

@@ -42,6 +42,10 @@ void setJacobian(const std::array<double, 4>& b, const std::array<Vec3, 4>& spli
                  const Vec3& last, BeamSample& sample) {
   sample.weight[0] = b[0] + b[1];
   sample.weight[1] = b[2] + b[3];
+  const double t = sample.share, u = 1 - t;
+  sample.tangent = (spline[1] - spline[0]) * (u * u) + (spline[2] - spline[1]) * (2 * t * u) +
+                   (spline[3] - spline[2]) * (t * t);
+  sample.tangent.normalize();
   sample.arm[0] = (spline[0] - first) * sample.weight[0] + (spline[1] - spline[0]) * b[1];
   sample.arm[1] = (spline[3] - last) * sample.weight[1] + (spline[2] - spline[3]) * b[2];
 }

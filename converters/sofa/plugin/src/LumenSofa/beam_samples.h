@@ -25,14 +25,15 @@ struct BeamSample {
   double abscissa = 0;           ///< mm along the instrument from its handle; rises from sample to sample
   double radius = 0;             ///< mm
   double weight[2] = {0, 0};
-  Vec3 arm[2];  ///< mm
+  Vec3 arm[2];   ///< mm
+  Vec3 tangent;  ///< unit vector towards the tip
 };
 
 /// `perBeam` samples on each beam that touches the wall: at shares 1/n, 2/n, ... 1, so one at the tip and none at
 /// the first frame, which is held. Beams inside another instrument are left out. `radius` 0: that of the section.
 void layOutSamples(Beams& beams, unsigned perBeam, double radius, std::vector<BeamSample>& samples);
 
-/// Positions (mm) of the samples for the frames `x`; with `jacobian`, their weights and arms too.
+/// Positions (mm) of the samples for the frames `x`; with `jacobian`, their weights, arms and tangents too.
 void placeSamples(Beams& beams, const Rigid3::VecCoord& x, bool jacobian,
                   std::vector<BeamSample>& samples, std::vector<Vec3>& positions);
 
