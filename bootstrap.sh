@@ -22,6 +22,9 @@ packages=(
   libexpat1-dev robin-map-dev libcpp-httplib-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
+  # where a SOFA is: to run it, and to build its plugin
+  libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1
+  libtinyxml2-dev libboost-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev
 )
 
 say() { printf '\n== %s\n' "$*"; }

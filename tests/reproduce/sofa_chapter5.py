@@ -5,8 +5,8 @@
   sofa_chapter5.py SOFA PLUGIN LUMEN CASE FOLDER [NAME ...]
 
 SOFA is an installed SOFA v25.06, PLUGIN the folder of libLumenSofa.so, LUMEN the program, CASE the 3DRA's case (as README.md
-makes it), FOLDER what comes out: scenes, recorded frames, pictures, sofa_chapter5.md. NAMEs select from: guidewire (carotid to
-a branch of the middle cerebral artery), coil (a wire with a spiral rest shape into the aneurysm), touching (a wire in an
+makes it), FOLDER what comes out: scenes, recorded frames, pictures, sofa_chapter5.md. NAMEs select from: guidewire (from the
+carotid's root through the siphon), distal (from behind the aneurysm into the middle cerebral artery), coil (a wire with a spiral rest shape into the aneurysm), touching (a wire in an
 anterior cerebral artery beside another). Each runs on the implicit wall (plugin, the thesis' local models) and on meshes of
 the case's closed surface of about 100,000 and 24,000 triangles, in the same scene otherwise. libblob for the measurement
 comes from LUMEN_BLOB_LIBRARY.
@@ -28,7 +28,7 @@ MESHES = {"mesh 100k": ("--edge", "0.77r"), "mesh 24k": ("--edge", "0.8r", "--ma
 # Nitinol's effective modulus of a wound or ground guidewire is a tenth to a third of the solid's 60 GPa; its tip's less
 GUIDEWIRE = Instrument(0.18, 6.5e-6, [Section(400, 134, 2e7), Section(40, 16, 2e6, turn=40)])
 # platinum, wound: half of its 21.5e-6 kg/mm^3
-COIL = Instrument(0.15, 1e-5, [Section(2, 1, 1e6), Section(160, 80, 1e6, turn=14, pitch=1)])
+COIL = Instrument(0.15, 1e-5, [Section(2, 1, 1e6), Section(160, 80, 1e6, turn=20, pitch=1)])
 
 
 class Case:
@@ -52,14 +52,21 @@ class Case:
 
 def guidewire(case):
     n = case.nodes("ica")
-    return n[1], Scene(GUIDEWIRE, case.centre[n[1]], case.centre[n[3]] - case.centre[n[1]], 20.0, branch="ica"), 1400
+    return n[1], Scene(GUIDEWIRE, case.centre[n[1]], case.centre[n[3]] - case.centre[n[1]], 20.0, branch="ica"), 700
+
+
+def distal(case):
+    """From where the carotid has passed the aneurysm, 60 mm before the first branch of the middle cerebral artery."""
+    n = case.nodes("ica")
+    i = n[66]
+    return i, Scene(GUIDEWIRE, case.centre[i], case.centre[i + 2] - case.centre[i], 20.0, branch="ica"), 500
 
 
 def coil(case):
     n = case.nodes("aneurysm")
     inwards = case.centre[n[-1]] - case.centre[n[0]]
     start = case.centre[n[0]] - 4 * inwards / np.linalg.norm(inwards)
-    return n[0], Scene(COIL, start, inwards, 20.0, branch="aneurysm"), 650
+    return n[0], Scene(COIL, start, inwards, 20.0, branch="aneurysm"), 600
 
 
 def touching(case):
@@ -68,10 +75,10 @@ def touching(case):
     at = np.argmin(np.linalg.norm(case.centre[n] - [87.5, 205.8, 130.7], axis=1))
     way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(case.centre[n], axis=0), axis=1))])
     i = int(np.searchsorted(way, way[at] - 40))
-    return n[i], Scene(GUIDEWIRE, case.centre[n[i]], case.centre[n[i + 2]] - case.centre[n[i]], 20.0, branch="aca-1"), 450
+    return n[i], Scene(GUIDEWIRE, case.centre[n[i]], case.centre[n[i + 2]] - case.centre[n[i]], 20.0, branch="aca-1"), 400
 
 
-PARTS = {"guidewire": guidewire, "coil": coil, "touching": touching}
+PARTS = {"guidewire": guidewire, "distal": distal, "coil": coil, "touching": touching}
 
 
 def measure(case, part, scene, first, run):
@@ -138,6 +145,17 @@ def report(results, sizes):
     return "\n".join(lines) + "\n" + THESIS
 
 
+def gathered(folder, walls):
+    """What this run and earlier ones have measured, by part and wall."""
+    results = {}
+    for part in PARTS:
+        for name in walls:
+            file = folder / f"{part}-{name.replace(' ', '-')}.json"
+            if file.exists():
+                results.setdefault(part, {})[name] = json.loads(file.read_text())
+    return results
+
+
 def main():
     if len(sys.argv) < 6:
         sys.exit(__doc__)
@@ -153,7 +171,7 @@ def main():
         with open(mesh, encoding="utf-8") as file:
             sizes[name] = f" ({sum(line.startswith('f ') for line in file)} triangles)"
         walls[name] = {"mesh": str(mesh)}
-    results, surface = {}, None
+    surface = None
     for mesh in folder.glob("mesh-*.obj"):
         surface = sofa_pictures.surface_points(mesh)
     for part in sys.argv[6:] or PARTS:
@@ -165,10 +183,10 @@ def main():
             scene.record = str(folder / (stem + ".state"))
             (folder / (stem + ".scn")).write_text(scene_text(scene))
             run = run_scene(sofa, plugin, folder / (stem + ".scn"), scene.record, steps, folder)
-            results.setdefault(part, {})[name] = m = measure(case, part, scene, first, run)
+            m = measure(case, part, scene, first, run)
             print(part, row(name, m), *m["errors"][:3], sep="\n", flush=True)
             (folder / (stem + ".json")).write_text(json.dumps(m, default=float))
-            (folder / "sofa_chapter5.md").write_text(report(results, sizes))
+            (folder / "sofa_chapter5.md").write_text(report(gathered(folder, walls), sizes))
             if np.isfinite(run.frames[-1]).all():
                 wires[name] = axis_points(run.frames[-1], 5)
             if surface is not None and wires:

@@ -29,7 +29,7 @@ def draw(path, title, wires, surface):
     points = near(surface, list(wires.values()))
     figure, axes = plt.subplots(1, 2, figsize=(11, 5.5))
     for axis, (i, j), names in zip(axes, ((0, 2), (1, 2)), (("x, mm (left)", "z, mm (head)"), ("y, mm (back)", "z, mm (head)"))):
-        axis.scatter(points[:, i], points[:, j], s=0.4, c="#999999", linewidths=0)
+        axis.scatter(points[:, i], points[:, j], s=1.5, c="#999999", linewidths=0)
         for name, wire in wires.items():
             axis.plot(wire[:, i], wire[:, j], color=COLOURS.get(name, "k"), linewidth=1.2, label=name)
             axis.plot(*wire[-1, [i, j]], "o", color=COLOURS.get(name, "k"), markersize=3)
