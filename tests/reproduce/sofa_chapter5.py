@@ -12,6 +12,7 @@ the case's closed surface of about 100,000 and 24,000 triangles, in the same sce
 comes from LUMEN_BLOB_LIBRARY.
 """
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -33,7 +34,7 @@ COIL = Instrument(0.15, 1e-5, [Section(2, 1, 1e6), Section(160, 80, 1e6, turn=20
 
 class Case:
     def __init__(self, lumen, path, folder):
-        text = folder / "case.lumen.json"
+        text = folder / f"case-{os.getpid()}.lumen.json"
         subprocess.run([lumen, "convert", path, text, "--quiet"], check=True)
         tree = json.loads(text.read_text())["tree"]
         text.unlink()

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-#include <sofa/core/behavior/MechanicalState.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
+#include <sofa/core/behavior/MechanicalState.h>
 
 #include "scenes.h"
 
@@ -69,7 +69,8 @@ TEST_F(BeamBlobContact, ForcesOnSamplesAreMappedAsByBeamAdapter) {
     beams.interpolatePointUsingSpline(sample.beam, sample.share, Vec3(0, 0, 0), x, point);
     EXPECT_LT((point - points[i]).norm(), 1e-9);
     Beams::SpatialVector expected[2];
-    beams.MapForceOnNodeUsingSpline(sample.beam, sample.share, Vec3(0, 0, 0), x, force, expected[0], expected[1]);
+    beams.MapForceOnNodeUsingSpline(sample.beam, sample.share, Vec3(0, 0, 0), x, force, expected[0],
+                                    expected[1]);
     for (int end = 0; end < 2; ++end) {
       EXPECT_LT((expected[end].getForce() - force * sample.weight[end]).norm(), 1e-9);
       EXPECT_LT((expected[end].getTorque() - cross(sample.arm[end], force)).norm(), 1e-9);
@@ -135,7 +136,8 @@ TEST_F(BeamBlobContact, CursorsGoAlongWithTheWire) {
     const blob_model* model = s.contact->l_field->model();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const blob_node node = blob_model_node(model, cursors[i]);
-      ASSERT_LT(std::abs(node.centre[0] - before[i][0]), 2.0) << "sample " << i << ", step " << step;
+      ASSERT_LT(std::abs(node.centre[0] - before[i][0]), 2.0)
+          << "sample " << i << ", step " << step;
     }
   }
 }
@@ -197,7 +199,8 @@ TEST_F(BeamBlobContact, SlidesOnAnInclineAsCoulombSays) {
   const double angle = std::atan(0.4);
   for (const double friction : {0.0, 0.1, 0.3}) {
     const double expected = kGravity * (std::sin(angle) - friction * std::cos(angle));
-    EXPECT_NEAR(acceleration(friction, angle), expected, 0.02 * kGravity) << "friction " << friction;
+    EXPECT_NEAR(acceleration(friction, angle), expected, 0.02 * kGravity)
+        << "friction " << friction;
   }
 }
 

@@ -42,7 +42,8 @@ struct Messages : sofa::testing::BaseSimulationTest {
 };
 
 void expectTold(const std::string& told, const std::string& sentence) {
-  EXPECT_NE(told.find(sentence), std::string::npos) << "expected: " << sentence << "\ntold: " << told;
+  EXPECT_NE(told.find(sentence), std::string::npos)
+      << "expected: " << sentence << "\ntold: " << told;
 }
 
 TEST_F(Messages, TellWhichCaseIsMissing) {
@@ -54,7 +55,8 @@ TEST_F(Messages, TellThatAFileIsNoCase) {
 }
 
 TEST_F(Messages, TellThatACaseHasNoModels) {
-  expectTold(run(withField("unfitted.lumen")), "unfitted.lumen' has no models: 'lumen fit' makes them");
+  expectTold(run(withField("unfitted.lumen")),
+             "unfitted.lumen' has no models: 'lumen fit' makes them");
 }
 
 TEST_F(Messages, TellWhichBranchesThereAre) {

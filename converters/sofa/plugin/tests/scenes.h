@@ -2,12 +2,12 @@
 // Scenes of the tests, as text. Lengths in mm; a tube of radius 2 runs along x from 0 to 60.
 #pragma once
 
+#include <string>
+
 #include <LumenSofa/BeamBlobContact.h>
 #include <LumenSofa/BlobField.h>
 #include <sofa/simulation/Node.h>
 #include <sofa/testing/BaseSimulationTest.h>
-
-#include <string>
 
 namespace lumensofa::test {
 
@@ -61,7 +61,8 @@ inline std::string wire(const std::string& quaternion, const std::string& contac
     <AdaptiveBeamForceFieldAndMass interpolation="@interpolation"/>
     <InterventionalRadiologyController name="controller" template="Rigid3d" instruments="interpolation" topology="@grid"
         startingPos="5 0 0 )" +
-         quaternion + R"(" xtip="1" step="0.1" speed="20" rotationInstrument="0" controlledInstrument="0"
+         quaternion +
+         R"(" xtip="1" step="0.1" speed="20" rotationInstrument="0" controlledInstrument="0"
         threshold="0.001"/>
     <GenericConstraintCorrection/>
     <FixedProjectiveConstraint indices="0"/>
@@ -71,7 +72,8 @@ inline std::string wire(const std::string& quaternion, const std::string& contac
 }
 
 inline const char* const kContact =
-    "<BeamBlobContact name='contact' field='@/vessel/wall' interpolation='@interpolation' radius='0.2' friction='0.1' "
+    "<BeamBlobContact name='contact' field='@/vessel/wall' interpolation='@interpolation' "
+    "radius='0.2' friction='0.1' "
     "samples='3' alarmDistance='0.5'/>";
 
 inline std::string scene(const std::string& content, const std::string& gravity = "0 0 0") {

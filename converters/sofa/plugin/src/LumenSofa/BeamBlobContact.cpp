@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include <LumenSofa/BeamBlobContact.h>
 #include <LumenSofa/friction_from_last_step.h>
 #include <LumenSofa/stop_scene.h>
@@ -7,9 +10,6 @@
 #include <sofa/helper/AdvancedTimer.h>
 #include <sofa/helper/ScopedAdvancedTimer.h>
 #include <sofa/linearalgebra/BaseVector.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace lumensofa {
 namespace {
@@ -76,7 +76,8 @@ bool BeamBlobContact::hasValidNumbers() {
 void BeamBlobContact::init() {
   Constraint<Rigid3>::init();
   d_componentState.setValue(sofa::core::objectmodel::ComponentState::Loading);
-  if (!l_interpolation) l_interpolation.set(getContext()->get<Beams>(sofa::core::objectmodel::BaseContext::Local));
+  if (!l_interpolation)
+    l_interpolation.set(getContext()->get<Beams>(sofa::core::objectmodel::BaseContext::Local));
   if (!hasValidNumbers()) return stopScene(*this);
   if (!l_interpolation) {
     msg_error() << "no beams: link a WireBeamInterpolation or put one in the same node";
@@ -145,13 +146,15 @@ void BeamBlobContact::findContacts() {
   const std::size_t count = m_samples.size();
   const blob_model* model = l_field->model();
   m_walls.resize(count);
-  blob_query_many(model, l_field->flags(), count, packed(m_start), m_cursors.data(), m_walls.data());
+  blob_query_many(model, l_field->flags(), count, packed(m_start), m_cursors.data(),
+                  m_walls.data());
   double deepest = 0;
   for (std::size_t i = 0; i < count; ++i) deepest = std::max(deepest, -gap(i));
   d_penetration.setValue(deepest);
   predict();
   m_cursorBuffer.assign(m_cursors.begin(), m_cursors.end());
-  blob_query_many(model, l_field->flags(), count, packed(m_next), m_cursorBuffer.data(), m_walls.data());
+  blob_query_many(model, l_field->flags(), count, packed(m_next), m_cursorBuffer.data(),
+                  m_walls.data());
   m_contacts.clear();
   for (std::size_t i = 0; i < count; ++i) {
     // a point that is not finite or has no normal cannot be held
@@ -176,7 +179,8 @@ void BeamBlobContact::predict() {
     Vec3 motion(0, 0, 0);
     for (int end = 0; end < 2; ++end) {
       const Deriv& v = velocity[sample.node[end]];
-      motion += getVCenter(v) * sample.weight[end] + sofa::type::cross(getVOrientation(v), sample.arm[end]);
+      motion += getVCenter(v) * sample.weight[end] +
+                sofa::type::cross(getVOrientation(v), sample.arm[end]);
     }
     m_next[i] = m_start[i] + sample.tangent * (sample.tangent * motion * dt);
   }
@@ -279,9 +283,9 @@ void BeamBlobContact::getConstraintInfo(const ConstraintParams*, VecConstraintBl
 
 void registerBeamBlobContact(sofa::core::ObjectFactory* factory) {
   factory->registerObjects(
-      sofa::core::ObjectRegistrationData(
-          "Contact with friction of an instrument's beams with the wall of a lumen case, by samples "
-          "along each beam whose cursors follow the vessel tree.")
+      sofa::core::ObjectRegistrationData("Contact with friction of an instrument's beams with the "
+                                         "wall of a lumen case, by samples "
+                                         "along each beam whose cursors follow the vessel tree.")
           .add<BeamBlobContact>());
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include <LumenSofa/BlobField.h>
 #include <LumenSofa/beam_samples.h>
 #include <LumenSofa/config.h>
 #include <sofa/core/behavior/Constraint.h>
-
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace lumensofa {
 
@@ -17,7 +17,7 @@ namespace lumensofa {
 /// constraints. Each sample has a cursor of its own, which follows the tree; when
 /// beams are added or nodes placed anew, cursors go on by the abscissa along the instrument.
 class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Rigid3> {
- public:
+public:
   SOFA_CLASS(BeamBlobContact, SOFA_TEMPLATE(sofa::core::behavior::Constraint, Rigid3));
   using ConstraintParams = sofa::core::ConstraintParams;
   using Constraint<Rigid3>::buildConstraintMatrix;
@@ -32,9 +32,10 @@ class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Ri
   void getConstraintViolation(const ConstraintParams* params,
                               sofa::linearalgebra::BaseVector* violation, const DataVecCoord& x,
                               const DataVecDeriv& v) override;
-  void getConstraintResolution(const ConstraintParams* params,
-                               std::vector<sofa::core::behavior::ConstraintResolution*>& resolutions,
-                               unsigned int& offset) override;
+  void getConstraintResolution(
+      const ConstraintParams* params,
+      std::vector<sofa::core::behavior::ConstraintResolution*>& resolutions,
+      unsigned int& offset) override;
   void getConstraintInfo(const ConstraintParams* params, VecConstraintBlockInfo& blocks,
                          VecPersistentID& ids, VecConstCoord& positions, VecConstDeriv& directions,
                          VecConstArea& areas) override;
@@ -56,11 +57,11 @@ class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Ri
                    sofa::BaseLink::FLAG_STOREPATH | sofa::BaseLink::FLAG_STRONGLINK>
       l_interpolation;
 
- protected:
+protected:
   BeamBlobContact();
   ~BeamBlobContact() override = default;
 
- private:
+private:
   /// A row (three with friction) of the constraints.
   struct Contact {
     std::size_t sample;
@@ -81,9 +82,9 @@ class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Ri
 
   // Kept from step to step, so that a step allocates nothing once they have grown.
   std::vector<BeamSample> m_samples;
-  std::vector<double> m_abscissae;      ///< of the samples that m_cursors and m_forces belong to
+  std::vector<double> m_abscissae;       ///< of the samples that m_cursors and m_forces belong to
   std::vector<std::uint32_t> m_cursors;  ///< at the start of the step
-  std::vector<Vec3> m_forces;           ///< last step's, in the world's frame: where the solver begins
+  std::vector<Vec3> m_forces;  ///< last step's, in the world's frame: where the solver begins
   std::vector<std::size_t> m_nearest;
   std::vector<std::uint32_t> m_cursorBuffer;
   std::vector<Vec3> m_forceBuffer;

@@ -18,7 +18,9 @@ BlobField::BlobField()
   d_nodes.setReadOnly(true);
 }
 
-void BlobField::init() { load(); }
+void BlobField::init() {
+  load();
+}
 
 void BlobField::reinit() {
   m_tried = false;
@@ -58,8 +60,7 @@ std::uint32_t BlobField::cursorOf(const Vec3d& point, int domain) const {
 
 int BlobField::getDomain(Vec3d& point, int domain) {
   if (model() == nullptr) return -1;
-  return static_cast<int>(
-      blob_cursor_follow(model(), point.data(), cursorOf(point, domain)));
+  return static_cast<int>(blob_cursor_follow(model(), point.data(), cursorOf(point, domain)));
 }
 
 void BlobField::getValueAndGradient(Vec3d& point, double& value, Vec3d& gradient, int& domain) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include <LumenSofa/config.h>
 #include <LumenSofa/vessel_case.h>
 #include <SofaImplicitField/components/geometry/ScalarField.h>
 #include <sofa/core/objectmodel/DataFileName.h>
-
-#include <cstdint>
-#include <string>
 
 namespace lumensofa {
 
@@ -16,7 +16,7 @@ namespace lumensofa {
 /// (see blob.h): the node it was in, from which it moves along the tree only; -1 for a point that is new.
 /// Without a case, values and gradients are zero.
 class LUMENSOFA_API BlobField : public sofa::component::geometry::ScalarField {
- public:
+public:
   SOFA_CLASS(BlobField, sofa::component::geometry::ScalarField);
   using Vec3d = sofa::type::Vec3d;
   using Mat3x3 = sofa::type::Mat3x3;
@@ -58,11 +58,11 @@ class LUMENSOFA_API BlobField : public sofa::component::geometry::ScalarField {
   sofa::Data<std::string> d_branch;
   sofa::Data<sofa::Size> d_nodes;
 
- protected:
+protected:
   BlobField();
   ~BlobField() override = default;
 
- private:
+private:
   std::uint32_t cursorOf(const Vec3d& point, int domain) const;
 
   VesselCase m_vessel;

@@ -38,8 +38,8 @@ std::array<double, 4> bernstein(double t) {
 }
 
 // The inner control points stand on the frames: P1 = P0 + R0 (L/3, 0, 0), P2 = P3 - R1 (L/3, 0, 0).
-void setJacobian(const std::array<double, 4>& b, const std::array<Vec3, 4>& spline, const Vec3& first,
-                 const Vec3& last, BeamSample& sample) {
+void setJacobian(const std::array<double, 4>& b, const std::array<Vec3, 4>& spline,
+                 const Vec3& first, const Vec3& last, BeamSample& sample) {
   sample.weight[0] = b[0] + b[1];
   sample.weight[1] = b[2] + b[3];
   const double t = sample.share, u = 1 - t;
@@ -58,7 +58,8 @@ void layOutSamples(Beams& beams, unsigned perBeam, double radius,
   const sofa::Size count = beams.getNumBeams();
   auto* wire = dynamic_cast<beamadapter::WireBeamInterpolation<Rigid3>*>(&beams);
   if (wire == nullptr || !wire->isControlled()) {
-    for (sofa::Index beam = 0; beam < count; ++beam) addSamples(beams, beam, perBeam, radius, samples);
+    for (sofa::Index beam = 0; beam < count; ++beam)
+      addSamples(beams, beam, perBeam, radius, samples);
     return;
   }
   // the controller says which beams are outermost

@@ -2,13 +2,13 @@
 // Points on the axis of an instrument's beams, and what is carried along with them when the beams change.
 #pragma once
 
-#include <BeamAdapter/component/BaseBeamInterpolation.h>
-#include <sofa/defaulttype/RigidTypes.h>
-
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include <BeamAdapter/component/BaseBeamInterpolation.h>
+#include <sofa/defaulttype/RigidTypes.h>
 
 namespace lumensofa {
 
@@ -22,8 +22,8 @@ struct BeamSample {
   sofa::Index beam = 0;
   sofa::Index node[2] = {0, 0};  ///< frames
   double share = 0;              ///< of the beam's length, 0 to 1
-  double abscissa = 0;           ///< mm along the instrument from its handle; rises from sample to sample
-  double radius = 0;             ///< mm
+  double abscissa = 0;  ///< mm along the instrument from its handle; rises from sample to sample
+  double radius = 0;    ///< mm
   double weight[2] = {0, 0};
   Vec3 arm[2];   ///< mm
   Vec3 tangent;  ///< unit vector towards the tip

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <LumenSofa/friction_from_last_step.h>
 #include <sofa/component/constraint/lagrangian/model/UnilateralConstraintResolution.h>
-
-#include <algorithm>
 
 namespace lumensofa {
 namespace {
@@ -12,7 +12,7 @@ namespace model = sofa::component::constraint::lagrangian::model;
 
 template <class Base, int Lines>
 class FromLastStep : public Base {
- public:
+public:
   template <class... Arguments>
   FromLastStep(const Vec3 axis[3], Vec3& last, Arguments... arguments)
       : Base(arguments...), m_last(&last) {
@@ -30,7 +30,7 @@ class FromLastStep : public Base {
     for (int i = 0; i < Lines; ++i) *m_last += m_axis[i] * force[line + i];
   }
 
- private:
+private:
   void begin(int line, SReal* force) const {
     force[line] = std::max(0.0, m_axis[0] * *m_last);
     for (int i = 1; i < Lines; ++i) force[line + i] = m_axis[i] * *m_last;
@@ -46,7 +46,7 @@ sofa::core::behavior::ConstraintResolution* newResolution(double friction, const
                                                           Vec3& force) {
   if (friction > 0)
     return new FromLastStep<model::UnilateralConstraintResolutionWithFriction, 3>(axis, force,
-                                                                                 friction);
+                                                                                  friction);
   return new FromLastStep<model::UnilateralConstraintResolution, 1>(axis, force);
 }
 

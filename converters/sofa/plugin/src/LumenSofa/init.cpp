@@ -11,9 +11,15 @@ void registerBeamBlobContact(sofa::core::ObjectFactory* factory);
 extern "C" {
 
 LUMENSOFA_API void initExternalModule() {}
-LUMENSOFA_API const char* getModuleName() { return kModuleName; }
-LUMENSOFA_API const char* getModuleVersion() { return LUMEN_VERSION; }
-LUMENSOFA_API const char* getModuleLicense() { return "Apache-2.0"; }
+LUMENSOFA_API const char* getModuleName() {
+  return kModuleName;
+}
+LUMENSOFA_API const char* getModuleVersion() {
+  return LUMEN_VERSION;
+}
+LUMENSOFA_API const char* getModuleLicense() {
+  return "Apache-2.0";
+}
 LUMENSOFA_API const char* getModuleDescription() {
   return "The vessels of a lumen case as the wall of a scene";
 }

@@ -11,7 +11,8 @@ void stopScene(sofa::core::objectmodel::BaseObject& component) {
   if (root == nullptr) return;
   root->setAnimate(false);
   auto* loop = root->get<sofa::core::behavior::BaseAnimationLoop>();
-  if (loop != nullptr) loop->d_componentState.setValue(sofa::core::objectmodel::ComponentState::Invalid);
+  if (loop != nullptr)
+    loop->d_componentState.setValue(sofa::core::objectmodel::ComponentState::Invalid);
 }
 
 }  // namespace lumensofa

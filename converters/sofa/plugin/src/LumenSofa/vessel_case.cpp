@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <LumenSofa/vessel_case.h>
-
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <span>
 #include <string_view>
 #include <system_error>
+
+#include <LumenSofa/vessel_case.h>
 
 #include "formats/container/printable.h"
 #include "formats/view/case_view.h"
@@ -103,8 +103,7 @@ VesselCase openVesselCase(const std::string& path, const std::string& branch) {
 }
 
 std::uint32_t locate(const VesselCase& vessel, const double point[3]) {
-  if (vessel.branch.count == vessel.nodeCount)
-    return blob_cursor_locate(vessel.model.get(), point);
+  if (vessel.branch.count == vessel.nodeCount) return blob_cursor_locate(vessel.model.get(), point);
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t found = BLOB_NOWHERE;
   for (std::uint32_t i = 0; i < vessel.branch.count; ++i) {
