@@ -173,8 +173,8 @@ def main():
             sizes[name] = f" ({sum(line.startswith('f ') for line in file)} triangles)"
         walls[name] = {"mesh": str(mesh)}
     surface = None
-    for mesh in folder.glob("mesh-*.obj"):
-        surface = sofa_pictures.surface_points(mesh)
+    if MESHES:
+        surface = sofa_pictures.surface_points(folder / (next(iter(MESHES)).replace(" ", "-") + ".obj"))
     for part in sys.argv[6:] or PARTS:
         first, scene, steps = PARTS[part](case)
         wires = {}

@@ -29,8 +29,8 @@ Vec3 inwards(const blob_sample& wall) {
 // Two tangents that change little when the normal does: from the coordinate axis that it is least along.
 void setTangents(Vec3 axis[3]) {
   const Vec3& n = axis[0];
-  int least = 0;
-  for (int i = 1; i < 3; ++i)
+  sofa::Size least = 0;
+  for (sofa::Size i = 1; i < 3; ++i)
     if (std::abs(n[i]) < std::abs(n[least])) least = i;
   Vec3 other(0, 0, 0);
   other[least] = 1;
@@ -231,11 +231,12 @@ void BeamBlobContact::buildConstraintMatrix(const ConstraintParams*, DataMatrixD
   for (const Contact& contact : m_contacts) {
     const BeamSample& sample = m_samples[contact.sample];
     for (int k = 0; k < rows; ++k) {
-      auto line = matrix->writeLine(row++);
+      auto line = matrix->writeLine(static_cast<int>(row++));
       const Vec3& direction = contact.axis[k];
       for (int end = 0; end < 2; ++end)
-        line.addCol(sample.node[end], Deriv(direction * sample.weight[end],
-                                            sofa::type::cross(sample.arm[end], direction)));
+        line.addCol(
+            static_cast<int>(sample.node[end]),
+            Deriv(direction * sample.weight[end], sofa::type::cross(sample.arm[end], direction)));
     }
   }
 }
