@@ -52,7 +52,7 @@ TEST_F(BeamBlobContact, ForcesOnSamplesAreMappedAsByBeamAdapter) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> some(-0.3, 0.3);
   for (auto& frame : x) {
-    for (int k = 0; k < 3; ++k) frame.getCenter()[k] += some(random);
+    for (sofa::Size k = 0; k < 3; ++k) frame.getCenter()[k] += some(random);
     frame.getOrientation() = sofa::type::Quat<double>(some(random), some(random), some(random), 1);
     frame.getOrientation().normalize();
   }
@@ -146,7 +146,7 @@ TEST_F(BeamBlobContact, TheNearestSamplesAlongTheInstrumentAreFound) {
   const std::vector<double> old{1, 2, 3, 10};
   std::vector<BeamSample> samples(6);
   const double now[] = {0, 1.4, 1.5, 2.9, 7, 12};
-  for (int i = 0; i < 6; ++i) samples[i].abscissa = now[i];
+  for (std::size_t i = 0; i < 6; ++i) samples[i].abscissa = now[i];
   std::vector<std::size_t> nearest;
   nearestAlong(old, samples, nearest);
   EXPECT_EQ(nearest, (std::vector<std::size_t>{0, 0, 0, 2, 3, 3}));

@@ -46,7 +46,7 @@ TEST_F(BlobField, GivesWhatLibblobGives) {
       EXPECT_EQ(value, sample.value - blob_model_describe(model).iso_level);
       EXPECT_EQ(domain, static_cast<int>(sample.node));
       EXPECT_EQ(s.wall->getValue(point, domain), value);
-      for (int k = 0; k < 3; ++k) EXPECT_EQ(gradient[k], sample.gradient[k]);
+      for (sofa::Size k = 0; k < 3; ++k) EXPECT_EQ(gradient[k], sample.gradient[k]);
       EXPECT_EQ(s.wall->getGradient(point, domain), gradient);
     }
     blob_model_close(model);
@@ -71,13 +71,13 @@ TEST_F(BlobField, GradientAndHessianAreDerivatives) {
     const Vec3d gradient = s.wall->getGradient(point, domain);
     Mat3x3 hessian;
     s.wall->getHessian(point, hessian);
-    for (int k = 0; k < 3; ++k) {
+    for (sofa::Size k = 0; k < 3; ++k) {
       Vec3d up = point, down = point;
       up[k] += kStep;
       down[k] -= kStep;
       EXPECT_NEAR((s.wall->getValue(up) - s.wall->getValue(down)) / (2 * kStep), gradient[k], 2e-3);
       const Vec3d change = (s.wall->getGradient(up) - s.wall->getGradient(down)) / (2 * kStep);
-      for (int j = 0; j < 3; ++j) EXPECT_NEAR(change[j], hessian(j, k), 5e-3);
+      for (sofa::Size j = 0; j < 3; ++j) EXPECT_NEAR(change[j], hessian(j, k), 5e-3);
     }
   }
 }
