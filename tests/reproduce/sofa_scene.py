@@ -41,7 +41,7 @@ class Scene:
     dt: float = 0.01
     friction: float = 0.1
     alarm: float = 0.5     # mm
-    mesh_alarm: float = 1.0
+    mesh_alarm: float = 0.5
     samples: int = 2
     rotation: float = 0.0
     record: str = "instrument"
