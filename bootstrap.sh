@@ -21,6 +21,7 @@ packages=(
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
   libexpat1-dev robin-map-dev libcpp-httplib-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
+  clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
   libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
   # where a SOFA is: to run it, and to build its plugin
   libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1
@@ -173,8 +174,10 @@ install_test_packages() {
   have_node || packages+=(nodejs npm)
   # the JSON answers against their schemas, what judges the manual page, and what reads VTP
   packages+=(python3-jsonschema groff-base mandoc python3-vtk9)
+  # the viewer's page, as a person would use it
+  packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
-  packages+=(libembree-dev libmujoco-dev emscripten python3-numpy)
+  packages+=(libembree-dev libmujoco-dev python3-numpy)
   install_packages "${packages[@]}" "$@"
 }
 

@@ -6,6 +6,7 @@
 #include "converters/app/file_access.h"
 #include "converters/app/mask_input.h"
 #include "converters/app/mesh_input.h"
+#include "converters/app/mesh_options.h"
 #include "converters/app/reachable.h"
 #include "converters/app/report.h"
 #include "converters/app/stages.h"

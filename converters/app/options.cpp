@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "converters/app/option_group.h"
 #include "converters/app/suggestion.h"
 #include "converters/app/value_checks.h"
 #include "converters/common/error.h"
@@ -15,13 +16,8 @@ namespace lumen::app {
 
 namespace {
 
-// a kilometre: nothing in a body is as long
-constexpr double kLongest = 1e6;
-
 const CLI::Validator kShare = numberIn({0, 1});
 const CLI::Validator kOpenShare = numberIn({0, 1, true});
-const CLI::Validator kPositive = numberIn({0, kLongest, true});
-const CLI::Validator kNotNegative = numberIn({0, kLongest});
 const CLI::Validator kWeight = numberIn({0, 1e6});
 const CLI::Validator kScale = numberIn({1e-3, 1e3});
 // cases store it as a signed number
@@ -31,77 +27,11 @@ const CLI::Validator kRandomSeed = wholeIn(0, std::numeric_limits<std::int64_t>:
 const std::map<std::string, double> kMillimetresOf = {
     {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
 
-template <class T>
-std::vector<std::string> wordsOf(const std::map<std::string, T>& named) {
-  std::vector<std::string> words;
-  for (const auto& [word, value] : named) words.push_back(word);
-  return words;
-}
-
 /// What --seeds-frame takes.
 const std::map<std::string, convert::SeedSystem> kSeedSystems = {
     {"lps", convert::SeedSystem::Lps},
     {"ras", convert::SeedSystem::Ras},
     {"voxel", convert::SeedSystem::Voxel}};
-
-/// What --mesh-per and --color take; without the option it is the first value of its type.
-const std::map<std::string, convert::MeshPer> kMeshPer = {{"whole", convert::MeshPer::Whole},
-                                                          {"branch", convert::MeshPer::Branch}};
-const std::map<std::string, convert::ColorBy> kColorBy = {
-    {"none", convert::ColorBy::None},
-    {"branch", convert::ColorBy::Branch},
-    {"radius", convert::ColorBy::Radius},
-    {"confidence", convert::ColorBy::Confidence}};
-
-CLI::Validator within(int low, int high) {
-  return wholeIn(low, high);
-}
-
-/// Adds options of one help group whose defaults are the values that the variables hold.
-class Group {
-public:
-  Group(CLI::App& app, std::string title) : m_app(app), m_title(std::move(title)) {}
-
-  template <class T>
-  CLI::Option* add(const std::string& name, T& value, const std::string& type,
-                   const std::string& help) {
-    return m_app.add_option(name, value, help)
-        ->type_name(type)
-        ->group(m_title)
-        ->capture_default_str();
-  }
-  /// A length that follows the voxel size unless it is given.
-  CLI::Option* addScaled(const std::string& name, std::optional<double>& value,
-                         const std::string& help, const std::string& defaultText) {
-    return m_app.add_option(name, value, help + " [" + defaultText + "]")
-        ->type_name("MM")
-        ->group(m_title)
-        ->check(kPositive);
-  }
-  CLI::Option* addFlag(const std::string& name, bool& value, const std::string& help) {
-    return m_app.add_flag(name, value, help)->group(m_title);
-  }
-  /// One of the words of `named`, of which the value that the variable holds is the default.
-  template <class T>
-  CLI::Option* addChoice(const std::string& name, T& value, const std::map<std::string, T>& named,
-                         const std::string& help) {
-    std::string word;
-    for (const auto& [known, meaning] : named)
-      if (meaning == value) word = known;
-    return m_app
-        .add_option_function<std::string>(
-            name, [&value, &named](const std::string& found) { value = named.at(found); },
-            help + ": " + alternatives(wordsOf(named)))
-        ->type_name("WORD")
-        ->group(m_title)
-        ->default_str(word)
-        ->check(oneOf(wordsOf(named)));
-  }
-
-private:
-  CLI::App& m_app;
-  std::string m_title;
-};
 
 /// What --spacing takes; each number of it is checked.
 Eigen::Vector3d spacingOf(const std::string& text) {
@@ -144,7 +74,7 @@ convert::FitOptions FitArguments::options() const {
 }
 
 void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
-  Group group(app, "Volume");
+  OptionGroup group(app, "Volume");
   group.add(
       "--series", volume.series, "ID",
       "DICOM series: its instance UID, or its number in the list that is printed when a folder "
@@ -153,7 +83,7 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
       ->option_text("I0,I1,J0,J1,K0,K1")
       ->group("Volume")
       ->delimiter(',')
-      ->check(within(0, std::numeric_limits<int>::max()))
+      ->check(wholeIn(0, std::numeric_limits<int>::max()))
       ->expected(6);
   app.add_option("--spacing", volume.spacing,
                  "Distance of voxels along i, j and k, or of all, in mm, whatever the file says")
@@ -167,7 +97,7 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
          "whatever the file says")
       ->type_name("UNIT")
       ->group("Volume")
-      ->check(oneOf(wordsOf(kMillimetresOf)));
+      ->check(oneOf(namesOf(kMillimetresOf)));
   app.add_option("--allow-detached", volume.allowDetached,
                  "Allow a header to take its voxels, or a scene its mesh, from this file, or from "
                  "below this folder; otherwise only from its own folder. May be given several "
@@ -179,7 +109,7 @@ void addVolumeOptions(CLI::App& app, VolumeArguments& volume) {
 }
 
 void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding) {
-  Group group(app, "Case file");
+  OptionGroup group(app, "Case file");
   group.addFlag(
       "--compress", encoding.compress,
       "Compress the chunks of a .lumen file with zstd; they can no longer be used in place");
@@ -187,14 +117,14 @@ void addEncodingOptions(CLI::App& app, formats::EncodeOptions& encoding) {
                  "Round wall points to so many bits in their bounding box, 1 to 30 [exact]")
       ->type_name("N")
       ->group("Case file")
-      ->check(within(1, 30));
+      ->check(wholeIn(1, 30));
 }
 
 void addTrackOptions(CLI::App& app, TrackArguments& track) {
   convert::TrackOptions& o = track.options;
-  Group volume(app, "Volume");
+  OptionGroup volume(app, "Volume");
   volume.addFlag("--dark", o.dark, "Vessels are darker than their background");
-  Group group(app, "Tracking");
+  OptionGroup group(app, "Tracking");
   addFile(app, "--seeds", track.seeds,
           "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv)")
       ->group("Tracking");
@@ -203,13 +133,13 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
                  "(indices; radii in the file's unit)")
       ->type_name("FRAME")
       ->group("Tracking")
-      ->check(oneOf(wordsOf(kSeedSystems)));
+      ->check(oneOf(namesOf(kSeedSystems)));
   app.add_option("--seeds-unit", track.seedsUnit,
                  "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or "
                  "um")
       ->type_name("UNIT")
       ->group("Tracking")
-      ->check(oneOf(wordsOf(kMillimetresOf)));
+      ->check(oneOf(namesOf(kMillimetresOf)));
   group.add("--inlier-rate", o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
       ->check(kOpenShare);
   group
@@ -220,11 +150,11 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
       ->check(oneOf({12, 42, 162, 642}));
   group.add("--axes", o.axes, "N", "Candidate axes of a node: 6, 21, 81 or 321")
       ->check(oneOf({6, 21, 81, 321}));
-  group.add("--samples", o.samples, "N", "Samples on a ray")->check(within(8, 4096));
+  group.add("--samples", o.samples, "N", "Samples on a ray")->check(wholeIn(8, 4096));
   group.add("--min-trials", o.minTrials, "N", "Fewest random circles for each axis")
-      ->check(within(1, 1000000));
+      ->check(wholeIn(1, 1000000));
   group.add("--max-trials", o.maxTrials, "N", "Most random circles for each axis")
-      ->check(within(1, 1000000));
+      ->check(wholeIn(1, 1000000));
   group.add("--step", o.step, "S", "Prediction step, in cylinder heights")
       ->check(numberIn({0, 2, true}));
   group
@@ -234,7 +164,7 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
   group
       .add("--look-ahead", o.lookAhead, "N",
            "Steps to look beyond a place where nothing fits; 0: stop there")
-      ->check(within(0, 100));
+      ->check(wholeIn(0, 100));
   group
       .add("--branch-offset", o.branchOffset, "S",
            "A child starts this many parent radii from its parent's centerline")
@@ -260,7 +190,7 @@ void addTrackOptions(CLI::App& app, TrackArguments& track) {
                "until all are about as blurred [on]")
       ->group("Tracking");
   group.add("--max-nodes", o.maxNodes, "N", "Bound on the nodes of one branch")
-      ->check(within(2, std::numeric_limits<int>::max()));
+      ->check(wholeIn(2, std::numeric_limits<int>::max()));
   group.add("--random-seed", o.seed, "K", "Seed of the random numbers")->check(kRandomSeed);
 }
 
@@ -281,7 +211,7 @@ void addCenterlineOptions(CLI::App& app, MeshArguments& mesh) {
                  "Unit of --centerline: mm, cm, m or um [as its file says, or that of the mesh]")
       ->type_name("UNIT")
       ->group("Surface")
-      ->check(oneOf(wordsOf(kMillimetresOf)));
+      ->check(oneOf(namesOf(kMillimetresOf)));
 }
 
 void addSceneOptions(CLI::App& app, MeshArguments& mesh) {
@@ -314,7 +244,7 @@ void addMaskOptions(CLI::App& app, MaskArguments& mask) {
 
 void addFitOptions(CLI::App& app, FitArguments& fit) {
   convert::FitOptions& o = fit.values;
-  Group group(app, "Fitting");
+  OptionGroup group(app, "Fitting");
   const std::vector<std::string> kernels(formats::kKernelNames.begin(),
                                          formats::kKernelNames.end());
   group.add("--kernel", fit.kernel, "NAME", alternatives(kernels))->check(oneOf(kernels));
@@ -330,13 +260,13 @@ void addFitOptions(CLI::App& app, FitArguments& fit) {
   group.add("--cohesion-scale", o.cohesionScale, "S", "Scale s of the Lennard-Jones energy")
       ->check(kScale);
   group.add("--max-subdivisions", o.maxSubdivisions, "N", "Most blob subdivisions in one node")
-      ->check(within(0, 1000));
+      ->check(wholeIn(0, 1000));
   group
       .add("--neighbourhood", o.neighbourhood, "N",
            "Topological distance of the nodes whose points a node is fitted to")
-      ->check(within(0, 100));
+      ->check(wholeIn(0, 100));
   group.add("--seam-sweeps", o.seamSweeps, "N", "Sweeps that tie adjacent models to one another")
-      ->check(within(0, 100));
+      ->check(wholeIn(0, 100));
   group.add("--seam-weight", o.seamWeight, "W", "Weight of a tie, in wall points")->check(kWeight);
   group.addScaled("--iso-level", o.isoLevel, "Iso-level T", "half a voxel");
   group.addScaled("--accuracy", o.accuracy, "Subdivide until no point is farther than this",
@@ -346,106 +276,12 @@ void addFitOptions(CLI::App& app, FitArguments& fit) {
   group.addScaled("--min-width", o.minWidth, "Drop blobs narrower than this", "0.1 voxel");
 }
 
-namespace {
-
-void setEdge(convert::EdgeLength& edge, const std::string& text) {
-  const convert::Length length = convert::parseLength(text, "--edge");
-  edge.share = length.radii;
-  if (length.mm > 0) edge.minimum = edge.maximum = length.mm;
-}
-
-/// The closed surface.
-void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
-  Group group(app, "Mesh");
-  const auto addLength = [&](const std::string& name, std::function<void(const std::string&)> set,
-                             const std::string& help) {
-    return app.add_option_function<std::string>(name, std::move(set), help)
-        ->type_name("LENGTH")
-        ->group("Mesh");
-  };
-  addLength(
-      "--edge", [&](const std::string& text) { setEdge(surface.edge, text); },
-      "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
-      ->default_str("0.25r");
-  group.add("--edge-min", surface.edge.minimum, "MM", "Least length of edges")->check(kNotNegative);
-  app.add_option("--edge-max", surface.edge.maximum, "Greatest length of edges")
-      ->type_name("MM")
-      ->group("Mesh")
-      ->check(kPositive);
-  group.addScaled("--gap", surface.gap, "What touching vessels keep between them",
-                  "0.1 voxels, or 0.05 of the least radius");
-  group.addFlag("--open", surface.open, "Leave the flat ends of vessels open");
-  app.add_option_function<std::vector<std::string>>(
-         "--extend",
-         [&](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts)
-             surface.extend.push_back(convert::parseEndLength(text, "--extend"));
-         },
-         "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
-      ->option_text("[LABEL=]LENGTH")
-      ->group("Mesh");
-  addLength(
-      "--thickness",
-      [&](const std::string& text) {
-        surface.thickness = convert::parseLength(text, "--thickness");
-      },
-      "A solid wall of this thickness around the lumen, such as 0.5 (mm) or 0.2r; thinner where "
-      "vessels touch, which is told");
-  group
-      .add(
-          "--max-error", surface.maxError, "MM",
-          "Drop triangles as long as the surface stays within this distance of that with all, both "
-          "ways; 0: none")
-      ->check(kNotNegative);
-}
-
-}  // namespace
-
-void addMeshOptions(CLI::App& app, OutputOptions& output) {
-  convert::WriteMeshOptions& mesh = output.mesh;
-  addSurfaceOptions(app, output.surface);
-  Group group(app, "Mesh");
-  group.addFlag(
-      "--patches", output.patches,
-      "Give the surface in pieces, one group of faces for each branch, which meet but are "
-      "not joined");
-  group
-      .add("--cell", output.polygonise.cell, "MM",
-           "With --patches: edge of a marching-cubes cell; 0: the voxel size")
-      ->check(kNotNegative);
-  group
-      .add("--lod", output.surface.levels, "N",
-           "Levels of detail in one glTF, each with a quarter of the triangles (MSFT_lod)")
-      ->check(within(1, 8));
-  group.addChoice("--mesh-per", mesh.per, kMeshPer, "glTF: one mesh, or one for each branch");
-  group.addChoice("--color", mesh.color, kColorBy,
-                  "glTF: colours of vertices, which all kinds of colour vision tell apart");
-  group.addFlag("--stl-solids", mesh.stlSolids,
-                "Write STL as text with one named solid for each group of faces, as OpenFOAM takes "
-                "it");
-  CLI::Option* meshopt = group.addFlag(
-      "--meshopt", mesh.meshopt,
-      "Compress glTF with EXT_meshopt_compression, to a micrometre; not for the f3d of "
-      "Debian 12, which crashes on any such file");
-  group
-      .addFlag("--draco", mesh.draco,
-               "Compress glTF with KHR_draco_mesh_compression; not for the f3d of Debian 12, "
-               "which crashes on any such file")
-      ->excludes(meshopt);
-  group
-      .add("--draco-position-bits", mesh.dracoPositionBits, "N",
-           "Bits of a position in the bounding box of the mesh")
-      ->check(within(1, 30));
-  group.add("--draco-normal-bits", mesh.dracoNormalBits, "N", "Bits of a normal")
-      ->check(within(2, 30));
-}
-
 void addPhantomOptions(CLI::App& app, convert::PhantomOptions& phantom) {
-  Group group(app, "Phantom");
+  OptionGroup group(app, "Phantom");
   group
       .add("--size", phantom.size, "N",
            "Voxels along an edge; 0: 128, or 256 for patient; not with --tree")
-      ->check(within(0, 1024));
+      ->check(wholeIn(0, 1024));
   group.add("--voxel", phantom.voxel, "MM", "Edge of a voxel")->check(numberIn({0.01, 10}));
   group
       .add("--slice-thickness", phantom.sliceThickness, "MM",

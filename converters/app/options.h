@@ -8,7 +8,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "converters/app/file_format.h"
 #include "converters/app/mask_input.h"
 #include "converters/app/mesh_input.h"
 #include "converters/fitting/fit.h"
@@ -50,7 +49,6 @@ void addCenterlineOptions(CLI::App& app, MeshArguments& mesh);
 void addSceneOptions(CLI::App& app, MeshArguments& mesh);
 void addMaskOptions(CLI::App& app, MaskArguments& mask);
 void addFitOptions(CLI::App& app, FitArguments& fit);
-void addMeshOptions(CLI::App& app, OutputOptions& output);
 void addPhantomOptions(CLI::App& app, convert::PhantomOptions& phantom);
 
 }  // namespace lumen::app

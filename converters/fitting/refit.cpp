@@ -5,6 +5,7 @@
 #include <string>
 
 #include "converters/common/edit_steps.h"
+#include "converters/common/recorded_options.h"
 #include "converters/fitting/node_models.h"
 #include "converters/fitting/open_edges.h"
 #include "formats/case/enum_names.h"
@@ -12,42 +13,10 @@
 namespace lumen::convert {
 namespace {
 
-/// The parameters of a step, each read only if it is of the type that is wanted.
-class Recorded {
-public:
-  explicit Recorded(const formats::Step& step) : m_step(step) {}
-
-  void read(const char* name, double& out) const {
-    if (const double* found = get<double>(name)) out = *found;
-    if (const std::int64_t* found = get<std::int64_t>(name)) out = static_cast<double>(*found);
-  }
-  void read(const char* name, std::optional<double>& out) const {
-    double value = 0;
-    read(name, value);
-    if (value > 0) out = value;
-  }
-  void read(const char* name, int& out) const {
-    const std::int64_t* found = get<std::int64_t>(name);
-    if (found && *found >= 0 && *found <= 1000) out = static_cast<int>(*found);
-  }
-  [[nodiscard]] formats::Kernel kernel() const {
-    const std::string* name = get<std::string>("kernel");
-    return formats::enumFromName<formats::Kernel>(formats::kKernelNames, name ? *name : "")
-        .value_or(formats::Kernel::Cauchy);
-  }
-
-private:
-  template <class Type>
-  [[nodiscard]] const Type* get(const char* name) const {
-    const auto found = m_step.parameters.find(name);
-    return found == m_step.parameters.end() ? nullptr : std::get_if<Type>(&found->second);
-  }
-
-  const formats::Step& m_step;
-};
+constexpr int kMostWhole = 1000;  ///< of an option that counts; a file may say anything
 
 FitOptions readOptions(const formats::Step& step) {
-  const Recorded recorded(step);
+  const RecordedOptions recorded(step);
   FitOptions options;
   recorded.read("cohesion-weight", options.cohesionWeight);
   recorded.read("curvature-weight", options.curvatureWeight);
@@ -61,7 +30,15 @@ FitOptions readOptions(const formats::Step& step) {
   recorded.read("min-width", options.minWidth);
   recorded.read("iso-level", options.isoLevel);
   recorded.read("kernel-parameter", options.kernelParameter);
-  options.kernel = recorded.kernel();
+  std::string kernel;
+  recorded.read("kernel", kernel);
+  options.kernel = formats::enumFromName<formats::Kernel>(formats::kKernelNames, kernel)
+                       .value_or(formats::Kernel::Cauchy);
+  for (auto* value : {&options.accuracy, &options.maxDistance, &options.minWidth, &options.isoLevel,
+                      &options.kernelParameter})
+    if (*value && !(**value > 0)) value->reset();  // no fit has such, but a file may
+  for (auto* count : {&options.maxSubdivisions, &options.neighbourhood, &options.seamSweeps})
+    *count = std::min(*count, kMostWhole);
   return options;
 }
 

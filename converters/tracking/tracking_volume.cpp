@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/common/edit_steps.h"
+#include "converters/common/recorded_options.h"
 #include "converters/tracking/known_tracks.h"
 
 namespace lumen::convert {
@@ -52,33 +53,6 @@ void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
                      "--dark");
 }
 
-/// Parameters of a step, each read only if it is of the type that is wanted.
-class Recorded {
-public:
-  explicit Recorded(const formats::Step& step) : m_step(step) {}
-
-  void read(const char* name, int& out) const {
-    const auto* found = get<std::int64_t>(name);
-    if (found && *found >= 0 && *found <= INT32_MAX) out = static_cast<int>(*found);
-  }
-  template <class Type>
-  void read(const char* name, Type& out) const {
-    if (const auto* found = get<Type>(name)) out = *found;
-  }
-  void read(const char* name, std::optional<double>& out) const {
-    if (const auto* found = get<double>(name)) out = *found;
-  }
-
-private:
-  template <class Type>
-  [[nodiscard]] const Type* get(const char* name) const {
-    const auto found = m_step.parameters.find(name);
-    return found == m_step.parameters.end() ? nullptr : std::get_if<Type>(&found->second);
-  }
-
-  const formats::Step& m_step;
-};
-
 TrackOptions optionsFor(const formats::Case& tracked) {
   if (auto options = recordedTrackOptions(tracked)) return *std::move(options);
   throw invalidInput(
@@ -103,7 +77,7 @@ std::vector<SeedBranch> clicksOf(const formats::Case& tracked) {
 std::optional<TrackOptions> recordedTrackOptions(const formats::Case& value) {
   const formats::Step* step = lastStep(value.metadata, "track");
   if (!step) return std::nullopt;
-  const Recorded recorded(*step);
+  const RecordedOptions recorded(*step);
   TrackOptions o;
   recorded.read("inlier-rate", o.inlierRate);
   recorded.read("inlier-band", o.inlierBand);

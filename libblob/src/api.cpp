@@ -47,11 +47,15 @@ template <class Construct>
 blob_status construct(blob_model** model, Construct run) noexcept {
   if (model == nullptr) return BLOB_ERROR_ARGUMENT;
   *model = nullptr;
+#ifdef __cpp_exceptions
   try {
     return run();
   } catch (...) {
     return BLOB_ERROR_MEMORY;
   }
+#else
+  return run();  // in WebAssembly, which traps when memory ends
+#endif
 }
 
 // The node of a query at a point that can be evaluated; false for the others.

@@ -29,6 +29,14 @@ MappedFile::~MappedFile() {
 }
 
 }  // namespace lumen::blob
+#elif defined(__wasm__)
+namespace lumen::blob {
+
+// there are no files, and streams would be most of the library
+MappedFile::MappedFile(const char*) {}
+MappedFile::~MappedFile() = default;
+
+}  // namespace lumen::blob
 #else
 #include <fstream>
 

@@ -17,13 +17,7 @@ const kOpenDef = 20, kInfo = 96, kMessage = 500; // blob_open_def, blob_model_in
 
 /** Compiles and starts the library. @param {BufferSource} wasm the bytes of blob.wasm @returns {Promise<Blob>} */
 export async function load(wasm) {
-  const module = await WebAssembly.compile(wasm);
-  /** @type {Record<string, Record<string, () => number>>} */
-  const imports = {};
-  // only blob_model_open() and messages of the C library would call the host: "not supported" (WASI 52)
-  for (const { module: from, name } of WebAssembly.Module.imports(module))
-    (imports[from] ??= {})[name] = () => 52;
-  const exports = /** @type {any} */ ((await WebAssembly.instantiate(module, imports)).exports);
+  const { instance } = await WebAssembly.instantiate(wasm), exports = /** @type {any} */ (instance.exports);
   exports._initialize?.();
   return new Blob(exports);
 }

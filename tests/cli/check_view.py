@@ -52,6 +52,37 @@ class Viewer:
         return self.process.returncode, err, left
 
 
+def survive_kill(where):
+    """What is not saved is on disk within seconds, and offered after a kill that nothing can catch."""
+    kept = where / "tube.unsaved.2.lumen"  # the first name is taken by what main() has left
+    killed = Viewer("tube.lumen", cwd=where)
+    killed.do(op="rename", branch=0, label="survivor")
+    while not kept.exists(): time.sleep(0.1)  # its name appears with all of it
+    killed.end(signal.SIGKILL)
+    expect("valid after a kill", run("validate", kept.name, cwd=where).returncode, 0)
+    again = Viewer("tube.lumen", cwd=where)
+    expect("offered", again.state()["unsavedBefore"], ["tube.unsaved.2.lumen", "tube.unsaved.lumen", "tube.unsaved.seeds.json"])
+    again.do(op="recover", index=0)
+    again.wait()
+    again.do(op="save")
+    code, err, _ = again.end()
+    expect("end after recovering", code, 0)
+    expect("said", f"{kept.name} holds work that was not saved" in err, True)
+    expect("recovered", run("info", "tube.lumen", cwd=where).stdout.count("survivor") > 0, True)
+
+
+def look_at_folder(where):
+    folder = Viewer(".", cwd=where)
+    library = json.loads(folder.get("library"))
+    expect("cases of the folder", [case["name"] for case in library["cases"]], ["other.lumen", "tube.lumen"])
+    folder.do(op="openCase", index=1)
+    folder.wait()
+    expect("opened", (folder.state()["title"], folder.state()["saveAs"]), ("tube.lumen", "tube.lumen"))
+    expect("end of the folder", folder.end()[0], 0)
+    answer = run("view", ".", "--html", "page.html", cwd=where)
+    expect("a folder as one file", answer.returncode, 2)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         where = pathlib.Path(folder)
@@ -89,6 +120,8 @@ def main():
         code, err, left = second.end(signal.SIGTERM)
         expect("exit code after SIGTERM", (code, left), (0, []))
         expect("nothing to rescue", "unsaved" in err, False)
+        survive_kill(where)
+        look_at_folder(where)
         if (pathlib.Path(LUMEN).parent / "../../viewer/page/page.js").exists():
             answer = run("view", "tube.lumen", "--html", "page.html", "--json", "--quiet", cwd=folder)
             expect("one file", answer.returncode, 0)

@@ -17,5 +17,11 @@ export default tseslint.config(
         { property: "insertAdjacentHTML", message: "Texts of a case are never markup: use textContent." }],
     },
   },
+  { // Node's globals, and of the browser those that a test runs in the page
+    files: ["people/*.mjs"],
+    languageOptions: { globals: Object.fromEntries(["process", "console", "Buffer", "setTimeout", "requestAnimationFrame", "atob", "btoa", "Blob", "File", "DataTransfer",
+      "createImageBitmap", "OffscreenCanvas", "document", "performance"].map(name => [name, "readonly"])) },
+    rules: { "max-lines": ["error", { max: 400 }] },
+  },
   { files: ["*.mjs"], languageOptions: { globals: { process: "readonly", console: "readonly", URL: "readonly" } } },
 );

@@ -14,8 +14,10 @@
 #include "converters/app/report.h"
 #include "converters/app/value_checks.h"
 #include "converters/common/error.h"
+#include "formats/container/printable.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/html_page.h"
+#include "viewer/server/idle.h"
 #include "viewer/server/server.h"
 
 namespace lumen::viewer {
@@ -27,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kTick{100};    // how soon Ctrl-C is heard
 constexpr std::chrono::seconds kLook{1};           // between two looks at the files on disk
+constexpr std::chrono::seconds kKeep{5};           // between two writings of what is not saved
 constexpr std::chrono::seconds kWithoutPages{60};  // a page that is loaded again takes seconds
 
 class ViewCommand : public app::Command {
@@ -37,14 +40,18 @@ public:
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen view head.nrrd head.lumen\n"
-           "  lumen view head.lumen --html head.html";
+           "  lumen view cases/\n"
+           "  lumen view head.lumen --html head.html\n"
+           "It ends with Ctrl-C, or when the last page has been gone for a minute; both are a "
+           "normal "
+           "end, with exit code 0.";
   }
 
   void bind(CLI::App& app) override {
     app.add_option("FILE", m_files,
                    "Volumes, cases, seeds, centerlines and meshes, in any order; of two cases the "
                    "second is the truth. A case that is not there yet, beside a volume, is where "
-                   "the page saves")
+                   "the page saves. Or one folder of cases, among which the page chooses")
         ->type_name("")
         ->check(app::fileName());
     app.add_flag("--no-browser", m_noBrowser, "Print the address only, and open no browser");
@@ -58,20 +65,44 @@ public:
         ->check(app::fileName());
     app.add_flag("--html-volume", m_htmlVolume,
                  "With --html: the volume too, around the case and with 8 bits a voxel");
+    app.add_flag("--html-points", m_htmlPoints,
+                 "With --html: the wall points too, which are most of a case");
     app::addVolumeOptions(app, m_options.volume);
   }
 
   int run(app::Context& context) override {
-    if (m_htmlVolume && m_html.empty())
-      throw Error(ErrorKind::Usage, "--html-volume needs --html FILE");
+    if ((m_htmlVolume || m_htmlPoints) && m_html.empty())
+      throw Error(ErrorKind::Usage, std::string(m_htmlVolume ? "--html-volume" : "--html-points") +
+                                        " needs --html FILE");
     if (!m_html.empty()) app::requireWritable(m_html, app::ContentKind::Other);
     Session session(m_options);
-    openFiles(session, context);
+    if (!openFolder(session)) openFiles(session, context);
+    tellUnsaved(session, context);
     if (!m_html.empty()) return writeHtml(session, context);
     return serve(session, context);
   }
 
 private:
+  /// A folder that holds cases; one without is a series of images.
+  bool openFolder(Session& session) const {
+    if (m_files.size() != 1 || !fs::is_directory(m_files.front())) return false;
+    std::vector<fs::path> cases = casesIn(m_files.front());
+    if (cases.empty()) return false;
+    if (!m_html.empty())
+      throw Error(ErrorKind::Usage,
+                  m_files.front() + ": --html shows one case, not a folder of them");
+    session.openLibrary(m_files.front(), std::move(cases));
+    return true;
+  }
+
+  /// What an earlier program could not save.
+  void tellUnsaved(Session& session, app::Context& context) const {
+    if (!m_html.empty()) return;
+    for (const std::string& file : session.findUnsaved())
+      context.progress.warn(formats::printable(file) +
+                            " holds work that was not saved; the page offers it under \"Files\"");
+  }
+
   /// Volumes first, which seeds in voxels need, then cases.
   void openFiles(Session& session, app::Context& context) {
     const std::optional<std::string> output = newCase();
@@ -116,7 +147,8 @@ private:
     context.interrupts.watchOutput(m_html);
     HtmlOptions options;
     options.volume = m_htmlVolume;
-    const std::string page = htmlPage(session, findPageFiles(), options);
+    options.points = m_htmlPoints;
+    const std::string page = htmlPage(session, findPageFiles(), options, context.progress);
     app::writeText(page, m_html);
     if (context.common.json)
       app::answerJson({{"html", m_html}, {"bytes", page.size()}});
@@ -131,7 +163,7 @@ private:
       context.progress.warn(
           "the page of the viewer was not built, so there is nothing to see; ./bootstrap.sh demo "
           "builds it, with npm");
-    Server server(session, std::move(page), m_port);
+    Server server(session, std::move(page), {m_port});
     // dropped files lie there, and are removed however this ends
     context.interrupts.watchOutput(fs::temp_directory_path() / "lumen-view");
     if (context.common.json)
@@ -145,30 +177,45 @@ private:
     session.cancelAll();
     session.wait();
     server.stop();
-    if (const auto rescued = session.rescue())
-      context.progress.warn("what was not saved is in " + *rescued);
+    for (const std::string& file : session.keepUnsaved())
+      context.progress.warn("what was not saved is in " + formats::printable(file));
     return 0;
   }
 
   /// Until Ctrl-C, or until the last page has been gone for long enough.
   void waitForEnd(Session& session, const app::Context& context) const {
-    bool hadPage = false;
-    Clock::time_point lastPage = Clock::now(), lastLook = lastPage;
+    Clock::time_point lastLook = Clock::now(), lastKept = lastLook;
+    IdleEnd idle(kWithoutPages, lastLook);
+    bool kept = true;
     while (!context.progress.cancelled()) {
       std::this_thread::sleep_for(kTick);
       const auto now = Clock::now();
-      if (session.events().count() > 0) hadPage = true;
-      if (session.events().count() > 0 || session.isBusy()) lastPage = now;
-      if (!m_keep && hadPage && now - lastPage > kWithoutPages) return;
+      const bool isOver = idle.isOver(session.events().count(), session.isBusy(), now);
+      if (isOver && !m_keep) return;
       if (now - lastLook < kLook) continue;
       lastLook = now;
       session.lookAtFiles();
+      if (now - lastKept < kKeep) continue;
+      lastKept = now;
+      kept = keep(session, context, kept);
+    }
+  }
+
+  /// Whether what is not saved could be written; if not, that is said once.
+  static bool keep(Session& session, const app::Context& context, bool before) {
+    try {
+      session.keepUnsaved();
+      return true;
+    } catch (const std::exception& error) {
+      if (before)
+        context.progress.warn("what is not saved cannot be kept: " + std::string(error.what()));
+      return false;
     }
   }
 
   std::vector<std::string> m_files;
   std::string m_html;
-  bool m_noBrowser = false, m_keep = false, m_htmlVolume = false;
+  bool m_noBrowser = false, m_keep = false, m_htmlVolume = false, m_htmlPoints = false;
   int m_port = 0;
   SessionOptions m_options;
 };

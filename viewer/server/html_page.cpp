@@ -9,6 +9,9 @@
 #include "converters/common/error.h"
 #include "converters/common/vectors.h"
 #include "formats/case/base64.h"
+#include "formats/case/binary_encode.h"
+#include "viewer/session/case_pack.h"
+#include "viewer/session/compact_pack.h"
 
 namespace lumen::viewer {
 
@@ -104,12 +107,24 @@ std::string volumeOf(const Document& document) {
   return bytes;
 }
 
-/// What the page finds instead of a server: names and base64.
+/// What libblob needs of a case: its tree and models.
+std::string modelsOf(const formats::Case& value) {
+  formats::Case models;
+  models.metadata = value.metadata;
+  models.tree = value.tree;
+  models.models = value.models;
+  const std::vector<std::byte> bytes = formats::encodeBinary(models);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// What the page finds instead of a server: names, and base64 of what is compressed.
 class Embedded {
 public:
-  void add(const std::string& name, std::string_view bytes) { m_parts[name] = base64Of(bytes); }
-  void add(const std::string& name, const Tagged& part) {
-    if (part.bytes) add(name, *part.bytes);
+  void add(const std::string& name, std::string_view bytes) {
+    m_parts[name] = base64Of(deflated(bytes));
+  }
+  void addSurface(const std::string& name, const Tagged& part) {
+    if (part.bytes) add(name, compactPack(*part.bytes));
   }
   [[nodiscard]] std::string text(const Json& state) const {
     Json all;
@@ -141,8 +156,8 @@ const std::string& fileOf(const PageFiles& page, const char* name) {
 HtmlOptions htmlOptions(const std::vector<std::pair<std::string, std::string>>& options) {
   HtmlOptions result;
   for (const auto& [name, value] : options) {
-    if (name == "volume")
-      result.volume = value != "0" && value != "false";
+    if (name == "volume" || name == "points")
+      (name == "volume" ? result.volume : result.points) = value != "0" && value != "false";
     else if (name == "level" && (value == "0" || value == "1"))
       result.level = value == "1" ? 1 : 0;
     else
@@ -151,20 +166,23 @@ HtmlOptions htmlOptions(const std::vector<std::pair<std::string, std::string>>& 
   return result;
 }
 
-std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions& options) {
+std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions& options,
+                     Progress& progress) {
   if (page.empty())
     throw failed("the page of the viewer was not built; ./bootstrap.sh demo builds it, with npm");
   const Document document = session.now().document;
   if (!document.value && !document.volume)
     throw Error(ErrorKind::Usage, "there is neither a case nor a volume for the page to show");
   Embedded embedded;
-  embedded.add("case", session.casePack());
-  embedded.add("case.lumen", session.caseFile());
-  embedded.add("surface", session.finishedSurface(options.level));
+  if (document.value) {
+    embedded.add("case", casePack(*document.value, options.points, progress));
+    if (document.hasModels()) embedded.add("case.lumen", modelsOf(*document.value));
+    embedded.addSurface("surface", session.finishedSurface(options.level, progress));
+  }
   if (document.volume && (options.volume || !document.value))
     embedded.add("volume", volumeOf(document));
   for (const OpenMesh& mesh : document.meshes)
-    embedded.add("mesh?id=" + std::to_string(mesh.id), session.meshPack(mesh.id));
+    embedded.addSurface("mesh?id=" + std::to_string(mesh.id), session.meshPack(mesh.id));
   if (!fileOf(page, "blob.wasm").empty()) embedded.add("blob.wasm", fileOf(page, "blob.wasm"));
   Json state = lookOnly(session.state());
   state["hasVolume"] = document.volume && (options.volume || !document.value);

@@ -13,14 +13,16 @@ namespace lumen::viewer {
 
 struct HtmlOptions {
   bool volume = false;  ///< the volume too: around the case, with 8 bits a voxel
+  bool points = false;  ///< the wall points too, which are most of a case
   int level = 1;        ///< of the surface: see Surfaces
 };
 
-/// "volume" and "level". Throws Error(Usage) for others.
+/// "volume", "points" and "level". Throws Error(Usage) for others.
 HtmlOptions htmlOptions(const std::vector<std::pair<std::string, std::string>>& options);
 
-/// The page with everything in it. Throws Error(Failed) if the page was not built, and Error(Usage)
-/// if there is nothing to show.
-std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions& options);
+/// The page with everything in it. Throws Error(Failed) if the page was not built, Error(Usage) if
+/// there is nothing to show, and Error(Cancelled).
+std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions& options,
+                     Progress& progress);
 
 }  // namespace lumen::viewer

@@ -11,6 +11,7 @@
 
 #include "converters/app/message_text.h"
 #include "converters/common/error.h"
+#include "viewer/server/connection.h"
 #include "viewer/server/html_page.h"
 #include "viewer/server/token.h"
 
@@ -31,8 +32,6 @@ constexpr std::size_t kThreads = EventHub::kMostListeners + 16;
 
 // A click and its options are a few hundred bytes, a list of all labels of a large tree some 100 kB.
 constexpr std::size_t kMostRequest = 1 << 20;
-// Volumes beyond that are opened by name.
-constexpr std::uint64_t kMostFile = std::uint64_t{4} << 30;
 
 // A page that is gone is noticed at the next write.
 constexpr std::chrono::seconds kSign{2};
@@ -51,9 +50,24 @@ httplib::Headers safeHeaders() {
           {"Cache-Control", "no-store"}};
 }
 
+/// Answers with these bytes as they are. What httplib is given whole, it compresses for a browser that can undo it,
+/// which takes longer than a loopback saves: seconds, for the page's script.
+void answerBytes(Response& response, std::shared_ptr<const std::string> bytes, const char* type) {
+  const std::size_t size = bytes->size();
+  response.set_content_provider(
+      size, type,
+      [bytes = std::move(bytes)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(bytes->data() + offset, length);
+      });
+}
+
+void answerText(Response& response, std::string text, const char* type = kJson) {
+  answerBytes(response, std::make_shared<const std::string>(std::move(text)), type);
+}
+
 void answerError(Response& response, int status, const std::string& sentence) {
   response.status = status;
-  response.set_content(jsonText({{"error", messageText(sentence)}}), kJson);
+  answerText(response, jsonText({{"error", messageText(sentence)}}));
 }
 
 int statusOf(ErrorKind kind) {
@@ -76,6 +90,10 @@ void guarded(Response& response, Answer&& answer) {
   }
 }
 
+[[noreturn]] void refuseSize(std::uint64_t most) {
+  throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
+}
+
 /// The body, of at most `most` bytes, piece by piece.
 template <class Take>
 void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& take) {
@@ -87,8 +105,7 @@ void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& t
     if (!tooMuch) take(data, length);
     return !tooMuch;
   });
-  if (tooMuch)
-    throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
+  if (tooMuch) refuseSize(most);
   if (!whole) throw Error(ErrorKind::Usage, "the request broke off");
 }
 
@@ -111,11 +128,7 @@ void answerPart(const Request& request, Response& response, const Tagged& part) 
     response.status = 304;
     return;
   }
-  response.set_content_provider(
-      part.bytes->size(), kBytes,
-      [bytes = part.bytes](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(bytes->data() + offset, length);
-      });
+  answerBytes(response, part.bytes, kBytes);
 }
 
 int levelOf(const Request& request) {
@@ -145,11 +158,14 @@ std::string downloadName(const std::string& title, const std::string& ending) {
 
 class Server::Requests {
 public:
-  Requests(Session& session, PageFiles page, int port)
-      : m_session(session), m_page(std::move(page)), m_token(randomToken()) {
+  Requests(Session& session, PageFiles page, const ServerOptions& options)
+      : m_session(session),
+        m_page(std::move(page)),
+        m_token(randomToken()),
+        m_mostFile(options.mostFile) {
     m_http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     m_http.set_keep_alive_max_count(1);
-    m_http.set_payload_max_length(kMostFile);
+    m_http.set_payload_max_length(m_mostFile);
     m_http.set_default_headers(safeHeaders());
     m_http.set_tcp_nodelay(true);
     // and not SO_REUSEPORT, with which another program could listen on the same port
@@ -165,7 +181,7 @@ public:
     addPage();
     addParts();
     addWork();
-    bind(port);
+    bind(options.port);
     m_thread = std::thread([this] { m_http.listen_after_bind(); });
     // stop() does nothing before that
     while (!m_http.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -216,31 +232,43 @@ private:
     });
   }
 
+  /// A part that takes a while to be made, which ends when the page does not wait any more.
+  void getSlowly(const std::string& name,
+                 const std::function<Tagged(const Request&, Progress&)>& part) {
+    get(name, [part](const Request& request, Response& response) {
+      whileConnected(request.remote_port, [&](Progress& progress) {
+        answerPart(request, response, part(request, progress));
+      });
+    });
+  }
+
   /// With a body in JSON, and an answer in JSON.
   void post(const std::string& name, const std::function<Json(const Json&)>& answer) {
     m_http.Post(at(name), [answer](const Request&, Response& response,
                                    const httplib::ContentReader& reader) {
-      guarded(response, [&] { response.set_content(jsonText(answer(readJson(reader))), kJson); });
+      guarded(response, [&] { answerText(response, jsonText(answer(readJson(reader)))); });
     });
   }
 
   void addPage() {
     if (m_page.empty())
       get("", [](const Request&, Response& response) {
-        response.set_content(kNoPage, "text/html; charset=utf-8");
+        answerText(response, kNoPage, "text/html; charset=utf-8");
       });
     for (const auto& [name, file] : m_page)
       get(name, [&file = file](const Request&, Response& response) {
-        response.set_content(file.bytes, file.type.c_str());
+        answerText(response, file.bytes, file.type.c_str());
       });
   }
 
   void addParts() {
     get("state", [this](const Request&, Response& response) {
-      response.set_content(jsonText(m_session.state()), kJson);
+      answerText(response, jsonText(m_session.state()));
     });
-    get("case", [this](const Request& request, Response& response) {
-      answerPart(request, response, m_session.casePack());
+    getSlowly("case",
+              [this](const Request&, Progress& progress) { return m_session.casePack(progress); });
+    get("library", [this](const Request& request, Response& response) {
+      answerPart(request, response, m_session.library());
     });
     get("case.lumen", [this](const Request& request, Response& response) {
       answerPart(request, response, m_session.caseFile());
@@ -249,9 +277,8 @@ private:
       answerPart(request, response,
                  m_session.surfacePack(levelOf(request), request.has_param("quick")));
     });
-    get("distance", [this](const Request& request, Response& response) {
-      answerPart(request, response,
-                 m_session.distancePack(levelOf(request), request.has_param("quick")));
+    getSlowly("distance", [this](const Request& request, Progress& progress) {
+      return m_session.distancePack(levelOf(request), request.has_param("quick"), progress);
     });
     get("mesh", [this](const Request& request, Response& response) {
       answerPart(request, response, m_session.meshPack(numberOf(request, "id")));
@@ -320,14 +347,17 @@ private:
     for (const auto& [name, value] : request.params)
       if (name != "format") options.emplace_back(name, value);
     const bool isPage = format == "html";
-    std::string bytes = isPage ? htmlPage(m_session, m_page, htmlOptions(options))
-                               : m_session.encoded(format, options);
+    std::string bytes;
+    whileConnected(request.remote_port, [&](Progress& progress) {
+      bytes = isPage ? htmlPage(m_session, m_page, htmlOptions(options), progress)
+                     : m_session.encoded(format, options, progress);
+    });
     const std::string ending = format == "seeds" ? ".seeds.json" : "." + format;
     const Json title = m_session.state()["title"];
     response.set_header(
         "Content-Disposition",
         "attachment; filename=\"" + downloadName(title.get<std::string>(), ending) + "\"");
-    response.set_content(std::move(bytes), kBytes);
+    answerText(response, std::move(bytes), kBytes);
   }
 
   void takeFile(const Request& request, Response& response, const httplib::ContentReader& reader) {
@@ -335,25 +365,38 @@ private:
     if (name.empty() || name.size() > 255) throw Error(ErrorKind::Usage, "a file needs a name");
     if (!as.empty() && as != "auto" && as != "truth")
       throw Error(ErrorKind::Usage, "\"as\" must be auto or truth");
+    if (request.get_header_value<std::uint64_t>("Content-Length") > m_mostFile)
+      refuseSize(m_mostFile);
     const std::filesystem::path place = m_session.placeFor(name);
+    try {
+      writeBody(place, reader);
+    } catch (...) {
+      std::error_code ignored;
+      std::filesystem::remove_all(place.parent_path(), ignored);
+      throw;
+    }
+    answerText(response, jsonText(m_session.openDropped(place, name, as == "truth")));
+  }
+
+  void writeBody(const std::filesystem::path& place, const httplib::ContentReader& reader) const {
     std::ofstream file(place, std::ios::binary);
-    readBody(reader, kMostFile, [&file](const char* data, std::size_t length) {
+    readBody(reader, m_mostFile, [&file](const char* data, std::size_t length) {
       file.write(data, static_cast<std::streamsize>(length));
     });
     if (!file.flush()) throw failed("there is no room for this file");
-    response.set_content(jsonText(m_session.openDropped(place, name, as == "truth")), kJson);
   }
 
   Session& m_session;
   const PageFiles m_page;
   const std::string m_token;
+  const std::uint64_t m_mostFile;
   std::string m_authority;  ///< "127.0.0.1:40123"
   httplib::Server m_http;
   std::thread m_thread;
 };
 
-Server::Server(Session& session, PageFiles page, int port)
-    : m_requests(std::make_unique<Requests>(session, std::move(page), port)) {}
+Server::Server(Session& session, PageFiles page, const ServerOptions& options)
+    : m_requests(std::make_unique<Requests>(session, std::move(page), options)) {}
 
 Server::~Server() = default;
 

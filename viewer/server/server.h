@@ -2,6 +2,7 @@
 // The page and the session over HTTP, on this machine only (viewer/README.md, "Requests").
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -10,15 +11,20 @@
 
 namespace lumen::viewer {
 
+struct ServerOptions {
+  int port = 0;  ///< 0: any that is free
+  /// Bytes of a file that is dropped; volumes beyond that are opened by name.
+  std::uint64_t mostFile = std::uint64_t{4} << 30;
+};
+
 /// Answers only what comes to the address that it gives, which nobody can guess: the socket is of
 /// the loopback interface, the path has 128 random bits, and `Host` and `Origin` must name the
 /// address, so that neither a page of another origin nor a name that is rebound to 127.0.0.1 gets
 /// anything.
 class Server {
 public:
-  /// Listens on `port`, or on one that is free if it is 0. Throws Error(Failed) if it cannot. The
-  /// session must outlive it.
-  Server(Session& session, PageFiles page, int port);
+  /// Listens. Throws Error(Failed) if it cannot. The session must outlive it.
+  Server(Session& session, PageFiles page, const ServerOptions& options = {});
   /// Ends all connections.
   ~Server();
   Server(const Server&) = delete;

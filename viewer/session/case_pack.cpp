@@ -89,14 +89,14 @@ void addOrigins(PackWriter& pack, const formats::Case& value) {
 
 }  // namespace
 
-std::string casePack(const formats::Case& value, Progress& progress) {
+std::string casePack(const formats::Case& value, bool withPoints, Progress& progress) {
   PackWriter pack;
   addNodes(pack, value.tree);
   addOrigins(pack, value);
   if (value.points && value.models)
     pack.add("error",
              convert::errorOfFit(value, app::fittedNeighbourhood(value.metadata), progress));
-  if (value.points) {
+  if (value.points && withPoints) {
     pack.add("pointOffset", value.points->offset);
     pack.add("point", std::span(value.points->position));
   }

@@ -9,7 +9,8 @@
 
 namespace lumen::viewer {
 
-/// The pack `case` of a valid case (viewer/README.md). Throws Error(Cancelled).
-std::string casePack(const formats::Case& value, Progress& progress);
+/// The pack `case` of a valid case (viewer/README.md), with its wall points or without. Throws
+/// Error(Cancelled).
+std::string casePack(const formats::Case& value, bool withPoints, Progress& progress);
 
 }  // namespace lumen::viewer

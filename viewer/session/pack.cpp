@@ -48,6 +48,13 @@ void PackWriter::append(const std::string& name, NumberType type, std::vector<st
   if (!bytes.empty()) m_body.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
+void PackWriter::addStored(const std::string& name, std::string_view bytes, Json description) {
+  m_body.append((kAlignment - m_body.size() % kAlignment) % kAlignment, '\0');
+  description["offset"] = m_body.size();
+  m_arrays[name] = std::move(description);
+  m_body.append(bytes);
+}
+
 std::string PackWriter::withHeader(const Json& members) const {
   // what is no UTF-8 has been refused by the readers of files; names of dropped files have not
   std::string json = members.dump(-1, ' ', false, Json::error_handler_t::replace);

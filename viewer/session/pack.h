@@ -49,6 +49,9 @@ public:
   void add(const std::string& name, std::span<const std::array<std::uint32_t, 3>> values);
   void add(const std::string& name, std::span<const std::array<std::uint32_t, 2>> values);
 
+  /// An array whose bytes are coded as `description` says; it is given its offset.
+  void addStored(const std::string& name, std::string_view bytes, Json description);
+
   /// The whole pack.
   [[nodiscard]] std::string bytes() const;
 

@@ -23,8 +23,10 @@
 #include "viewer/session/events.h"
 #include "viewer/session/history.h"
 #include "viewer/session/job_runner.h"
+#include "viewer/session/library.h"
 #include "viewer/session/opening.h"
 #include "viewer/session/surfaces.h"
+#include "viewer/session/unsaved_files.h"
 #include "viewer/session/volume_pack.h"
 
 namespace lumen::viewer {
@@ -69,21 +71,32 @@ public:
   Json openDropped(const std::filesystem::path& file, const std::string& label, bool asTruth);
   /// Looks whether files have changed on disk, and tells.
   void lookAtFiles();
-  /// Writes what has not been saved beside where it would be saved, and gives that file's name.
-  std::optional<std::string> rescue();
+
+  // session_unsaved.cpp
+  /// Writes what has not been saved beside where it would be saved, unless it is there already, and
+  /// removes what has been saved since. Gives the files that there are.
+  std::vector<std::string> keepUnsaved();
+  /// Looks for what an earlier program has left so, which the page offers from then on; the files.
+  std::vector<std::string> findUnsaved();
+
+  // session_library.cpp
+  /// The page chooses among these cases. Once, before anything else is done.
+  void openLibrary(const std::filesystem::path& folder, std::vector<std::filesystem::path> cases);
+  /// Its JSON. Empty `bytes` if there is none.
+  [[nodiscard]] Tagged library() const;
 
   // session_state.cpp
   [[nodiscard]] Json state();
   EventHub& events() { return m_events; }
 
   // session_parts.cpp. Empty `bytes` if there is no such part.
-  Tagged casePack();
+  Tagged casePack(Progress& progress);
   Tagged caseFile();
   Tagged surfacePack(int level, bool quick);
-  /// The surface of that level, once it has been made.
-  Tagged finishedSurface(int level);
+  /// The surface of that level, once it has been made. Throws Error(Cancelled).
+  Tagged finishedSurface(int level, const Progress& progress);
   Tagged meshPack(int id);
-  Tagged distancePack(int level, bool quick);
+  Tagged distancePack(int level, bool quick, Progress& progress);
   std::shared_ptr<const VolumePack> volumePack(std::string& tag);
   [[nodiscard]] Moment now() const { return m_history.now(); }
 
@@ -101,7 +114,8 @@ public:
   /// The case, its mesh, its centerline or the seeds as a file of that format, as `lumen convert`
   /// with these options would write it: pairs of a name without hyphens, and a value.
   std::string encoded(const std::string& format,
-                      const std::vector<std::pair<std::string, std::string>>& options);
+                      const std::vector<std::pair<std::string, std::string>>& options,
+                      Progress& progress);
   [[nodiscard]] bool unsaved() const;
 
 private:
@@ -128,6 +142,16 @@ private:
   Json compare(const Moment& from);
   Json save(const Arguments& request);
   Json step(bool forward);
+  Json openCase(const Arguments& request);
+  Json reload(const Arguments& request, const Moment& from);
+  Json recover(const Arguments& request, const Moment& from);
+  Json forget(const Arguments& request);
+  /// Where the document would be saved.
+  [[nodiscard]] std::filesystem::path savingPlace(const Document& document) const;
+  /// The file that `save` writes, or none: not that of a case that another, dropped one has replaced. Call it
+  /// with the mutex held.
+  [[nodiscard]] std::filesystem::path saveTarget(const Document& document) const;
+  [[nodiscard]] std::filesystem::path leftBehind(const Arguments& request) const;
 
   const SessionOptions m_options;
   EventHub m_events;
@@ -142,12 +166,17 @@ private:
   std::shared_ptr<const formats::Case> m_savedCase;
   std::shared_ptr<const Seeds> m_savedSeeds;
   std::set<int> m_changedFiles;
-  Json m_check, m_figures;  ///< null, or answers for the next two
+  std::vector<std::filesystem::path> m_leftBehind;  ///< by an earlier program
+  std::optional<std::size_t> m_openCase;            ///< of the library
+  Json m_check, m_figures;                          ///< null, or answers for the next two
   std::shared_ptr<const formats::Case> m_checkedCase, m_comparedCase, m_comparedTruth;
   std::shared_ptr<const formats::Case> m_packedCase;
   Tagged m_casePack, m_caseFile;
   std::shared_ptr<const convert::Volume> m_packedVolume;
   std::shared_ptr<const VolumePack> m_volumePack;
+
+  std::mutex m_unsavedMutex;  ///< guards the next; taken before the other
+  UnsavedFiles m_unsaved;
 
   std::mutex m_trackingMutex;  ///< guards the next three
   std::shared_ptr<const convert::TrackingVolume> m_tracking;
@@ -155,6 +184,7 @@ private:
   formats::Step m_trackStep;
 
   Surfaces m_surfaces;
+  std::unique_ptr<Library> m_library;
   JobRunner m_jobs;  ///< the last, so the first to end
 };
 

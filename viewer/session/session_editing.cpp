@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Session: corrections by hand. What moves a wall is fitted anew before anybody sees it.
 #include <functional>
+#include <set>
 #include <utility>
 
 #include "converters/common/error.h"
@@ -57,29 +58,77 @@ Edit editFor(const std::string& op, const Arguments& request, const formats::Cen
   return [b = branch(), k = *kind](formats::Case& value) { return convert::setKind(value, b, k); };
 }
 
-Document withCase(const Document& document, std::shared_ptr<const formats::Case> value) {
+/// A vessel's label before and after; both empty if none is renamed.
+struct Renaming {
+  std::string from, to;
+};
+
+std::set<std::string> labelsOf(const formats::Case& value) {
+  std::set<std::string> labels;
+  for (const formats::Branch& branch : value.tree.branches) labels.insert(branch.label);
+  return labels;
+}
+
+/// The seeds after a correction. That of a vessel goes with it: it has the vessel's new name, and
+/// none is left to wait for tracking again when the vessel is deleted or merged.
+std::shared_ptr<const Seeds> seedsAfter(const Document& before, const formats::Case& after,
+                                        const Renaming& renaming) {
+  const std::set<std::string> had = labelsOf(*before.value), has = labelsOf(after);
+  if (had == has) return before.seeds;
+  const auto isGone = [&](const std::string& label) {
+    return had.contains(label) && !has.contains(label);
+  };
+  auto seeds = std::make_shared<Seeds>(*before.seeds);
+  for (convert::SeedBranch& seed : *seeds) {
+    if (seed.label == renaming.from) seed.label = renaming.to;
+    if (seed.parent == renaming.from) seed.parent = renaming.to;
+  }
+  std::erase_if(*seeds, [&](const convert::SeedBranch& seed) { return isGone(seed.label); });
+  for (convert::SeedBranch& seed : *seeds)
+    if (seed.parent && isGone(*seed.parent)) seed.parent.reset();
+  return seeds;
+}
+
+/// The document with the case that a correction left.
+Document corrected(const Document& document, std::shared_ptr<const formats::Case> value,
+                   const Renaming& renaming) {
   Document result = document;
+  result.seeds = seedsAfter(document, *value, renaming);
   result.value = std::move(value);
   return result;
+}
+
+/// Refuses the name of a seed that waits: it would count as tracked.
+Renaming renamingBy(const Arguments& request, const Document& document) {
+  const auto& branches = document.value->tree.branches;
+  Renaming renaming{branches[request.index("branch", branches.size())].label,
+                    request.text("label")};
+  const std::set<std::string> vessels = labelsOf(*document.value);
+  for (const convert::SeedBranch& seed : *document.seeds)
+    if (seed.label == renaming.to && !vessels.contains(seed.label))
+      throw Error(ErrorKind::Usage, "a seed has the name \"" + seed.label + "\"");
+  return renaming;
 }
 
 }  // namespace
 
 Json Session::editOperation(const std::string& op, const Arguments& request, const Moment& from) {
   if (!from.document.value) throw Error(ErrorKind::Usage, "there is no case to correct");
+  const Renaming renaming = op == "rename" ? renamingBy(request, from.document) : Renaming{};
   const Edit edit = editFor(op, request, from.document.value->tree);
   const auto value = std::make_shared<formats::Case>(*from.document.value);
   const convert::Change change = edit(*value);
   tellDropped(change.droppedArrays);
   if (change.stale.empty()) {
-    commit(change.sentence, from, withCase(from.document, value));
+    commit(change.sentence, from, corrected(from.document, value, renaming));
     return {{"revision", m_history.now().revision}};
   }
-  return startJob("fitting what changed", true, [this, from, value, change](Progress& progress) {
-    convert::refit(*value, change.stale, convert::recordedFitOptions(*value), progress);
-    commit(change.sentence, from, withCase(from.document, value));
-    return change.sentence;
-  });
+  return startJob(
+      "fitting what changed", true, [this, from, value, change, renaming](Progress& progress) {
+        convert::refit(*value, change.stale, convert::recordedFitOptions(*value), progress);
+        commit(change.sentence, from, corrected(from.document, value, renaming));
+        return change.sentence;
+      });
 }
 
 void Session::tellDropped(const std::vector<std::string>& arrays) {

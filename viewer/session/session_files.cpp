@@ -28,13 +28,6 @@ std::string harmless(const std::string& name) {
   return text;
 }
 
-/// `head.lumen` becomes `head.unsaved.lumen`.
-fs::path unsavedName(const fs::path& file, const std::string& ending) {
-  std::string name = file.filename().string();
-  name.erase(name.find('.', 1) == name.npos ? name.size() : name.find('.', 1));
-  return file.parent_path() / (name + ".unsaved" + ending);
-}
-
 }  // namespace
 
 Session::Session(SessionOptions options)
@@ -46,6 +39,7 @@ Session::Session(SessionOptions options)
 
 Session::~Session() {
   m_events.close();
+  if (m_library) m_library->end();
   m_surfaces.end();  // its last words need what is destroyed before it
 }
 
@@ -136,25 +130,6 @@ void Session::lookAtFiles() {
     m_changedFiles = std::move(changed);
   }
   m_events.tell("state", state());
-}
-
-std::optional<std::string> Session::rescue() {
-  if (!unsaved()) return std::nullopt;
-  const Document document = m_history.now().document;
-  fs::path beside;
-  {
-    const std::lock_guard lock(m_mutex);
-    beside = m_saveTo;
-  }
-  if (beside.empty()) {
-    const OpenFile* volume = document.fileOf(FileRole::Volume);
-    beside = volume != nullptr && !volume->path.empty() ? volume->path : fs::path("lumen");
-  }
-  const auto [hasCase, hasSeeds] = unsavedParts();
-  const fs::path file = unsavedName(beside, hasCase ? ".lumen" : ".seeds.json");
-  if (hasCase) app::writeCase(*document.value, file, formats::CaseEncoding::Binary, {});
-  if (hasSeeds) convert::writeSeeds(*document.seeds, unsavedName(beside, ".seeds.json"));
-  return file.string();
 }
 
 }  // namespace lumen::viewer

@@ -16,13 +16,15 @@ namespace lumen::viewer {
 
 namespace {
 
+constexpr std::size_t kAtOnce = 1024;  // vertices between two looks whether to go on
+
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
 }
 
 }  // namespace
 
-Tagged Session::casePack() {
+Tagged Session::casePack(Progress& progress) {
   const Moment now = m_history.now();
   if (!now.document.value) return {};
   const std::string tag = std::to_string(now.parts.value);
@@ -30,8 +32,7 @@ Tagged Session::casePack() {
     const std::lock_guard lock(m_mutex);
     if (m_casePack.tag == tag) return m_casePack;
   }
-  Progress silent;
-  Tagged made{tag, shared(viewer::casePack(*now.document.value, silent))};
+  Tagged made{tag, shared(viewer::casePack(*now.document.value, true, progress))};
   const std::lock_guard lock(m_mutex);
   return m_casePack = std::move(made);
 }
@@ -50,8 +51,8 @@ Tagged Session::surfacePack(int level, bool quick) {
   return {surface->tag, {surface, &surface->pack}};
 }
 
-Tagged Session::finishedSurface(int level) {
-  m_surfaces.waitFor(level);
+Tagged Session::finishedSurface(int level, const Progress& progress) {
+  m_surfaces.waitFor(level, progress);
   return surfacePack(level, false);
 }
 
@@ -62,7 +63,7 @@ Tagged Session::meshPack(int id) {
   return {};
 }
 
-Tagged Session::distancePack(int level, bool quick) {
+Tagged Session::distancePack(int level, bool quick, Progress& progress) {
   const Moment now = m_history.now();
   if (!now.document.truth) return {};
   const auto surface = quick ? m_surfaces.quick() : m_surfaces.get(level);
@@ -71,6 +72,7 @@ Tagged Session::distancePack(int level, bool quick) {
   const auto& position = surface->mesh->position;
   std::vector<float> distance(position.size());
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
+    if (v % kAtOnce == 0) progress.check();
     const auto& p = position[v];
     distance[v] =
         static_cast<float>(wall.nearest({double{p[0]}, double{p[1]}, double{p[2]}}).distance);

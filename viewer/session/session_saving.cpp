@@ -6,6 +6,7 @@
 
 #include "converters/app/file_access.h"
 #include "converters/app/file_format.h"
+#include "converters/app/mesh_options.h"
 #include "converters/common/error.h"
 #include "converters/fitting/fit.h"
 #include "viewer/session/session.h"
@@ -64,7 +65,8 @@ bool Session::unsaved() const {
 }
 
 std::string Session::encoded(const std::string& format,
-                             const std::vector<std::pair<std::string, std::string>>& options) {
+                             const std::vector<std::pair<std::string, std::string>>& options,
+                             Progress& progress) {
   const Document document = m_history.now().document;
   if (format == "seeds") {
     const fs::path file = placeFor("seeds.json");
@@ -75,18 +77,28 @@ std::string Session::encoded(const std::string& format,
   if (!document.value) throw Error(ErrorKind::Usage, "there is no case to save");
   const app::OutputOptions output = outputOptions(options);
   const fs::path file = placeFor("case" + std::string(writer.endings.front()));
-  Progress silent;
+  struct Remove {
+    const fs::path folder;
+    ~Remove() {
+      std::error_code ignored;
+      fs::remove_all(folder, ignored);
+    }
+  };
+  const Remove remove{file.parent_path()};
   if (app::canWriteMesh(writer) && !document.value->models) {
     formats::Case fitted = *document.value;
-    convert::fit(fitted, m_options.fit.options(), silent);
-    writer.writeCase(fitted, file, output, silent);
+    convert::fit(fitted, m_options.fit.options(), progress);
+    writer.writeCase(fitted, file, output, progress);
   } else {
-    writer.writeCase(*document.value, file, output, silent);
+    writer.writeCase(*document.value, file, output, progress);
   }
-  std::string text = textOf(file);
-  std::error_code ignored;
-  fs::remove_all(file.parent_path(), ignored);
-  return text;
+  return textOf(file);
+}
+
+fs::path Session::saveTarget(const Document& document) const {
+  const OpenFile* open = document.fileOf(FileRole::Case);
+  const bool wasDropped = open != nullptr && open->path.empty();
+  return wasDropped && m_saveStamp != FileStamp{} ? fs::path() : m_saveTo;
 }
 
 Json Session::save(const Arguments& request) {
@@ -94,7 +106,7 @@ Json Session::save(const Arguments& request) {
   fs::path file;
   {
     const std::lock_guard lock(m_mutex);
-    file = m_saveTo;
+    file = saveTarget(now.document);
     if (!file.empty() && stampOf(file) != m_saveStamp && !request.flag("force"))
       throw Conflict(file.filename().string() +
                      " was changed by another program since it was read; saving would undo that");
@@ -118,6 +130,7 @@ Json Session::save(const Arguments& request) {
     m_saveStamp = stampOf(file);
   }
   m_history.restamp(document.files);
+  keepUnsaved();
   m_events.tell("message",
                 {{"severity", "note"}, {"text", file.filename().string() + " is saved"}});
   changed();

@@ -4,6 +4,7 @@
 
 #include "converters/app/file_format.h"
 #include "formats/case/enum_names.h"
+#include "formats/container/printable.h"
 #include "viewer/session/session.h"
 
 namespace lumen::viewer {
@@ -39,7 +40,8 @@ Json filesJson(const Document& document, const std::set<int>& changed) {
     list.push_back({{"id", file.id},
                     {"kind", roleName(file.role)},
                     {"name", file.label},
-                    {"changed", changed.contains(file.id)}});
+                    {"changed", changed.contains(file.id)},
+                    {"named", !file.path.empty()}});
   return list;
 }
 
@@ -81,6 +83,7 @@ Json Session::state() {
                        {"seeds", now.parts.seeds},
                        {"meshes", now.parts.meshes},
                        {"truth", now.parts.truth},
+                       {"library", m_library ? m_library->readCount() + 1 : 0},
                        // of a surface and a truth
                        {"distance", m_surfaces.revision() + now.parts.truth}};
   json["title"] = titleOf(document);
@@ -97,7 +100,12 @@ Json Session::state() {
   json["formats"] = formatsJson(document);
   const std::lock_guard lock(m_mutex);
   json["files"] = filesJson(document, m_changedFiles);
-  json["saveAs"] = m_saveTo.empty() ? Json(nullptr) : Json(m_saveTo.filename().string());
+  json["unsavedBefore"] = Json::array();
+  for (const auto& file : m_leftBehind)
+    json["unsavedBefore"].push_back(formats::printable(file.filename().string()));
+  json["openCase"] = m_openCase ? Json(*m_openCase) : Json(nullptr);
+  const auto target = saveTarget(document);
+  json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
   json["check"] = m_check;
   json["checkIsOld"] = m_check.is_object() && m_checkedCase != document.value;
   json["figures"] = m_comparedCase == document.value && m_comparedTruth == document.truth

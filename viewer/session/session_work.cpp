@@ -78,10 +78,14 @@ Json Session::run(const Json& request) {
   const std::string op = arguments.text("op");
   if (op == "save") return save(arguments);
   const Moment from = momentFor(arguments);
+  if (op == "forget") return forget(arguments);
   if (op == "check") return check(from);
   if (op == "compare") return compare(from);
   requireIdle();
   if (op == "undo" || op == "redo") return step(op == "redo");
+  if (op == "openCase") return openCase(arguments);
+  if (op == "reload") return reload(arguments, from);
+  if (op == "recover") return recover(arguments, from);
   if (op == "closeFile") {
     commit("close a file", from,
            withoutFile(from.document, static_cast<int>(arguments.index("id", 1U << 30))));

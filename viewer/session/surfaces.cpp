@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer/session/surfaces.h"
 
+#include <chrono>
 #include <exception>
 #include <utility>
 
@@ -9,6 +10,8 @@
 namespace lumen::viewer {
 
 namespace {
+
+constexpr std::chrono::milliseconds kLook{100};  // whether somebody still waits
 
 bool hasSurface(const std::shared_ptr<const formats::Case>& value) {
   return value && value->models && value->tree.nodeCount() > 0;
@@ -67,12 +70,13 @@ std::shared_ptr<const ReadySurface> Surfaces::get(int level) {
   return quick();
 }
 
-void Surfaces::waitFor(int level) {
+void Surfaces::waitFor(int level, const Progress& progress) {
   const auto l = static_cast<std::size_t>(level);
   std::unique_lock lock(m_mutex);
-  m_wake.wait(lock, [&] {
+  while (!m_wake.wait_for(lock, kLook, [&] {
     return !hasSurface(m_case) || !m_allowed || m_ended || m_levels[l] || m_failed[l];
-  });
+  }))
+    progress.check();
 }
 
 std::shared_ptr<const ReadySurface> Surfaces::quick() {

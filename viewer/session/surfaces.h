@@ -47,8 +47,9 @@ public:
   /// The finest that is ready and no finer than `level`, 0 for the finest of all, or the quick one.
   /// Null if the case has no surface.
   std::shared_ptr<const ReadySurface> get(int level);
-  /// Until that level is ready, or cannot be made, or no work is allowed.
-  void waitFor(int level);
+  /// Until that level is ready, or cannot be made, or no work is allowed. Throws
+  /// Error(Cancelled).
+  void waitFor(int level, const Progress& progress);
   /// The coarse one, which is made now unless it is there.
   std::shared_ptr<const ReadySurface> quick();
   /// Counts surfaces that have become ready, and cases.

@@ -176,7 +176,7 @@ TEST(HtmlSafety, LabelsOfACaseCannotEndTheScriptThatTheyStandIn) {
   viewer::Session session({});
   Progress silent;
   session.open({file, "<b>\"name\"</b>.lumen"}, silent);
-  const std::string html = viewer::htmlPage(session, smallPage(), {});
+  const std::string html = viewer::htmlPage(session, smallPage(), {}, silent);
   std::filesystem::remove(file);
   EXPECT_EQ(html.find("<img"), std::string::npos);
   EXPECT_EQ(html.find("<b>"), std::string::npos);

@@ -103,13 +103,18 @@ protected:
 
   /// Opens files of the folder and serves them; the first case is the one that is saved.
   void serve(const std::vector<std::string>& names) {
+    server.reset();
     session = std::make_unique<viewer::Session>(viewer::SessionOptions{});
     Progress silent;
     for (const std::string& name : names) {
       session->open({path(name), name}, silent);
       if (name.ends_with(".lumen")) session->saveTo(path(name));
     }
-    server = std::make_unique<viewer::Server>(*session, smallPage(), 0);
+    serveSession();
+  }
+
+  void serveSession(const viewer::ServerOptions& options = {}) {
+    server = std::make_unique<viewer::Server>(*session, smallPage(), options);
     const std::string address = server->address();
     const auto slash = address.find('/', 7);
     authority = address.substr(7, slash - 7);

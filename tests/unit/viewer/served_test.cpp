@@ -206,6 +206,38 @@ TEST_F(WorkTest, SeedsAreMovedAndDeleted) {
   EXPECT_EQ(state()["seeds"].size(), 1U);
 }
 
+TEST_F(WorkTest, TheSeedOfATrackedVesselGoesWithIt) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  ASSERT_EQ(
+      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}})
+          .status,
+      200);
+  performAll({{"op", "track"}, {"labels", nullptr}});
+  ASSERT_EQ(perform({{"op", "seedAdd"},
+                     {"label", "b"},
+                     {"parent", "a"},
+                     {"points", {{{"position", {1, 2, 3}}}}}})
+                .status,
+            200);
+  EXPECT_EQ(perform({{"op", "rename"}, {"branch", 0}, {"label", "b"}}).status, 400);
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 0}, {"label", "ica"}}).status, 200);
+  Json seeds = state()["seeds"];
+  EXPECT_EQ(seeds[0]["label"], "ica");
+  EXPECT_EQ(seeds[0]["tracked"], true);
+  EXPECT_EQ(seeds[1]["parent"], "ica");
+  EXPECT_EQ(seeds[1]["tracked"], false);
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(state()["seeds"][0]["label"], "a");
+  // cut in two, of which the first, with the seed's name, is deleted
+  performAll({{"op", "cut"}, {"node", 10}});
+  performAll({{"op", "delete"}, {"branch", 0}});
+  seeds = state()["seeds"];
+  ASSERT_EQ(seeds.size(), 1U);
+  EXPECT_EQ(seeds[0]["label"], "b");
+  EXPECT_EQ(seeds[0]["parent"], nullptr);
+}
+
 TEST_F(WorkTest, EveryFormatOfTheStateCanBeSaved) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});
@@ -259,6 +291,23 @@ TEST_F(FilesTest, ADroppedCaseOpensAndItsBytesAreGoneAfterwards) {
   EXPECT_FALSE(std::filesystem::exists(probe.parent_path()));
 }
 
+TEST_F(FilesTest, ADroppedCaseIsNotSavedIntoTheFileOfTheOneItReplaces) {
+  writeCase("one.lumen", twoVessels());
+  serve({"one.lumen"});
+  EXPECT_EQ(state()["saveAs"], "one.lumen");
+  const auto before = formats::readFileBytes(path("one.lumen"));
+  const std::string body(reinterpret_cast<const char*>(before->data()), before->size());
+  ASSERT_EQ(post("file?name=other.lumen&as=auto", body).status, 200);
+  waitForJob();
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  EXPECT_EQ(state()["saveAs"], nullptr);
+  EXPECT_EQ(perform({{"op", "save"}}).status, 400);
+  EXPECT_EQ(*formats::readFileBytes(path("one.lumen")), *before);
+  performAll({{"op", "undo"}});
+  performAll({{"op", "undo"}});
+  EXPECT_EQ(state()["saveAs"], "one.lumen");
+}
+
 TEST_F(FilesTest, ABrokenFileIsRefusedByItsNameWithoutAPath) {
   serve({});
   const auto listener = session->events().listen();
@@ -294,15 +343,6 @@ TEST_F(FilesTest, AChangeOnDiskIsNoticedAndNotOverwritten) {
   EXPECT_EQ(formats::readCaseFile(path("two.lumen"))->tree.branches[1].label, "mine");
   session->lookAtFiles();
   EXPECT_EQ(state()["files"][0]["changed"], false);
-}
-
-TEST_F(FilesTest, WhatWasNotSavedIsRescued) {
-  writeCase("two.lumen", twoVessels());
-  serve({"two.lumen"});
-  EXPECT_EQ(session->rescue(), std::nullopt);
-  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
-  ASSERT_EQ(session->rescue(), path("two.unsaved.lumen").string());
-  EXPECT_EQ(formats::readCaseFile(path("two.unsaved.lumen"))->tree.branches[1].label, "mine");
 }
 
 }  // namespace lumen::test

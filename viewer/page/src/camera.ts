@@ -2,9 +2,10 @@
 /** The camera of the 3D view: turns about a point with the head upwards, moves and comes nearer. */
 import { OrthographicCamera, PerspectiveCamera, Raycaster, Vector2, Vector3, type Ray } from "three";
 import type { Vec3 } from "./types";
-import { add, along, cross, scale, unit } from "./vec";
+import { add, along, cross, dot, scale, sub, unit } from "./vec";
 
 const kAngle = 30; // degrees of the vertical field of view: little perspective, so sizes can be compared
+const kMargin = 1.08; // of what is shown as a whole
 
 export class OrbitCamera {
   private readonly perspective = new PerspectiveCamera(kAngle, 1, 0.1, 5000);
@@ -32,12 +33,18 @@ export class OrbitCamera {
   get eye(): Vec3 { return this.flight?.eye ?? along(this.target, this.back, this.distance); }
   get mmPerPixel(): number { return (2 * this.distance * Math.tan((kAngle * Math.PI) / 360)) / Math.max(this.height, 1); }
 
-  /** Shows a box as a whole. */
+  /** Shows a box as a whole, as it is seen from here. */
   fit(low: Vec3, high: Vec3): void {
     this.target = scale(add(low, high), 0.5);
     const radius = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2 || 1;
+    const slope = Math.tan((kAngle * Math.PI) / 360), aspect = this.width / Math.max(this.height, 1);
     this.reach = 2 * radius;
-    this.distance = (0.7 * radius) / Math.sin((kAngle * Math.PI) / 360) / Math.min(1, this.width / Math.max(this.height, 1));
+    this.distance = 0;
+    for (let k = 0; k < 8; ++k) {
+      const corner = sub([0, 1, 2].map(a => ((k >> a) & 1) === 1 ? high[a] : low[a]) as Vec3, this.target);
+      const across = Math.max(Math.abs(dot(corner, this.up)), Math.abs(dot(corner, this.right)) / aspect);
+      this.distance = Math.max(this.distance, (kMargin * across) / slope + dot(corner, this.back));
+    }
   }
 
   update(width: number, height: number): PerspectiveCamera | OrthographicCamera {

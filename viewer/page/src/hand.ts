@@ -27,6 +27,7 @@ export class Hand {
   parent: string | null = null;
   private held: { seed: string; point: number; to: Vec3 } | { node: number; to: Vec3 } | null = null;
   private nextId = 1;
+  private placing: Promise<void> = Promise.resolve(); // clicks come in their order, however long each takes
 
   constructor(private readonly app: App) {}
 
@@ -36,7 +37,8 @@ export class Hand {
     switch (tool) {
       case "seed":
         if (slice !== null && this.holdSeed(p, slice)) return true;
-        void this.placeSeed(p);
+        store.set({ crosshair: p });
+        this.placing = this.placing.then(() => this.placeSeed(p));
         return true;
       case "distance": case "angle": {
         const points = [...pending, p], enough = tool === "distance" ? 2 : 3;
@@ -82,32 +84,30 @@ export class Hand {
   private async placeSeed(p: Vec3): Promise<void> {
     const { app } = this, { store, source } = app;
     if (!source.live) { app.say("This page is one file: seeds are placed in lumen view.", "warning"); return; }
-    if (!store.get().state.hasVolume) { app.say("Seeds are placed in a volume: open one first.", "warning"); return; }
+    const { volume, state } = store.get();
+    if (volume !== null && !volume.holds(p)) { app.say("That is outside of the volume.", "warning"); return; }
+    if (!state.hasVolume) { app.say("Seeds are placed in a volume: open one first.", "warning"); return; }
     let snap: Snap | null = null;
     try { snap = await source.snap(p); } catch (error) { app.say(error instanceof Error ? error.message : String(error), "error"); return; }
     const point = snap.found ? snap.position : p;
-    store.set({ crosshair: point });
+    if (store.get().crosshair === p) store.set({ crosshair: point }); // unless the user has gone elsewhere meanwhile
     if (!snap.found) app.say(`${sentence(snap.reason ?? "no vessel was found near there")} The seed stays where you clicked.`, "warning");
     else app.say(`On the axis of a vessel, radius ${brief(snap.radius)} mm.`);
     const made = { position: point, radius: snap.found ? snap.radius : null };
     if (this.seedKind === "vessel") await this.addSeed([made], "vessel");
-    else {
-      this.points.push(made);
-      store.set({ pending: this.points.map(x => x.position) });
-    }
+    else store.set({ clicks: [...store.get().clicks, made] });
   }
-  private points: { position: Vec3; radius: number | null }[] = [];
 
   /** Ends a vessel through several clicks, or an aneurysm. */
   async finish(): Promise<void> {
-    const points = this.points.splice(0);
-    this.app.store.set({ pending: [] });
+    await this.placing;
+    const points = this.app.store.get().clicks;
+    this.app.store.set({ clicks: [] });
     if (points.length > 0) await this.addSeed(points, this.seedKind === "aneurysm" ? "aneurysm" : "vessel");
   }
   giveUp(): void {
-    this.points = [];
     this.held = null;
-    this.app.store.set({ pending: [] });
+    this.app.store.set({ pending: [], clicks: [] });
   }
   private async addSeed(points: Seed["points"], kind: string): Promise<void> {
     await this.app.perform({ op: "seedAdd", kind, points, ...(this.parent === null ? {} : { parent: this.parent }) });
@@ -117,9 +117,10 @@ export class Hand {
   takePlace(index: number): void {
     const { state } = this.app.store.get(), place = state.check?.missing_vessels?.[index];
     if (place === undefined) return;
+    const points = seedPoints(place), same = (p: Vec3): boolean => distance(p, points[0].position) < 1e-6;
     this.app.store.set({ crosshair: place.position });
-    if (this.app.source.live)
-      void this.app.perform({ op: "seedAdd", kind: "vessel", points: seedPoints(place) }).then(done => {
+    if (this.app.source.live && !state.seeds.some(seed => same(seed.points[0].position)))
+      void this.app.perform({ op: "seedAdd", kind: "vessel", points }).then(done => {
         if (done) this.app.say("A seed was placed there. Track it with “Track all”, key T.");
       });
   }

@@ -73,9 +73,9 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolea
 }
 
 function giveUp(app: App, actions: Actions, hand: Hand): boolean {
-  const { pending, job, tool } = app.store.get();
+  const { pending, clicks, job, tool } = app.store.get();
   if (actions.flight?.running === true) actions.flight.stop();
-  else if (pending.length > 0) hand.giveUp();
+  else if (pending.length + clicks.length > 0) hand.giveUp();
   else if (job !== null) void actions.cancel();
   else if (tool !== "navigate") actions.tool("navigate");
   else return false;

@@ -5,7 +5,7 @@ import { Caster } from "./cast";
 import { fillValues } from "./colouring";
 import type { App, View } from "./model";
 import { headerEnd, Pack } from "./pack";
-import { sameVessel } from "./same_vessel";
+import { sameVessels } from "./same_vessel";
 import type { SceneView } from "./scene_view";
 import type { SliceView } from "./slice_view";
 import { Surface } from "./surface";
@@ -14,6 +14,7 @@ import type { State } from "./types";
 import { reduce, Volume } from "./volume";
 import { VolumeTexture } from "./volume_texture";
 
+const kArriving = 200; // ms from one picture of a volume that is arriving to the next
 const kCastSoftware = 128, kCastHardware = 256; // texels along an axis for ray casting
 
 export class Loader {
@@ -36,6 +37,7 @@ export class Loader {
     if (r.case !== this.seen.case) { this.seen.case = r.case; jobs.push(this.takeCase(state)); }
     if (r.volume !== this.seen.volume) { this.seen.volume = r.volume; jobs.push(this.takeVolume(state)); }
     await Promise.all(jobs);
+    store.set({ treeRevision: state.revision });
     if (r.surface !== this.seen.surface) { this.seen.surface = r.surface; void this.takeSurface(state); }
     this.settle();
     this.askDistance();
@@ -68,7 +70,7 @@ export class Loader {
   private async takeCase(state: State): Promise<void> {
     const { store } = this.app, pack = state.hasCase ? await this.pack("case") : null;
     const tree = pack === null ? null : new Tree(pack), before = store.get();
-    store.set({ tree, ...sameVessel(before, tree), ...(tree === null ? { surface: null } : {}) });
+    store.set({ tree, ...sameVessels(before, tree), ...(tree === null ? { surface: null } : {}) });
     this.app.stage.firstPicture ||= tree !== null && !state.hasVolume;
     this.settle();
     void this.openModel(tree);
@@ -124,7 +126,7 @@ export class Loader {
   private async takeVolume(state: State): Promise<void> {
     const { store, stage, source } = this.app;
     if (!state.hasVolume) { this.replaceTexture(null); store.set({ volume: null, volumeReady: 0 }); return; }
-    let volume: Volume | null = null, texture: VolumeTexture | null = null;
+    let volume: Volume | null = null, texture: VolumeTexture | null = null, last = -Infinity;
     const arrived = (bytes: Uint8Array, received: number): void => {
       if (volume === null) {
         if (received < 4 || received < headerEnd(bytes)) return;
@@ -136,18 +138,23 @@ export class Loader {
       }
       const slice = volume.size[0] * volume.size[1] * volume.bytesPerVoxel;
       volume.complete = Math.min(volume.size[2], Math.max(0, Math.floor((received - volume.begin) / slice)));
+      const whole = volume.complete === volume.size[2], now = performance.now();
+      if (!whole && now - last < kArriving) return; // each picture of what has arrived delays the rest
+      last = now;
       const upload = (): void => {
         if (volume === null || this.texture !== texture) return;
         const more = texture!.upload();
-        store.set({ volumeReady: volume.complete });
-        stage.firstPicture ||= volume.complete === volume.size[2] && !more;
-        for (const each of this.slices) stage.invalidate(each);
         if (more) stage.next(upload);
+        else {
+          store.set({ volumeReady: volume.complete });
+          stage.firstPicture ||= volume.complete === volume.size[2];
+        }
+        for (const each of this.slices) stage.invalidate(each);
       };
       stage.next(upload);
     };
     if ((await source.bytes("volume", {}, arrived)) === null || volume === null) return;
-    idle(() => this.prepareCast(volume!));
+    stage.afterFirstPicture(() => idle(() => this.prepareCast(volume!)));
   }
 
   private replaceTexture(texture: VolumeTexture | null): void {

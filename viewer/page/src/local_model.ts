@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The model of one node alone, as a coarse surface: marching tetrahedra over the distance that libblob answers with its
  * cursor held at the node. */
-import { BufferAttribute, BufferGeometry, Mesh, Vector4 } from "three";
+import { BufferAttribute, BufferGeometry, Mesh } from "three";
 import { Flags, type Model } from "../../../libblob/wasm/blob.mjs";
 import type { App } from "./model";
-import { PartMaterial } from "./part_material";
+import { kNoClip, PartMaterial } from "./part_material";
 import type { SceneView } from "./scene_view";
 import type { Tree } from "./tree";
 
@@ -66,7 +66,7 @@ export class LocalModel {
       geometry.setAttribute("position", new BufferAttribute(position, 3));
       geometry.setAttribute("normal", new BufferAttribute(normal, 3));
       this.mesh = new Mesh(geometry, new PartMaterial(false));
-      this.mesh.material.look({ own: [1, 0.86, 0.35], alpha: 0.8, mapped: false, range: [0, 1], map: "sequential", lit: true, clip: new Vector4() });
+      this.mesh.material.look({ own: [1, 0.86, 0.35], alpha: 0.8, mapped: false, range: [0, 1], map: "sequential", lit: true, clip: kNoClip });
       this.mesh.renderOrder = 4;
       this.mesh.frustumCulled = false;
       scene.extra.add(this.mesh);

@@ -6,11 +6,13 @@ import { displayPanel, legend } from "./display_panel";
 import { Flight } from "./flight";
 import { Hand } from "./hand";
 import { listenToKeys } from "./keys";
+import { libraryPanel } from "./library_panel";
 import { Loader } from "./loader";
 import { LocalModel } from "./local_model";
 import { MeshLayer } from "./mesh_layer";
 import { measurePanel } from "./measure_panel";
 import { newStore, type App } from "./model";
+import { Performer } from "./performer";
 import { ProbeLine } from "./probe_line";
 import { listenToScene } from "./scene_input";
 import { SceneView } from "./scene_view";
@@ -30,12 +32,12 @@ import { WireTool } from "./wire_tool";
 import { workPanel } from "./work_panel";
 
 function makeApp(source: Source, shell: Shell): App {
-  const store = newStore();
+  const store = newStore(), performer = new Performer(store, source);
   const app: App = {
     store, source, stage: new Stage(shell.canvas), say: (text, severity) => toast(shell, text, severity),
     perform: async operation => {
       try {
-        await source.perform(operation, store.get().state.revision);
+        await performer.perform(operation);
         return true;
       } catch (error) {
         app.say(error instanceof Refused ? error.message : `That could not be done: ${error instanceof Error ? error.message : String(error)}`, "error");
@@ -58,7 +60,7 @@ async function start(): Promise<void> {
   listenToScene(scene, app, tools);
   makeBar(shell.bar, app, actions);
   new TreePanel(shell.left, app);
-  shell.right.append(...workPanel(app, actions, hand), ...displayPanel(app, actions), new MeshLayer(app, scene).panel, ...measurePanel(app, actions, hand, wire));
+  shell.right.append(...libraryPanel(app), ...workPanel(app, actions, hand), ...displayPanel(app, actions), new MeshLayer(app, scene).panel, ...measurePanel(app, actions, hand, wire));
   new Strip(shell.strip, app, actions, flight);
   new ProbeLine(shell.probe, app, tools);
   new LocalModel(app, scene);
@@ -66,8 +68,11 @@ async function start(): Promise<void> {
   listenToKeys(app, actions, hand);
   applyLayout(app, shell);
   const loader = new Loader(app, slices, scene), watcher = new Watcher(app, shell, loader, actions);
-  app.store.watch(["crosshair", "frame", "planes", "tree", "surface", "hidden", "solo", "selected", "colours", "layers", "window", "measurements", "pending", "state", "layout", "interpolate"], view => {
+  app.store.watch(["crosshair", "frame", "planes", "tree", "window", "layout", "interpolate"], view => {
     for (const slice of slices) { slice.texture?.interpolate(view.interpolate); app.stage.invalidate(slice); }
+  });
+  app.store.watch(["surface", "hidden", "solo", "selected", "colours", "layers", "measurements", "pending", "clicks", "state"], () => {
+    for (const slice of slices) app.stage.invalidateOver(slice);
   });
   await watcher.begin();
 }

@@ -62,8 +62,14 @@ function wireSection(app: App, wire: WireTool): HTMLElement {
   const tell = (): void => {
     const w = wire.now, { tree } = app.store.get();
     controls.hidden = w === null;
+    delete about.dataset.nodes;
+    delete about.dataset.vessels;
     if (w === null || tree === null) { about.textContent = "A guidewire that is pushed through the lumen and turned: drag it in the 3D view, or use the arrow keys there."; return; }
     about.textContent = `${brief(w.inserted)} mm in, tip in ${tree.branches[tree.branch[w.cursorOf(0)]]?.label ?? "–"}, ${w.contacts} points touch; ${w.options.count} points, ${wire.cost.toFixed(1)} ms a step.`;
+    // for whoever reads them by program: of every point from the tip to the entry its node, and the vessels in that order
+    const nodes = Array.from({ length: w.free }, (_, i) => w.cursorOf(i)), vessels = new Set(nodes.map(n => tree.branches[tree.branch[n]]?.label ?? "–"));
+    about.dataset.nodes = nodes.join(" ");
+    about.dataset.vessels = JSON.stringify([...vessels]);
   };
   wire.onChange = tell;
   app.store.watch(["tree", "blob"], view => { place.disabled = view.blob === null; tell(); });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Meshes that were opened beside the case: shown in grey, each with an opacity of its own. */
-import { BufferAttribute, BufferGeometry, Mesh, Vector4 } from "three";
+import { BufferAttribute, BufferGeometry, Mesh } from "three";
 import type { App } from "./model";
 import { Pack } from "./pack";
-import { PartMaterial } from "./part_material";
+import { kNoClip, PartMaterial } from "./part_material";
 import type { SceneView } from "./scene_view";
 import { vertexNormals } from "./surface";
 import type { Vec3 } from "./types";
@@ -50,7 +50,7 @@ export class MeshLayer {
       mesh.renderOrder = 3;
       const look = (alpha: number): void => {
         mesh.visible = alpha > 0;
-        mesh.material.look({ own: kGrey, alpha, mapped: false, range: [0, 1], map: "sequential", lit: false, clip: new Vector4() });
+        mesh.material.look({ own: kGrey, alpha, mapped: false, range: [0, 1], map: "sequential", lit: false, clip: kNoClip });
         app.stage.invalidate(scene);
       };
       const alpha = app.store.get().tree === null ? 1 : kAlpha;

@@ -7,7 +7,7 @@ import type { Stage } from "./stage";
 import { Store } from "./store";
 import type { Surface } from "./surface";
 import type { Tree } from "./tree";
-import { kEmptyState, type State, type Vec3 } from "./types";
+import { kEmptyState, type Seed, type State, type Vec3 } from "./types";
 import type { Frame } from "./vec";
 import type { Volume } from "./volume";
 
@@ -30,6 +30,8 @@ export interface Measurement {
 export interface View {
   state: State;
   tree: Tree | null;
+  /** Revision of the document that the tree is of; the state's may be newer while the tree is on its way. */
+  treeRevision: number;
   surface: Surface | null;
   volume: Volume | null;
   /** Slices of the volume that can be shown. */
@@ -41,7 +43,10 @@ export interface View {
   solo: string | null;
   opacity: ReadonlyMap<string, number>;
   allOpacity: number;
+  /** Chosen by the user. */
   colours: ReadonlyMap<string, Rgb>;
+  /** Of each name its number in the walk of colours: a vessel keeps its colour when the list changes. */
+  colourNumbers: ReadonlyMap<string, number>;
 
   crosshair: Vec3;
   /** Node of the selected vessel that the cursor is at, or -1. */
@@ -61,8 +66,10 @@ export interface View {
   strip: boolean;
 
   measurements: Measurement[];
-  /** Points of the measurement or seed that is being made. */
+  /** Points of the measurement that is being made, or of what is dragged. */
   pending: Vec3[];
+  /** Clicks of the seed that is being made; they stay while other tools are used to look for the next one. */
+  clicks: Seed["points"];
   job: { job: number; name: string; stage: string; done: number; total: number } | null;
   lost: boolean;
   distance: Float32Array | null;
@@ -73,13 +80,13 @@ export interface View {
 export const kPatientFrame: Frame = { right: [1, 0, 0], up: [0, -1, 0], normal: [0, 0, -1] };
 
 export const kInitial: View = {
-  state: kEmptyState, tree: null, surface: null, volume: null, volumeReady: 0, blob: null,
-  selected: -1, hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1, colours: new Map(),
+  state: kEmptyState, tree: null, treeRevision: 0, surface: null, volume: null, volumeReady: 0, blob: null,
+  selected: -1, hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1, colours: new Map(), colourNumbers: new Map(),
   crosshair: [0, 0, 0], node: -1, planes: "patient", frame: kPatientFrame,
   window: [0, 1], cast: "off",
   layers: { surface: true, lines: true, nodes: false, points: false, local: false, contours: true, seeds: true, slices: false, places: true },
   colourBy: "branch", clip: { on: false, flip: false }, interpolate: true, tool: "navigate", layout: "four", theme: "dark", strip: true,
-  measurements: [], pending: [], job: null, lost: false, distance: null, figures: null,
+  measurements: [], pending: [], clicks: [], job: null, lost: false, distance: null, figures: null,
 };
 
 export interface App {
@@ -92,10 +99,10 @@ export interface App {
   perform: (operation: { op: string; [key: string]: unknown }) => Promise<boolean>;
 }
 
-/** The colour of a branch: chosen, or of its place in the list. */
+/** The colour of a branch: chosen, or of the number that its name has. */
 export function colourOf(view: View, branch: number): Rgb {
   const label = view.tree?.branches[branch]?.label ?? "";
-  return view.colours.get(label) ?? branchColour(branch);
+  return view.colours.get(label) ?? branchColour(view.colourNumbers.get(label) ?? branch);
 }
 
 export function isShown(view: View, branch: number): boolean {

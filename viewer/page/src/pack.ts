@@ -6,7 +6,11 @@ type TypeName = keyof typeof kTypes;
 type ArrayOf = { [K in TypeName]: InstanceType<(typeof kTypes)[K]> };
 export type AnyArray = ArrayOf[TypeName];
 
-interface Place { type: TypeName; shape: number[]; offset: number }
+interface Place {
+  type: TypeName; shape: number[]; offset: number;
+  /** Of arrays that are coded, as in the page as one file. */
+  coding?: "differences" | "back"; stored?: "u16" | "u32"; low?: number[]; step?: number[];
+}
 
 const kMostHeader = 64 << 20; // bytes of JSON; more is no pack
 
@@ -18,11 +22,30 @@ export function headerEnd(bytes: Uint8Array): number {
   return 4 + size;
 }
 
+/** The values of a coded array: see "Packs" in ../../README.md. */
+function decoded(place: Place, bytes: Uint8Array): AnyArray {
+  const rows = place.shape[0], columns = place.shape[1] ?? 1, size = place.stored === "u16" ? 2 : 4;
+  const values = new Uint32Array(rows * columns);
+  for (let c = 0, at = 0; c < columns; ++c)
+    for (let k = 0; k < size; ++k)
+      for (let i = c; i < values.length; i += columns) values[i] |= bytes[at++] << (8 * k);
+  if (place.coding === "back")
+    for (let i = 0, next = 0; i < values.length; ++i) {
+      values[i] = next - values[i]; // modulo 2^32
+      next = Math.max(next, values[i] + 1);
+    }
+  else
+    for (let i = columns, mask = size === 2 ? 0xffff : 0xffffffff; i < values.length; ++i) values[i] = (values[i] + values[i - columns]) & mask;
+  const { low, step } = place;
+  return low === undefined || step === undefined ? values : Float32Array.from(values, (v, i) => low[i % columns] + step[i % columns] * v);
+}
+
 /** Arrays by name, as views of one buffer, and the other members of the JSON. */
 export class Pack {
   readonly meta: Record<string, unknown>;
   readonly base: number;
   private readonly places: Record<string, Place>;
+  private readonly decoded = new Map<string, AnyArray>();
 
   /** The arrays may still be being received: only the header is read. Throws where it is not a pack. */
   constructor(readonly bytes: Uint8Array) {
@@ -53,11 +76,14 @@ export class Pack {
   }
 
   any(name: string): AnyArray {
-    const place = this.place(name), Type = kTypes[place.type];
+    const place = this.place(name), Type = kTypes[place.stored ?? place.type];
     const count = place.shape.reduce((a, b) => a * b, 1), at = this.base + place.offset;
     if (!Number.isSafeInteger(count) || place.offset % 8 !== 0 || at + count * Type.BYTES_PER_ELEMENT > this.bytes.length)
       throw new Error(`The pack's "${name}" of ${place.shape.join(" x ")} ends beyond the pack.`);
-    return new Type(this.bytes.buffer as ArrayBuffer, this.bytes.byteOffset + at, count);
+    if (place.coding === undefined) return new Type(this.bytes.buffer as ArrayBuffer, this.bytes.byteOffset + at, count);
+    let values = this.decoded.get(name);
+    if (values === undefined) this.decoded.set(name, (values = decoded(place, this.bytes.subarray(at))));
+    return values;
   }
 
   /** Null where there is no such array. */

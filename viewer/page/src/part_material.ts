@@ -76,6 +76,9 @@ function table(name: MapName): DataTexture {
 
 export interface Look { own: [number, number, number]; alpha: number; mapped: boolean; range: [number, number]; map: MapName; lit: boolean; clip: Vector4 }
 
+/** Cuts nothing away; a plane of three.js that nobody set would be (0, 0, 0, 1), and cut everything. */
+export const kNoClip = new Vector4(0, 0, 0, 0);
+
 /** One for all: set to look along a vessel from inside. */
 export const kFade = { value: 0 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Letters and lines over the 3D view: orientation, scale, measurements, seeds, the place of the crosshair. */
 import type { OrbitCamera } from "./camera";
-import type { View } from "./model";
+import { toCss } from "./colour";
+import { colourOf, isShown, type View } from "./model";
 import { drawMeasurements, drawScaleBar, drawWire, label, wirePoints } from "./slice_overlay";
 import type { Vec3 } from "./types";
 import { dot } from "./vec";
@@ -44,12 +45,31 @@ function drawPoints(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View
   c.stroke();
 }
 
+/** The centerline of the selected vessel, also through walls. Here, because a line costs nothing where the scene does. */
+function drawSelected(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
+  const { tree, selected } = view, branch = tree?.branches[selected];
+  if (tree === null || branch === undefined || !isShown(view, selected)) return;
+  c.strokeStyle = toCss(colourOf(view, selected).map(x => 0.3 * x + 0.7) as [number, number, number], 0.95);
+  c.lineWidth = 1.5;
+  c.lineJoin = "round";
+  c.beginPath();
+  let open = false;
+  for (const node of tree.nodesOf(branch)) {
+    const p = camera.project(tree.position(node));
+    if (p !== null && open) c.lineTo(p.x, p.y);
+    else if (p !== null) c.moveTo(p.x, p.y);
+    open = p !== null;
+  }
+  c.stroke();
+}
+
 export function drawSceneOverlay(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View, width: number, height: number): void {
   const project = (p: Vec3): { x: number; y: number; depth: number } | null => camera.project(p);
   if (camera.flight !== null) {
     label(c, "Flight", 8, 12, "#e8edf4");
     return;
   }
+  drawSelected(c, camera, view);
   drawPoints(c, camera, view);
   drawMeasurements(c, view, project, Infinity);
   drawWire(c, wirePoints.points, project, Infinity);

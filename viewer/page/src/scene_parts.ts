@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What stands in the 3D view besides the surface: centerlines, nodes as cylinders, wall points, balls. */
 import { BufferAttribute, BufferGeometry, Color, CylinderGeometry, GLSL3, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, Points,
-  Quaternion, ShaderMaterial, SphereGeometry, Vector3, Vector4 } from "three";
+  Quaternion, ShaderMaterial, SphereGeometry, Vector3 } from "three";
 import { colourOf, isShown, type View } from "./model";
-import { PartMaterial } from "./part_material";
+import { kNoClip, PartMaterial } from "./part_material";
 import type { Tree } from "./tree";
 import type { Vec3 } from "./types";
 
-/** The centerlines of branches that are shown, each in its colour; the selected one shows through walls. */
-export function centerlines(view: View, which: "selected" | "others"): LineSegments {
+/** The centerlines of branches that are shown, each in its colour. */
+export function centerlines(view: View): LineSegments {
   const tree = view.tree!, position: number[] = [], colour: number[] = [], one = new Color(), inside = view.layers.surface || view.layers.nodes;
   for (const branch of tree.branches) {
-    if (!isShown(view, branch.index) || (branch.index === view.selected) !== (which === "selected")) continue;
+    if (!isShown(view, branch.index)) continue;
     const nodes = tree.nodesOf(branch);
-    one.setRGB(...colourOf(view, branch.index)).lerp(new Color(1, 1, 1), branch.index === view.selected ? 0.7 : 0.25);
+    one.setRGB(...colourOf(view, branch.index)).lerp(new Color(1, 1, 1), 0.25);
     for (let i = 1; i < nodes.length; ++i) {
       position.push(...tree.position(nodes[i - 1]), ...tree.position(nodes[i]));
       colour.push(one.r, one.g, one.b, one.r, one.g, one.b);
     }
   }
-  for (let k = 0; which === "others" && k + 1 < tree.links.length; k += 2) {
+  for (let k = 0; k + 1 < tree.links.length; k += 2) {
     position.push(...tree.position(tree.links[k]), ...tree.position(tree.links[k + 1]));
     colour.push(1, 1, 1, 1, 1, 1);
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(position), 3));
   geometry.setAttribute("color", new BufferAttribute(new Float32Array(colour), 3));
-  const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.95, depthTest: inside && which === "others", toneMapped: false }));
+  const lines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.95, depthTest: inside, toneMapped: false }));
   lines.renderOrder = 10;
   lines.frustumCulled = false;
   return lines;
@@ -79,7 +79,7 @@ export function wallPoints(view: View): Points | null {
 
 function pointMaterial(): ShaderMaterial {
   return new ShaderMaterial({
-    glslVersion: GLSL3, uniforms: { clip: { value: new Vector4() } }, vertexColors: true,
+    glslVersion: GLSL3, uniforms: { clip: { value: kNoClip.clone() } }, vertexColors: true,
     vertexShader: "out vec3 tint; out vec3 here; void main() { tint = color; here = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); gl_PointSize = 1.6; }",
     fragmentShader: "precision highp float; in vec3 tint; in vec3 here; out vec4 result; uniform vec4 clip; void main() { if (dot(clip.xyz, here) + clip.w > 0.0) discard; result = vec4(tint, 1.0); }",
   });
@@ -87,7 +87,7 @@ function pointMaterial(): ShaderMaterial {
 
 export function ball(p: Vec3, radius: number, colour: [number, number, number], alpha = 1): Mesh {
   const material = new PartMaterial(false), mesh = new Mesh(new SphereGeometry(radius, 18, 12), material);
-  material.look({ own: colour, alpha, mapped: false, range: [0, 1], map: "sequential", lit: false, clip: new Vector4() });
+  material.look({ own: colour, alpha, mapped: false, range: [0, 1], map: "sequential", lit: false, clip: kNoClip });
   mesh.position.set(...p);
   mesh.renderOrder = 5;
   return mesh;

@@ -16,7 +16,7 @@ import type { Vec3 } from "./types";
 import { dot, scale } from "./vec";
 import type { VolumeTexture } from "./volume_texture";
 
-const kStill = 250; // ms after the last movement at which the volume is drawn again in full
+const kStill = 250; // ms after the last movement at which what is slow is drawn again in full
 
 export class SceneView implements StageView {
   readonly camera = new OrbitCamera();
@@ -32,8 +32,10 @@ export class SceneView implements StageView {
   /** The model of one node alone, a wire: what other modules show. */
   readonly extra = new Group();
   private moving = 0;
+  private marking = 0;
   private surface: Surface | null = null;
   private fitted = false;
+  private touched = false; // the camera is no longer where all is shown
   texture: VolumeTexture | null = null;
 
   constructor(readonly element: HTMLElement, readonly app: App) {
@@ -43,11 +45,12 @@ export class SceneView implements StageView {
     const all = (keys: (keyof View)[], call: (view: View) => void): void => { store.watch(keys, view => { call(view); stage.invalidate(this); }); };
     all(["surface"], view => this.setSurface(view));
     all(["tree"], view => this.setTubes(view));
-    all(["tree", "layers", "hidden", "solo", "selected", "colours"], view => this.setLines(view));
+    all(["tree", "layers", "hidden", "solo", "colours"], view => this.setLines(view));
     all(["tree", "layers", "hidden", "solo", "colours"], view => this.setPoints(view));
     all(["state", "layers", "crosshair"], view => this.setMarks(view));
-    all(["surface", "tree", "layers", "hidden", "solo", "selected", "colours", "opacity", "allOpacity", "colourBy", "clip", "crosshair", "frame",
-      "distance", "window", "cast", "volumeReady", "measurements", "pending", "tool", "theme", "node"], view => this.setLooks(view));
+    all(["surface", "tree", "layers", "hidden", "solo", "colours", "opacity", "allOpacity", "colourBy", "clip",
+      "distance", "window", "cast", "volumeReady", "theme"], view => this.setLooks(view));
+    store.watch(["selected", "crosshair", "frame", "node", "measurements", "pending", "clicks", "tool"], view => { this.setLooks(view); this.marked(); });
   }
 
   private replace(group: Group, objects: Object3D[]): void {
@@ -76,7 +79,7 @@ export class SceneView implements StageView {
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
   }
-  private setLines(view: View): void { this.replace(this.lines, view.tree !== null && view.layers.lines ? [centerlines(view, "others"), centerlines(view, "selected")] : []); }
+  private setLines(view: View): void { this.replace(this.lines, view.tree !== null && view.layers.lines ? [centerlines(view)] : []); }
   private setPoints(view: View): void {
     const points = view.tree !== null && view.layers.points ? wallPoints(view) : null;
     this.replace(this.points, points === null ? [] : [points]);
@@ -127,19 +130,32 @@ export class SceneView implements StageView {
       this.camera.fit(pick(Math.min), pick(Math.max));
     } else return;
     this.fitted = true;
+    this.touched = false;
     this.app.stage.invalidate(this);
+  }
+
+  /** A mark moved, which the overlay shows at once. The scene follows; without a graphics processor when the marks rest. */
+  private marked(): void {
+    const { stage } = this.app;
+    stage.invalidateOver(this);
+    if (!stage.software) { stage.invalidate(this); return; }
+    window.clearTimeout(this.marking);
+    this.marking = window.setTimeout(() => stage.invalidate(this), kStill);
   }
 
   /** The camera moved: coarse pictures of the volume until it rests. */
   moved(): void {
+    this.touched = true;
     window.clearTimeout(this.moving);
     this.moving = window.setTimeout(() => { this.moving = 0; this.app.stage.invalidate(this); }, kStill);
     this.app.stage.invalidate(this);
   }
 
   draw(renderer: WebGLRenderer, width: number, height: number): void {
-    const view = this.app.store.get(), camera = this.camera.update(width, height), software = this.app.stage.software;
-    if (!this.fitted) this.fit();
+    const view = this.app.store.get(), software = this.app.stage.software, resized = width !== this.camera.width || height !== this.camera.height;
+    this.camera.update(width, height);
+    if (!this.fitted || (resized && !this.touched)) this.fit();
+    const camera = this.camera.update(width, height);
     if (view.cast !== "off" && this.caster !== null) {
       const share = this.moving !== 0 ? (software ? 0.22 : 0.6) : software ? 0.5 : 1;
       this.caster.draw(renderer, camera, this.camera.isParallel && this.camera.flight === null, [width, height], share, view.window, view.cast === "volume",

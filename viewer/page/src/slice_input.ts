@@ -86,7 +86,7 @@ function sliceKey(slice: SliceView, app: App, tools: Tools, e: KeyboardEvent): b
   const { store } = app, f = slice.frame, { crosshair, volume } = store.get();
   if (e.altKey || e.metaKey) return false;
   const each = (e.shiftKey ? 5 : 1) * (volume === null ? 0.5 : Math.min(...volume.spacing));
-  const go = (d: Vec3, s: number): boolean => { store.set({ crosshair: along(crosshair, d, s * each) }); slice.reveal(store.get().crosshair); return true; };
+  const go = (d: Vec3, s: number): boolean => { slice.moveCrosshair(d, s * each); return true; };
   const turn = (angle: number): boolean => { turnPlanes(app, f.normal, angle); return true; };
   switch (e.key) {
     case "ArrowLeft": return e.ctrlKey ? turn(0.05) : go(f.right, -1);

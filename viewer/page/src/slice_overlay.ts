@@ -4,7 +4,7 @@ import { toCss } from "./colour";
 import { colourOf, isShown, type View } from "./model";
 import type { SliceView } from "./slice_view";
 import type { Surface } from "./surface";
-import type { Vec3 } from "./types";
+import type { MissingVessel, Vec3 } from "./types";
 import { dot, orientation, scale } from "./vec";
 
 interface Cut { surface: Surface; key: string; parts: (number[] | null)[] }
@@ -29,8 +29,7 @@ type Context = CanvasRenderingContext2D;
 function drawOutlines(c: Context, slice: SliceView, view: View): void {
   const { surface } = view;
   if (surface === null || !view.layers.contours) return;
-  const parts = outlines(slice, surface), f = slice.frame, s = 1 / slice.mmPerPixel, o = slice.toPixel([0, 0, 0]);
-  const x = scale(f.right, s), y = scale(f.up, -s);
+  const parts = outlines(slice, surface), map = slice.toPixels(), x = map.x.by, y = map.y.by, o = { x: map.x.offset, y: map.y.offset };
   surface.parts.forEach((part, i) => {
     const points = parts[i];
     if (points === null || points.length === 0 || !isShown(view, part.branch)) return;
@@ -48,14 +47,13 @@ function drawOutlines(c: Context, slice: SliceView, view: View): void {
 function drawLines(c: Context, slice: SliceView, view: View): void {
   const { tree } = view;
   if (tree === null || !view.layers.lines) return;
-  const near = 2 * slice.mmPerPixel + (tree.voxelSize || 0.5);
+  const near = 2 * slice.mmPerPixel + (tree.voxelSize || 0.5), { x, y, depth } = slice.toPixels(), p = tree.centre;
+  const on = (row: { by: Vec3; offset: number }, k: number): number => p[k] * row.by[0] + p[k + 1] * row.by[1] + p[k + 2] * row.by[2] + row.offset;
   for (const branch of tree.branches) {
     if (!isShown(view, branch.index)) continue;
     c.fillStyle = toCss(colourOf(view, branch.index), 0.9);
-    for (let i = branch.firstNode; i < branch.firstNode + branch.nodeCount; ++i) {
-      const p = slice.toPixel(tree.position(i));
-      if (Math.abs(p.depth) < near) c.fillRect(p.x - 1, p.y - 1, 2, 2);
-    }
+    for (let k = 3 * branch.firstNode; k < 3 * (branch.firstNode + branch.nodeCount); k += 3)
+      if (Math.abs(on(depth, k)) < near) c.fillRect(on(x, k) - 1, on(y, k) - 1, 2, 2);
   }
 }
 
@@ -72,6 +70,10 @@ function ring(c: Context, slice: SliceView, p: Vec3, radius: number, colour: str
   c.globalAlpha = 1;
 }
 
+export const kPlaceRing = 7; // pixels
+/** mm from a slice within which a missing vessel is marked in it. */
+export const placeReach = (place: MissingVessel): number => Math.max(3, place.length_mm / 2);
+
 function drawSeeds(c: Context, slice: SliceView, view: View): void {
   const pixel = slice.mmPerPixel;
   if (view.layers.seeds)
@@ -86,8 +88,8 @@ function drawSeeds(c: Context, slice: SliceView, view: View): void {
     }
   if (view.layers.places)
     for (const place of view.state.check?.missing_vessels ?? []) {
-      ring(c, slice, place.position, 7, "#ff7a90", Math.max(3, place.length_mm / 2));
-      ring(c, slice, place.position, 1.5, "#ff7a90", Math.max(3, place.length_mm / 2), true);
+      ring(c, slice, place.position, kPlaceRing, "#ff7a90", placeReach(place));
+      ring(c, slice, place.position, 1.5, "#ff7a90", placeReach(place), true);
     }
 }
 
@@ -105,7 +107,8 @@ export function label(c: Context, text: string, x: number, y: number, colour: st
 /** Measured points and the lines between them, in a slice or a projection. */
 export function drawMeasurements(c: Context, view: View, project: (p: Vec3) => { x: number; y: number; depth: number } | null, reach: number): void {
   const groups = [...view.measurements.map(m => ({ points: m.points, text: m.text, kind: m.kind as string })),
-    ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : [])];
+    ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : []),
+    ...(view.clicks.length > 0 ? [{ points: view.clicks.map(click => click.position), text: "", kind: "pending" }] : [])];
   for (const { points, text, kind } of groups) {
     const pixels = points.map(project);
     if (pixels.every(p => p === null || Math.abs(p.depth) > reach)) continue;

@@ -70,8 +70,14 @@ export class SliceView implements StageView {
     return along(along(this.centre(), f.right, (x - this.width / 2) * s), f.up, (this.height / 2 - y) * s);
   }
   toPixel(p: Vec3): { x: number; y: number; depth: number } {
-    const f = this.frame, s = this.mmPerPixel, d = sub(p, this.centre());
-    return { x: this.width / 2 + dot(d, f.right) / s, y: this.height / 2 - dot(d, f.up) / s, depth: dot(d, f.normal) };
+    const { x, y, depth } = this.toPixels();
+    return { x: dot(p, x.by) + x.offset, y: dot(p, y.by) + y.offset, depth: dot(p, depth.by) + depth.offset };
+  }
+  /** The same as an affine map, for many points. */
+  toPixels(): Record<"x" | "y" | "depth", { by: Vec3; offset: number }> {
+    const f = this.frame, s = 1 / this.mmPerPixel, centre = this.centre();
+    const row = (d: Vec3, origin: number): { by: Vec3; offset: number } => ({ by: d, offset: origin - dot(centre, d) });
+    return { x: row(scale(f.right, s), this.width / 2), y: row(scale(f.up, -s), this.height / 2), depth: row(f.normal, 0) };
   }
 
   draw(renderer: WebGLRenderer, width: number, height: number): void {
@@ -106,11 +112,18 @@ export class SliceView implements StageView {
     this.pan = [0, 0];
     this.app.stage.invalidate(this);
   }
-  /** Steps through the volume by as many voxels. */
+  /** Steps through the volume by as many voxels: to the head, to the front, to the left. */
   step(count: number): void {
-    const { volume, tree, crosshair } = this.app.store.get(), f = this.frame;
+    const { volume, tree } = this.app.store.get(), f = this.frame, upwards = this.name === "axial" ? -1 : 1; // it is seen from the feet
     const each = volume === null ? Math.max(tree?.voxelSize ?? 0, 0.1) : Math.min(...volume.spacing);
-    this.app.store.set({ crosshair: along(crosshair, f.normal, count * each) });
+    this.moveCrosshair(f.normal, upwards * count * each);
+  }
+  /** Moves the crosshair along a direction, but not out of the volume. */
+  moveCrosshair(direction: Vec3, mm: number): void {
+    const { volume, crosshair } = this.app.store.get(), to = along(crosshair, direction, mm);
+    if (volume !== null && volume.holds(crosshair) && !volume.holds(to)) return;
+    this.app.store.set({ crosshair: to });
+    this.reveal(to);
   }
   /** Brings a point into the middle where it would be out of sight. */
   reveal(p: Vec3): void {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The page as one file: <script type="application/json" id="lumen-embedded"> holds {"state", "parts": {name: base64}}. */
+/** The page as one file: <script type="application/json" id="lumen-embedded"> holds {"state", "parts": {name: base64 of what zlib has compressed}}. */
 import { Refused, type Answer, type Received, type Source } from "./source";
 import { kEmptyState, type Event, type Snap, type State } from "./types";
 
@@ -13,6 +13,11 @@ export function fromBase64(text: string): Uint8Array {
     for (let i = 0; i < part.length; ++i) bytes[out++] = part.charCodeAt(i);
   }
   return bytes;
+}
+
+async function inflated(bytes: Uint8Array): Promise<Uint8Array> {
+  const stream = new globalThis.Blob([bytes as BufferSource]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 interface Embedded { state: Partial<State>; parts: Record<string, string> }
@@ -33,13 +38,13 @@ export class EmbeddedSource implements Source {
   }
 
   state(): Promise<State> { return Promise.resolve({ ...kEmptyState, ...this.state0 }); }
-  bytes(name: string, query: Record<string, string> = {}, received?: Received): Promise<Uint8Array | null> {
+  async bytes(name: string, query: Record<string, string> = {}, received?: Received): Promise<Uint8Array | null> {
     const key = "id" in query ? `${name}?id=${query.id}` : name, text = this.parts.get(key);
-    if (text === undefined) return Promise.resolve(null);
-    const bytes = fromBase64(text);
+    if (text === undefined) return null;
+    const bytes = await inflated(fromBase64(text));
     if (name === "volume") this.parts.delete(key); // it is asked for once, and is large
     received?.(bytes, bytes.length);
-    return Promise.resolve(bytes);
+    return bytes;
   }
   listen(listener: (event: Event) => void): void { void listener; }
   private refuse(): never { throw new Refused(404, "This page is one file without a server: it shows and measures, and edits nothing."); }

@@ -22,6 +22,8 @@ export class Stage {
   private clearAll = true; // also what lies between views
   private scheduled = false;
   private readonly frames: (() => void)[] = [];
+  private readonly afterwards: (() => void)[] = [];
+  private seen = false;
   /** Milliseconds of the last frame's drawing calls. */
   lastFrame = 0;
   /** Set when there is something to see; the next frame is the first picture, and marked as such for measuring. */
@@ -36,6 +38,7 @@ export class Stage {
     this.software = /swiftshader|llvmpipe|software|basic render/i.test(name);
     this.renderer = new WebGLRenderer({ canvas, context, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
+    this.renderer.debug.checkShaderErrors = false; // asking waits until each shader is compiled, before anything is fetched
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
@@ -53,9 +56,9 @@ export class Stage {
     this.schedule();
   }
 
-  /** Draws only what lies over the views. */
-  invalidateOver(): void {
-    for (const each of this.views) this.dirtyOver.add(each);
+  /** Draws only what lies over a view, or over all of them. */
+  invalidateOver(view?: StageView): void {
+    for (const each of view === undefined ? this.views : [view]) this.dirtyOver.add(each);
     this.schedule();
   }
 
@@ -103,7 +106,21 @@ export class Stage {
     }
     this.dirtyOver.clear();
     this.lastFrame = performance.now() - begin;
-    if (this.firstPicture && performance.getEntriesByName(kFirstPicture).length === 0) performance.mark(kFirstPicture);
+    if (this.firstPicture && !this.seen) this.markFirstPicture();
+  }
+
+  private markFirstPicture(): void {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
+    performance.mark(kFirstPicture);
+    this.seen = true;
+    for (const call of this.afterwards.splice(0)) call();
+  }
+
+  /** Calls when the first picture is there: what can wait for it, should. */
+  afterFirstPicture(call: () => void): void {
+    if (this.seen) call();
+    else this.afterwards.push(call);
   }
 
   /** The picture of all views as they are, with what lies over them. */

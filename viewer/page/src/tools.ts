@@ -9,6 +9,7 @@ import { goTo, goToNode, select } from "./selection";
 import type { SliceView } from "./slice_view";
 import type { Hit } from "./surface";
 import type { Vec3 } from "./types";
+import { kPlaceRing, placeReach } from "./slice_overlay";
 import { along, dot, length, sub, cross } from "./vec";
 import type { WireTool } from "./wire_tool";
 
@@ -30,9 +31,19 @@ export class Tools {
   // ---- slices
 
   pressInSlice(slice: SliceView, p: Vec3): void {
-    const { store } = this.app;
+    const { store } = this.app, place = this.tool === "navigate" || this.tool === "seed" ? this.placeAt(slice, p) : -1;
+    if (place >= 0) { this.hand?.takePlace(place); return; }
     if (this.tool === "navigate" || this.tool === "probe" || this.tool === "wire") { goTo(this.app, p); return; }
     if (this.hand?.press(p, slice) !== true) store.set({ crosshair: p });
+  }
+  /** The place that the check names whose ring is there, or -1. */
+  private placeAt(slice: SliceView, p: Vec3): number {
+    const { state, layers } = this.app.store.get(), at = slice.toPixel(p);
+    if (!layers.places) return -1;
+    return (state.check?.missing_vessels ?? []).findIndex(place => {
+      const ring = slice.toPixel(place.position);
+      return Math.abs(ring.depth) < placeReach(place) && Math.hypot(ring.x - at.x, ring.y - at.y) <= kPlaceRing;
+    });
   }
   dragInSlice(slice: SliceView, p: Vec3): void {
     if (this.hand?.drag(p, slice) === true) return;

@@ -94,16 +94,18 @@ export class Tree {
     return best;
   }
 
+  private whole: { low: Vec3; high: Vec3 } | null = null;
+
   /** The box of all nodes' balls; null if there is no node. */
   box(): { low: Vec3; high: Vec3 } | null {
-    if (this.count === 0) return null;
+    if (this.count === 0 || this.whole !== null) return this.whole;
     const low: Vec3 = [Infinity, Infinity, Infinity], high: Vec3 = [-Infinity, -Infinity, -Infinity];
     for (let i = 0; i < this.count; ++i)
       for (let a = 0; a < 3; ++a) {
         low[a] = Math.min(low[a], this.centre[3 * i + a] - this.radius[i]);
         high[a] = Math.max(high[a], this.centre[3 * i + a] + this.radius[i]);
       }
-    return { low, high };
+    return (this.whole = { low, high });
   }
 
   /** Branches in the order of a walk from the roots, each with its depth. */

@@ -34,6 +34,7 @@ export class TreePanel {
     this.list.addEventListener("keydown", e => this.key(e));
     app.store.watch(["tree"], view => this.fill(view));
     app.store.watch(["state"], view => { if (view.tree === null) this.fill(view); });
+    app.store.watch(["state", "treeRevision"], view => { this.list.setAttribute("aria-busy", String(view.state.revision !== view.treeRevision)); });
     app.store.watch(["tree", "selected", "hidden", "solo", "colours", "opacity"], view => this.mark(view));
     app.store.watch(["tree", "selected", "opacity", "allOpacity", "state"], view => this.describe(view));
   }
@@ -129,12 +130,9 @@ export class TreePanel {
 }
 
 export async function renameBranch(app: App, branch: number): Promise<void> {
-  const { tree, colours, hidden } = app.store.get(), old = tree?.branches[branch]?.label;
+  const { tree } = app.store.get(), old = tree?.branches[branch]?.label;
   if (old === undefined || !app.source.live) return;
   const label = (await askText("Rename the vessel", "Name", old))?.trim();
   if (label === undefined || label === "" || label === old) return;
-  if (!(await app.perform({ op: "rename", branch, label }))) return;
-  const colour = colours.get(old); // what the page knows by name goes with it
-  if (colour !== undefined) app.store.set({ colours: new Map(colours).set(label, colour) });
-  if (hidden.has(old)) app.store.set({ hidden: new Set([...hidden].map(x => (x === old ? label : x))) });
+  await app.perform({ op: "rename", branch, label });
 }

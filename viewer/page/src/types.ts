@@ -36,10 +36,10 @@ export interface CheckAnswer {
   dark_places?: { position: Vec3 }[];
 }
 
-export interface FileEntry { id: number | string; kind: string; name: string; changed: boolean }
+export interface FileEntry { id: number | string; kind: string; name: string; changed: boolean; /** Not dropped: it can be read again. */ named: boolean }
 
 /** Of the parts of the document; those of packs are their ETags. */
-export interface Revisions { case: number; surface: number; volume: number; seeds: number; meshes?: number; truth?: number; distance?: number }
+export interface Revisions { case: number; surface: number; volume: number; seeds: number; meshes?: number; truth?: number; distance?: number; library?: number }
 
 export interface State {
   revision: number;
@@ -55,6 +55,10 @@ export interface State {
   redo: string | null;
   unsaved: boolean;
   saveAs: string | null;
+  /** Names of files that hold what an earlier program did not save. */
+  unsavedBefore: string[];
+  /** Of the library. */
+  openCase: number | null;
   job: { job: number; name: string } | null;
   check: CheckAnswer | null;
   /** The case has changed since it was checked. */
@@ -68,8 +72,11 @@ export const kEmptyState: State = {
   revision: 0,
   revisions: { case: 0, surface: 0, volume: 0, seeds: 0 },
   title: "", files: [], hasVolume: false, hasCase: false, hasTruth: false, meshes: [], seeds: [],
-  undo: null, redo: null, unsaved: false, saveAs: null, job: null, check: null, checkIsOld: false, figures: null, formats: [],
+  undo: null, redo: null, unsaved: false, saveAs: null, unsavedBefore: [], openCase: null, job: null, check: null, checkIsOld: false, figures: null, formats: [],
 };
+
+export interface LibraryCase { name: string; branches: number | null; length: number | null; error: string | null }
+export interface Library { name: string; cases: LibraryCase[] }
 
 export interface BranchRecord {
   label: string;

@@ -61,6 +61,9 @@ export class Volume {
     return m;
   }
 
+  /** Whether a position is in a voxel. */
+  holds(p: Vec3): boolean { return this.index(p).every((x, a) => x >= -0.5 && x <= this.size[a] - 0.5); }
+
   /** Intensity at a position, trilinear; NaN outside of the voxels' centres. */
   sample(p: Vec3): number {
     const [x, y, z] = this.index(p), [nx, ny, nz] = this.size, v = this.voxel;

@@ -38,6 +38,7 @@ export class Watcher {
     const { store } = this.app;
     switch (event.type) {
       case "state":
+        this.tellChanged(event.state);
         this.take(event.state);
         if (event.state.job === null) store.set({ job: null });
         else if (store.get().job?.job !== event.state.job.job) store.set({ job: { ...event.state.job, stage: "", done: 0, total: 0 } });
@@ -59,6 +60,11 @@ export class Watcher {
         }
         break;
     }
+  }
+
+  private tellChanged(state: State): void {
+    const known = new Set(this.app.store.get().state.files.filter(f => f.changed).map(f => f.id));
+    for (const file of state.files) if (file.changed && !known.has(file.id)) this.app.say(`Another program has written ${file.name}: here it is as it was read.`, "warning");
   }
 
   private showProgress(): void {

@@ -74,22 +74,29 @@ export class WireTool {
   }
 
   grab(scene: SceneView, x: number, y: number): boolean {
-    if (this.wire === null) return false;
     const kReach = 24; // pixels around the wire that a pointer takes hold of
-    const points = this.wire.x, near = Array.from({ length: this.wire.free }, (_, i) => scene.camera.project([points[3 * i], points[3 * i + 1], points[3 * i + 2]]))
-      .some(p => p !== null && Math.hypot(p.x - x, p.y - y) < kReach);
-    this.last = near ? { x, y } : null;
-    return near;
+    this.last = this.wire !== null && this.nearest(this.wire, scene, x, y).away < kReach ? { x, y } : null;
+    return this.last !== null;
+  }
+  /** The point of the wire that a pixel is nearest to, and how far that is. */
+  private nearest(wire: Wire, scene: SceneView, x: number, y: number): { point: number; away: number } {
+    let best = { point: 0, away: Infinity };
+    for (let i = 0; i < wire.free; ++i) {
+      const p = scene.camera.project(wire.at(i)), away = p === null ? Infinity : Math.hypot(p.x - x, p.y - y);
+      if (away < best.away) best = { point: i, away };
+    }
+    return best;
   }
   /** Along the wire where it is held: pushes; across: turns. */
   dragTo(scene: SceneView, x: number, y: number): void {
-    if (this.last === null || this.wire === null) return;
-    const dx = x - this.last.x, dy = y - this.last.y, tip = scene.camera.project(this.wire.tip);
-    const tail = Math.min(8, this.wire.options.count - 1), back = scene.camera.project([0, 1, 2].map(k => this.wire!.x[3 * tail + k]) as Vec3);
+    const { wire } = this;
+    if (this.last === null || wire === null) return;
+    const kAround = 4, { point } = this.nearest(wire, scene, this.last.x, this.last.y), dx = x - this.last.x, dy = y - this.last.y;
+    const ahead = scene.camera.project(wire.at(Math.max(0, point - kAround))), behind = scene.camera.project(wire.at(Math.min(wire.options.count - 1, point + kAround)));
     let ux = 0, uy = -1;
-    if (tip !== null && back !== null && Math.hypot(tip.x - back.x, tip.y - back.y) > 2) {
-      const n = Math.hypot(tip.x - back.x, tip.y - back.y);
-      ux = (tip.x - back.x) / n; uy = (tip.y - back.y) / n;
+    if (ahead !== null && behind !== null && Math.hypot(ahead.x - behind.x, ahead.y - behind.y) > 2) {
+      const n = Math.hypot(ahead.x - behind.x, ahead.y - behind.y);
+      ux = (ahead.x - behind.x) / n; uy = (ahead.y - behind.y) / n;
     }
     this.wanted += (dx * ux + dy * uy) * Math.max(kPush, scene.camera.mmPerPixel);
     this.turn += (dx * -uy + dy * ux) * kTurn;

@@ -6,7 +6,7 @@ import type { App, View } from "./model";
 import { goTo } from "./selection";
 import { renameBranch } from "./tree_panel";
 import type { MissingVessel, Seed } from "./types";
-import { brief, button, h, mm, section, select } from "./ui";
+import { askYes, brief, button, h, mm, section, select } from "./ui";
 
 export function workPanel(app: App, actions: Actions, hand: Hand): HTMLElement[] {
   return app.source.live ? [seedSection(app, actions, hand), checkSection(app, actions, hand), editSection(app), fileSection(app)] : [];
@@ -20,6 +20,7 @@ function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
   parent.addEventListener("change", () => { hand.parent = parent.value === "" ? null : parent.value; });
   const finish = button({ icon: "check", text: "Finish", label: "Finish this vessel's clicks", key: "Enter", id: "seed-finish", class: "button text" }, () => void hand.finish());
   finish.hidden = true;
+  store.watch(["clicks"], ({ clicks }) => { finish.disabled = clicks.length === 0; });
   const all = button({ icon: "play", text: "Track all", label: "Track all seeds that are placed", key: "T", id: "track-all", class: "button primary" }, () => void actions.track(null));
   store.watch(["state"], ({ state }) => {
     const waiting = state.seeds.filter(s => !s.tracked);
@@ -50,7 +51,7 @@ function checkSection(app: App, actions: Actions, hand: Hand): HTMLElement {
     run.disabled = !state.hasCase || !state.hasVolume || state.job !== null;
     const missing = state.check?.missing_vessels ?? [], wall = state.check?.wall?.offset_mm;
     about.textContent = state.check === null ? "Tells where the wall leaves the volume's edges, and what looks like a vessel and is none."
-      : `${missing.length === 0 ? "Nothing bright is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
+      : `${missing.length === 0 ? "Nothing bright is missing" : missing.length === 1 ? "One place looks like a vessel that is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
         state.checkIsOld ? " The case has changed since: check again." : ""}`;
     places.replaceChildren(...missing.map((m, i) => placeRow(app, hand, m, i)));
   });
@@ -107,12 +108,21 @@ function editSection(app: App): HTMLElement {
 }
 
 function fileSection(app: App): HTMLElement {
-  const list = h("ul", { class: "list", id: "file-list", "aria-label": "Open files" });
+  const list = h("ul", { class: "list", id: "file-list", "aria-label": "Open files" }), box = section("section-files", "Files", false, list);
   app.store.watch(["state"], ({ state }) => {
     list.replaceChildren(...state.files.map(file => h("li", { class: "row item" }, h("span", { class: "filename", title: file.name }, file.name),
       h("span", { class: file.changed ? "note changed" : "note" }, file.changed ? "changed on disk" : file.kind),
+      ...(file.changed && file.named ? [button({ text: "Reload", label: `Read ${file.name} again`, class: "button text" }, () => void app.perform({ op: "reload", id: file.id }))] : []),
       button({ icon: "close", label: `Close ${file.name}`, class: "button" }, () => void app.perform({ op: "closeFile", id: file.id })))));
+    list.append(...state.unsavedBefore.map((name, index) => h("li", { class: "row item" }, h("span", { class: "filename", title: name }, name), h("span", { class: "note changed" }, "was not saved"),
+      button({ text: "Take", label: `Take what ${name} holds`, class: "button text" }, () => void app.perform({ op: "recover", index })),
+      button({ icon: "trash", label: `Delete ${name}`, class: "button" }, () => void forget(app, name, index)))));
+    if (state.unsavedBefore.length > 0 || state.files.some(file => file.changed)) box.open = true;
     if (state.files.length === 0) list.append(h("li", { class: "hint" }, "No file is open."));
   });
-  return section("section-files", "Files", false, list);
+  return box;
+}
+
+async function forget(app: App, name: string, index: number): Promise<void> {
+  if (await askYes("Delete the file?", `${name} holds work that was not saved. Without it, that is gone.`, "Delete")) await app.perform({ op: "forget", index });
 }

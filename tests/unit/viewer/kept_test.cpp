@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// A library's cases, files that are read again, and work that is not saved.
+#include "converters/common/error.h"
+#include "served.h"
+
+namespace lumen::test {
+
+namespace fs = std::filesystem;
+
+using ReloadTest = ServedTest;
+using UnsavedTest = ServedTest;
+
+namespace {
+
+formats::Case named(const std::string& label) {
+  formats::Case value = twoVessels();
+  value.tree.branches[0].label = label;
+  return value;
+}
+
+}  // namespace
+
+class OpenLibraryTest : public ServedTest {
+protected:
+  void SetUp() override {
+    fs::create_directories(path("deep/deeper"));
+    fs::create_directories(path(".hidden"));
+    writeCase("a.lumen", named("in a"));
+    writeCase("deep/b.lumen", named("in b"));
+    write("broken.lumen", "nothing of a case");
+    writeCase("a.unsaved.lumen", named("no case of its own"));
+    writeCase("deep/deeper/c.lumen", named("too deep"));
+    writeCase(".hidden/d.lumen", named("hidden"));
+    session = std::make_unique<viewer::Session>(viewer::SessionOptions{});
+    session->openLibrary(folder, viewer::casesIn(folder));
+    serveSession();
+  }
+  [[nodiscard]] Json libraryRead() const {
+    while (state()["revisions"]["library"] != 4)  // three and one
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return Json::parse(get("library").body);
+  }
+};
+
+TEST_F(OpenLibraryTest, ListsItsCasesWithFiguresAndSaysWhichCannotBeRead) {
+  const Json library = libraryRead();
+  EXPECT_EQ(library["name"], folder.filename().string());
+  ASSERT_EQ(library["cases"].size(), 3U);
+  EXPECT_EQ(library["cases"][0]["name"], "a.lumen");
+  EXPECT_EQ(library["cases"][0]["branches"], 2);
+  EXPECT_NEAR(library["cases"][0]["length"].get<double>(), 12, 1e-5);
+  EXPECT_EQ(library["cases"][1]["name"], "broken.lumen");
+  EXPECT_EQ(library["cases"][1]["branches"], nullptr);
+  EXPECT_FALSE(library["cases"][1]["error"].get<std::string>().empty());
+  EXPECT_EQ(library["cases"][2]["name"], "deep/b.lumen");
+}
+
+TEST_F(OpenLibraryTest, OpensTheCaseOfANumberAndSavesIntoItsFile) {
+  performAll({{"op", "openCase"}, {"index", 2}});
+  EXPECT_EQ(state()["openCase"], 2);
+  EXPECT_EQ(state()["saveAs"], "b.lumen");
+  EXPECT_EQ(state()["unsaved"], false);
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  ASSERT_EQ(perform({{"op", "save"}}).status, 200);
+  EXPECT_EQ(formats::readCaseFile(path("deep/b.lumen"))->tree.branches[1].label, "mine");
+  EXPECT_EQ(formats::readCaseFile(path("a.lumen"))->tree.branches[1].label, "right");
+}
+
+TEST_F(OpenLibraryTest, NoPathOpensAFileNorANumberBeyondTheList) {
+  EXPECT_EQ(perform({{"op", "openCase"}, {"index", 3}}).status, 400);
+  EXPECT_EQ(perform({{"op", "openCase"}, {"index", -1}}).status, 400);
+  EXPECT_EQ(perform({{"op", "openCase"}, {"index", "deep/deeper/c.lumen"}}).status, 400);
+  EXPECT_EQ(perform({{"op", "openCase"}, {"path", path("a.lumen").string()}}).status, 400);
+  EXPECT_EQ(state()["hasCase"], false);
+}
+
+TEST_F(OpenLibraryTest, ChangesThatAreNotSavedAreAskedAboutAndKept) {
+  performAll({{"op", "openCase"}, {"index", 0}});
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  EXPECT_EQ(perform({{"op", "openCase"}, {"index", 2}}).status, 409);
+  performAll({{"op", "openCase"}, {"index", 2}, {"force", true}});
+  EXPECT_EQ(state()["openCase"], 2);
+  EXPECT_EQ(state()["undo"], nullptr);  // it would save one case into the file of another
+  // the name was taken by another file, which is as it was
+  EXPECT_EQ(formats::readCaseFile(path("a.unsaved.2.lumen"))->tree.branches[1].label, "mine");
+  EXPECT_EQ(formats::readCaseFile(path("a.unsaved.lumen"))->tree.branches[0].label,
+            "no case of its own");
+}
+
+TEST_F(OpenLibraryTest, ABrokenCaseLeavesWhatIsOpen) {
+  performAll({{"op", "openCase"}, {"index", 0}});
+  performAll({{"op", "openCase"}, {"index", 1}});
+  EXPECT_EQ(state()["openCase"], 0);
+  EXPECT_EQ(state()["title"], "a.lumen");
+}
+
+TEST_F(ReloadTest, AFileThatHasChangedIsReadAgainAndThatCanBeUndone) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  writeCase("two.lumen", named("from elsewhere"));
+  session->lookAtFiles();
+  const Json file = state()["files"][0];
+  EXPECT_EQ(file["changed"], true);
+  performAll({{"op", "reload"}, {"id", file["id"]}});
+  EXPECT_EQ(ReadPack(get("case").body).json["branches"][0]["label"], "from elsewhere");
+  EXPECT_EQ(state()["files"][0]["changed"], false);
+  EXPECT_EQ(state()["unsaved"], false);
+  EXPECT_EQ(perform({{"op", "save"}}).status, 200);  // nobody else's work is overwritten
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(ReadPack(get("case").body).json["branches"][0]["label"], "left");
+  EXPECT_EQ(state()["unsaved"], true);
+}
+
+TEST_F(ReloadTest, AMeshTakesItsOwnPlace) {
+  write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  serve({"wall.obj"});
+  write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 7 0\nf 1 2 3\n");
+  performAll({{"op", "reload"}, {"id", state()["files"][0]["id"]}});
+  const Json now = state();
+  ASSERT_EQ(now["meshes"].size(), 1U);
+  EXPECT_EQ(
+      ReadPack(get("mesh?id=" + now["meshes"][0]["id"].dump()).body).array<float>("position")[7],
+      7);
+}
+
+TEST_F(ReloadTest, WhatHasBecomeAnotherKindOfFileIsNotTakenForTheOldOne) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  write("two.lumen", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  performAll({{"op", "reload"}, {"id", state()["files"][0]["id"]}});
+  EXPECT_EQ(ReadPack(get("case").body).json["branches"][0]["label"], "left");
+  EXPECT_EQ(perform({{"op", "reload"}, {"id", 77}}).status, 400);
+}
+
+TEST_F(UnsavedTest, IsWrittenBesideTheFileAndRemovedWhenItIsSaved) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  EXPECT_TRUE(session->keepUnsaved().empty());
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  ASSERT_EQ(session->keepUnsaved(), std::vector{path("two.unsaved.lumen").string()});
+  EXPECT_EQ(formats::readCaseFile(path("two.unsaved.lumen"))->tree.branches[1].label, "mine");
+  ASSERT_EQ(perform({{"op", "save"}}).status, 200);
+  EXPECT_FALSE(fs::exists(path("two.unsaved.lumen")));
+}
+
+TEST_F(UnsavedTest, IsRemovedWhenItIsUndone) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  session->keepUnsaved();
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_TRUE(session->keepUnsaved().empty());
+  EXPECT_FALSE(fs::exists(path("two.unsaved.lumen")));
+}
+
+TEST_F(UnsavedTest, OfAnEarlierProgramIsOfferedAndNeverOverwritten) {
+  writeCase("two.lumen", twoVessels());
+  writeCase("two.unsaved.lumen", named("before the end"));
+  writeCase("twofold.unsaved.lumen", named("of another file"));
+  serve({"two.lumen"});
+  EXPECT_EQ(session->findUnsaved(), std::vector{path("two.unsaved.lumen").string()});
+  EXPECT_EQ(state()["unsavedBefore"], Json({"two.unsaved.lumen"}));
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  EXPECT_EQ(session->keepUnsaved(), std::vector{path("two.unsaved.2.lumen").string()});
+  performAll({{"op", "recover"}, {"index", 0}});
+  EXPECT_EQ(ReadPack(get("case").body).json["branches"][0]["label"], "before the end");
+  EXPECT_EQ(state()["saveAs"], "two.lumen");
+  EXPECT_EQ(state()["unsaved"], true);
+  ASSERT_EQ(perform({{"op", "save"}}).status, 200);
+  EXPECT_EQ(formats::readCaseFile(path("two.lumen"))->tree.branches[0].label, "before the end");
+  ASSERT_EQ(perform({{"op", "forget"}, {"index", 0}}).status, 200);
+  EXPECT_FALSE(fs::exists(path("two.unsaved.lumen")));
+  EXPECT_EQ(perform({{"op", "forget"}, {"index", 0}}).status, 400);
+}
+
+TEST_F(UnsavedTest, SeedsAreKeptBesideTheirVolume) {
+  writeTube("tube.nrrd");
+  serve({"tube.nrrd"});
+  ASSERT_EQ(
+      perform({{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}).status,
+      200);
+  ASSERT_EQ(session->keepUnsaved(), std::vector{path("tube.unsaved.seeds.json").string()});
+  serve({"tube.nrrd"});
+  ASSERT_EQ(session->findUnsaved().size(), 1U);
+  performAll({{"op", "recover"}, {"index", 0}});
+  EXPECT_EQ(state()["seeds"][0]["label"], "a");
+}
+
+}  // namespace lumen::test

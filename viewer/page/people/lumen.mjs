@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program as a person starts it, and a folder for what it reads and writes.
+import { spawn, spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+export const kLumen = process.env.LUMEN ?? "lumen";
+
+/** A folder that goes with the test. */
+export function makeFolder(test) {
+  const folder = mkdtempSync(join(tmpdir(), "lumen-people-"));
+  test.after(() => rmSync(folder, { recursive: true, force: true }));
+  return name => join(folder, name);
+}
+
+/** Runs a command to its end and gives its JSON answer, if it has one. */
+export function lumen(...words) {
+  const { status, stdout, stderr, error } = spawnSync(kLumen, [...words, "--quiet", "--json"], { encoding: "utf8", maxBuffer: 1e9 });
+  if (error !== undefined || status !== 0) throw new Error(`lumen ${words.join(" ")}: ${error?.message ?? `exit code ${status}\n${stderr}`}`);
+  return stdout.trim() === "" ? null : JSON.parse(stdout);
+}
+
+/** `lumen view` until the test is over or `stop` is called. */
+export async function view(test, ...files) {
+  const child = spawn(kLumen, ["view", "--no-browser", "--json", ...files], { stdio: ["ignore", "pipe", "pipe"] });
+  const ended = new Promise(resolve => child.once("exit", resolve));
+  let out = "", told = "";
+  child.stderr.on("data", data => { told += data; });
+  const stop = async () => { child.kill("SIGINT"); await ended; return told; };
+  test.after(stop);
+  const address = await new Promise((resolve, reject) => {
+    child.stdout.on("data", data => {
+      out += data;
+      try { resolve(JSON.parse(out).address); } catch { /* not all of it is here yet */ }
+    });
+    child.once("error", reject);
+    child.once("exit", code => reject(new Error(`lumen view ended with ${code}:\n${told}`)));
+  });
+  return { address, stop };
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the check finds missing is a place to click, and a vessel after that.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { find, openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
+import { placeIn } from "./hand.mjs";
+import { lumen, makeFolder, view } from "./lumen.mjs";
+
+const places = page => page.locator("#missing-list .item");
+
+async function check(page) {
+  await page.locator("#check-about").filter({ hasNotText: "check again" }).waitFor();
+  await page.keyboard.press("k");
+  await page.locator("#check-about").filter({ hasText: "the wall is off" }).filter({ hasNotText: "check again" }).waitFor();
+  await settled(page);
+}
+
+/** Both vessels of the phantom, of which only the first is tracked. */
+function half(file, name) {
+  lumen("phantom", name, file("volume.nrrd"), "--seeds", file("seeds.json"));
+  const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
+  writeFileSync(file("one.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, 1) }));
+  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("one.json"));
+}
+
+story("a click on a ring in the 3D view places a seed in what is missing, and tracking leaves less of it", async t => {
+  const file = makeFolder(t), browser = await startBrowser(t);
+  half(file, "bifurcation");
+  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")), page = await openPage(t, browser, server.address);
+  await settled(page);
+  await check(page);
+  const before = await places(page).count();
+  assert.ok(before > 0, "the second vessel is missing");
+  await picture(page, "2-missing");
+
+  const pink = (r, g, b) => r > 150 && r > 1.5 * g && b > 1.05 * g && r > 1.3 * b; // the mark, lit and shaded
+  const box = await page.locator("#view-scene").boundingBox(), { at, count } = find(await pixels(page, "#view-scene"), pink);
+  assert.ok(count > 20, `${count} pixels of the mark`);
+  await page.mouse.click(box.x + at.x, box.y + at.y);
+  await page.locator("#seed-list .item").first().waitFor();
+  await page.mouse.click(box.x + at.x, box.y + at.y);
+  await picture(page, "2-seed-there");
+  assert.equal(await page.locator("#seed-list .item").count(), 1, "a second click on the same ring places no second seed");
+
+  await page.keyboard.press("t");
+  await page.locator("#tree-list [role=treeitem]").nth(1).waitFor();
+  await settled(page);
+  await page.locator("#check-about").filter({ hasText: "check again" }).waitFor();
+  await page.keyboard.press("k");
+  await page.locator("#check-about").filter({ hasNotText: "check again" }).waitFor();
+  await settled(page);
+  const after = await places(page).count();
+  assert.ok(after < before, `${before} places before, ${after} after`);
+  await picture(page, "2-tracked");
+});
+
+story("a click on a ring in a slice does the same", async t => {
+  const file = makeFolder(t), browser = await startBrowser(t);
+  half(file, "kissing");
+  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")), page = await openPage(t, browser, server.address);
+  await settled(page);
+  await check(page);
+  const before = await places(page).count();
+  await page.locator("#missing-0 .link").click();
+  const there = (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number);
+  const { x, y } = await placeIn(page, "axial", there);
+  await page.mouse.click(x + 3, y);
+  await page.locator("#seed-list .item").first().waitFor();
+  await picture(page, "2-seed-in-slice");
+  await page.locator("#track-all").click();
+  await page.locator("#tree-list [role=treeitem]").nth(1).waitFor();
+  await settled(page);
+  await page.locator("#check").click();
+  await page.locator("#check-about").filter({ hasText: "the wall is off" }).filter({ hasNotText: "check again" }).waitFor();
+  const after = await places(page).count();
+  assert.ok(after < before, `${before} places before, ${after} after`);
+});

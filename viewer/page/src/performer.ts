@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Asks the document for changes, one after the other, each on the ground of what the user saw. */
+import type { Store } from "./store";
+import type { Source } from "./source";
+import type { View } from "./model";
+import type { Operation } from "./types";
+
+const kLongest = 5000; // ms to wait for the state that an answer announced; without it the next request may be refused
+
+/** Nodes and branches are named by index: these are meant for the tree that was shown when they were asked for. */
+const kOfTheTree = new Set(["delete", "cut", "join", "merge", "reverse", "root", "kind", "rename", "move"]);
+
+export class Performer {
+  private last: Promise<unknown> = Promise.resolve();
+
+  constructor(private readonly store: Store<View>, private readonly source: Source) {}
+
+  /** Done when the page has the state that followed; throws what the server refuses. */
+  perform(operation: Operation): Promise<void> {
+    const seen = this.store.get().treeRevision, before = this.last;
+    const turn = (async (): Promise<void> => {
+      await before.catch(() => undefined); // whoever asked for that was told
+      const { revision } = await this.source.perform(operation, kOfTheTree.has(operation.op) ? seen : this.store.get().state.revision);
+      if (revision !== undefined) await this.reached(revision);
+    })();
+    this.last = turn;
+    return turn;
+  }
+
+  private reached(revision: number): Promise<void> {
+    return new Promise(resolve => {
+      let end: (() => void) | null = null;
+      const done = (): void => { window.clearTimeout(timer); end?.(); resolve(); };
+      const timer = window.setTimeout(done, kLongest);
+      end = this.store.watch(["state"], ({ state }) => { if (state.revision >= revision) queueMicrotask(done); });
+    });
+  }
+}

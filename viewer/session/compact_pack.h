@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packs for the page as one file, where every byte is carried along.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lumen::viewer {
+
+/// The same surface or mesh in fewer bytes (viewer/README.md, "Packs"): triangles of a part and
+/// vertices in another order, positions in 65,535 steps along each axis of their box, radii in 4095
+/// steps of their range. Takes a pack as surfacePack() and meshPack() make them.
+std::string compactPack(std::string_view pack);
+
+/// Bytes as zlib has them (RFC 1950). Throws Error(Failed) where there is no memory.
+std::string deflated(std::string_view bytes);
+
+}  // namespace lumen::viewer

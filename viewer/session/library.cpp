@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/library.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include "converters/app/file_format.h"
+#include "converters/app/message_text.h"
+#include "formats/case/topology.h"
+#include "formats/container/printable.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kTelling{500};  // the list is drawn anew each time
+
+bool isCase(const fs::directory_entry& entry) {
+  const std::string name = entry.path().filename().string();
+  std::error_code ignored;
+  return !name.starts_with('.') && (name.ends_with(".lumen") || name.ends_with(".lumen.json")) &&
+         name.find(".unsaved.") == name.npos && entry.is_regular_file(ignored);
+}
+
+}  // namespace
+
+std::vector<fs::path> casesIn(const fs::path& folder) {
+  std::vector<fs::path> cases;
+  const auto options = fs::directory_options::skip_permission_denied;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, options, error);
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
+    if (isCase(*entry)) cases.push_back(entry->path());
+    if (entry.depth() > 0 || entry->path().filename().string().starts_with('.'))
+      entry.disable_recursion_pending();
+  }
+  std::sort(cases.begin(), cases.end());
+  return cases;
+}
+
+Library::Library(fs::path folder, std::vector<fs::path> cases, std::function<void()> told)
+    : m_folder(std::move(folder)),
+      m_cases(std::move(cases)),
+      m_told(std::move(told)),
+      m_figures(m_cases.size()) {}
+
+Library::~Library() {
+  end();
+}
+
+void Library::start() {
+  m_thread = std::thread([this] { read(); });
+}
+
+void Library::end() {
+  m_ended = true;
+  if (m_thread.joinable()) m_thread.join();
+}
+
+std::string Library::nameOf(std::size_t index) const {
+  return formats::printable(m_cases[index].lexically_relative(m_folder).string());
+}
+
+void Library::read() {
+  using Clock = std::chrono::steady_clock;
+  auto last = Clock::now();
+  for (std::size_t i = 0; i < m_cases.size() && !m_ended; ++i) {
+    Figures figures;
+    try {
+      const formats::Case value = app::inputFormat(m_cases[i], "").readCase(m_cases[i]);
+      figures.branches = value.tree.branches.size();
+      for (const formats::Branch& branch : value.tree.branches)
+        figures.length += formats::branchLength(value.tree, branch);
+    } catch (const std::exception& error) {
+      figures.error = messageText(error.what());
+    }
+    {
+      const std::lock_guard lock(m_mutex);
+      m_figures[i] = std::move(figures);
+    }
+    ++m_read;
+    if (i + 1 < m_cases.size() && Clock::now() - last < kTelling) continue;
+    last = Clock::now();
+    m_told();
+  }
+}
+
+Json Library::json() const {
+  Json list = Json::array();
+  const std::lock_guard lock(m_mutex);
+  for (std::size_t i = 0; i < m_cases.size(); ++i) {
+    Json entry = {
+        {"name", nameOf(i)}, {"branches", nullptr}, {"length", nullptr}, {"error", nullptr}};
+    if (const auto& figures = m_figures[i]; figures && figures->error.empty()) {
+      entry["branches"] = figures->branches;
+      entry["length"] = app::jsonNumber(figures->length);
+    } else if (figures) {
+      entry["error"] = figures->error;
+    }
+    list.push_back(std::move(entry));
+  }
+  return {
+      {"name", formats::printable(fs::absolute(m_folder).lexically_normal().filename().string())},
+      {"cases", std::move(list)}};
+}
+
+}  // namespace lumen::viewer
