@@ -23,6 +23,9 @@ packages=(
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
   libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
+  # where a SOFA is: to run it, and to build its plugin
+  libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1
+  libtinyxml2-dev libboost-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev
 )
 
 say() { printf '\n== %s\n' "$*"; }

@@ -30,6 +30,8 @@ for stage, below in STAGES.items():
     MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]
 MAY_INCLUDE["converters/sofa"] += ["libblob/include"]  # its grids hold what libblob answers
 MAY_INCLUDE["converters/app"] = FORMATS + ["converters/common"] + ["converters/" + s for s in STAGES]
+MAY_INCLUDE["converters/sofa/plugin/src/LumenSofa"] = ["libblob/include", "formats/container", "formats/view"]
+MAY_INCLUDE["converters/sofa/plugin/tests"] = []
 
 # The viewer does what commands do; `app` has nothing of it but the name of a function that makes a command.
 VIEWER = MAY_INCLUDE["converters/app"] + ["converters/app"]

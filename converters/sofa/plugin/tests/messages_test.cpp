@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// What SOFA says of scenes that cannot run, and that such scenes stop.
+#include <gtest/gtest.h>
+#include <sofa/helper/logging/MessageDispatcher.h>
+#include <sofa/helper/logging/MessageHandler.h>
+
+#include "scenes.h"
+
+namespace lumensofa::test {
+namespace {
+
+using sofa::helper::logging::Message;
+using sofa::helper::logging::MessageDispatcher;
+
+struct Errors : sofa::helper::logging::MessageHandler {
+  void process(Message& message) override {
+    if (message.type() == Message::Error) text += message.messageAsString() + "\n";
+  }
+  std::string text;
+};
+
+struct Messages : sofa::testing::BaseSimulationTest {
+  /// Loads a scene and runs some steps. The errors that were told.
+  std::string run(const std::string& content) {
+    EXPECT_MSG_EMIT(Error);
+    Errors errors;
+    MessageDispatcher::addHandler(&errors);
+    SceneInstance s("xml", scene(content));
+    s.initScene();
+    EXPECT_FALSE(s.root->getAnimate());
+    for (int i = 0; i < 5; ++i) s.simulate(0.01);
+    MessageDispatcher::rmHandler(&errors);
+    EXPECT_FALSE(find<BeamBlobContact>(s.root, "instrument")->isComponentStateValid());
+    const auto* state = s.root->getChild("instrument")->getMechanicalState();
+    for (sofa::Size i = 0; i < state->getSize(); ++i)
+      EXPECT_NEAR(state->getPX(i), 5, 1.1) << "nothing has moved";
+    return errors.text;
+  }
+  static std::string withField(const std::string& file, const std::string& attributes = {}) {
+    return field(file, attributes) + wire("0 0 0 1", kContact);
+  }
+};
+
+void expectTold(const std::string& told, const std::string& sentence) {
+  EXPECT_NE(told.find(sentence), std::string::npos)
+      << "expected: " << sentence << "\ntold: " << told;
+}
+
+TEST_F(Messages, TellWhichCaseIsMissing) {
+  expectTold(run(withField("absent.lumen")), "absent.lumen': there is no such file");
+}
+
+TEST_F(Messages, TellThatAFileIsNoCase) {
+  expectTold(run(withField("broken.lumen")), "broken.lumen' is not a case that can be used: ");
+}
+
+TEST_F(Messages, TellThatACaseHasNoModels) {
+  expectTold(run(withField("unfitted.lumen")),
+             "unfitted.lumen' has no models: 'lumen fit' makes them");
+}
+
+TEST_F(Messages, TellWhichBranchesThereAre) {
+  expectTold(run(withField("touching.lumen", "branch='carotid'")),
+             "touching.lumen' has no branch 'carotid'; it has b000, b001");
+}
+
+TEST_F(Messages, TellWhichDomainsThereAre) {
+  expectTold(run(withField("tube.lumen", "domain='global'")),
+             "domain is 'global'; expected blended or local");
+}
+
+TEST_F(Messages, TellThatAContactHasNoField) {
+  expectTold(run(wire("0 0 0 1", "<BeamBlobContact radius='0.2'/>")), "no field: ");
+}
+
+TEST_F(Messages, TellWhichNumbersAreAllowed) {
+  const auto with = [](const std::string& attribute) {
+    return field("tube.lumen") +
+           wire("0 0 0 1", "<BeamBlobContact field='@/vessel/wall' " + attribute + "/>");
+  };
+  expectTold(run(with("samples='0'")), "samples is 0; expected 1 to 64");
+  expectTold(run(with("friction='-1'")), "friction is -1; expected a number from 0");
+  expectTold(run(with("alarmDistance='-0.5'")), "alarmDistance is -0.5; expected a number from 0");
+  expectTold(run(with("radius='-0.5'")), "radius is -0.5; expected a number from 0");
+}
+
+}  // namespace
+}  // namespace lumensofa::test
