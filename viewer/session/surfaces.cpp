@@ -44,6 +44,7 @@ void Surfaces::show(std::shared_ptr<const formats::Case> value) {
   m_quick.reset();
   m_levels = {};
   m_failed = {};
+  m_isAsked = false;
   ++m_revision;
   if (m_progress) m_progress->cancel();
   m_wake.notify_all();
@@ -73,6 +74,8 @@ std::shared_ptr<const ReadySurface> Surfaces::get(int level) {
 void Surfaces::waitFor(int level, const Progress& progress) {
   const auto l = static_cast<std::size_t>(level);
   std::unique_lock lock(m_mutex);
+  m_isAsked = true;
+  m_wake.notify_all();
   while (!m_wake.wait_for(lock, kLook, [&] {
     return !hasSurface(m_case) || !m_allowed || m_ended || m_levels[l] || m_failed[l];
   }))
@@ -80,6 +83,15 @@ void Surfaces::waitFor(int level, const Progress& progress) {
 }
 
 std::shared_ptr<const ReadySurface> Surfaces::quick() {
+  {
+    const std::lock_guard lock(m_mutex);
+    m_isAsked = true;
+  }
+  m_wake.notify_all();
+  return readyQuick();
+}
+
+std::shared_ptr<const ReadySurface> Surfaces::readyQuick() {
   const std::lock_guard one(m_quickMutex);
   std::shared_ptr<const formats::Case> value;
   std::uint64_t number = 0;
@@ -124,7 +136,7 @@ void Surfaces::work() {
       m_quickTried = m_case;
       lock.unlock();
       try {
-        quick();
+        readyQuick();
       } catch (const std::exception&) {
         // whoever asks for it is told
       }
@@ -136,7 +148,7 @@ void Surfaces::work() {
       return m_levels[static_cast<std::size_t>(l)] || m_failed[static_cast<std::size_t>(l)];
     };
     while (level >= 0 && isDone(level)) --level;
-    if (level < 0 || !m_allowed || !hasSurface(m_case)) {
+    if (level < 0 || !m_allowed || !m_isAsked || !hasSurface(m_case)) {
       m_wake.wait(lock);
       continue;
     }

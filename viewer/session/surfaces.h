@@ -57,6 +57,7 @@ public:
 
 private:
   void work();
+  std::shared_ptr<const ReadySurface> readyQuick();
   std::shared_ptr<const ReadySurface> make(const formats::Case& value, int level,
                                            std::uint64_t number, Progress& progress);
 
@@ -72,6 +73,7 @@ private:
   std::shared_ptr<Progress> m_progress;  ///< of what the background makes
   std::uint64_t m_revision = 1, m_number = 0;
   bool m_allowed = true, m_ended = false;
+  bool m_isAsked = false;  ///< of this case: before that, finer ones would delay the first picture
   std::thread m_thread;
 };
 

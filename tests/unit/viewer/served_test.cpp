@@ -244,7 +244,8 @@ TEST_F(WorkTest, EveryFormatOfTheStateCanBeSaved) {
   ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
             200);
   performAll({{"op", "track"}});
-  for (const Json& format : state()["formats"]) {
+  const Json formats = state()["formats"];
+  for (const Json& format : formats) {
     const auto response = get("save?format=" + format.get<std::string>());
     EXPECT_EQ(response.status, 200) << format << response.body;
     EXPECT_GT(response.body.size(), 100U) << format;

@@ -14,7 +14,7 @@ import type { State } from "./types";
 import { reduce, Volume } from "./volume";
 import { VolumeTexture } from "./volume_texture";
 
-const kArriving = 200; // ms from one picture of a volume that is arriving to the next
+const kArriving = 500; // ms from one picture of a volume that is arriving to the next
 const kCastSoftware = 128, kCastHardware = 256; // texels along an axis for ray casting
 
 export class Loader {
@@ -126,7 +126,7 @@ export class Loader {
   private async takeVolume(state: State): Promise<void> {
     const { store, stage, source } = this.app;
     if (!state.hasVolume) { this.replaceTexture(null); store.set({ volume: null, volumeReady: 0 }); return; }
-    let volume: Volume | null = null, texture: VolumeTexture | null = null, last = -Infinity;
+    let volume: Volume | null = null, texture: VolumeTexture | null = null, last = performance.now();
     const arrived = (bytes: Uint8Array, received: number): void => {
       if (volume === null) {
         if (received < 4 || received < headerEnd(bytes)) return;

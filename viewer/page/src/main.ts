@@ -49,7 +49,8 @@ function makeApp(source: Source, shell: Shell): App {
 }
 
 async function start(): Promise<void> {
-  const shell = makeShell(), app = makeApp(EmbeddedSource.find() ?? new ServerSource(), shell), tools = new Tools(app);
+  const source = EmbeddedSource.find() ?? new ServerSource(), state = source.state(); // asked for before the graphics, which take their time
+  const shell = makeShell(), app = makeApp(source, shell), tools = new Tools(app);
   const slices = (["axial", "coronal", "sagittal"] as SliceName[]).map(name => new SliceView(name, shell[name], app)), scene = new SceneView(shell.scene, app);
   for (const view of [...slices, scene]) app.stage.add(view);
   const actions = new Actions(app, scene, slices), hand = new Hand(app), flight = new Flight(app, scene), wire = new WireTool(app);
@@ -74,7 +75,7 @@ async function start(): Promise<void> {
   app.store.watch(["surface", "hidden", "solo", "selected", "colours", "layers", "measurements", "pending", "clicks", "state"], () => {
     for (const slice of slices) app.stage.invalidateOver(slice);
   });
-  await watcher.begin();
+  await watcher.begin(state);
 }
 
 start().catch((error: unknown) => {

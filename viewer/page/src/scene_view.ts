@@ -75,7 +75,7 @@ export class SceneView implements StageView {
 
   private setTubes(view: View): void {
     for (const tube of this.tubes) { this.scene.remove(tube); tube.dispose(); tube.geometry.dispose(); }
-    this.tubes = view.tree === null ? [] : cylinders(view.tree, this.app.stage.software ? 12 : 20);
+    this.tubes = view.tree === null ? [] : cylinders(view.tree, this.app.stage.software ? 6 : 20);
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
   }

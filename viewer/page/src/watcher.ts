@@ -17,12 +17,12 @@ export class Watcher {
     window.addEventListener("beforeunload", e => { if (app.source.live && app.store.get().state.unsaved) e.preventDefault(); });
   }
 
-  async begin(): Promise<void> {
+  async begin(state: Promise<State>): Promise<void> {
     const { app, shell } = this;
     let theme: string | null = null;
     try { theme = localStorage.getItem("lumen-theme"); } catch { /* a page from disk may keep nothing */ }
     app.store.set({ theme: theme === "light" || (theme === null && matchMedia("(prefers-color-scheme: light)").matches) ? "light" : "dark" });
-    this.take(await app.source.state());
+    this.take(await state);
     await this.taking;
     app.source.listen(event => this.hear(event));
     shell.status.textContent = app.source.live ? "" : "One file, without a server";
