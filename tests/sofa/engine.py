@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs scenes in an installed SOFA without a window, and measures what an instrument did in them."""
-import os, pathlib, re, shutil, subprocess, sys, xml.etree.ElementTree
+import os, pathlib, re, subprocess, sys, xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLUGINS = ["BeamAdapter", "SofaImplicitField", "SofaDistanceGrid"]
@@ -15,24 +15,10 @@ def find_sofa(given=None):
 
 
 def usable(sofa, folder):
-    """`sofa` itself, or, if it was copied without its symbolic links, which are short texts then, a tree of links to
-    it in `folder` with those put right. SOFA looks for plugins beside its program, so that is a copy."""
+    """`sofa` itself, or, if it was copied without its symbolic links, a tree of links to it in `folder`."""
     if os.access(sofa / "bin/runSofa", os.X_OK): return sofa
-    folder = pathlib.Path(folder)
-    for there, _, files in os.walk(sofa):
-        here = folder / pathlib.Path(there).relative_to(sofa)
-        here.mkdir(parents=True, exist_ok=True)
-        for name in files:
-            source, target = pathlib.Path(there) / name, here / name
-            is_text = source.stat().st_size < 256 and (name.endswith(".so") or name == "runSofa")
-            target.symlink_to(source.read_text().strip() if is_text else source)
-    for program in [p for p in (folder / "bin").iterdir() if p.is_symlink() and p.resolve().parent == sofa / "bin"]:
-        real = program.resolve()
-        if program.name != real.name: continue
-        program.unlink()
-        shutil.copy(real, program)
-        program.chmod(0o755)
-    return folder
+    subprocess.run([ROOT / "converters/sofa/plugin/link_sofa.sh", sofa, folder], check=True)
+    return pathlib.Path(folder)
 
 
 def run(sofa, scene, steps, plugins=(), timeout=3600):
