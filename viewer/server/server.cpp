@@ -9,8 +9,8 @@
 #include <httplib.h>
 #include <sys/socket.h>
 
-#include "converters/app/message_text.h"
 #include "converters/common/error.h"
+#include "viewer/server/answers.h"
 #include "viewer/server/connection.h"
 #include "viewer/server/html_page.h"
 #include "viewer/server/token.h"
@@ -23,113 +23,13 @@ using httplib::Request;
 using httplib::Response;
 
 constexpr const char* kHost = "127.0.0.1";
-constexpr const char* kBytes = "application/octet-stream";
-constexpr const char* kJson = "application/json";
 
 // Every request has a connection of its own, and a thread while it lasts. Listening pages hold one
 // each, of which EventHub allows 16: the others are free for requests.
 constexpr std::size_t kThreads = EventHub::kMostListeners + 16;
 
-// A click and its options are a few hundred bytes, a list of all labels of a large tree some 100 kB.
-constexpr std::size_t kMostRequest = 1 << 20;
-
 // A page that is gone is noticed at the next write.
 constexpr std::chrono::seconds kSign{2};
-
-/// What no answer is without. The page may run its own script and libblob, and talk to this server.
-httplib::Headers safeHeaders() {
-  return {{"Content-Security-Policy",
-           "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
-           "connect-src 'self'; img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; "
-           "frame-ancestors 'none'"},
-          {"X-Content-Type-Options", "nosniff"},
-          {"X-Frame-Options", "DENY"},
-          {"Referrer-Policy", "no-referrer"},
-          {"Cross-Origin-Resource-Policy", "same-origin"},
-          {"Cross-Origin-Opener-Policy", "same-origin"},
-          {"Cache-Control", "no-store"}};
-}
-
-/// Answers with these bytes as they are. What httplib is given whole, it compresses for a browser that can undo it,
-/// which takes longer than a loopback saves: seconds, for the page's script.
-void answerBytes(Response& response, std::shared_ptr<const std::string> bytes, const char* type) {
-  const std::size_t size = bytes->size();
-  response.set_content_provider(
-      size, type,
-      [bytes = std::move(bytes)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(bytes->data() + offset, length);
-      });
-}
-
-void answerText(Response& response, std::string text, const char* type = kJson) {
-  answerBytes(response, std::make_shared<const std::string>(std::move(text)), type);
-}
-
-void answerError(Response& response, int status, const std::string& sentence) {
-  response.status = status;
-  answerText(response, jsonText({{"error", messageText(sentence)}}));
-}
-
-int statusOf(ErrorKind kind) {
-  return kind == ErrorKind::Failed ? 500 : 400;
-}
-
-/// Runs what answers a request; what it throws is answered in JSON.
-template <class Answer>
-void guarded(Response& response, Answer&& answer) {
-  try {
-    answer();
-  } catch (const Conflict& conflict) {
-    answerError(response, 409, conflict.what());
-  } catch (const Error& error) {
-    answerError(response, statusOf(error.kind()), error.what());
-  } catch (const std::bad_alloc&) {
-    answerError(response, 500, "there is not enough memory");
-  } catch (const std::exception& error) {
-    answerError(response, 500, std::string("unexpected: ") + error.what());
-  }
-}
-
-[[noreturn]] void refuseSize(std::uint64_t most) {
-  throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
-}
-
-/// The body, of at most `most` bytes, piece by piece.
-template <class Take>
-void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& take) {
-  std::uint64_t size = 0;
-  bool tooMuch = false;
-  const bool whole = reader([&](const char* data, std::size_t length) {
-    size += length;
-    tooMuch = size > most;
-    if (!tooMuch) take(data, length);
-    return !tooMuch;
-  });
-  if (tooMuch) refuseSize(most);
-  if (!whole) throw Error(ErrorKind::Usage, "the request broke off");
-}
-
-Json readJson(const httplib::ContentReader& reader) {
-  std::string text;
-  readBody(reader, kMostRequest,
-           [&text](const char* data, std::size_t length) { text.append(data, length); });
-  return parseRequest(text, kMostRequest);
-}
-
-/// A part of the document; 304 if the page has it, 404 without a body if there is none.
-void answerPart(const Request& request, Response& response, const Tagged& part) {
-  if (!part.bytes) {
-    response.status = 404;
-    return;
-  }
-  const std::string tag = '"' + part.tag + '"';
-  response.set_header("ETag", tag);
-  if (request.get_header_value("If-None-Match") == tag) {
-    response.status = 304;
-    return;
-  }
-  answerBytes(response, part.bytes, kBytes);
-}
 
 int levelOf(const Request& request) {
   const std::string text = request.get_param_value("level");

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// How requests are read and answered, whatever they are about.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "converters/common/error.h"
+#include "viewer/session/session.h"
+
+// after Eigen, which the macros of <resolv.h> break
+#include <httplib.h>
+
+namespace lumen::viewer {
+
+constexpr const char* kBytes = "application/octet-stream";
+constexpr const char* kJson = "application/json";
+
+/// What no answer is without. The page may run its own script and libblob, and talk to this server.
+httplib::Headers safeHeaders();
+
+/// Answers with these bytes as they are. What httplib is given whole, it compresses for a browser that can undo it,
+/// which takes longer than a loopback saves: seconds, for the page's script.
+void answerBytes(httplib::Response& response, std::shared_ptr<const std::string> bytes,
+                 const char* type);
+void answerText(httplib::Response& response, std::string text, const char* type = kJson);
+/// A sentence in JSON.
+void answerError(httplib::Response& response, int status, const std::string& sentence);
+/// A part of the document; 304 if the page has it, 404 without a body if there is none.
+void answerPart(const httplib::Request& request, httplib::Response& response, const Tagged& part);
+
+/// The status of a request that ended in such an error.
+int statusOf(ErrorKind kind);
+
+/// Runs what answers a request; what it throws is answered in JSON.
+template <class Answer>
+void guarded(httplib::Response& response, Answer&& answer) {
+  try {
+    answer();
+  } catch (const Conflict& conflict) {
+    answerError(response, 409, conflict.what());
+  } catch (const Error& error) {
+    answerError(response, statusOf(error.kind()), error.what());
+  } catch (const std::bad_alloc&) {
+    answerError(response, 500, "there is not enough memory");
+  } catch (const std::exception& error) {
+    answerError(response, 500, std::string("unexpected: ") + error.what());
+  }
+}
+
+/// Throws Error(Usage): a body has more bytes.
+[[noreturn]] void refuseSize(std::uint64_t most);
+
+/// The body, of at most `most` bytes, piece by piece.
+template <class Take>
+void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& take) {
+  std::uint64_t size = 0;
+  bool tooMuch = false;
+  const bool whole = reader([&](const char* data, std::size_t length) {
+    size += length;
+    tooMuch = size > most;
+    if (!tooMuch) take(data, length);
+    return !tooMuch;
+  });
+  if (tooMuch) refuseSize(most);
+  if (!whole) throw Error(ErrorKind::Usage, "the request broke off");
+}
+
+/// A body in JSON, of at most 1 MiB.
+Json readJson(const httplib::ContentReader& reader);
+
+}  // namespace lumen::viewer
