@@ -13,6 +13,7 @@ namespace {
 struct Argument {
   std::string command, name, type;
   bool positional = false;
+  std::size_t before = 0;  ///< positional arguments of the command
 };
 
 std::vector<Argument> everyArgument() {
@@ -21,26 +22,28 @@ std::vector<Argument> everyArgument() {
     CLI::App parser;
     app::CommonOptions common;
     app::bindOptions(parser, *command, common);
+    std::size_t before = 0;
     for (const CLI::Option* option : parser.get_options()) {
       const bool takesValue = option->get_expected_max() > 0;
       if (takesValue)
         all.push_back({command->name(), option->get_name(option->get_positional()),
                        option->get_option_text().empty() ? option->get_type_name()
                                                          : option->get_option_text(),
-                       option->get_positional()});
+                       option->get_positional(), before});
+      before += option->get_positional();
     }
   }
   return all;
 }
 
 bool isNumber(const Argument& argument) {
-  static const std::set<std::string> kWords = {"FILE", "F",     "ID",   "NAME",
-                                               "UNIT", "FRAME", "PATH", "LIST"};
+  static const std::set<std::string> kWords = {"FILE",  "F",    "ID",   "NAME", "UNIT",
+                                               "FRAME", "PATH", "LIST", "LABEL"};
   return !argument.positional && !kWords.contains(argument.type);
 }
 
 bool isFile(const Argument& argument) {
-  static const std::set<std::string> kWords = {"NAME", "SHELL"};
+  static const std::set<std::string> kWords = {"NAME", "SHELL", "TARGET"};
   return argument.positional ? !kWords.contains(argument.name)
                              : argument.type == "FILE" || argument.type == "PATH";
 }
@@ -88,12 +91,13 @@ TEST(OptionsTest, NoFileIsCalledAHyphenOrNothing) {
     ++files;
     for (const std::string value : {"-", ""}) {
       // positional arguments are filled from the first on
-      const std::string word = argument.positional ? "x" : argument.name;
-      const bool isSecond = argument.name.starts_with("OUT") || argument.name == "TRUTH" ||
-                            (argument.command == "check" && argument.name == "CASE");
       std::vector<std::string> line = {argument.command};
-      if (!argument.positional || isSecond)
-        line.push_back(argument.command == "phantom" && isSecond ? "tube" : word);
+      if (!argument.positional) line.push_back(argument.name);
+      for (std::size_t i = 0; argument.positional && i < argument.before; ++i)
+        line.push_back(i > 0                           ? "x"
+                       : argument.command == "phantom" ? "tube"
+                       : argument.command == "export"  ? "sofa"
+                                                       : "x");
       line.push_back(value);
       const auto [code, text] = runHere(line);
       EXPECT_EQ(code, 2) << argument.command << " " << argument.name;
