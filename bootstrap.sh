@@ -23,9 +23,6 @@ packages=(
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
   libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
-  # where a SOFA is: to run it, and to build its plugin
-  libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1
-  libtinyxml2-dev libboost-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev
 )
 
 say() { printf '\n== %s\n' "$*"; }
@@ -178,8 +175,9 @@ install_test_packages() {
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev python3-numpy)
-  # what an installed SOFA runs with
-  packages+=(libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1 zlib1g)
+  # where a SOFA is: to run it, and to build its plugin
+  packages+=(libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1)
+  packages+=(libtinyxml2-dev libboost-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev)
   install_packages "${packages[@]}" "$@"
 }
 
