@@ -35,6 +35,11 @@ SceneInput inputOf(const formats::Case& source, const SofaOptions& options) {
                     kCurlShare * input.insertion.radius);
   if (options.instrument == InstrumentKind::Coil)
     input.insertion.way = input.instruments.front().length();
+  // a grid is touched at the ends of beams only, and edges of the wall pass between those
+  constexpr double kBeamsOnGrid = 2;
+  if (options.wall == WallKind::Grid)
+    for (Instrument& instrument : input.instruments)
+      for (RodSection& section : instrument.sections) section.beamLength /= kBeamsOnGrid;
   return input;
 }
 
