@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "converters/app/command.h"
@@ -83,6 +84,7 @@ public:
                                         " is missing; usage: lumen export TARGET CASE FOLDER");
     const ExportTarget& target = exportTarget(m_target);
     refuseOptionsOfOthers(target);
+    requireRoom();
     const formats::Case value = readCase(m_input);
     if (!value.models)
       throw invalidInput(m_input + ": this case has no models, so there is no wall to export; " +
@@ -100,6 +102,19 @@ public:
   }
 
 private:
+  /// Before anything is made: the folder is not there, or is empty.
+  void requireRoom() const {
+    std::error_code error;
+    const auto kind = std::filesystem::status(m_output, error).type();
+    if (kind == std::filesystem::file_type::not_found ||
+        (kind == std::filesystem::file_type::directory &&
+         std::filesystem::is_empty(m_output, error) && !error))
+      return;
+    throw failed(m_output +
+                 ": there is something already; expected a folder that does not exist, " +
+                 "or is empty");
+  }
+
   static std::string joinedNames() {
     std::string text;
     for (const std::string& name : targetNames()) text += (text.empty() ? "" : ", ") + name;

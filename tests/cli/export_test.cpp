@@ -101,6 +101,7 @@ TEST_F(ExportTest, RefusesAFolderWithFilesInIt) {
   const std::string before = read("out/scene.scn");
   const Outcome refused = lumen({"export", "sofa", "fork.lumen", "out", "--step", "0.2"});
   EXPECT_EQ(refused.code, 1);
+  EXPECT_TRUE(contains(refused.err, "out: there is something already")) << refused.err;
   EXPECT_EQ(read("out/scene.scn"), before);
 }
 
