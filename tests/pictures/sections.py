@@ -74,16 +74,26 @@ class Volume:
         return out
 
 
+PLY = {"float": "<f4", "double": "<f8", "int": "<i4", "uint": "<u4", "uchar": "u1", "ushort": "<u2", "short": "<i2"}
+
+
 def mesh(lumen, case, folder):
     """Corners and triangles of a case's surface."""
     path = Path(folder) / "surface.ply"
     subprocess.run([lumen, "convert", case, path, "--quiet"], check=True)
-    data = path.read_bytes()
-    head, _, body = data.partition(b"end_header\n")
-    counts = [int(line.split()[2]) for line in head.decode("latin1").splitlines() if line.startswith("element")]
-    corners = np.frombuffer(body, np.dtype("<f4"), counts[0] * 6).reshape(-1, 6)[:, :3].astype(float)
-    row = np.dtype([("n", "u1"), ("corner", "<i4", 3), ("branch", "<i4")])
-    return corners, np.frombuffer(body[counts[0] * 24:], row, counts[1])["corner"]
+    head, _, body = path.read_bytes().partition(b"end_header\n")
+    elements = []  # count and type of a row; a list of corners has three
+    for words in map(str.split, head.decode("latin1").splitlines()):
+        if words[0] == "element":
+            elements.append((int(words[2]), []))
+        elif words[:2] == ["property", "list"]:
+            elements[-1][1].extend([("n", PLY[words[2]]), ("corner", PLY[words[3]], 3)])
+        elif words[0] == "property":
+            elements[-1][1].append((words[2], PLY[words[1]]))
+    (count, vertex), (faces, face) = ((n, np.dtype(row)) for n, row in elements[:2])
+    vertices = np.frombuffer(body, vertex, count)
+    corners = np.stack([vertices[axis] for axis in "xyz"], 1).astype(float)
+    return corners, np.frombuffer(body[count * vertex.itemsize:], face, faces)["corner"]
 
 
 def tree(lumen, case, folder):
