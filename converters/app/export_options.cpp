@@ -2,7 +2,9 @@
 #include "converters/app/export_options.h"
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "converters/app/option_group.h"
 #include "converters/app/value_checks.h"
@@ -25,6 +27,12 @@ const std::map<std::string, WallKind> kWalls = {
 const std::map<std::string, SofaDialect> kDialects = {{"current", SofaDialect::Current},
                                                       {"v23.06", SofaDialect::V23_06}};
 
+const std::map<std::string, convert::LengthUnit> kUnits = {{"mm", convert::LengthUnit::Millimetre},
+                                                           {"cm", convert::LengthUnit::Centimetre},
+                                                           {"m", convert::LengthUnit::Metre}};
+const std::map<std::string, convert::Axes> kUp = {{"z", convert::Axes::Lps},
+                                                  {"y", convert::Axes::Lsa}};
+
 void addSofaOptions(CLI::App& app, convert::SofaOptions& sofa) {
   OptionGroup group(app, "SOFA");
   group.addChoice("--instrument", sofa.instrument, kInstruments,
@@ -44,13 +52,20 @@ void addSofaOptions(CLI::App& app, convert::SofaOptions& sofa) {
       ->check(kNotNegative);
 }
 
-}  // namespace
+template <class Value>
+void addOptionalChoice(CLI::App& app, const std::string& name, std::optional<Value>& value,
+                       const std::map<std::string, Value>& words, const std::string& help) {
+  std::vector<std::string> names;
+  for (const auto& word : words) names.push_back(word.first);
+  app.add_option_function<std::string>(
+         name, [&value, words](const std::string& text) { value = words.at(text); }, help)
+      ->check(oneOf(names));
+}
 
-void addExportOptions(CLI::App& app, ExportOptions& options) {
-  addSofaOptions(app, options.sofa);
+void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
   // a wall of triangles is asked many times a step: half of the radius is what its curvature needs
-  options.surface.edge.share = 0.5;
-  convert::EdgeLength& edge = options.surface.edge;
+  surface.edge.share = 0.5;
+  convert::EdgeLength& edge = surface.edge;
   app.add_option_function<std::string>(
          "--edge",
          [&edge](const std::string& text) {
@@ -63,10 +78,21 @@ void addExportOptions(CLI::App& app, ExportOptions& options) {
       ->group("Surface")
       ->default_str("0.5r");
   OptionGroup(app, "Surface")
-      .add("--max-error", options.surface.maxError, "MM",
+      .add("--max-error", surface.maxError, "MM",
            "Drop triangles as long as the surface stays within this distance of that with all; 0: "
            "none")
       ->check(kNotNegative);
+}
+
+}  // namespace
+
+void addExportOptions(CLI::App& app, convert::ExportOptions& options) {
+  addOptionalChoice(app, "--unit", options.unit, kUnits,
+                    "Of lengths, where the target leaves a choice [its first of --list]");
+  addOptionalChoice(app, "--up", options.axes, kUp,
+                    "The axis that looks up (superior), where the target leaves a choice");
+  addSurfaceOptions(app, options.surface);
+  addSofaOptions(app, options.sofa);
 }
 
 }  // namespace lumen::app

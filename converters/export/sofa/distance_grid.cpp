@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/sofa/distance_grid.h"
+#include "converters/export/sofa/distance_grid.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@
 
 #include "blob.h"
 #include "converters/common/error.h"
-#include "converters/sofa/scene_tree.h"
+#include "converters/export/sofa/scene_tree.h"
 
 namespace lumen::convert {
 

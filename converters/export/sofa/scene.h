@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "converters/sofa/insertion.h"
-#include "converters/sofa/instrument.h"
-#include "converters/sofa/scene_tree.h"
+#include "converters/export/sofa/insertion.h"
+#include "converters/export/sofa/instrument.h"
+#include "converters/export/sofa/scene_tree.h"
 
 namespace lumen::convert {
 
