@@ -77,6 +77,15 @@ void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
       ->type_name("LENGTH")
       ->group("Surface")
       ->default_str("0.5r");
+  app.add_option_function<std::vector<std::string>>(
+         "--extend",
+         [&surface](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts)
+             surface.extend.push_back(convert::parseEndLength(text, "--extend"));
+         },
+         "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
+      ->option_text("[LABEL=]LENGTH")
+      ->group("Surface");
   OptionGroup(app, "Surface")
       .add("--max-error", surface.maxError, "MM",
            "Drop triangles as long as the surface stays within this distance of that with all; 0: "

@@ -24,7 +24,11 @@ constexpr double kThickness = 0.1;
 
 /// E h / r in Pa of an artery with the radius `r` in m: k1 exp(k2 r) + k3 (Olufsen, Structured tree outflow condition
 /// for blood flow in larger systemic arteries, Am J Physiol 276, 1999).
-constexpr double kStiffness1 = 2e6, kStiffness2 = -2253, kStiffness3 = 8.65e4;
+constexpr double kStiffness1 = 2e6, kStiffness2 = -2252.67, kStiffness3 = 8.65e4;
+
+/// s, in which pressure behind an outlet falls by 1/e: in diastole 1 to 2 (Westerhof, Lankhaar, Westerhof, The arterial
+/// Windkessel, Med Biol Eng Comput 47, 2009).
+constexpr double kDecay = 1.5;
 
 inline double stiffness(double r) {
   return kStiffness1 * std::exp(kStiffness2 * r) + kStiffness3;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -222,7 +223,7 @@ const char* const kFeatures = R"(vessel.stl
 }
 )";
 
-const char* const kAllrun = R"(#!/bin/sh
+const char* const kAllrun = R"sh(#!/bin/sh
 # The mesh, its check, and the flow. On Debian the programs only need to be told where OpenFOAM's settings are.
 set -e
 cd "$(dirname "$0")"
@@ -234,7 +235,7 @@ run blockMesh
 run snappyHexMesh -overwrite
 run checkMesh
 run simpleFoam
-)";
+)sh";
 
 std::string velocity(const std::vector<Patch>& patches) {
   std::string text = header("volVectorField", "U") +
@@ -295,14 +296,12 @@ std::string cellsRemark(const FoamCells& cells) {
 }  // namespace
 
 ExportResult exportOpenFoam(const ExportInput& input) {
-  ClosedSurface made = closedSurface(input.source, input.options.surface, input.progress);
-  const SurfaceMesh& lumen = made.levels.front();
-  std::vector<NamedEnd> ends = endsOf(lumen);
-  const std::vector<Patch> patches = patchesOf(lumen, ends);
+  ExportedSurface made = lumenSurface(input);
+  const SurfaceMesh& mesh = made.mesh;
+  const std::vector<Patch> patches = patchesOf(mesh, made.ends);
   requireEnds(patches);
-  std::vector<Eigen::Vector3d> inside = deepestPoints(input.source.tree, lumen, input.progress);
-  for (Eigen::Vector3d& point : inside) point = input.frame.position(point);
-  const SurfaceMesh mesh = input.frame.of(lumen);
+  const std::vector<Eigen::Vector3d> inside =
+      deepestPoints(input.source.tree, mesh, input.frame, input.progress);
   const auto& radius = input.source.tree.radius;
   const FoamCells cells = foamCells(mesh, input.frame.length(*std::min_element(radius.begin(), radius.end())));
   ExportResult result;
@@ -311,10 +310,10 @@ ExportResult exportOpenFoam(const ExportInput& input) {
   result.files.push_back({"constant/triSurface/vessel.stl", encodeStl(mesh, true),
                           "the closed surface: solids `wall`, `inlet*`, `outlet*`", ""});
   result.remarks = {cellsRemark(cells)};
-  for (const FaceGroup& group : lumen.groups)
+  for (const FaceGroup& group : mesh.groups)
     if (group.kind == FaceKind::Cap)
       result.losses.push_back(group.name + ": this end is not flat, so it is a wall, and nothing flows through it");
-  result.ends = std::move(ends);
+  result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;
 }

@@ -65,7 +65,8 @@ FoamCells foamCells(const SurfaceMesh& surface, double least) {
 }
 
 std::vector<Eigen::Vector3d> deepestPoints(const formats::CenterlineTree& tree,
-                                           const SurfaceMesh& surface, const Progress& progress) {
+                                           const SurfaceMesh& surface, const ExportFrame& frame,
+                                           const Progress& progress) {
   DisjointSets sets(tree.nodeCount());
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
     if (tree.parent[n] != formats::kNoParent)
@@ -80,7 +81,7 @@ std::vector<Eigen::Vector3d> deepestPoints(const formats::CenterlineTree& tree,
   std::map<std::uint32_t, Deepest> deepest;  // by the tree's least node
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
     progress.check();
-    const Eigen::Vector3d centre = toEigen(tree.centre[n]);
+    const Eigen::Vector3d centre = frame.position(toEigen(tree.centre[n]));
     Deepest& best = deepest[sets.find(n)];
     const double depth = triangles.nearest(centre).distance;
     if (depth > best.depth && triangles.contains(centre)) best = {depth, centre};

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "converters/common/progress.h"
+#include "converters/export/frame.h"
 #include "converters/mesh/surface_mesh.h"
 #include "formats/case/case.h"
 
@@ -27,9 +28,10 @@ struct FoamCells {
 /// Ten cells across the thinnest vessel, of the radius `least`; fewer where more than about a million would be needed.
 FoamCells foamCells(const SurfaceMesh& surface, double least);
 
-/// Of each connected tree with a surface, the node's centre that lies deepest inside, by tree, in mm, LPS. `surface`:
-/// closed, in mm, LPS.
+/// Of each connected tree with a surface, the node's centre that lies deepest inside, by tree. `surface`: closed, in
+/// `frame`; so are the points.
 std::vector<Eigen::Vector3d> deepestPoints(const formats::CenterlineTree& tree,
-                                           const SurfaceMesh& surface, const Progress& progress);
+                                           const SurfaceMesh& surface, const ExportFrame& frame,
+                                           const Progress& progress);
 
 }  // namespace lumen::convert

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: all that the command line knows of one is its row.
+#include "converters/export/oned.h"
+#include "converters/export/openfoam.h"
 #include "converters/export/sofa/export_sofa.h"
 #include "converters/export/steve.h"
+#include "converters/export/svzerod.h"
 #include "converters/export/target.h"
 
 namespace lumen::convert {
 
 namespace {
 
-constexpr auto kMm = LengthUnit::Millimetre;
+constexpr auto kMm = LengthUnit::Millimetre, kCm = LengthUnit::Centimetre, kM = LengthUnit::Metre;
 
 // clang-format off
 std::vector<ExportTarget> makeTable() {
@@ -27,6 +30,30 @@ std::vector<ExportTarget> makeTable() {
        .lacks = "links that close loops, and that an aneurysm is one",
        .options = {"--edge", "--max-error"},
        .write = exportSteve},
+      {.name = "svzerod", .title = "svZeroDSolver",
+       .files = {"model.json"},
+       .units = {kCm}, .axes = {Axes::Lps},
+       .holds = "lengths, radii, junctions and loops, as resistance, compliance and inertance of each segment",
+       .lacks = "aneurysms; the shape of sections",
+       .options = {},
+       .needsModels = false,
+       .write = exportSvZeroD},
+      {.name = "oned", .title = "svOneDSolver and openBF",
+       .files = {"vessels.in", "vessels.yml", "vessels_inlet.dat"},
+       .units = {kCm}, .axes = {Axes::Lps},
+       .holds = "lengths, radii, junctions; svOneDSolver also positions of junctions",
+       .lacks = "aneurysms; the shape of sections; of vessels all but a cone",
+       .options = {},
+       .needsModels = false,
+       .write = exportOneD},
+      {.name = "openfoam", .title = "OpenFOAM",
+       .files = {"Allrun", "system/blockMeshDict", "system/snappyHexMeshDict", "system/controlDict",
+                 "constant/triSurface/vessel.stl", "0/U", "0/p"},
+       .units = {kM}, .axes = {Axes::Lps},
+       .holds = "the surface with its named ends; a steady flow",
+       .lacks = "branches, radii, and that an aneurysm is one",
+       .options = {"--edge", "--max-error", "--extend"},
+       .write = exportOpenFoam},
   };
 }
 // clang-format on
