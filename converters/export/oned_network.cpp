@@ -155,7 +155,6 @@ private:
       first.resistance = 0;
       second.name += "_half";
       taken.insert({from, middle});
-      taken.insert({middle, to});
       m_made.vessels.push_back(std::move(second));
     }
   }

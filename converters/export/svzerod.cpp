@@ -26,6 +26,9 @@ constexpr double kCgsResistance = 1e-5;               // dyn s/cm^5 of Pa s/m^3
 constexpr double kCgsInertance = 1e-5;                // dyn s^2/cm^5 of Pa s^2/m^3
 constexpr double kCgsCompliance = 1e5;                // cm^5/dyn of m^3/Pa
 
+// Seconds until what walls take up is settled; the last one is answered.
+constexpr int kCycles = 10;
+
 /// "branch2_seg0", by which SimVascular's tools find a vessel's parts again.
 std::vector<std::string> vesselNames(const FlowNetwork& network) {
   std::map<std::uint32_t, int> parts;
@@ -102,7 +105,7 @@ Json modelOf(const FlowNetwork& network) {
             {"mean_velocity", 100 * blood::kMeanVelocity},
             {"mean_pressure", 10 * blood::kMeanPressure}}},
           {"simulation_parameters",
-           {{"number_of_cardiac_cycles", 2}, {"number_of_time_pts_per_cardiac_cycle", 101}}},
+           {{"number_of_cardiac_cycles", kCycles}, {"number_of_time_pts_per_cardiac_cycle", 101}}},
           {"boundary_conditions", conditionsJson(network, joints)},
           {"vessels", std::move(list)},
           {"junctions", std::move(junctions)}};

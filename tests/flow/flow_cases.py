@@ -56,7 +56,7 @@ def write_case(file, branches, links=()):
             tree["branch"].append(index)
     if links: tree["links"] = [list(link) for link in links]
     case = {"format": "lumen", "version": "1.1", "minimumReader": "1.0",
-            "metadata": {"coordinateSystem": "LPS", "units": "mm"}, "tree": tree}
+            "metadata": {"coordinateSystem": "LPS", "units": "mm", "steps": []}, "tree": tree}
     pathlib.Path(file).write_text(json.dumps(case))
 
 
