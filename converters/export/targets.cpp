@@ -2,6 +2,7 @@
 // The table of targets: all that the command line knows of one is its row.
 #include "converters/export/oned.h"
 #include "converters/export/openfoam.h"
+#include "converters/export/simvascular.h"
 #include "converters/export/sofa/export_sofa.h"
 #include "converters/export/steve.h"
 #include "converters/export/svzerod.h"
@@ -54,6 +55,13 @@ std::vector<ExportTarget> makeTable() {
        .lacks = "branches, radii, and that an aneurysm is one",
        .options = {"--edge", "--max-error", "--extend"},
        .write = exportOpenFoam},
+      {.name = "simvascular", .title = "SimVascular",
+       .files = {"vessels.svproj", "Models/vessel.mdl", "Models/vessel.vtp"},
+       .units = {kCm}, .axes = {Axes::Lps},
+       .holds = "branches as paths, radii as circles; the surface with its named ends; a volume mesh, by TetGen if it is installed",
+       .lacks = "links that close loops, and that an aneurysm is one",
+       .options = {"--edge", "--max-error", "--extend"},
+       .write = exportSimVascular},
   };
 }
 // clang-format on

@@ -54,7 +54,7 @@ def check_case(name, program, folder, parts):
     expect("Finished meshing without any errors" in logs["snappyHexMesh"], f"{name}: meshed without errors")
     expect("Mesh OK." in logs["checkMesh"] and "Failed" not in logs["checkMesh"], f"{name}: the mesh is OK")
     solids = stl(case / "constant" / "triSurface" / "vessel.stl")
-    meshed = float(re.search(r"Total volume = ([0-9.e+-]+)", logs["checkMesh"]).group(1))
+    meshed = float(re.search(r"Total volume = ([0-9]+\.[0-9]+(?:e[+-][0-9]+)?)", logs["checkMesh"]).group(1))
     near(meshed, volume([t for s in solids.values() for t in s]), 0.02, f"{name}: the mesh holds what the surface encloses, m^3")
     flows = {p.name[5:]: last_flow(p / "0" / "surfaceFieldValue.dat") for p in (case / "postProcessing").iterdir()}
     into = -sum(v for k, v in flows.items() if k.startswith("inlet"))
