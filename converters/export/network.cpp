@@ -27,9 +27,7 @@ constexpr double kMetres = 1e-3;  // of a millimetre
 class Builder {
 public:
   explicit Builder(const CenterlineTree& tree)
-      : m_tree(tree),
-        m_next(tree.nodeCount()),
-        m_jointOf(tree.nodeCount(), kNone) {
+      : m_tree(tree), m_next(tree.nodeCount()), m_jointOf(tree.nodeCount(), kNone) {
     for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
       if (tree.parent[n] != formats::kNoParent)
         connect(static_cast<std::uint32_t>(tree.parent[n]), n);
@@ -50,7 +48,8 @@ public:
         for (const std::uint32_t next : m_next[n])
           if (!isDone(n, next)) walk(n, next);
     if (m_made.segments.empty())
-      throw invalidInput("this case has no vessel with a length, so there is nothing to flow through");
+      throw invalidInput(
+          "this case has no vessel with a length, so there is nothing to flow through");
     findTrees();
     for (FlowTree& tree : m_made.trees)
       if (tree.inlets.empty()) addInlet(tree);
@@ -94,7 +93,8 @@ private:
   [[nodiscard]] bool isBreak(std::uint32_t n) const {
     return m_next[n].size() == 1 || m_next[n].size() > 2 || (isRoot(n) && !m_next[n].empty());
   }
-  [[nodiscard]] static std::pair<std::uint32_t, std::uint32_t> edge(std::uint32_t a, std::uint32_t b) {
+  [[nodiscard]] static std::pair<std::uint32_t, std::uint32_t> edge(std::uint32_t a,
+                                                                    std::uint32_t b) {
     return std::minmax(a, b);
   }
   [[nodiscard]] bool isDone(std::uint32_t a, std::uint32_t b) const {
@@ -224,15 +224,15 @@ private:
     m_made.joints.push_back(std::move(joint));
     m_nodeOf.push_back(node);
     addSegment(std::move(stub));
-    m_made.messages.push_back(labelAt(root) +
-                              ": no single vessel begins at its root, so an inlet of one radius was "
-                              "put before it");
+    m_made.messages.push_back(
+        labelAt(root) +
+        ": no single vessel begins at its root, so an inlet of one radius was "
+        "put before it");
   }
 
   void nameEnds() {
-    const auto inlets = std::count_if(m_made.joints.begin(), m_made.joints.end(), [](const auto& j) {
-      return j.kind == JointKind::Inlet;
-    });
+    const auto inlets = std::count_if(m_made.joints.begin(), m_made.joints.end(),
+                                      [](const auto& j) { return j.kind == JointKind::Inlet; });
     std::size_t junctions = 0;
     for (std::uint32_t j = 0; j < m_made.joints.size(); ++j) {
       FlowJoint& joint = m_made.joints[j];
@@ -242,8 +242,9 @@ private:
     }
     for (const FlowTree& tree : m_made.trees)
       if (tree.outlets.empty())
-        throw invalidInput(m_made.joints[tree.inlets.front()].name +
-                           ": nothing can flow in here, since its vessels have no end to flow out of");
+        throw invalidInput(
+            m_made.joints[tree.inlets.front()].name +
+            ": nothing can flow in here, since its vessels have no end to flow out of");
   }
 
   void tellSacs() {
@@ -326,7 +327,8 @@ Lumped lumped(const FlowSegment& segment) {
     sum.resistance += 8 * blood::kViscosity / kPi * length * (a * a + a * b + b * b) / 3 /
                       (a * a * a * b * b * b);
     sum.inertance += blood::kDensity / kPi * length / (a * b);
-    sum.compliance += length * (yields(a) + 4 * yields(0.5 * (a + b)) + yields(b)) / 6;  // Simpson's
+    sum.compliance +=
+        length * (yields(a) + 4 * yields(0.5 * (a + b)) + yields(b)) / 6;  // Simpson's
   }
   return sum;
 }

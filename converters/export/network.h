@@ -30,8 +30,8 @@ struct FlowJoint {
 
 /// A vessel without forks. Its radius changes linearly between points.
 struct FlowSegment {
-  std::string name;             ///< unique: the branch's label; from its second part on LABEL_2, ...
-  std::uint32_t branch = 0;     ///< of the case's tree: that of its last point
+  std::string name;          ///< unique: the branch's label; from its second part on LABEL_2, ...
+  std::uint32_t branch = 0;  ///< of the case's tree: that of its last point
   std::uint32_t from = 0, to = 0;       ///< joints
   std::vector<Eigen::Vector3d> points;  ///< two at least, mm, LPS
   std::vector<double> radii;            ///< at them, mm
@@ -49,7 +49,8 @@ struct FlowNetwork {
   std::vector<FlowJoint> joints;
   std::vector<FlowSegment> segments;
   std::vector<FlowTree> trees;
-  std::vector<std::string> messages;  ///< sentences on what was left out or added; labels as they are
+  std::vector<std::string>
+      messages;  ///< sentences on what was left out or added; labels as they are
 };
 
 /// The vessels of a valid case. Ends are named as on its surface. A branch that leaves its parent on the way splits it, and begins at its wall with its own

@@ -50,15 +50,17 @@ private:
   void requireOneInlet() const {
     const FlowTree& tree = m_network.trees[m_tree];
     if (tree.inlets.size() > 1)
-      throw invalidInput(m_network.joints[tree.inlets[0]].name + " and " +
-                         m_network.joints[tree.inlets[1]].name +
-                         " lead into vessels that are joined, and solvers in one dimension take one "
-                         "inlet; svzerod takes several");
+      throw invalidInput(
+          m_network.joints[tree.inlets[0]].name + " and " + m_network.joints[tree.inlets[1]].name +
+          " lead into vessels that are joined, and solvers in one dimension take one "
+          "inlet; svzerod takes several");
     for (const FlowJoint& joint : m_network.joints)
-      if (joint.tree == m_tree && joint.kind == JointKind::Junction && (joint.in.empty() || joint.out.empty()))
-        throw invalidInput("the vessels of a loop meet head on at (" + std::to_string(joint.place.x()) +
-                           ", " + std::to_string(joint.place.y()) + ", " + std::to_string(joint.place.z()) +
-                           ") mm, so which way it flows is not known; svzerod takes such loops");
+      if (joint.tree == m_tree && joint.kind == JointKind::Junction &&
+          (joint.in.empty() || joint.out.empty()))
+        throw invalidInput(
+            "the vessels of a loop meet head on at (" + std::to_string(joint.place.x()) + ", " +
+            std::to_string(joint.place.y()) + ", " + std::to_string(joint.place.z()) +
+            ") mm, so which way it flows is not known; svzerod takes such loops");
   }
 
   std::uint32_t addNode(const Eigen::Vector3d& place) {
@@ -70,7 +72,8 @@ private:
     std::vector<std::uint32_t> nodeOf(m_network.joints.size(), 0);
     nodeOf[inlet] = addNode(m_network.joints[inlet].place);
     for (std::uint32_t j = 0; j < m_network.joints.size(); ++j)
-      if (m_network.joints[j].tree == m_tree && j != inlet) nodeOf[j] = addNode(m_network.joints[j].place);
+      if (m_network.joints[j].tree == m_tree && j != inlet)
+        nodeOf[j] = addNode(m_network.joints[j].place);
     for (const FlowSegment& segment : m_network.segments) {
       if (m_network.joints[segment.from].tree != m_tree) continue;
       OneDVessel vessel = coneOf(segment);

@@ -59,8 +59,10 @@ std::vector<Patch> patchesOf(const SurfaceMesh& mesh, const std::vector<NamedEnd
 }
 
 void requireEnds(const std::vector<Patch>& patches) {
-  for (const auto& [kind, name] : {std::pair(FaceKind::Inlet, "inlet"), std::pair(FaceKind::Outlet, "outlet")})
-    if (std::none_of(patches.begin(), patches.end(), [kind = kind](const Patch& p) { return p.kind == kind; }))
+  for (const auto& [kind, name] :
+       {std::pair(FaceKind::Inlet, "inlet"), std::pair(FaceKind::Outlet, "outlet")})
+    if (std::none_of(patches.begin(), patches.end(),
+                     [kind = kind](const Patch& p) { return p.kind == kind; }))
       throw invalidInput("the surface of this case has no flat " + std::string(name) +
                          ", so nothing can flow through it");
 }
@@ -87,8 +89,10 @@ std::string blockMeshDict(const FoamCells& cells) {
   text += ");\n\nblocks\n(\n    hex (0 1 2 3 4 5 6 7) (";
   for (const int n : cells.count) text += (text.back() == '(' ? "" : " ") + std::to_string(n);
   return text +
-         ") simpleGrading (1 1 1)\n);\n\nedges ();\n\nboundary\n(\n    box\n    {\n        type patch;\n"
-         "        faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2) (0 3 2 1) (4 5 6 7));\n    }\n);\n\n"
+         ") simpleGrading (1 1 1)\n);\n\nedges ();\n\nboundary\n(\n    box\n    {\n        type "
+         "patch;\n"
+         "        faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2) (0 3 2 1) (4 5 6 7));\n    "
+         "}\n);\n\n"
          "mergePatchPairs ();\n";
 }
 
@@ -154,19 +158,24 @@ std::string snappyHexMeshDict(const std::vector<Patch>& patches, const FoamCells
   std::string regions, refined, places;
   for (const FaceKind kind : {FaceKind::Wall, FaceKind::Inlet, FaceKind::Outlet}) {
     regions += forEach(patches, kind, "            % { name %; }\n");
-    refined += forEach(patches, kind, "                % { level " + both + "; patchInfo { type " +
-                                          (kind == FaceKind::Wall ? "wall" : "patch") + "; } }\n");
+    refined += forEach(patches, kind,
+                       "                % { level " + both + "; patchInfo { type " +
+                           (kind == FaceKind::Wall ? "wall" : "patch") + "; } }\n");
   }
   for (const Eigen::Vector3d& p : inside) places += " (" + vectorText(p) + " none)";
   return header("dictionary", "snappyHexMeshDict") +
-         "castellatedMesh true;\nsnap true;\naddLayers false;\n\ngeometry\n{\n    vessel.stl\n    {\n"
-         "        type triSurfaceMesh;\n        name vessel;\n        regions\n        {\n" + regions +
+         "castellatedMesh true;\nsnap true;\naddLayers false;\n\ngeometry\n{\n    vessel.stl\n    "
+         "{\n"
+         "        type triSurfaceMesh;\n        name vessel;\n        regions\n        {\n" +
+         regions +
          "        }\n    }\n}\n\ncastellatedMeshControls\n{\n    maxLocalCells 5000000;\n"
          "    maxGlobalCells 5000000;\n    minRefinementCells 0;\n    maxLoadUnbalance 0.1;\n"
-         "    nCellsBetweenLevels 3;\n    features ( { file \"vessel.eMesh\"; level " + level +
-         "; } );\n    refinementSurfaces\n    {\n        vessel\n        {\n            level " + both +
-         ";\n            regions\n            {\n" + refined +
-         "            }\n        }\n    }\n    resolveFeatureAngle 30;\n    refinementRegions {}\n" +
+         "    nCellsBetweenLevels 3;\n    features ( { file \"vessel.eMesh\"; level " +
+         level +
+         "; } );\n    refinementSurfaces\n    {\n        vessel\n        {\n            level " +
+         both + ";\n            regions\n            {\n" + refined +
+         "            }\n        }\n    }\n    resolveFeatureAngle 30;\n    refinementRegions "
+         "{}\n" +
          (inside.size() == 1 ? "    locationInMesh " + vectorText(inside.front())
                              : "    locationsInMesh (" + places + " )") +
          ";\n    allowFreeStandingZoneFaces false;\n}\n" + kSnapping;
@@ -178,10 +187,13 @@ std::string controlDict(const std::vector<Patch>& patches) {
       "        fields (phi);\n        operation sum;\n        regionType patch;\n        name %;\n"
       "        writeFields false;\n        writeControl timeStep;\n        log false;\n    }\n";
   return header("dictionary", "controlDict") +
-         "application simpleFoam;\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime 500;\n"
-         "deltaT 1;\nwriteControl timeStep;\nwriteInterval 500;\npurgeWrite 0;\nwriteFormat ascii;\n"
+         "application simpleFoam;\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime "
+         "500;\n"
+         "deltaT 1;\nwriteControl timeStep;\nwriteInterval 500;\npurgeWrite 0;\nwriteFormat "
+         "ascii;\n"
          "writePrecision 8;\nwriteCompression off;\ntimeFormat general;\ntimePrecision 6;\n"
-         "runTimeModifiable false;\n\n// m^3/s through each end, out of the vessels, in postProcessing\n"
+         "runTimeModifiable false;\n\n// m^3/s through each end, out of the vessels, in "
+         "postProcessing\n"
          "functions\n{\n" +
          forEach(patches, FaceKind::Inlet, flow) + forEach(patches, FaceKind::Outlet, flow) + "}\n";
 }
@@ -238,15 +250,18 @@ run simpleFoam
 )sh";
 
 std::string velocity(const std::vector<Patch>& patches) {
-  std::string text = header("volVectorField", "U") +
-                     "dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\n\nboundaryField\n{\n" +
-                     forEach(patches, FaceKind::Wall, "    % { type noSlip; }\n");
+  std::string text =
+      header("volVectorField", "U") +
+      "dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\n\nboundaryField\n{\n" +
+      forEach(patches, FaceKind::Wall, "    % { type noSlip; }\n");
   for (const Patch& patch : patches)
     if (patch.kind == FaceKind::Inlet)
       text += "    " + patch.name + " { type flowRateInletVelocity; volumetricFlowRate constant " +
               exact(blood::meanFlow(patch.radius)) + "; value uniform (0 0 0); }\n";
-  return text + forEach(patches, FaceKind::Outlet,
-                        "    % { type inletOutlet; inletValue uniform (0 0 0); value uniform (0 0 0); }\n") +
+  return text +
+         forEach(
+             patches, FaceKind::Outlet,
+             "    % { type inletOutlet; inletValue uniform (0 0 0); value uniform (0 0 0); }\n") +
          "}\n";
 }
 
@@ -256,36 +271,46 @@ std::string pressure(const std::vector<Patch>& patches) {
          "boundaryField\n{\n" +
          forEach(patches, FaceKind::Wall, "    % { type zeroGradient; }\n") +
          forEach(patches, FaceKind::Inlet, "    % { type zeroGradient; }\n") +
-         forEach(patches, FaceKind::Outlet, "    % { type fixedValue; value uniform 0; }\n") + "}\n";
+         forEach(patches, FaceKind::Outlet, "    % { type fixedValue; value uniform 0; }\n") +
+         "}\n";
 }
 
 const char* const kStart =
-    "    sh Allrun\n\nmakes the mesh and runs `simpleFoam`, steady and laminar, in OpenFOAM v1912 (Debian 12) or later; it "
-    "leaves `log.*`,\nflows through each end in `postProcessing`, and fields that `foamToVTK` and ParaView read.\n\n"
+    "    sh Allrun\n\nmakes the mesh and runs `simpleFoam`, steady and laminar, in OpenFOAM v1912 "
+    "(Debian 12) or later; it "
+    "leaves `log.*`,\nflows through each end in `postProcessing`, and fields that `foamToVTK` and "
+    "ParaView read.\n\n"
     "| stated | | source |\n|---|---|---|\n"
-    "| blood | kinematic viscosity 3.774e-6 m^2/s: 4 mPa s, 1060 kg/m^3, Newtonian | defaults of SimVascular's solvers |\n"
-    "| inlets | a steady 0.2 m/s times the area, over the section | in the range of arteries; put your own flow into `0/U` |\n"
-    "| outlets | pressure 0 | flow splits by what vessels resist; `lumen export svzerod` has resistances |\n"
+    "| blood | kinematic viscosity 3.774e-6 m^2/s: 4 mPa s, 1060 kg/m^3, Newtonian | defaults of "
+    "SimVascular's solvers |\n"
+    "| inlets | a steady 0.2 m/s times the area, over the section | in the range of arteries; put "
+    "your own flow into `0/U` |\n"
+    "| outlets | pressure 0 | flow splits by what vessels resist; `lumen export svzerod` has "
+    "resistances |\n"
     "| wall | rigid | |\n\n"
     "Pressures are divided by the density: times 1060 they are Pa.\n";
 
 std::vector<ExportFile> dictionaries(const std::vector<Patch>& patches, const FoamCells& cells,
                                      const std::vector<Eigen::Vector3d>& inside) {
-  return {{"Allrun", kAllrun, "makes the mesh and runs the flow", ""},
-          {"system/blockMeshDict", blockMeshDict(cells), "cubes around the vessels", ""},
-          {"system/surfaceFeatureExtractDict",
-           header("dictionary", "surfaceFeatureExtractDict") + kFeatures, "the rims of flat ends", ""},
-          {"system/snappyHexMeshDict", snappyHexMeshDict(patches, cells, inside), "the mesh of the inside", ""},
-          {"system/controlDict", controlDict(patches), "500 steps, flows through ends", ""},
-          {"system/fvSchemes", header("dictionary", "fvSchemes") + kSchemes, "", ""},
-          {"system/fvSolution", header("dictionary", "fvSolution") + kSolution, "", ""},
-          {"constant/transportProperties",
-           header("dictionary", "transportProperties") + "transportModel Newtonian;\nnu [0 2 -1 0 0 0 0] " +
-               plainNumber(blood::kViscosity / blood::kDensity) + ";\n", "blood", ""},
-          {"constant/turbulenceProperties",
-           header("dictionary", "turbulenceProperties") + "simulationType laminar;\n", "", ""},
-          {"0/U", velocity(patches), "flows at inlets", ""},
-          {"0/p", pressure(patches), "pressures at outlets", ""}};
+  return {
+      {"Allrun", kAllrun, "makes the mesh and runs the flow", ""},
+      {"system/blockMeshDict", blockMeshDict(cells), "cubes around the vessels", ""},
+      {"system/surfaceFeatureExtractDict",
+       header("dictionary", "surfaceFeatureExtractDict") + kFeatures, "the rims of flat ends", ""},
+      {"system/snappyHexMeshDict", snappyHexMeshDict(patches, cells, inside),
+       "the mesh of the inside", ""},
+      {"system/controlDict", controlDict(patches), "500 steps, flows through ends", ""},
+      {"system/fvSchemes", header("dictionary", "fvSchemes") + kSchemes, "", ""},
+      {"system/fvSolution", header("dictionary", "fvSolution") + kSolution, "", ""},
+      {"constant/transportProperties",
+       header("dictionary", "transportProperties") +
+           "transportModel Newtonian;\nnu [0 2 -1 0 0 0 0] " +
+           plainNumber(blood::kViscosity / blood::kDensity) + ";\n",
+       "blood", ""},
+      {"constant/turbulenceProperties",
+       header("dictionary", "turbulenceProperties") + "simulationType laminar;\n", "", ""},
+      {"0/U", velocity(patches), "flows at inlets", ""},
+      {"0/p", pressure(patches), "pressures at outlets", ""}};
 }
 
 std::string cellsRemark(const FoamCells& cells) {
@@ -303,7 +328,8 @@ ExportResult exportOpenFoam(const ExportInput& input) {
   const std::vector<Eigen::Vector3d> inside =
       deepestPoints(input.source.tree, mesh, input.frame, input.progress);
   const auto& radius = input.source.tree.radius;
-  const FoamCells cells = foamCells(mesh, input.frame.length(*std::min_element(radius.begin(), radius.end())));
+  const FoamCells cells =
+      foamCells(mesh, input.frame.length(*std::min_element(radius.begin(), radius.end())));
   ExportResult result;
   result.start = kStart;
   result.files = dictionaries(patches, cells, inside);
@@ -312,7 +338,8 @@ ExportResult exportOpenFoam(const ExportInput& input) {
   result.remarks = {cellsRemark(cells)};
   for (const FaceGroup& group : mesh.groups)
     if (group.kind == FaceKind::Cap)
-      result.losses.push_back(group.name + ": this end is not flat, so it is a wall, and nothing flows through it");
+      result.losses.push_back(
+          group.name + ": this end is not flat, so it is a wall, and nothing flows through it");
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;

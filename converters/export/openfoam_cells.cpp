@@ -29,13 +29,16 @@ Eigen::Vector3d at(const SurfaceMesh& surface, std::uint32_t vertex) {
 double areaOf(const SurfaceMesh& surface) {
   double area = 0;
   for (const Triangle& t : surface.triangle)
-    area += 0.5 * (at(surface, t[1]) - at(surface, t[0])).cross(at(surface, t[2]) - at(surface, t[0])).norm();
+    area +=
+        0.5 *
+        (at(surface, t[1]) - at(surface, t[0])).cross(at(surface, t[2]) - at(surface, t[0])).norm();
   return area;
 }
 
 TriangleMesh trianglesOf(const SurfaceMesh& surface) {
   TriangleMesh mesh;
-  for (std::uint32_t v = 0; v < surface.position.size(); ++v) mesh.position.push_back(at(surface, v));
+  for (std::uint32_t v = 0; v < surface.position.size(); ++v)
+    mesh.position.push_back(at(surface, v));
   mesh.triangle = surface.triangle;
   return mesh;
 }

@@ -16,11 +16,11 @@ namespace lumen::convert {
 
 /// Cubes around a surface, halved `level` times at it. Lengths are in the unit of the surface.
 struct FoamCells {
-  double atWall = 0;                                ///< edge of the cells at the wall
-  int level = 0;                                    ///< halvings
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();    ///< least corner of the block
-  std::array<int, 3> count{};                       ///< of its cells, before they are halved
-  double acrossThinnest = 0;                        ///< cells across the thinnest vessel
+  double atWall = 0;                              ///< edge of the cells at the wall
+  int level = 0;                                  ///< halvings
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< least corner of the block
+  std::array<int, 3> count{};                     ///< of its cells, before they are halved
+  double acrossThinnest = 0;                      ///< cells across the thinnest vessel
 
   [[nodiscard]] double edge() const { return atWall * (1 << level); }  ///< of the block's cells
 };

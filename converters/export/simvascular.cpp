@@ -28,7 +28,8 @@ namespace {
 
 constexpr double kCentimetres = 0.1;  // of a millimetre
 
-const char* const kProlog = "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<format version=\"1.0\" />\n";
+const char* const kProlog =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<format version=\"1.0\" />\n";
 
 const char* const kProject =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -56,17 +57,19 @@ std::string contour(const BranchPath& path, std::size_t k, std::size_t id) {
   const Eigen::Vector3d tangent = path.tangent(k);
   const auto [u, v] = planeBasis(tangent);
   const double r = path.radii[k];
-  std::string text = "<contour id=\"" + std::to_string(id) +
-                     "\" type=\"Circle\" method=\"Manual\" closed=\"true\" min_control_number=\"2\" "
-                     "max_control_number=\"2\" subdivision_type=\"0\" subdivision_number=\"0\" "
-                     "subdivision_spacing=\"0\">\n<path_point id=\"" +
-                     std::to_string(k) + "\">\n" + element("pos", kCentimetres * path.points[k]) +
-                     element("tangent", tangent) + element("rotation", u) +
-                     "</path_point>\n<control_points>\n" + point(0, path.points[k]) +
-                     point(1, path.points[k] + r * u) + "</control_points>\n<contour_points>\n";
+  std::string text =
+      "<contour id=\"" + std::to_string(id) +
+      "\" type=\"Circle\" method=\"Manual\" closed=\"true\" min_control_number=\"2\" "
+      "max_control_number=\"2\" subdivision_type=\"0\" subdivision_number=\"0\" "
+      "subdivision_spacing=\"0\">\n<path_point id=\"" +
+      std::to_string(k) + "\">\n" + element("pos", kCentimetres * path.points[k]) +
+      element("tangent", tangent) + element("rotation", u) + "</path_point>\n<control_points>\n" +
+      point(0, path.points[k]) + point(1, path.points[k] + r * u) +
+      "</control_points>\n<contour_points>\n";
   for (int n = 0; n < kAround; ++n) {
     const double angle = 2 * std::numbers::pi * n / kAround;
-    text += point(static_cast<std::size_t>(n), path.points[k] + r * (std::cos(angle) * u + std::sin(angle) * v));
+    text += point(static_cast<std::size_t>(n),
+                  path.points[k] + r * (std::cos(angle) * u + std::sin(angle) * v));
   }
   return text + "</contour_points>\n</contour>\n";
 }
@@ -89,7 +92,8 @@ std::string encodeCtgr(const BranchPath& path, std::size_t id, bool hasParent) {
   std::string text =
       kProlog + ("<contourgroup path_name=\"" + path.name) + "\" path_id=\"" + std::to_string(id) +
       "\" reslice_size=\"5\" point_2D_display_size=\"\" point_size=\"\">\n<timestep id=\"0\">\n"
-      "<lofting_parameters method=\"nurbs\" sampling=\"60\" sample_per_seg=\"12\" use_linear_sample=\"1\" "
+      "<lofting_parameters method=\"nurbs\" sampling=\"60\" sample_per_seg=\"12\" "
+      "use_linear_sample=\"1\" "
       "linear_multiplier=\"10\" use_fft=\"0\" num_modes=\"20\" u_degree=\"2\" v_degree=\"2\" "
       "u_knot_type=\"derivative\" v_knot_type=\"average\" u_parametric_type=\"centripetal\" "
       "v_parametric_type=\"chord\" />\n";
@@ -99,8 +103,11 @@ std::string encodeCtgr(const BranchPath& path, std::size_t id, bool hasParent) {
 }
 
 std::string encodeMdl(const SurfaceMesh& mesh, const std::vector<std::string>& names) {
-  std::string text = kProlog + std::string("<model type=\"PolyData\">\n<timestep id=\"0\">\n"
-                     "<model_element type=\"PolyData\" num_sampling=\"0\">\n<segmentations />\n<faces>\n");
+  std::string text =
+      kProlog +
+      std::string(
+          "<model type=\"PolyData\">\n<timestep id=\"0\">\n"
+          "<model_element type=\"PolyData\" num_sampling=\"0\">\n<segmentations />\n<faces>\n");
   for (std::size_t g = 0; g < names.size(); ++g) {
     const bool isWall = mesh.groups[g].kind == FaceKind::Wall;
     text += "<face id=\"" + std::to_string(g + 1) + "\" name=\"" + names[g] + "\" type=\"" +
@@ -109,7 +116,8 @@ std::string encodeMdl(const SurfaceMesh& mesh, const std::vector<std::string>& n
   }
   return text +
          "</faces>\n<blend_radii />\n<blend_param blend_iters=\"2\" sub_blend_iters=\"3\" "
-         "cstr_smooth_iters=\"2\" lap_smooth_iters=\"50\" subdivision_iters=\"1\" decimation=\"0.01\" />\n"
+         "cstr_smooth_iters=\"2\" lap_smooth_iters=\"50\" subdivision_iters=\"1\" "
+         "decimation=\"0.01\" />\n"
          "</model_element>\n</timestep>\n</model>\n";
 }
 
@@ -141,15 +149,20 @@ public:
       face.push_back(static_cast<std::int32_t>(m_surface.group[t] + 1));
       region.push_back(static_cast<std::int32_t>(m_volume.region[e]));
     }
-    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-           "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-           std::to_string(position.size()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-           std::to_string(end.size()) + "\">\n<PointData>\n" + dataArray("Int32", "GlobalNodeID", 1, node) +
-           "</PointData>\n<CellData>\n" + dataArray("Int32", "GlobalElementID", 1, elementOf) +
-           dataArray("Int32", "ModelFaceID", 1, face) + dataArray("Int32", "ModelRegionID", 1, region) +
-           "</CellData>\n<Points>\n" + dataArray("Float64", "Points", 3, position) +
-           "</Points>\n<Polys>\n" + dataArray("Int64", "connectivity", 1, corner) +
-           dataArray("Int64", "offsets", 1, end) + "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+           "byte_order=\"LittleEndian\" "
+           "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n<Piece "
+           "NumberOfPoints=\"" +
+           std::to_string(position.size()) +
+           "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+           std::to_string(end.size()) + "\">\n<PointData>\n" +
+           dataArray("Int32", "GlobalNodeID", 1, node) + "</PointData>\n<CellData>\n" +
+           dataArray("Int32", "GlobalElementID", 1, elementOf) +
+           dataArray("Int32", "ModelFaceID", 1, face) +
+           dataArray("Int32", "ModelRegionID", 1, region) + "</CellData>\n<Points>\n" +
+           dataArray("Float64", "Points", 3, position) + "</Points>\n<Polys>\n" +
+           dataArray("Int64", "connectivity", 1, corner) + dataArray("Int64", "offsets", 1, end) +
+           "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
   }
 
 private:
@@ -159,7 +172,8 @@ private:
 
 std::string encodeVtu(const VolumeMesh& mesh) {
   constexpr std::uint8_t kTetrahedron = 10;  // of VTK
-  std::vector<std::int32_t> node(mesh.position.size()), elementOf(mesh.tetrahedron.size()), region(mesh.region.begin(), mesh.region.end());
+  std::vector<std::int32_t> node(mesh.position.size()), elementOf(mesh.tetrahedron.size()),
+      region(mesh.region.begin(), mesh.region.end());
   for (std::size_t k = 0; k < node.size(); ++k) node[k] = static_cast<std::int32_t>(k + 1);
   std::vector<std::int64_t> corner, end;
   for (std::size_t k = 0; k < elementOf.size(); ++k) {
@@ -168,14 +182,18 @@ std::string encodeVtu(const VolumeMesh& mesh) {
     end.push_back(static_cast<std::int64_t>(corner.size()));
   }
   const std::vector<std::uint8_t> types(mesh.tetrahedron.size(), kTetrahedron);
-  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+         "byte_order=\"LittleEndian\" "
+         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<Piece "
+         "NumberOfPoints=\"" +
          std::to_string(node.size()) + "\" NumberOfCells=\"" + std::to_string(elementOf.size()) +
-         "\">\n<PointData>\n" + dataArray("Int32", "GlobalNodeID", 1, node) + "</PointData>\n<CellData>\n" +
-         dataArray("Int32", "GlobalElementID", 1, elementOf) + dataArray("Int32", "ModelRegionID", 1, region) +
-         "</CellData>\n<Points>\n" + dataArray("Float64", "Points", 3, mesh.position) + "</Points>\n<Cells>\n" +
+         "\">\n<PointData>\n" + dataArray("Int32", "GlobalNodeID", 1, node) +
+         "</PointData>\n<CellData>\n" + dataArray("Int32", "GlobalElementID", 1, elementOf) +
+         dataArray("Int32", "ModelRegionID", 1, region) + "</CellData>\n<Points>\n" +
+         dataArray("Float64", "Points", 3, mesh.position) + "</Points>\n<Cells>\n" +
          dataArray("Int64", "connectivity", 1, corner) + dataArray("Int64", "offsets", 1, end) +
-         dataArray("UInt8", "types", 1, types) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+         dataArray("UInt8", "types", 1, types) +
+         "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 void addMeshComplete(ExportResult& result, const SurfaceMesh& surface, const VolumeMesh& volume,
@@ -183,22 +201,27 @@ void addMeshComplete(ExportResult& result, const SurfaceMesh& surface, const Vol
   const Faces faces(surface, volume);
   const auto isWall = [&](std::uint32_t g) { return surface.groups[g].kind == FaceKind::Wall; };
   const std::string folder = "mesh-complete/";
-  result.files.push_back({folder + "mesh-complete.mesh.vtu", encodeVtu(volume), "tetrahedra, by TetGen", ""});
-  result.files.push_back({folder + "mesh-complete.exterior.vtp", faces.encode([](std::uint32_t) { return true; }),
-                          "their boundary", ""});
-  result.files.push_back({folder + "walls_combined.vtp", faces.encode(isWall), "the wall of it", ""});
+  result.files.push_back(
+      {folder + "mesh-complete.mesh.vtu", encodeVtu(volume), "tetrahedra, by TetGen", ""});
+  result.files.push_back({folder + "mesh-complete.exterior.vtp",
+                          faces.encode([](std::uint32_t) { return true; }), "their boundary", ""});
+  result.files.push_back(
+      {folder + "walls_combined.vtp", faces.encode(isWall), "the wall of it", ""});
   for (std::uint32_t g = 0; g < names.size(); ++g)
     if (std::find(surface.group.begin(), surface.group.end(), g) != surface.group.end())
       result.files.push_back({folder + "mesh-surfaces/" + names[g] + ".vtp",
-                              faces.encode([g](std::uint32_t other) { return other == g; }), "", ""});
+                              faces.encode([g](std::uint32_t other) { return other == g; }), "",
+                              ""});
   result.others.push_back({folder + "mesh-surfaces/*.vtp", "each face of the model"});
   result.remarks.push_back(std::to_string(volume.tetrahedron.size()) + " tetrahedra, " +
                            std::to_string(volume.position.size()) + " nodes");
 }
 
 const char* const kStart =
-    "In SimVascular, *File, Open SV Project*, and choose this folder. Contours are circles at nodes of the centerlines; the model "
-    "is\nthe surface itself, not a loft of them. `mesh-complete`, if it is here, is what svMultiPhysics and svFSI read; its "
+    "In SimVascular, *File, Open SV Project*, and choose this folder. Contours are circles at "
+    "nodes of the centerlines; the model "
+    "is\nthe surface itself, not a loft of them. `mesh-complete`, if it is here, is what "
+    "svMultiPhysics and svFSI read; its "
     "numbers of\nnodes and elements count from 1. There are no images.\n";
 
 }  // namespace
@@ -209,15 +232,18 @@ ExportResult exportSimVascular(const ExportInput& input) {
   const std::vector<std::string> names = distinct(namesOf(made.mesh.groups), openFoamWord);
   ExportResult result;
   result.start = kStart;
-  result.files = {{"vessels.svproj", kProject, "the project", ""},
-                  {"Models/vessel.mdl", encodeMdl(made.mesh, names), "the model's faces: wall and caps", ""},
-                  {"Models/vessel.vtp", encodeVtpIn(made.mesh, "cm"), "the model, with `ModelFaceID`", ""}};
+  result.files = {
+      {"vessels.svproj", kProject, "the project", ""},
+      {"Models/vessel.mdl", encodeMdl(made.mesh, names), "the model's faces: wall and caps", ""},
+      {"Models/vessel.vtp", encodeVtpIn(made.mesh, "cm"), "the model, with `ModelFaceID`", ""}};
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const bool hasParent = input.source.tree.branches[paths[k].branch].parentNode >= 0;
     result.files.push_back({"Paths/" + paths[k].name + ".pth", encodePth(paths[k], k + 1), "", ""});
-    result.files.push_back({"Segmentations/" + paths[k].name + ".ctgr", encodeCtgr(paths[k], k + 1, hasParent), "", ""});
+    result.files.push_back({"Segmentations/" + paths[k].name + ".ctgr",
+                            encodeCtgr(paths[k], k + 1, hasParent), "", ""});
   }
-  result.others = {{"Paths/*.pth", "centerlines"}, {"Segmentations/*.ctgr", "circles of the nodes' radii"}};
+  result.others = {{"Paths/*.pth", "centerlines"},
+                   {"Segmentations/*.ctgr", "circles of the nodes' radii"}};
   result.losses = treeLosses(input.source.tree);
   std::string why;
   if (const auto volume = volumeMesh(made.mesh, input.progress, why))

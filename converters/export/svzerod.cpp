@@ -113,15 +113,18 @@ Json modelOf(const FlowNetwork& network) {
 
 const char* const kStart =
     "    svzerodsolver model.json output.csv\n\n"
-    "`output.csv` has flow (cm^3/s) and pressure (dyn/cm^2) at both ends of each vessel. Units are cgs: cm, g, s, dyn. "
-    "`_label`\nof a vessel is that of its branch in the case, with a number behind it from its second part on.\n\n"
+    "`output.csv` has flow (cm^3/s) and pressure (dyn/cm^2) at both ends of each vessel. Units are "
+    "cgs: cm, g, s, dyn. "
+    "`_label`\nof a vessel is that of its branch in the case, with a number behind it from its "
+    "second part on.\n\n"
     "| stated | | source |\n|---|---|---|\n"
     "| blood | 1060 kg/m^3, 4 mPa s, Newtonian | defaults of SimVascular's solvers |\n"
     "| R | 8 mu / (pi r^4), integrated along the radii | Poiseuille |\n"
     "| L | rho / (pi r^2), likewise | Formaggia, Lamponi, Quarteroni, J Eng Math 47, 2003 |\n"
     "| C | 3 pi r^3 / (2 E h), likewise, of a thin elastic wall | the same |\n"
     "| E h / r | 2e7 exp(-22.53 r) + 8.65e5 dyn/cm^2, r in cm | Olufsen, Am J Physiol 276, 1999 |\n"
-    "| inlets | a steady 20 cm/s over the section | in the range of arteries; put your own flow here |\n"
+    "| inlets | a steady 20 cm/s over the section | in the range of arteries; put your own flow "
+    "here |\n"
     "| outlets | resistances that split the flow by r^3, at 100 mmHg | Murray, PNAS 12, 1926 |\n";
 
 }  // namespace

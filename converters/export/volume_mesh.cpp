@@ -36,7 +36,8 @@ void writeComplex(const SurfaceMesh& surface, const std::filesystem::path& path)
   }
   text += std::to_string(surface.triangle.size()) + " 0\n";
   for (const Triangle& t : surface.triangle)
-    text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
+    text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) +
+            "\n";
   text += "0\n0\n";
   std::ofstream file(path, std::ios::binary);
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -62,17 +63,16 @@ bool readRows(const std::filesystem::path& path, const Row& row) {
 
 std::optional<VolumeMesh> readMesh(const std::filesystem::path& folder) {
   VolumeMesh mesh;
-  const bool read =
-      readRows(folder / "surface.1.node",
-               [&](std::istream& in) {
-                 auto& p = mesh.position.emplace_back();
-                 return static_cast<bool>(in >> p[0] >> p[1] >> p[2]);
-               }) &&
-      readRows(folder / "surface.1.ele", [&](std::istream& in) {
-        auto& t = mesh.tetrahedron.emplace_back();
-        return static_cast<bool>(in >> t[0] >> t[1] >> t[2] >> t[3]) &&
-               *std::max_element(t.begin(), t.end()) < mesh.position.size();
-      });
+  const bool read = readRows(folder / "surface.1.node",
+                             [&](std::istream& in) {
+                               auto& p = mesh.position.emplace_back();
+                               return static_cast<bool>(in >> p[0] >> p[1] >> p[2]);
+                             }) &&
+                    readRows(folder / "surface.1.ele", [&](std::istream& in) {
+                      auto& t = mesh.tetrahedron.emplace_back();
+                      return static_cast<bool>(in >> t[0] >> t[1] >> t[2] >> t[3]) &&
+                             *std::max_element(t.begin(), t.end()) < mesh.position.size();
+                    });
   if (!read || mesh.tetrahedron.empty()) return {};
   return mesh;
 }
@@ -94,7 +94,8 @@ void findRegions(VolumeMesh& mesh) {
   std::map<std::uint32_t, std::uint32_t> numbers;
   for (const auto& t : mesh.tetrahedron)
     mesh.region.push_back(
-        numbers.emplace(sets.find(t[0]), static_cast<std::uint32_t>(numbers.size() + 1)).first->second);
+        numbers.emplace(sets.find(t[0]), static_cast<std::uint32_t>(numbers.size() + 1))
+            .first->second);
 }
 
 Corners sorted(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -144,10 +145,12 @@ std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, Progress& progr
   progress.begin("volume mesh", 0);
   writeComplex(surface, folder.path() / "surface.smesh");
   // a complex whose faces stay; ratio of radius to edge 1.4 at most; from 0; quiet; without faces
-  const ProgramEnd end = runProgram(*program, {"-pYq1.4zQF", "surface.smesh"}, folder.path(), kMostSeconds, progress);
+  const ProgramEnd end =
+      runProgram(*program, {"-pYq1.4zQF", "surface.smesh"}, folder.path(), kMostSeconds, progress);
   progress.end();
   if (end == ProgramEnd::TookTooLong) {
-    why = "TetGen was not done in " + std::to_string(kMostSeconds / 60) + " minutes, so there is no volume mesh; a larger --edge helps";
+    why = "TetGen was not done in " + std::to_string(kMostSeconds / 60) +
+          " minutes, so there is no volume mesh; a larger --edge helps";
     return {};
   }
   std::optional<VolumeMesh> mesh;

@@ -62,8 +62,8 @@ std::string textArray(const std::string& name, const std::vector<std::string>& t
     bytes += text + '\0';
   }
   return vtkElement("type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" +
-                     std::to_string(texts.size()) + "\"",
-                 std::as_bytes(std::span(bytes)));
+                        std::to_string(texts.size()) + "\"",
+                    std::as_bytes(std::span(bytes)));
 }
 
 }  // namespace lumen::convert
