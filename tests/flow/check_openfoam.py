@@ -68,6 +68,15 @@ def check_case(name, program, folder, parts):
         middle = [sum(p[a] for p in points) / len(points) for a in range(3)]
         expect(math.dist(middle, end["position"]) < 0.3 * end["radius"], f"{name}: {end['name']} lies where it is said to")
     print(name, flows, re.search(r"cells: +(\d+)", logs["checkMesh"]).group(0))
+    return flows
+
+
+def check_split(name, program, folder, flows):
+    """Of a fork, what the resistances of `lumen export svzerod` say of the same outlets."""
+    lumen(program, folder, "export", "svzerod", f"{name}.lumen", f"{name}0", "--quiet")
+    vessels = json.loads((folder / f"{name}0" / "model.json").read_text())["vessels"]
+    resistance = {v["boundary_conditions"]["outlet"]: v["zero_d_element_values"]["R_poiseuille"] for v in vessels if "outlet" in v.get("boundary_conditions", {})}
+    near(flows["outlet-root"] / flows["outlet-b01"], resistance["outlet-b01"] / resistance["outlet-root"], 0.05, f"{name}: the flow splits by resistances")
 
 
 def make(program, folder, design):
@@ -77,7 +86,7 @@ def make(program, folder, design):
 
 def check(program, folder):
     make(program, folder, "bifurcation")
-    check_case("bifurcation", program, folder, 1)
+    check_split("bifurcation", program, folder, check_case("bifurcation", program, folder, 1))
     make(program, folder, "kissing")
     check_case("kissing", program, folder, 2)
 
