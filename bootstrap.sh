@@ -175,8 +175,8 @@ install_test_packages() {
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev python3-numpy)
-  # flow solvers' folders: what runs and reads them
-  packages+=(openfoam python3-yaml)
+  # what reads openBF's input
+  packages+=(python3-yaml)
   # where a SOFA is: to run it, and to build its plugin
   packages+=(libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1)
   packages+=(libtinyxml2-dev libboost-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev)

@@ -29,6 +29,12 @@ constexpr double kCgsCompliance = 1e5;                // cm^5/dyn of m^3/Pa
 // Seconds until what walls take up is settled; the last one is answered.
 constexpr int kCycles = 10;
 
+/// Where an end lies, cm, LPS: the solver passes over names that begin with "_".
+Json placeJson(const FlowNetwork& network, std::uint32_t joint) {
+  const Eigen::Vector3d p = kCentimetres * network.joints[joint].place;
+  return Json::array({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0});
+}
+
 /// "branch2_seg0", by which SimVascular's tools find a vessel's parts again.
 std::vector<std::string> vesselNames(const FlowNetwork& network) {
   std::map<std::uint32_t, int> parts;
@@ -74,13 +80,15 @@ Json conditionsJson(const FlowNetwork& network, const std::vector<std::string>& 
       const double flow = kCgsFlow * blood::meanFlow(kMetres * endRadius(network, inlet));
       list.push_back({{"bc_name", names[inlet]},
                       {"bc_type", "FLOW"},
-                      {"bc_values", {{"Q", {flow, flow}}, {"t", {0.0, 1.0}}}}});
+                      {"bc_values", {{"Q", {flow, flow}}, {"t", {0.0, 1.0}}}},
+                      {"_place", placeJson(network, inlet)}});
     }
     const std::vector<double> resistances = outletResistances(network, tree);
     for (std::size_t k = 0; k < resistances.size(); ++k)
       list.push_back({{"bc_name", names[tree.outlets[k]]},
                       {"bc_type", "RESISTANCE"},
-                      {"bc_values", {{"R", kCgsResistance * resistances[k]}, {"Pd", 0.0}}}});
+                      {"bc_values", {{"R", kCgsResistance * resistances[k]}, {"Pd", 0.0}}},
+                      {"_place", placeJson(network, tree.outlets[k])}});
   }
   return list;
 }

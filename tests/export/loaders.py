@@ -192,9 +192,48 @@ def read_print(folder):
     return found, ""
 
 
+def read_svzerod(folder):
+    """A model without a dimension has no places but those that it notes of its ends, in cm."""
+    ends = json.loads((folder / "model.json").read_text())["boundary_conditions"]
+    return Found(ends={end["bc_name"]: 10 * np.array(end["_place"]) for end in ends}), ""
+
+
+def read_oned(folder):
+    """svOneDSolver's nodes, in cm; the first one is the inlet, others without a joint are the ends of their segments."""
+    cards = [line.split() for line in (folder / "vessels.in").read_text().splitlines()]
+    place = {card[1]: 10 * np.array([float(x) for x in card[2:5]]) for card in cards if card[:1] == ["NODE"]}
+    found = Found(ends={"inlet": place["0"]})
+    for card in cards:
+        if card[:1] == ["SEGMENT"] and "RESISTANCE" in card:
+            found.ends["outlet-" + re.sub(r"_\d+$", "", card[1])] = place[card[6]]
+    return found, ""
+
+
+def read_openfoam(folder):
+    """The text STL, in metres; the block around it, and a place within it, from the dictionaries."""
+    text = (folder / "constant/triSurface/vessel.stl").read_text()
+    found = Found(vertices=1000 * np.array([[float(x) for x in line.split()[1:]] for line in text.splitlines() if "vertex" in line]))
+    vectors = lambda file, key: [[1000 * float(x) for x in m.split()] for m in
+                                 re.findall(r"\(([-0-9.e+ ]+)\)", re.search(key + r"[^;]*;", (folder / file).read_text(), re.S)[0])]
+    corners = np.array([v for v in vectors("system/blockMeshDict", "vertices") if len(v) == 3])
+    inside = np.array(vectors("system/snappyHexMeshDict", "locationInMesh")[0])
+    low, high = found.vertices.min(axis=0), found.vertices.max(axis=0)
+    if not ((corners.min(axis=0) < low) & (corners.max(axis=0) > high)).all(): found.faults.append("the block does not hold the vessels")
+    if not ((inside > low) & (inside < high)).all(): found.faults.append("locationInMesh is not in the vessels")
+    return found, ""
+
+
+def read_simvascular(folder):
+    return Found(vertices=10 * read_vtp(folder / "Models/vessel.vtp")[0], centerline=read_pth(folder / "Paths")), ""
+
+
 WALL = ["--thickness", "0.4r"]
 LOADERS = {
     "sofa": Loader(read_sofa),
+    "svzerod": Loader(read_svzerod, has_surface=False),
+    "oned": Loader(read_oned, has_surface=False),
+    "openfoam": Loader(read_openfoam),
+    "simvascular": Loader(read_simvascular),
     "steve": Loader(read_steve),
     "godot": Loader(read_godot, surface=WALL),
     # no engine of theirs is to be had here: Blender's importer of glTF stands in
