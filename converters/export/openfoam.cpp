@@ -152,15 +152,28 @@ meshQualityControls
 mergeTolerance 1e-6;
 )";
 
+/// How often cells are halved at a patch: at an end so often that six lie across, or the end of a thin vessel were lost.
+int levelAt(const Patch& patch, const FoamCells& cells) {
+  constexpr double kAcrossEnd = 6;
+  constexpr int kMostBeyond = 3;  // halvings more than at the wall
+  if (patch.radius <= 0) return cells.level;
+  const double halvings = std::ceil(std::log2(kAcrossEnd * cells.atWall / (2 * patch.radius)));
+  return cells.level + std::clamp(static_cast<int>(halvings), 0, kMostBeyond);
+}
+
+std::string refinement(const Patch& patch, const FoamCells& cells) {
+  const std::string level = std::to_string(levelAt(patch, cells));
+  return "                " + patch.name + " { level (" + level + " " + level +
+         "); patchInfo { type " + (patch.kind == FaceKind::Wall ? "wall" : "patch") + "; } }\n";
+}
+
 std::string snappyHexMeshDict(const std::vector<Patch>& patches, const FoamCells& cells,
                               const std::vector<Eigen::Vector3d>& inside) {
   const std::string level = std::to_string(cells.level), both = "(" + level + " " + level + ")";
   std::string regions, refined, places;
-  for (const FaceKind kind : {FaceKind::Wall, FaceKind::Inlet, FaceKind::Outlet}) {
-    regions += forEach(patches, kind, "            % { name %; }\n");
-    refined += forEach(patches, kind,
-                       "                % { level " + both + "; patchInfo { type " +
-                           (kind == FaceKind::Wall ? "wall" : "patch") + "; } }\n");
+  for (const Patch& patch : patches) {
+    regions += "            " + patch.name + " { name " + patch.name + "; }\n";
+    refined += refinement(patch, cells);
   }
   for (const Eigen::Vector3d& p : inside) places += " (" + vectorText(p) + " none)";
   return header("dictionary", "snappyHexMeshDict") +
