@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/distance_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/common/error.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr double kUsualSamples = 8e6;
+/// Samples of a row that are asked together: enough to fill the query's lanes, few enough that the box around them
+/// tells which nodes are near.
+constexpr std::size_t kChunk = 32;
+
+void sampleChunk(const GridSource& source, std::span<const Place> points,
+                 std::span<WallDistance> answers) {
+  if (source.region)
+    source.vessels.ofRegion(*source.region, points, source.band, answers);
+  else
+    source.vessels.ofAll(points, source.band, answers);
+  for (WallDistance& answer : answers)
+    answer.distance = std::clamp(answer.distance, -source.band, source.band);
+}
+
+}  // namespace
+
+Place Lattice::at(std::size_t i, std::size_t j, std::size_t k) const {
+  return {first[0] + static_cast<double>(i) * spacing, first[1] + static_cast<double>(j) * spacing,
+          first[2] + static_cast<double>(k) * spacing};
+}
+
+Place Lattice::last() const {
+  return at(static_cast<std::size_t>(size[0] - 1), static_cast<std::size_t>(size[1] - 1),
+            static_cast<std::size_t>(size[2] - 1));
+}
+
+std::size_t Lattice::count() const {
+  return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+         static_cast<std::size_t>(size[2]);
+}
+
+double usualSpacing(const PlaceBox& box, double margin, double thinnest) {
+  double volume = 1;
+  for (std::size_t a = 0; a < 3; ++a) volume *= box.high[a] - box.low[a] + 2 * margin;
+  return std::max(thinnest / 4, std::cbrt(volume / kUsualSamples));
+}
+
+Lattice latticeOver(const PlaceBox& box, double margin, double spacing) {
+  Lattice lattice;
+  lattice.spacing = spacing;
+  double samples = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double cells =
+        std::max(1.0, std::ceil((box.high[a] - box.low[a] + 2 * margin) / spacing));
+    samples *= cells + 1;
+    if (samples > static_cast<double>(kMostGridSamples)) {
+      std::ostringstream text;
+      text << "--grid " << spacing << ": this makes more samples than " << kMostGridSamples
+           << "; a wider spacing, please";
+      throw Error(ErrorKind::Usage, text.str());
+    }
+    lattice.size[a] = static_cast<int>(cells) + 1;
+    lattice.first[a] = box.low[a] - margin;
+  }
+  return lattice;
+}
+
+Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin) {
+  Lattice part = whole;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto index = [&](double place) {
+      return static_cast<int>(
+          std::clamp(place, 0.0, static_cast<double>(whole.size[a] - 1)));
+    };
+    const int begin =
+        std::min(index(std::floor((box.low[a] - margin - whole.first[a]) / whole.spacing)),
+                 whole.size[a] - 2);
+    const int end =
+        std::max(index(std::ceil((box.high[a] + margin - whole.first[a]) / whole.spacing)),
+                 begin + 1);
+    part.size[a] = end - begin + 1;
+    part.first[a] = whole.first[a] + begin * whole.spacing;
+  }
+  return part;
+}
+
+std::vector<WallDistance> sampleRows(const GridSource& source, std::size_t rows, std::size_t length,
+                                     const RowPlaces& places, Progress& progress) {
+  std::vector<WallDistance> answers(rows * length);
+  progress.begin("distances", rows);
+  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
+    progress.check();
+    std::vector<Place> points;
+    for (std::size_t begin = 0; begin < length; begin += kChunk) {
+      const std::size_t end = std::min(begin + kChunk, length);
+      points.clear();
+      for (std::size_t i = begin; i < end; ++i) points.push_back(places(row, i));
+      sampleChunk(source, points, std::span(answers).subspan(row * length + begin, end - begin));
+    }
+    progress.advance();
+  });
+  progress.end();
+  return answers;
+}
+
+DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progress& progress) {
+  const auto nx = static_cast<std::size_t>(lattice.size[0]),
+             ny = static_cast<std::size_t>(lattice.size[1]),
+             nz = static_cast<std::size_t>(lattice.size[2]);
+  return {lattice, sampleRows(
+                       source, ny * nz, nx,
+                       [&](std::size_t row, std::size_t i) {
+                         return lattice.at(i, row % ny, row / ny);
+                       },
+                       progress)};
+}
+
+}  // namespace lumen::convert

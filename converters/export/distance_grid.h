@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The signed distance of a case on regular grids.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "converters/common/progress.h"
+#include "converters/export/vessel_distance.h"
+
+namespace lumen::convert {
+
+/// Where the samples of a grid are, mm, LPS; axes are x, y, z.
+struct Lattice {
+  std::array<int, 3> size{};  ///< samples along x, y, z
+  Place first{};              ///< of the first sample
+  double spacing = 0;         ///< along each axis
+
+  [[nodiscard]] Place last() const;
+  [[nodiscard]] Place at(std::size_t i, std::size_t j, std::size_t k) const;
+  [[nodiscard]] std::size_t count() const;
+};
+
+/// More samples than this are refused: 256 MB of doubles.
+inline constexpr std::size_t kMostGridSamples = std::size_t{1} << 25;
+
+/// A box, mm.
+struct PlaceBox {
+  Place low{}, high{};
+};
+
+/// The spacing that is taken where none is given: a quarter of `thinnest`, mm, but at most eight million samples over
+/// the box and `margin`.
+double usualSpacing(const PlaceBox& box, double margin, double thinnest);
+
+/// Over the box and a margin on each side. Throws Error(Usage) for more than kMostGridSamples.
+Lattice latticeOver(const PlaceBox& box, double margin, double spacing);
+
+/// Those of `whole` that lie in the box with its margin; at least two along each axis.
+Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin);
+
+/// Who answers on a grid, and how far from the wall.
+struct GridSource {
+  const VesselDistance& vessels;
+  const TreeRegion* region = nullptr;  ///< none: all vessels
+  /// Distances are clamped to plus and minus this, mm, and not looked for beyond it.
+  double band = std::numeric_limits<double>::infinity();
+};
+
+/// Place of a sample.
+using RowPlaces = std::function<Place(std::size_t row, std::size_t index)>;
+
+/// `rows` rows of `length` samples near each other, answers[row * length + index], in parallel; the same numbers on any
+/// number of threads. Throws Error(Cancelled).
+std::vector<WallDistance> sampleRows(const GridSource& source, std::size_t rows, std::size_t length,
+                                     const RowPlaces& places, Progress& progress);
+
+/// x fastest.
+struct DistanceGrid {
+  Lattice lattice;
+  std::vector<WallDistance> values;
+};
+
+DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progress& progress);
+
+}  // namespace lumen::convert
