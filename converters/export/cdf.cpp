@@ -6,10 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <sstream>
+#include <string>
 #include <vector>
-
-#include "converters/common/error.h"
 
 namespace lumen::convert {
 
@@ -21,6 +19,8 @@ constexpr std::size_t kNodesOfCell = 32;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Bullet counts its bytes in an int.
 constexpr double kMostBytes = 2147483647;
+/// Nodes that are held at once: 512 MB of doubles.
+constexpr std::size_t kMostNodes = std::size_t{1} << 26;
 
 template <class T>
 void append(std::string& bytes, const T& value) {
@@ -51,7 +51,7 @@ std::vector<double> sampleNodes(const GridSource& source, const Lattice& lattice
           return p;
         },
         progress);
-    for (const WallDistance& answer : answers) values.push_back(-answer.distance / unit);
+    for (const WallDistance& answer : answers) values.push_back(-static_cast<double>(answer.distance) / unit);
   }
   return values;
 }
@@ -99,13 +99,12 @@ void appendHead(std::string& bytes, const Lattice& lattice, const std::array<std
   append(bytes, std::uint64_t{1});  // fields
 }
 
-void requireLoadable(double cells, double nodes, double spacing) {
-  const double bytes = cells * (kNodesOfCell * 4 + 4) + nodes * 8 + 200;
-  if (bytes <= kMostBytes) return;
-  std::ostringstream text;
-  text << "--grid " << spacing << ": the .cdf would have " << std::ceil(bytes / 1e6)
-       << " MB, and Bullet loads less than 2147; a wider spacing, or a --band, please";
-  throw Error(ErrorKind::Usage, text.str());
+/// `cells`: those that are kept, of `all`.
+void requireLoadable(double all, double cells, double nodes, double spacing) {
+  const double bytes = all * 4 + cells * kNodesOfCell * 4 + nodes * 8 + 200;
+  if (bytes > kMostBytes)
+    refuseSpacing(spacing, "the .cdf would have " + std::to_string(std::llround(bytes / 1e6)) +
+                               " MB, and Bullet loads less than 2147");
 }
 
 }  // namespace
@@ -163,14 +162,15 @@ std::string encodeCdf(const GridSource& source, const Lattice& lattice, double u
   const CdfNodes nodes(n);
   for (std::size_t which = 0; which < 4; ++which)
     samples += static_cast<double>(nodes.family(which).rows * nodes.family(which).length);
-  if (!std::isfinite(source.band)) requireLoadable(cells, samples, lattice.spacing);
-  if (samples > static_cast<double>(8 * kMostGridSamples))
-    requireLoadable(kMostBytes, samples, lattice.spacing);
+  if (samples > static_cast<double>(kMostNodes))
+    refuseSpacing(lattice.spacing,
+                  "this makes more nodes in the .cdf than " + std::to_string(kMostNodes));
+  if (!std::isfinite(source.band)) requireLoadable(cells, cells, samples, lattice.spacing);
   // cells at the band's border have all their nodes: none is clamped that is within a cell's diagonal
   const GridSource beyond{source.vessels, source.region, source.band + 2 * lattice.spacing};
   const std::vector<double> values = sampleNodes(beyond, lattice, nodes, unit, progress);
   const Cells kept = keepBand(values, nodes, n, source.band / unit);
-  requireLoadable(cells / 32 + static_cast<double>(kept.cells.size()),
+  requireLoadable(cells, static_cast<double>(kept.cells.size()),
                   static_cast<double>(kept.nodes.size()), lattice.spacing);
   std::string bytes;
   appendHead(bytes, lattice, n, unit);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -25,8 +26,45 @@ void sampleChunk(const GridSource& source, std::span<const Place> points,
     source.vessels.ofRegion(*source.region, points, source.band, answers);
   else
     source.vessels.ofAll(points, source.band, answers);
+  const auto band = static_cast<float>(source.band);
   for (WallDistance& answer : answers)
-    answer.distance = std::clamp(answer.distance, -source.band, source.band);
+    answer.distance = std::clamp(answer.distance, -band, band);
+}
+
+std::vector<WallDistance> askRows(const GridSource& source, std::size_t rows, std::size_t length,
+                                  const RowPlaces& places, Progress& progress) {
+  std::vector<WallDistance> answers(rows * length);
+  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
+    progress.check();
+    std::vector<Place> points;
+    for (std::size_t begin = 0; begin < length; begin += kChunk) {
+      const std::size_t end = std::min(begin + kChunk, length);
+      points.clear();
+      for (std::size_t i = begin; i < end; ++i) points.push_back(places(row, i));
+      sampleChunk(source, points, std::span(answers).subspan(row * length + begin, end - begin));
+    }
+    progress.advance();
+  });
+  return answers;
+}
+
+std::size_t rowsOf(const Lattice& lattice) {
+  return static_cast<std::size_t>(lattice.size[1]) * static_cast<std::size_t>(lattice.size[2]);
+}
+
+DistanceGrid askLattice(const GridSource& source, const Lattice& lattice, Progress& progress) {
+  const auto nx = static_cast<std::size_t>(lattice.size[0]),
+             ny = static_cast<std::size_t>(lattice.size[1]);
+  if (static_cast<double>(nx) * static_cast<double>(rowsOf(lattice)) >
+      static_cast<double>(kMostGridSamples))
+    refuseSpacing(lattice.spacing,
+                  "this makes more samples than " + std::to_string(kMostGridSamples));
+  return {lattice, askRows(
+                       source, rowsOf(lattice), nx,
+                       [&](std::size_t row, std::size_t i) {
+                         return lattice.at(i, row % ny, row / ny);
+                       },
+                       progress)};
 }
 
 }  // namespace
@@ -52,20 +90,20 @@ double usualSpacing(const PlaceBox& box, double margin, double thinnest) {
   return std::max(thinnest / 4, std::cbrt(volume / kUsualSamples));
 }
 
+void refuseSpacing(double spacing, const std::string& what) {
+  std::ostringstream text;
+  text << "--grid " << spacing << ": " << what << "; a wider spacing, please";
+  throw Error(ErrorKind::Usage, text.str());
+}
+
 Lattice latticeOver(const PlaceBox& box, double margin, double spacing) {
   Lattice lattice;
   lattice.spacing = spacing;
-  double samples = 1;
   for (std::size_t a = 0; a < 3; ++a) {
     const double cells =
         std::max(1.0, std::ceil((box.high[a] - box.low[a] + 2 * margin) / spacing));
-    samples *= cells + 1;
-    if (samples > static_cast<double>(kMostGridSamples)) {
-      std::ostringstream text;
-      text << "--grid " << spacing << ": this makes more samples than " << kMostGridSamples
-           << "; a wider spacing, please";
-      throw Error(ErrorKind::Usage, text.str());
-    }
+    if (cells >= std::numeric_limits<int>::max())
+      refuseSpacing(spacing, "this makes more than 2147483647 samples along an axis");
     lattice.size[a] = static_cast<int>(cells) + 1;
     lattice.first[a] = box.low[a] - margin;
   }
@@ -93,33 +131,29 @@ Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin) {
 
 std::vector<WallDistance> sampleRows(const GridSource& source, std::size_t rows, std::size_t length,
                                      const RowPlaces& places, Progress& progress) {
-  std::vector<WallDistance> answers(rows * length);
   progress.begin("distances", rows);
-  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
-    progress.check();
-    std::vector<Place> points;
-    for (std::size_t begin = 0; begin < length; begin += kChunk) {
-      const std::size_t end = std::min(begin + kChunk, length);
-      points.clear();
-      for (std::size_t i = begin; i < end; ++i) points.push_back(places(row, i));
-      sampleChunk(source, points, std::span(answers).subspan(row * length + begin, end - begin));
-    }
-    progress.advance();
-  });
+  std::vector<WallDistance> answers = askRows(source, rows, length, places, progress);
   progress.end();
   return answers;
 }
 
 DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progress& progress) {
-  const auto nx = static_cast<std::size_t>(lattice.size[0]),
-             ny = static_cast<std::size_t>(lattice.size[1]),
-             nz = static_cast<std::size_t>(lattice.size[2]);
-  return {lattice, sampleRows(
-                       source, ny * nz, nx,
-                       [&](std::size_t row, std::size_t i) {
-                         return lattice.at(i, row % ny, row / ny);
-                       },
-                       progress)};
+  progress.begin("distances", rowsOf(lattice));
+  DistanceGrid grid = askLattice(source, lattice, progress);
+  progress.end();
+  return grid;
+}
+
+void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
+                  const TakeLayers& take, Progress& progress) {
+  progress.begin("distances", rowsOf(lattice));
+  for (int begin = 0; begin < lattice.size[2]; begin += layers) {
+    Lattice part = lattice;
+    part.size[2] = std::min(layers, lattice.size[2] - begin);
+    part.first[2] = lattice.first[2] + begin * lattice.spacing;
+    take(askLattice(source, part, progress), begin);
+  }
+  progress.end();
 }
 
 }  // namespace lumen::convert

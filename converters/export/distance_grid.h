@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "converters/common/progress.h"
@@ -25,7 +26,7 @@ struct Lattice {
   [[nodiscard]] std::size_t count() const;
 };
 
-/// More samples than this are refused: 256 MB of doubles.
+/// A grid that is held whole has at most as many samples: 256 MB.
 inline constexpr std::size_t kMostGridSamples = std::size_t{1} << 25;
 
 /// A box, mm.
@@ -37,7 +38,7 @@ struct PlaceBox {
 /// the box and `margin`.
 double usualSpacing(const PlaceBox& box, double margin, double thinnest);
 
-/// Over the box and a margin on each side. Throws Error(Usage) for more than kMostGridSamples.
+/// Over the box and a margin on each side. Throws Error(Usage) for more than 2^31 samples along an axis.
 Lattice latticeOver(const PlaceBox& box, double margin, double spacing);
 
 /// Those of `whole` that lie in the box with its margin; at least two along each axis.
@@ -65,6 +66,15 @@ struct DistanceGrid {
   std::vector<WallDistance> values;
 };
 
+/// Throws Error(Usage) for more than kMostGridSamples, Error(Cancelled).
 DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progress& progress);
+
+/// The same in layers of constant z, `layers` at a time, each handed to `take` with the index of its first layer.
+using TakeLayers = std::function<void(const DistanceGrid& part, int firstLayer)>;
+void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
+                  const TakeLayers& take, Progress& progress);
+
+/// Says which option makes too much of what.
+[[noreturn]] void refuseSpacing(double spacing, const std::string& what);
 
 }  // namespace lumen::convert

@@ -9,7 +9,7 @@ bool hasVdb() {
   return false;
 }
 
-std::string encodeVdb(const DistanceGrid&, const VdbOptions&) {
+std::string encodeVdb(const GridSource&, const Lattice&, const VdbOptions&, Progress&) {
   throw unsupported(
       "--format vdb: this lumen was built without OpenVDB (on Debian libopenvdb-dev); the other "
       "formats are there");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/export/vdb.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <sstream>
+#include <utility>
 
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
@@ -24,45 +24,48 @@ openvdb::math::Transform::Ptr transformOf(const Lattice& lattice, double unit) {
   return transform;
 }
 
-/// Calls visit(voxel, value) of each sample.
-template <class Visit>
-void forEach(const DistanceGrid& grid, Visit visit) {
-  std::size_t at = 0;
-  for (int k = 0; k < grid.lattice.size[2]; ++k)
-    for (int j = 0; j < grid.lattice.size[1]; ++j)
-      for (int i = 0; i < grid.lattice.size[0]; ++i)
-        visit(openvdb::Coord(i, j, k), grid.values[at++]);
-}
+/// The two grids while samples come in.
+struct VdbGrids {
+  VdbGrids(const GridSource& source, const Lattice& lattice, const VdbOptions& options)
+      : unit(options.unit),
+        band(static_cast<float>(source.band)),
+        background(static_cast<float>(source.band / options.unit)),
+        set(openvdb::FloatGrid::create(background)),
+        labels(openvdb::Int32Grid::create(0)) {
+    set->setName("distance");
+    set->setGridClass(openvdb::GRID_LEVEL_SET);
+    set->setSaveFloatAsHalf(options.half);
+    labels->setName("branch");
+    set->setTransform(transformOf(lattice, options.unit));
+    labels->setTransform(transformOf(lattice, options.unit));
+  }
 
-openvdb::FloatGrid::Ptr levelSet(const DistanceGrid& grid, const VdbOptions& options) {
-  const auto background = static_cast<float>(options.band / options.unit);
-  auto set = openvdb::FloatGrid::create(background);
-  set->setName("distance");
-  set->setGridClass(openvdb::GRID_LEVEL_SET);
-  set->setTransform(transformOf(grid.lattice, options.unit));
-  set->setSaveFloatAsHalf(options.half);
-  auto voxels = set->getAccessor();
-  forEach(grid, [&](const openvdb::Coord& voxel, const WallDistance& value) {
-    if (std::abs(value.distance) < options.band)
-      voxels.setValueOn(voxel, static_cast<float>(value.distance / options.unit));
-    else if (value.distance < 0)
-      voxels.setValueOff(voxel, -background);
-  });
-  openvdb::tools::pruneLevelSet(set->tree());
-  return set;
-}
+  void add(const DistanceGrid& part, int firstLayer) {
+    auto distances = set->getAccessor();
+    auto branches = labels->getAccessor();
+    std::size_t at = 0;
+    for (int k = 0; k < part.lattice.size[2]; ++k)
+      for (int j = 0; j < part.lattice.size[1]; ++j)
+        for (int i = 0; i < part.lattice.size[0]; ++i) {
+          const WallDistance value = part.values[at++];
+          const openvdb::Coord voxel(i, j, firstLayer + k);
+          if (std::abs(value.distance) < band)
+            distances.setValueOn(voxel,
+                                 static_cast<float>(static_cast<double>(value.distance) / unit));
+          else if (value.distance < 0)
+            distances.setValueOff(voxel, -background);
+          if (value.distance < 0)
+            branches.setValueOn(voxel, static_cast<int>(value.branch) + 1);
+        }
+    openvdb::tools::pruneLevelSet(set->tree());
+    openvdb::tools::prune(labels->tree());
+  }
 
-openvdb::Int32Grid::Ptr branches(const DistanceGrid& grid, double unit) {
-  auto labels = openvdb::Int32Grid::create(0);
-  labels->setName("branch");
-  labels->setTransform(transformOf(grid.lattice, unit));
-  auto voxels = labels->getAccessor();
-  forEach(grid, [&](const openvdb::Coord& voxel, const WallDistance& value) {
-    if (value.distance < 0) voxels.setValueOn(voxel, static_cast<int>(value.branch) + 1);
-  });
-  openvdb::tools::prune(labels->tree());
-  return labels;
-}
+  double unit;
+  float band, background;
+  openvdb::FloatGrid::Ptr set;
+  openvdb::Int32Grid::Ptr labels;
+};
 
 /// In place of the random name that the library gives each file, one that its content gives.
 void nameByContent(std::string& bytes) {
@@ -81,14 +84,19 @@ bool hasVdb() {
   return true;
 }
 
-std::string encodeVdb(const DistanceGrid& grid, const VdbOptions& options) {
+std::string encodeVdb(const GridSource& source, const Lattice& lattice, const VdbOptions& options,
+                      Progress& progress) {
+  constexpr int kLayers = 8;  // of a leaf of the tree, so that no leaf is opened again
   openvdb::initialize();
+  VdbGrids grids(source, lattice, options);
+  sampleLayers(
+      source, lattice, kLayers,
+      [&](const DistanceGrid& part, int firstLayer) { grids.add(part, firstLayer); }, progress);
   openvdb::MetaMap about;
   about.insertMeta("unit", openvdb::StringMetadata(options.unit == 1 ? "mm" : "m"));
   about.insertMeta("frame", openvdb::StringMetadata("LPS"));
   std::ostringstream out(std::ios::binary);
-  openvdb::io::Stream(out).write(
-      openvdb::GridCPtrVec{levelSet(grid, options), branches(grid, options.unit)}, about);
+  openvdb::io::Stream(out).write(openvdb::GridCPtrVec{grids.set, grids.labels}, about);
   std::string bytes = std::move(out).str();
   nameByContent(bytes);
   return bytes;

@@ -12,14 +12,16 @@ namespace lumen::convert {
 bool hasVdb();
 
 struct VdbOptions {
-  double band = 0;    ///< mm, > 0: half the width of the band of samples that are kept
   double unit = 1;    ///< lengths of the file in mm: 1 or 1000
   bool half = false;  ///< distances of 16 bits
 };
 
-/// A level set "distance", negative in the lumen, of the class "level set", whose background is the band; and a grid of
+/// A level set "distance", negative in the lumen, of the class "level set", whose background is the
+/// band, which must be finite; and a grid of
 /// integers "branch": of a sample in the lumen the index of its branch and 1, elsewhere 0. Both have a linear transform
-/// to positions in LPS. The same grid gives the same bytes. Throws Error(Unsupported) without the library.
-std::string encodeVdb(const DistanceGrid& grid, const VdbOptions& options);
+/// to positions in LPS. The same samples give the same bytes.
+/// Throws Error(Unsupported) without the library, Error(Cancelled).
+std::string encodeVdb(const GridSource& source, const Lattice& lattice, const VdbOptions& options,
+                      Progress& progress);
 
 }  // namespace lumen::convert

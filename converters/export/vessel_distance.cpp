@@ -118,7 +118,7 @@ void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors
   blob_query_many(m_model.get(), m_flags, points.size(),
                   reinterpret_cast<const double(*)[3]>(points.data()), cursors, samples.data());
   for (std::size_t i = 0; i < points.size(); ++i)
-    answers[i] = {samples[i].distance, m_tree.branch[samples[i].node]};
+    answers[i] = {static_cast<float>(samples[i].distance), m_tree.branch[samples[i].node]};
 }
 
 void VesselDistance::takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
@@ -186,7 +186,7 @@ void VesselDistance::ofAll(std::span<const Place> points, double band,
     if (gap <= 0) branches.push_back(b);
   }
   if (!isNear) {
-    std::fill(answers.begin(), answers.end(), WallDistance{band, 0});
+    std::fill(answers.begin(), answers.end(), WallDistance{static_cast<float>(band), 0});
     return;
   }
   query(points, nullptr, answers.data());
@@ -208,7 +208,7 @@ void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Place> p
     lowest.push_back(near - r * r);
   }
   if (!isNear) {
-    std::fill(answers.begin(), answers.end(), WallDistance{band, 0});
+    std::fill(answers.begin(), answers.end(), WallDistance{static_cast<float>(band), 0});
     return;
   }
   TreeRegion candidates;

@@ -19,7 +19,7 @@ using Place = std::array<double, 3>;  ///< mm, LPS
 
 /// A distance, and whose wall it is to.
 struct WallDistance {
-  double distance = 0;       ///< mm, negative in the lumen
+  float distance = 0;        ///< mm, negative in the lumen
   std::uint32_t branch = 0;  ///< index into the tree's branches, of the node that answered
 };
 
