@@ -24,14 +24,14 @@ FORMATS = ["formats/container", "formats/field", "formats/view", "formats/case"]
 MAY_INCLUDE["converters/common"] = FORMATS
 STAGES = {"volume": [], "seeds": ["volume"], "centerline": ["seeds"], "tracking": ["seeds", "volume"], "fitting": [], "mesh": [], "surface": ["mesh"], "compare": [],
           "check": ["volume"], "phantom": ["seeds", "volume", "centerline"],
-          "sofa": ["mesh", "surface"], "steve": ["mesh", "surface"],
+          "export": ["volume", "mesh", "surface", "export/sofa"], "export/sofa": ["mesh", "surface", "export"],
           "inside": ["volume", "centerline", "mesh", "surface"], "editing": ["fitting"]}
 for stage, below in STAGES.items():
     MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]
-MAY_INCLUDE["converters/sofa"] += ["libblob/include"]  # its grids hold what libblob answers
+MAY_INCLUDE["converters/export"] += ["libblob/include"]  # its grids hold what libblob answers
 MAY_INCLUDE["converters/app"] = FORMATS + ["converters/common"] + ["converters/" + s for s in STAGES]
-MAY_INCLUDE["converters/sofa/plugin/src/LumenSofa"] = ["libblob/include", "formats/container", "formats/view"]
-MAY_INCLUDE["converters/sofa/plugin/tests"] = []
+MAY_INCLUDE["converters/export/sofa/plugin/src/LumenSofa"] = ["libblob/include", "formats/container", "formats/view"]
+MAY_INCLUDE["converters/export/sofa/plugin/tests"] = []
 
 # The viewer does what commands do; `app` has nothing of it but the name of a function that makes a command.
 VIEWER = MAY_INCLUDE["converters/app"] + ["converters/app"]

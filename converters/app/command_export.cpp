@@ -9,20 +9,24 @@
 
 #include "converters/app/command.h"
 #include "converters/app/export_options.h"
-#include "converters/app/export_target.h"
 #include "converters/app/file_access.h"
 #include "converters/app/reachable.h"
 #include "converters/app/report.h"
+#include "converters/app/suggestion.h"
 #include "converters/app/surface_report.h"
 #include "converters/app/value_checks.h"
 #include "converters/common/error.h"
+#include "converters/export/target.h"
 #include "formats/case/atomic_file.h"
+#include "formats/container/printable.h"
 
 namespace lumen::app {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+using convert::exportTargets, convert::ExportTarget, convert::ExportResult;
 
 std::string joined(const std::vector<std::string_view>& words) {
   std::string text;
@@ -36,9 +40,26 @@ std::vector<std::string> targetNames() {
   return names;
 }
 
+/// The target of that name. Throws Error(Unsupported), with the targets that there are.
+const ExportTarget& exportTarget(const std::string& name) {
+  for (const ExportTarget& target : exportTargets())
+    if (target.name == name) return target;
+  const std::vector<std::string> names = targetNames();
+  throw unsupported(formats::printable(name) + ": lumen does not export to this; it exports to " +
+                    alternatives(names) + didYouMean(name, names));
+}
+
+template <class Value>
+std::vector<std::string_view> namesOf(const std::vector<Value>& values,
+                                      std::string_view (*name)(Value)) {
+  std::vector<std::string_view> names;
+  for (const Value value : values) names.push_back(name(value));
+  return names;
+}
+
 /// All of them in a new folder, which appears when it is complete.
-void writeFolder(const std::vector<NamedFile>& files, formats::PendingFolder& folder) {
-  for (const NamedFile& file : files) {
+void writeFolder(const std::vector<convert::ExportFile>& files, formats::PendingFolder& folder) {
+  for (const convert::ExportFile& file : files) {
     const fs::path path = folder.path() / file.name;
     fs::create_directories(path.parent_path());
     std::ofstream out(path, std::ios::binary);
@@ -86,15 +107,13 @@ public:
     refuseOptionsOfOthers(target);
     requireRoom();
     const formats::Case value = readCase(m_input);
-    if (!value.models)
-      throw invalidInput(m_input + ": this case has no models, so there is no wall to export; " +
-                         "lumen fit makes them");
     auto folder =
         formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
     if (!folder) throw failed(folder.error().message);
     context.interrupts.watchOutput(m_output);
     warnOfClosed(reachOf(value, context.progress), context.progress);
-    const ExportResult result = target.write(value, m_output, m_options, context.progress);
+    const ExportResult result = made(target, value, context);
+    warnOf(result, context.progress);
     context.progress.check();
     writeFolder(result.files, *folder);
     report(result, value, context);
@@ -102,6 +121,36 @@ public:
   }
 
 private:
+  /// What a target says against a case names the file.
+  [[nodiscard]] ExportResult made(const ExportTarget& target, const formats::Case& value,
+                                  const Context& context) const {
+    try {
+      return convert::exportCase(target, value, m_options, optionTexts(target), context.progress);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::InvalidInput) throw;
+      throw invalidInput(m_input + ": " + error.what());
+    }
+  }
+
+  /// What the target's options are, given or not: lumen-export.json records them.
+  [[nodiscard]] convert::OptionTexts optionTexts(const ExportTarget& target) const {
+    convert::OptionTexts texts;
+    for (const std::string_view name : target.options) {
+      const CLI::Option* const option = m_app->get_option(std::string(name));
+      std::string text;
+      for (const std::string& word : option->results()) text += (text.empty() ? "" : " ") + word;
+      if (option->count() == 0) text = option->get_default_str();
+      if (!text.empty()) texts[std::string(name)] = text;
+    }
+    return texts;
+  }
+
+  void warnOf(const ExportResult& result, Progress& progress) const {
+    if (result.surface) warnOfSurface(*result.surface, m_output, progress);
+    for (const std::string& loss : result.losses)
+      progress.warn(formats::printable(m_output) + ": " + loss);
+  }
+
   /// Before anything is made: the folder is not there, or is empty.
   void requireRoom() const {
     std::error_code error;
@@ -123,13 +172,17 @@ private:
 
   /// An option that the target would pass over in silence.
   void refuseOptionsOfOthers(const ExportTarget& target) const {
+    const auto has = [](const ExportTarget& one, std::string_view option) {
+      return std::find(one.options.begin(), one.options.end(), option) != one.options.end();
+    };
     for (const ExportTarget& other : exportTargets())
       for (const std::string_view option : other.options) {
-        const bool isOwn =
-            std::find(target.options.begin(), target.options.end(), option) != target.options.end();
-        if (!isOwn && m_app->count(std::string(option)) > 0)
-          throw Error(ErrorKind::Usage, std::string(option) + " is for " + std::string(other.name) +
-                                            ", not for " + std::string(target.name));
+        if (has(target, option) || m_app->count(std::string(option)) == 0) continue;
+        std::string who;
+        for (const ExportTarget& one : exportTargets())
+          if (has(one, option)) who += (who.empty() ? "" : ", ") + std::string(one.name);
+        throw Error(ErrorKind::Usage, std::string(option) + " is for " + who + ", not for " +
+                                          std::string(target.name));
       }
   }
 
@@ -140,8 +193,8 @@ private:
       targets.push_back({{"name", target.name},
                          {"title", target.title},
                          {"files", target.files},
-                         {"unit", target.unit},
-                         {"frame", target.frame},
+                         {"units", namesOf(target.units, convert::unitName)},
+                         {"axes", namesOf(target.axes, convert::axesName)},
                          {"holds", target.holds},
                          {"lacks", target.lacks},
                          {"options", target.options}});
@@ -149,7 +202,8 @@ private:
               Lines()
                   .add(target.name, target.title)
                   .add("files", joined(target.files))
-                  .add("unit, frame", std::string(target.unit) + ", " + std::string(target.frame))
+                  .add("unit, axes", joined(namesOf(target.units, convert::unitName)) + "; " +
+                                         joined(namesOf(target.axes, convert::axesName)))
                   .add("holds", target.holds)
                   .add("lacks", target.lacks)
                   .add("options", joined(target.options))
@@ -168,7 +222,7 @@ private:
       Json json = caseSummary(value);
       json["target"] = m_target;
       Json files = Json::array();
-      for (const NamedFile& file : result.files)
+      for (const convert::ExportFile& file : result.files)
         files.push_back({{"name", file.name}, {"bytes", file.bytes.size()}});
       json["files"] = std::move(files);
       json["remarks"] = result.remarks;
@@ -183,7 +237,7 @@ private:
 
   bool m_list = false;
   std::string m_target, m_input, m_output;
-  ExportOptions m_options;
+  convert::ExportOptions m_options;
   const CLI::App* m_app = nullptr;
 };
 

@@ -2,7 +2,9 @@
 #include "converters/app/export_options.h"
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "converters/app/option_group.h"
 #include "converters/app/value_checks.h"
@@ -25,6 +27,19 @@ const std::map<std::string, WallKind> kWalls = {
 const std::map<std::string, SofaDialect> kDialects = {{"current", SofaDialect::Current},
                                                       {"v23.06", SofaDialect::V23_06}};
 
+const std::map<std::string, convert::GridFormat> kGridFormats = {
+    {"nrrd", convert::GridFormat::Nrrd},
+    {"nifti", convert::GridFormat::Nifti},
+    {"mhd", convert::GridFormat::Mhd},
+    {"vdb", convert::GridFormat::Vdb},
+    {"cdf", convert::GridFormat::Cdf}};
+
+const std::map<std::string, convert::LengthUnit> kUnits = {{"mm", convert::LengthUnit::Millimetre},
+                                                           {"cm", convert::LengthUnit::Centimetre},
+                                                           {"m", convert::LengthUnit::Metre}};
+const std::map<std::string, convert::Axes> kUp = {{"z", convert::Axes::Lps},
+                                                  {"y", convert::Axes::Lsa}};
+
 void addSofaOptions(CLI::App& app, convert::SofaOptions& sofa) {
   OptionGroup group(app, "SOFA");
   group.addChoice("--instrument", sofa.instrument, kInstruments,
@@ -38,19 +53,55 @@ void addSofaOptions(CLI::App& app, convert::SofaOptions& sofa) {
   app.add_option("--insert", sofa.insert, "Branch at whose beginning it is inserted [the root]")
       ->type_name("LABEL")
       ->group("SOFA");
-  group
-      .add("--grid", sofa.grid, "MM",
-           "Distance between the samples of --wall grid; 0: by the size of the vessels")
-      ->check(kNotNegative);
 }
 
-}  // namespace
+void addGridOptions(CLI::App& app, convert::GridOptions& grid) {
+  OptionGroup group(app, "Grid");
+  group
+      .add("--grid", grid.spacing, "MM",
+           "Distance between the samples of a grid; 0: by the size of the vessels")
+      ->check(kNotNegative);
+  app.add_option_function<std::vector<std::string>>(
+         "--format",
+         [&grid](const std::vector<std::string>& words) {
+           grid.formats.clear();
+           for (const std::string& word : words) grid.formats.push_back(kGridFormats.at(word));
+         },
+         "Of the files, one or more: " + alternatives(app::namesOf(kGridFormats)))
+      ->type_name("WORD")
+      ->group("Grid")
+      ->delimiter(',')
+      ->default_str("nrrd")
+      ->check(oneOf(app::namesOf(kGridFormats)));
+  app.add_option("--band", grid.band,
+                 "How far from the wall distances go on; beyond it they are clamped, or left out "
+                 "[everywhere; vdb: 3 samples]")
+      ->type_name("MM")
+      ->group("Grid")
+      ->check(kPositive);
+  group.addFlag("--half", grid.half, "vdb: distances of 16 bits");
+  group.addFlag("--per-branch", grid.perBranch,
+                "A grid for each branch and its neighbourhood along the tree, instead of one, in "
+                "which vessels that touch are merged");
+  group.addFlag("--exact", grid.exact,
+                "Distances to the nearest point of the wall, which take some twenty times as long, "
+                "instead of libblob's, which are right to first order");
+}
 
-void addExportOptions(CLI::App& app, ExportOptions& options) {
-  addSofaOptions(app, options.sofa);
+template <class Value>
+void addOptionalChoice(CLI::App& app, const std::string& name, std::optional<Value>& value,
+                       const std::map<std::string, Value>& words, const std::string& help) {
+  std::vector<std::string> names;
+  for (const auto& word : words) names.push_back(word.first);
+  app.add_option_function<std::string>(
+         name, [&value, words](const std::string& text) { value = words.at(text); }, help)
+      ->check(oneOf(names));
+}
+
+void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
   // a wall of triangles is asked many times a step: half of the radius is what its curvature needs
-  options.surface.edge.share = 0.5;
-  convert::EdgeLength& edge = options.surface.edge;
+  surface.edge.share = 0.5;
+  convert::EdgeLength& edge = surface.edge;
   app.add_option_function<std::string>(
          "--edge",
          [&edge](const std::string& text) {
@@ -63,10 +114,22 @@ void addExportOptions(CLI::App& app, ExportOptions& options) {
       ->group("Surface")
       ->default_str("0.5r");
   OptionGroup(app, "Surface")
-      .add("--max-error", options.surface.maxError, "MM",
+      .add("--max-error", surface.maxError, "MM",
            "Drop triangles as long as the surface stays within this distance of that with all; 0: "
            "none")
       ->check(kNotNegative);
+}
+
+}  // namespace
+
+void addExportOptions(CLI::App& app, convert::ExportOptions& options) {
+  addOptionalChoice(app, "--unit", options.unit, kUnits,
+                    "Of lengths, where the target leaves a choice [its first of --list]");
+  addOptionalChoice(app, "--up", options.axes, kUp,
+                    "The axis that looks up (superior), where the target leaves a choice");
+  addSurfaceOptions(app, options.surface);
+  addGridOptions(app, options.grid);
+  addSofaOptions(app, options.sofa);
 }
 
 }  // namespace lumen::app

@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "converters/app/export_target.h"
+#include "converters/export/target.h"
 
 namespace lumen::app {
 
-void addExportOptions(CLI::App& app, ExportOptions& options);
+void addExportOptions(CLI::App& app, convert::ExportOptions& options);
 
 }  // namespace lumen::app

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "converters/app/report.h"
+#include "converters/common/tree_losses.h"
 #include "converters/surface/cell_size.h"
 #include "formats/container/printable.h"
 
@@ -90,19 +91,8 @@ void reportLosses(const Patches& patches, const std::string& file, double cell,
 }
 
 void reportTreeLosses(const formats::Case& value, const std::string& file, Progress& progress) {
-  const std::string name = formats::printable(file);
-  const auto& tree = value.tree;
-  const auto sacs = static_cast<std::size_t>(std::count_if(
-      tree.branches.begin(), tree.branches.end(),
-      [](const formats::Branch& branch) { return branch.kind == formats::BranchKind::Aneurysm; }));
-  if (!tree.links.empty())
-    progress.warn(
-        name + ": a centerline file holds trees, so " +
-        counted(tree.links.size(), "link that closes a loop is", "links that close loops are") +
-        " left out");
-  if (sacs > 0)
-    progress.warn(name + ": a centerline file holds vessels, so " +
-                  counted(sacs, "aneurysm becomes one", "aneurysms become vessels"));
+  for (const std::string& loss : treeLosses(value.tree))
+    progress.warn(formats::printable(file) + ": " + loss);
 }
 
 }  // namespace lumen::app

@@ -32,10 +32,6 @@ std::size_t textWidth(const std::string& text) {
 
 }  // namespace
 
-std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
-  return std::to_string(count) + " " + (count == 1 ? noun : plural);
-}
-
 Json jsonNumber(float value) {
   if (!std::isfinite(value)) return nullptr;
   std::array<char, 32> text{};

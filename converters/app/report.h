@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "converters/common/text.h"
 #include "formats/case/case.h"
 
 namespace lumen::app {
@@ -25,9 +26,6 @@ Json caseSummary(const formats::Case& value);
 
 /// One line for a person: "out.lumen: 3 branches, 210 nodes, 1830 points, 902 blobs, 123.4 mm".
 std::string caseLine(const std::string& file, const formats::Case& value);
-
-/// "1 node", "2 nodes".
-std::string counted(std::size_t count, const std::string& noun, const std::string& plural);
 
 double totalLength(const formats::CenterlineTree& tree);
 

@@ -2,6 +2,7 @@
 // Texts of headers and names.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace lumen {
@@ -18,6 +19,11 @@ inline std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+/// "1 node", "2 nodes".
+inline std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
+  return std::to_string(count) + " " + (count == 1 ? noun : plural);
 }
 
 }  // namespace lumen

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -10,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/common/error.h"
+#include "converters/common/text.h"
 
 namespace lumen::convert {
 
@@ -84,10 +86,27 @@ std::size_t Lattice::count() const {
          static_cast<std::size_t>(size[2]);
 }
 
-double usualSpacing(const PlaceBox& box, double margin, double thinnest) {
+double gridSpacing(double asked, const PlaceBox& box, double margin,
+                   const formats::CenterlineTree& tree) {
+  if (asked > 0) return asked;
+  const double thinnest =
+      static_cast<double>(*std::min_element(tree.radius.begin(), tree.radius.end()));
   double volume = 1;
   for (std::size_t a = 0; a < 3; ++a) volume *= box.high[a] - box.low[a] + 2 * margin;
   return std::max(thinnest / 4, std::cbrt(volume / kUsualSamples));
+}
+
+std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTree& tree) {
+  const auto lost = std::count_if(tree.radius.begin(), tree.radius.end(), [spacing](float radius) {
+    return static_cast<double>(radius) < spacing;
+  });
+  if (lost == 0) return {};
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << "the grid's samples are " << spacing
+       << " mm apart, too wide for the vessels at "
+       << counted(static_cast<std::size_t>(lost), "node", "nodes") << " of " << tree.nodeCount()
+       << "; --grid takes a smaller distance";
+  return {text.str()};
 }
 
 void refuseSpacing(double spacing, const std::string& what) {

@@ -34,9 +34,13 @@ struct PlaceBox {
   Place low{}, high{};
 };
 
-/// The spacing that is taken where none is given: a quarter of `thinnest`, mm, but at most eight million samples over
+/// The spacing that is asked for, mm; for 0 a quarter of the tree's least radius, but at most eight million samples over
 /// the box and `margin`.
-double usualSpacing(const PlaceBox& box, double margin, double thinnest);
+double gridSpacing(double asked, const PlaceBox& box, double margin,
+                   const formats::CenterlineTree& tree);
+
+/// Sentences about vessels that a grid passes over: those with less than two samples across.
+std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTree& tree);
 
 /// Over the box and a margin on each side. Throws Error(Usage) for more than 2^31 samples along an axis.
 Lattice latticeOver(const PlaceBox& box, double margin, double spacing);

@@ -5,14 +5,15 @@
 
 namespace lumen::convert {
 
-bool hasVdb() {
-  return false;
+void requireVdb() {
+  throw unsupported(
+      "--format vdb: this lumen was built without OpenVDB (on Debian libopenvdb-dev); it writes "
+      "the other formats");
 }
 
 std::string encodeVdb(const GridSource&, const Lattice&, const VdbOptions&, Progress&) {
-  throw unsupported(
-      "--format vdb: this lumen was built without OpenVDB (on Debian libopenvdb-dev); the other "
-      "formats are there");
+  requireVdb();
+  return {};
 }
 
 }  // namespace lumen::convert

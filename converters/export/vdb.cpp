@@ -80,9 +80,7 @@ void nameByContent(std::string& bytes) {
 
 }  // namespace
 
-bool hasVdb() {
-  return true;
-}
+void requireVdb() {}
 
 std::string encodeVdb(const GridSource& source, const Lattice& lattice, const VdbOptions& options,
                       Progress& progress) {

@@ -8,8 +8,8 @@
 
 namespace lumen::convert {
 
-/// Whether encodeVdb() can.
-bool hasVdb();
+/// Throws Error(Unsupported) without the library.
+void requireVdb();
 
 struct VdbOptions {
   double unit = 1;    ///< lengths of the file in mm: 1 or 1000
@@ -20,7 +20,7 @@ struct VdbOptions {
 /// band, which must be finite; and a grid of
 /// integers "branch": of a sample in the lumen the index of its branch and 1, elsewhere 0. Both have a linear transform
 /// to positions in LPS. The same samples give the same bytes.
-/// Throws Error(Unsupported) without the library, Error(Cancelled).
+/// Throws as requireVdb(), and Error(Cancelled).
 std::string encodeVdb(const GridSource& source, const Lattice& lattice, const VdbOptions& options,
                       Progress& progress);
 

@@ -62,7 +62,7 @@ TEST_F(ExportTest, ListsItsTargetsWithUnitAndFrame) {
   const Outcome list = lumen({"export", "--list"});
   EXPECT_EQ(list.code, 0);
   EXPECT_TRUE(contains(list.out, "sofa"));
-  EXPECT_TRUE(contains(list.out, "mm, LPS"));
+  EXPECT_TRUE(contains(list.out, "mm; LPS"));
 }
 
 TEST_F(ExportTest, RefusesATargetThatItDoesNotKnow) {

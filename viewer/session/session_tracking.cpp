@@ -9,6 +9,7 @@
 #include "converters/app/stages.h"
 #include "converters/common/edit_steps.h"
 #include "converters/common/error.h"
+#include "converters/common/text.h"
 #include "converters/fitting/fit.h"
 #include "converters/fitting/refit.h"
 #include "converters/tracking/snap.h"
@@ -98,10 +99,10 @@ Json Session::track(const Arguments& request, const Moment& from) {
     document.value = std::move(value);
     const std::string what =
         "track " +
-        (seeds.size() == 1 ? seeds.front().label : app::counted(seeds.size(), "seed", "seeds"));
+        (seeds.size() == 1 ? seeds.front().label : counted(seeds.size(), "seed", "seeds"));
     commit(what, from, std::move(document));
     tellDropped(dropped);
-    return app::counted(more, "vessel", "vessels") + " tracked";
+    return counted(more, "vessel", "vessels") + " tracked";
   });
 }
 

@@ -8,6 +8,7 @@
 #include "converters/app/comparison_report.h"
 #include "converters/app/stages.h"
 #include "converters/common/error.h"
+#include "converters/common/text.h"
 #include "converters/compare/compare.h"
 #include "converters/fitting/fit.h"
 #include "converters/volume/write_volume.h"
@@ -130,7 +131,7 @@ Json Session::check(const Moment& from) {
     m_check = std::move(answer);
     m_checkedCase = value;
     return missing == 0 ? std::string("the check found no vessel that is missing")
-                        : app::counted(missing, "vessel", "vessels") + " of the volume " +
+                        : counted(missing, "vessel", "vessels") + " of the volume " +
                               (missing == 1 ? "is" : "are") + " missing";
   });
 }

@@ -30,7 +30,7 @@ TEST(DistanceGrid, OfAllIsNegativeInEachOfTwoVesselsThatOverlap) {
 
 TEST(DistanceGrid, OfABranchKnowsNothingOfOneThatTouches) {
   const formats::Case source = kissingCase(-0.1);
-  const VesselDistance vessels(source);
+  const VesselDistance vessels(source, true);
   const TreeRegion wide = regionOfBranch(source.tree, 0), narrow = regionOfBranch(source.tree, 1);
   EXPECT_EQ(wide.size(), 20U);
   EXPECT_EQ(narrow.size(), 12U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/sofa/insertion.h"
+#include "converters/export/sofa/insertion.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // What differs between versions of SOFA, and where its components are.
 #pragma once
 
-#include "converters/sofa/scene_tree.h"
+#include "converters/export/sofa/scene_tree.h"
 
 namespace lumen::convert {
 

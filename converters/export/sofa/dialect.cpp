@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/sofa/dialect.h"
+#include "converters/export/sofa/dialect.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "converters/sofa/scene_parts.h"
+#include "converters/export/sofa/scene_parts.h"
 
 namespace lumen::convert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/sofa/scene_tree.h"
+#include "converters/export/sofa/scene_tree.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "converters/sofa/scene.h"
+#include "converters/export/sofa/scene.h"
 
 namespace lumen::convert {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "converters/sofa/insertion.h"
-#include "converters/sofa/instrument.h"
-#include "converters/sofa/scene_tree.h"
+#include "converters/export/sofa/insertion.h"
+#include "converters/export/sofa/instrument.h"
+#include "converters/export/sofa/scene_tree.h"
 
 namespace lumen::convert {
 
@@ -24,7 +24,6 @@ struct SofaOptions {
   WallKind wall = WallKind::Mesh;
   SofaDialect dialect = SofaDialect::Current;
   double step = 0.1;  ///< mm that an instrument advances in a time step
-  double grid = 0;    ///< mm between the samples of WallKind::Grid; 0: by the size of the vessels
   std::string insert{};  ///< label of a branch; empty: the root
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/sofa/scene.h"
+#include "converters/export/sofa/scene.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "converters/sofa/dialect.h"
-#include "converters/sofa/scene_parts.h"
+#include "converters/export/sofa/dialect.h"
+#include "converters/export/sofa/scene_parts.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

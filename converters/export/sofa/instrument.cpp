@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/sofa/instrument.h"
+#include "converters/export/sofa/instrument.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all targets share: is the case one that can be held, its frame, and the two files of every folder.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "converters/common/error.h"
+#include "converters/export/folder_texts.h"
+#include "converters/export/target.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using formats::Branch;
+using formats::BranchKind;
+
+bool hasLength(const Branch& branch) {
+  return branch.kind == BranchKind::Vessel &&
+         branch.nodeCount + (branch.parentNode >= 0 ? 1U : 0U) > 1;
+}
+
+void requireParts(const ExportTarget& target, const formats::Case& source) {
+  if (target.needsModels && !source.models)
+    throw invalidInput("this case has no models, so there is no wall to export; lumen fit makes them");
+  const auto& branches = source.tree.branches;
+  if (target.needsVessel && std::none_of(branches.begin(), branches.end(), hasLength))
+    throw invalidInput("this case has no vessel with a length, that is, of two nodes or more, so there is "
+                       "nothing to export to " + std::string(target.name));
+}
+
+template <class Value>
+Value choice(const std::optional<Value>& asked, const std::vector<Value>& offered,
+             const std::string& option, std::string_view (*name)(Value), std::string_view target) {
+  if (!asked) return offered.front();
+  if (std::find(offered.begin(), offered.end(), *asked) != offered.end()) return *asked;
+  std::string words;
+  for (const Value one : offered) words += (words.empty() ? "" : " or ") + std::string(name(one));
+  throw Error(ErrorKind::Usage, option + ": found " + std::string(name(*asked)) + ", expected " +
+                                    words + ", which is what " + std::string(target) + " reads");
+}
+
+}  // namespace
+
+ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
+                        const ExportOptions& options, const OptionTexts& texts,
+                        Progress& progress) {
+  requireParts(target, source);
+  ExportFrame frame;
+  frame.unit = choice(options.unit, target.units, "--unit", unitName, target.name);
+  frame.axes = choice(options.axes, target.axes, "--up", upName, target.name);
+  ExportResult result = target.write({source, options, frame, progress});
+  result.files.push_back({"README.md", readmeOf(target, frame, result), "", ""});
+  result.files.push_back(
+      {"lumen-export.json", manifestOf(target, frame, source, texts, result), "", ""});
+  return result;
+}
+
+}  // namespace lumen::convert

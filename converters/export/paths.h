@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The branches of a case as lines of points, each from where it begins on its parent.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// A branch: its first point lies on its parent's axis, since other programs find branchings there.
+struct BranchPath {
+  std::uint32_t branch = 0;  ///< of the tree
+  std::string name;          ///< of a file: small letters, digits, "_", "." and "-", unique
+  std::vector<Eigen::Vector3d> points;  ///< mm, LPS, two or more
+  std::vector<double> radii;            ///< mm; the first is that of the branch's own first node
+
+  /// Unit vector along the path.
+  [[nodiscard]] Eigen::Vector3d tangent(std::size_t k) const;
+};
+
+/// Of all branches with a length. Throws Error(InvalidInput) if there is none.
+std::vector<BranchPath> branchPaths(const formats::CenterlineTree& tree);
+
+/// A label as the stem of a file's name: small letters, digits, "_", "." and "-".
+std::string fileWord(const std::string& label);
+
+/// A path as a file of SimVascular (.pth), in cm; `id` from 1.
+std::string encodePth(const BranchPath& path, std::size_t id);
+
+/// The shortest text that reads back as a float, for files of other programs.
+std::string plainNumber(double value);
+
+}  // namespace lumen::convert
