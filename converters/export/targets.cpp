@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: all that the command line knows of one is its row.
 #include "converters/export/grid.h"
+#include "converters/export/isaac.h"
 #include "converters/export/sofa/export_sofa.h"
 #include "converters/export/steve.h"
 #include "converters/export/target.h"
@@ -35,6 +36,14 @@ std::vector<ExportTarget> makeTable() {
        .lacks = "what is thinner than two samples; where vessels touch, their walls, but for --per-branch",
        .options = {"--grid", "--format", "--band", "--half", "--per-branch", "--exact"},
        .needsVessel = false, .write = exportGrid},
+      {.name = "isaac", .title = "catheter navigation of isaac-for-healthcare, and Isaac Sim",
+       .files = {"metadata.json", "mu_volume.npy", "vessel_mask.npy", "centerline_points_mm.npy", "centerline_edges.npy",
+                 "centerline_radii_mm.npy", "vessel.usda"},
+       .units = {LengthUnit::Metre, kMm}, .axes = {Axes::Lps, Axes::Lsa},
+       .holds = "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of USD, and its ends",
+       .lacks = "names of branches, and that an aneurysm is one",
+       .options = {"--edge", "--max-error", "--grid"},
+       .write = exportIsaac},
   };
 }
 // clang-format on
