@@ -19,8 +19,8 @@ constexpr std::size_t kNodesOfCell = 32;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Bullet counts its bytes in an int.
 constexpr double kMostBytes = 2147483647;
-/// Nodes that are held at once: 512 MB of doubles.
-constexpr std::size_t kMostNodes = std::size_t{1} << 26;
+/// Nodes that are held at once: 512 MB of floats.
+constexpr std::size_t kMostNodes = std::size_t{1} << 27;
 
 template <class T>
 void append(std::string& bytes, const T& value) {
@@ -38,9 +38,9 @@ void appendList(std::string& bytes, const std::vector<T>& values) {
   if (!values.empty()) std::memcpy(bytes.data() + at, values.data(), values.size() * sizeof(T));
 }
 
-std::vector<double> sampleNodes(const GridSource& source, const Lattice& lattice,
+std::vector<float> sampleNodes(const GridSource& source, const Lattice& lattice,
                                 const CdfNodes& nodes, double unit, Progress& progress) {
-  std::vector<double> values;
+  std::vector<float> values;
   for (std::size_t which = 0; which < 4; ++which) {
     const CdfNodes::Family family = nodes.family(which);
     const auto answers = sampleRows(
@@ -51,7 +51,7 @@ std::vector<double> sampleNodes(const GridSource& source, const Lattice& lattice
           return p;
         },
         progress);
-    for (const WallDistance& answer : answers) values.push_back(-static_cast<double>(answer.distance) / unit);
+    for (const WallDistance& answer : answers) values.push_back(static_cast<float>(-static_cast<double>(answer.distance) / unit));
   }
   return values;
 }
@@ -63,7 +63,7 @@ struct Cells {
 };
 
 /// The cells that have a node within `band`, and the nodes that they have.
-Cells keepBand(const std::vector<double>& values, const CdfNodes& nodes,
+Cells keepBand(const std::vector<float>& values, const CdfNodes& nodes,
                const std::array<std::size_t, 3>& n, double band) {
   Cells kept;
   std::vector<std::uint32_t> newIndex(values.size(), kNone);
@@ -72,14 +72,14 @@ Cells keepBand(const std::vector<double>& values, const CdfNodes& nodes,
       for (std::size_t i = 0; i < n[0]; ++i) {
         auto cell = nodes.ofCell(i, j, k);
         const bool isKept = std::any_of(cell.begin(), cell.end(), [&](std::uint32_t v) {
-          return std::abs(values[v]) < band;
+          return std::abs(static_cast<double>(values[v])) < band;
         });
         kept.map.push_back(isKept ? static_cast<std::uint32_t>(kept.cells.size()) : kNone);
         if (!isKept) continue;
         for (std::uint32_t& v : cell) {
           if (newIndex[v] == kNone) {
             newIndex[v] = static_cast<std::uint32_t>(kept.nodes.size());
-            kept.nodes.push_back(values[v]);
+            kept.nodes.push_back(static_cast<double>(values[v]));
           }
           v = newIndex[v];
         }
@@ -168,7 +168,7 @@ std::string encodeCdf(const GridSource& source, const Lattice& lattice, double u
   if (!std::isfinite(source.band)) requireLoadable(cells, cells, samples, lattice.spacing);
   // cells at the band's border have all their nodes: none is clamped that is within a cell's diagonal
   const GridSource beyond{source.vessels, source.region, source.band + 2 * lattice.spacing};
-  const std::vector<double> values = sampleNodes(beyond, lattice, nodes, unit, progress);
+  const std::vector<float> values = sampleNodes(beyond, lattice, nodes, unit, progress);
   const Cells kept = keepBand(values, nodes, n, source.band / unit);
   requireLoadable(cells, static_cast<double>(kept.cells.size()),
                   static_cast<double>(kept.nodes.size()), lattice.spacing);

@@ -32,6 +32,9 @@ constexpr double kBorder = 1, kBorderSamples = 3;  // mm, and samples, that a gr
 constexpr double kVdbBand = 3;                     // samples, as OpenVDB's own level sets have
 constexpr std::size_t kMostBranches = 65535;       // that numbers of 16 bits tell apart
 
+const char* const kDistances = "distances to the wall, negative in the lumen";
+const char* const kBranches = "in which branch's lumen a sample is: the numbers of branches.json";
+
 /// One of the grids of a folder.
 struct GridPlan {
   std::string stem;  ///< of its files: empty, or "NAME."
@@ -173,9 +176,9 @@ private:
     Volume volume{geometryOf(grid.lattice), std::vector<float>()};
     auto& distances = std::get<std::vector<float>>(volume.voxels);
     for (const WallDistance& value : grid.values) distances.push_back(value.distance);
-    addVolume(volume, "distance", "distances to the wall, negative in the lumen");
+    addVolume(volume, "distance", kDistances);
     volume.voxels = branchesOf(grid);
-    addVolume(volume, "branch", "in which branch's lumen a sample is: the numbers of branches.json");
+    addVolume(volume, "branch", kBranches);
   }
 
   void addVolume(const Volume& volume, const std::string& name, const std::string& about) {
@@ -187,15 +190,16 @@ private:
   }
 
   void addMhd(const DistanceGrid& grid) {
-    const auto addPair = [&](const std::string& name, const std::string& type, std::string bytes) {
+    const auto addPair = [&](const std::string& name, const std::string& type, std::string bytes,
+                             const std::string& about) {
       const std::string raw = m_plan.stem + name + ".raw";
-      add(name + ".mhd", metaImageHeader(grid.lattice, type, raw), "the same, in `" + raw + "`");
+      add(name + ".mhd", metaImageHeader(grid.lattice, type, raw), about + "; in `" + raw + "`");
       add(name + ".raw", std::move(bytes), "");
     };
     const std::vector<std::uint16_t> branches = branchesOf(grid);
-    addPair("distance", "MET_FLOAT", distancesOf<float>(grid, 1));
+    addPair("distance", "MET_FLOAT", distancesOf<float>(grid, 1), kDistances);
     addPair("branch", "MET_USHORT",
-            {reinterpret_cast<const char*>(branches.data()), 2 * branches.size()});
+            {reinterpret_cast<const char*>(branches.data()), 2 * branches.size()}, kBranches);
   }
 
   const ExportInput& m_input;
