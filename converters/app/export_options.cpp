@@ -84,8 +84,8 @@ void addGridOptions(CLI::App& app, convert::GridOptions& grid) {
                 "A grid for each branch and its neighbourhood along the tree, instead of one, in "
                 "which vessels that touch are merged");
   group.addFlag("--exact", grid.exact,
-                "Distances to the nearest point of the wall, which take some twenty times as long, "
-                "instead of libblob's, which are right to first order");
+                "Distances to the nearest point of the wall in the lumen, too, with a kink at its "
+                "axis, instead of libblob's, which are smooth, and right to first order");
 }
 
 template <class Value>

@@ -39,7 +39,7 @@ void appendList(std::string& bytes, const std::vector<T>& values) {
 }
 
 std::vector<float> sampleNodes(const GridSource& source, const Lattice& lattice,
-                                const CdfNodes& nodes, double unit, Progress& progress) {
+                               const CdfNodes& nodes, double unit, Progress& progress) {
   std::vector<float> values;
   for (std::size_t which = 0; which < 4; ++which) {
     const CdfNodes::Family family = nodes.family(which);
@@ -51,7 +51,8 @@ std::vector<float> sampleNodes(const GridSource& source, const Lattice& lattice,
           return p;
         },
         progress);
-    for (const WallDistance& answer : answers) values.push_back(static_cast<float>(-static_cast<double>(answer.distance) / unit));
+    for (const WallDistance& answer : answers)
+      values.push_back(static_cast<float>(-static_cast<double>(answer.distance) / unit));
   }
   return values;
 }

@@ -29,8 +29,7 @@ void sampleChunk(const GridSource& source, std::span<const Place> points,
   else
     source.vessels.ofAll(points, source.band, answers);
   const auto band = static_cast<float>(source.band);
-  for (WallDistance& answer : answers)
-    answer.distance = std::clamp(answer.distance, -band, band);
+  for (WallDistance& answer : answers) answer.distance = std::clamp(answer.distance, -band, band);
 }
 
 std::vector<WallDistance> askRows(const GridSource& source, std::size_t rows, std::size_t length,
@@ -61,12 +60,11 @@ DistanceGrid askLattice(const GridSource& source, const Lattice& lattice, Progre
       static_cast<double>(kMostGridSamples))
     refuseSpacing(lattice.spacing,
                   "this makes more samples than " + std::to_string(kMostGridSamples));
-  return {lattice, askRows(
-                       source, rowsOf(lattice), nx,
-                       [&](std::size_t row, std::size_t i) {
-                         return lattice.at(i, row % ny, row / ny);
-                       },
-                       progress)};
+  return {lattice,
+          askRows(
+              source, rowsOf(lattice), nx,
+              [&](std::size_t row, std::size_t i) { return lattice.at(i, row % ny, row / ny); },
+              progress)};
 }
 
 }  // namespace
@@ -133,15 +131,13 @@ Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin) {
   Lattice part = whole;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto index = [&](double place) {
-      return static_cast<int>(
-          std::clamp(place, 0.0, static_cast<double>(whole.size[a] - 1)));
+      return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(whole.size[a] - 1)));
     };
     const int begin =
         std::min(index(std::floor((box.low[a] - margin - whole.first[a]) / whole.spacing)),
                  whole.size[a] - 2);
-    const int end =
-        std::max(index(std::ceil((box.high[a] + margin - whole.first[a]) / whole.spacing)),
-                 begin + 1);
+    const int end = std::max(
+        index(std::ceil((box.high[a] + margin - whole.first[a]) / whole.spacing)), begin + 1);
     part.size[a] = end - begin + 1;
     part.first[a] = whole.first[a] + begin * whole.spacing;
   }

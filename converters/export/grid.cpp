@@ -28,23 +28,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kBorder = 1, kBorderSamples = 3;  // mm, and samples, that a grid goes on behind the wall
-constexpr double kVdbBand = 3;                     // samples, as OpenVDB's own level sets have
-constexpr std::size_t kMostBranches = 65535;       // that numbers of 16 bits tell apart
+constexpr double kBorder = 1,
+                 kBorderSamples = 3;  // mm, and samples, that a grid goes on behind the wall
+constexpr double kVdbBand = 3;        // samples, as OpenVDB's own level sets have
+constexpr std::size_t kMostBranches = 65535;  // that numbers of 16 bits tell apart
 
 const char* const kDistances = "distances to the wall, negative in the lumen";
 const char* const kBranches = "in which branch's lumen a sample is: the numbers of branches.json";
 
 /// One of the grids of a folder.
 struct GridPlan {
-  std::string stem;  ///< of its files: empty, or "NAME."
+  std::string stem;   ///< of its files: empty, or "NAME."
   TreeRegion region;  ///< empty: all vessels
   Lattice lattice;
 };
 
 bool wants(const GridOptions& options, GridFormat format) {
-  return std::find(options.formats.begin(), options.formats.end(), format) !=
-         options.formats.end();
+  return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
 }
 
 void requireSound(const ExportInput& input) {
@@ -79,7 +79,8 @@ PlaceBox emptyBox() {
 PlaceBox boxOfRegion(const SurfaceMesh& wall, const TreeRegion& region) {
   PlaceBox box = emptyBox();
   for (std::size_t v = 0; v < wall.position.size(); ++v)
-    if (std::binary_search(region.begin(), region.end(), wall.node[v])) extend(box, wall.position[v]);
+    if (std::binary_search(region.begin(), region.end(), wall.node[v]))
+      extend(box, wall.position[v]);
   return box;
 }
 
@@ -215,8 +216,7 @@ std::string branchTable(const formats::CenterlineTree& tree) {
     list.push_back(
         {{"value", b + 1},
          {"label", tree.branches[b].label},
-         {"kind",
-          tree.branches[b].kind == formats::BranchKind::Aneurysm ? "aneurysm" : "vessel"}});
+         {"kind", tree.branches[b].kind == formats::BranchKind::Aneurysm ? "aneurysm" : "vessel"}});
   return Json{{"branches", std::move(list)}}.dump(2, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }
@@ -248,8 +248,8 @@ ExportResult exportGrid(const ExportInput& input) {
   if (input.options.grid.perBranch)
     result.others.push_back({"NAME.distance.*, NAME.branch.*",
                              "of each branch: distances, and in which branch a sample is"});
-  result.files.push_back({"branches.json", branchTable(input.source.tree),
-                          "which number is which branch", ""});
+  result.files.push_back(
+      {"branches.json", branchTable(input.source.tree), "which number is which branch", ""});
   result.losses = gridLosses(plans.front().lattice.spacing, input.source.tree);
   result.ends = endsOf(input.source.tree);
   result.start = startOf(input.options.grid);

@@ -47,8 +47,7 @@ DistanceGrid gridOf(const ExportInput& input, const SurfaceMesh& wall) {
       box.low[a] = std::min(box.low[a], static_cast<double>(p[a]));
       box.high[a] = std::max(box.high[a], static_cast<double>(p[a]));
     }
-  const double spacing =
-      gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
+  const double spacing = gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
   const VesselDistance vessels(input.source);
   // farther than a voxel from the wall, a voxel is all tissue or all lumen
   return sampleGrid({vessels, nullptr, 2 * spacing}, latticeOver(box, kBorder, spacing),
@@ -97,7 +96,8 @@ void addCache(ExportResult& result, const ExportInput& input, const DistanceGrid
   std::vector<float> points;
   std::vector<std::int64_t> edges;
   for (std::size_t n = 0; n < nodes; ++n) {
-    for (const float x : {tree.centre[n].x, tree.centre[n].y, tree.centre[n].z}) points.push_back(x);
+    for (const float x : {tree.centre[n].x, tree.centre[n].y, tree.centre[n].z})
+      points.push_back(x);
     if (tree.parent[n] >= 0) {
       edges.push_back(tree.parent[n]);
       edges.push_back(static_cast<std::int64_t>(n));

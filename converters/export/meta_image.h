@@ -12,7 +12,8 @@
 namespace lumen::convert {
 
 /// The header of a file `raw` beside it, of numbers of `type` ("MET_FLOAT"), x fastest: mm, LPS.
-std::string metaImageHeader(const Lattice& lattice, const std::string& type, const std::string& raw);
+std::string metaImageHeader(const Lattice& lattice, const std::string& type,
+                            const std::string& raw);
 
 /// The distances times `factor`, little-endian.
 template <class T>

@@ -11,9 +11,9 @@
 namespace lumen::convert {
 
 struct ExportedSurface {
-  SurfaceMesh mesh;            ///< in the target's frame, closed
+  SurfaceMesh mesh;                  ///< in the target's frame, closed
   std::vector<SurfaceMesh> coarser;  ///< levels of detail behind it, where the options ask for some
-  std::vector<NamedEnd> ends;  ///< mm, LPS
+  std::vector<NamedEnd> ends;        ///< mm, LPS
   SurfaceReport report;
 };
 

@@ -82,9 +82,8 @@ std::string wallPrim(const SurfaceMesh& mesh) {
   text += "\n        int[] faceVertexCounts = " +
           usdList(mesh.triangle.size(), [](std::size_t) { return std::string("3"); });
   text += "\n        int[] faceVertexIndices = " +
-          usdList(3 * mesh.triangle.size(), [&](std::size_t i) {
-            return std::to_string(mesh.triangle[i / 3][i % 3]);
-          });
+          usdList(3 * mesh.triangle.size(),
+                  [&](std::size_t i) { return std::to_string(mesh.triangle[i / 3][i % 3]); });
   text += "\n        point3f[] points = " + usdList(mesh.position.size(), [&](std::size_t i) {
             const Float3& p = mesh.position[i];
             return usdTuple({p[0], p[1], p[2]});
@@ -131,8 +130,8 @@ std::string centerlinePrim(const formats::CenterlineTree& tree, const ExportFram
 }
 
 std::string endPrim(const NamedEnd& end, const std::string& word, const ExportFrame& frame) {
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
-      Eigen::Vector3d::UnitZ(), frame.direction(end.direction));
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), frame.direction(end.direction));
   std::string text = "        def Xform \"" + word + "\"\n        {\n";
   text += "            custom string lumen:name = " + usdString(end.name) + "\n";
   text += "            custom float lumen:radius = " + plainNumber(frame.length(end.radius)) + "\n";

@@ -54,8 +54,7 @@ struct VdbGrids {
                                  static_cast<float>(static_cast<double>(value.distance) / unit));
           else if (value.distance < 0)
             distances.setValueOff(voxel, -background);
-          if (value.distance < 0)
-            branches.setValueOn(voxel, static_cast<int>(value.branch) + 1);
+          if (value.distance < 0) branches.setValueOn(voxel, static_cast<int>(value.branch) + 1);
         }
     openvdb::tools::pruneLevelSet(set->tree());
     openvdb::tools::prune(labels->tree());

@@ -92,6 +92,8 @@ VesselDistance::VesselDistance(const formats::Case& source, bool exact)
     : m_tree(source.tree),
       m_model(openModels(source)),
       m_flags(exact ? BLOB_BLENDED | BLOB_DISTANCE_EXACT : BLOB_BLENDED) {
+  for (const float radius : m_tree.radius)
+    m_widest = std::max(m_widest, static_cast<double>(radius));
   for (const formats::Branch& branch : m_tree.branches) {
     Box box{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
     for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n) {
@@ -112,29 +114,55 @@ double VesselDistance::power(std::uint32_t node, const Place& p) const {
   return x * x + y * y + z * z - r * r;
 }
 
-void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors,
+/// Whether no wall can be within `band` of a place whose node of least power is `node`: any other has at least its power,
+/// and its wall within its doubled ball.
+bool VesselDistance::isBeyond(std::uint32_t node, const Place& p, double band) const {
+  const double least = std::max(power(node, p), 0.0);
+  return std::sqrt(least + m_widest * m_widest) - kReach * m_widest > band;
+}
+
+void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors, double band,
                            WallDistance* answers) const {
   std::vector<blob_sample> samples(points.size());
   blob_query_many(m_model.get(), m_flags, points.size(),
                   reinterpret_cast<const double(*)[3]>(points.data()), cursors, samples.data());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    answers[i] = {static_cast<float>(samples[i].distance), m_tree.branch[samples[i].node]};
+  std::vector<std::size_t> outside;
+  std::vector<Place> places;
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const blob_sample& sample = samples[i];
+    answers[i] = {static_cast<float>(sample.distance), m_tree.branch[sample.node]};
+    if (sample.distance <= 0 || (m_flags & BLOB_DISTANCE_EXACT)) continue;
+    if (isBeyond(sample.node, points[i], band)) {
+      answers[i].distance = static_cast<float>(band);
+      continue;
+    }
+    outside.push_back(i);
+    places.push_back(points[i]);
+    nodes.push_back(sample.node);
+  }
+  samples.resize(outside.size());
+  blob_query_many(m_model.get(), BLOB_BLENDED | BLOB_DISTANCE_EXACT, places.size(),
+                  reinterpret_cast<const double(*)[3]>(places.data()), nodes.data(),
+                  samples.data());
+  for (std::size_t k = 0; k < outside.size(); ++k)
+    answers[outside[k]].distance = static_cast<float>(samples[k].distance);
 }
 
 void VesselDistance::takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
-                              std::vector<std::uint32_t>& cursors,
+                              std::vector<std::uint32_t>& cursors, double band,
                               std::span<WallDistance> answers) const {
   if (chosen.empty()) return;
   std::vector<Place> places;
   for (const std::size_t i : chosen) places.push_back(points[i]);
   std::vector<WallDistance> found(places.size());
-  query(places, cursors.data(), found.data());
+  query(places, cursors.data(), band, found.data());
   for (std::size_t k = 0; k < chosen.size(); ++k)
     if (found[k].distance < answers[chosen[k]].distance) answers[chosen[k]] = found[k];
 }
 
 void VesselDistance::askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box,
-                               std::span<WallDistance> answers) const {
+                               double band, std::span<WallDistance> answers) const {
   TreeRegion near;
   const formats::Branch& own = m_tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
@@ -146,15 +174,16 @@ void VesselDistance::askBranch(std::uint32_t branch, std::span<const Place> poin
   std::vector<std::uint32_t> cursors;
   for (std::size_t i = 0; !near.empty() && i < points.size(); ++i) {
     if (answers[i].branch == branch) continue;
-    const std::uint32_t node = *std::min_element(
-        near.begin(), near.end(),
-        [&](std::uint32_t a, std::uint32_t b) { return power(a, points[i]) < power(b, points[i]); });
+    const std::uint32_t node =
+        *std::min_element(near.begin(), near.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return power(a, points[i]) < power(b, points[i]);
+        });
     const auto r = static_cast<double>(m_tree.radius[node]);
     if (power(node, points[i]) >= (kReach * kReach - 1) * r * r) continue;
     chosen.push_back(i);
     cursors.push_back(node);
   }
-  takeLess(points, chosen, cursors, answers);
+  takeLess(points, chosen, cursors, band, answers);
 }
 
 namespace {
@@ -189,8 +218,8 @@ void VesselDistance::ofAll(std::span<const Place> points, double band,
     std::fill(answers.begin(), answers.end(), WallDistance{static_cast<float>(band), 0});
     return;
   }
-  query(points, nullptr, answers.data());
-  for (const std::uint32_t b : branches) askBranch(b, points, box, answers);
+  query(points, nullptr, band, answers.data());
+  for (const std::uint32_t b : branches) askBranch(b, points, box, band, answers);
 }
 
 void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Place> points, double band,
@@ -219,7 +248,7 @@ void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Place> p
     cursors.push_back(*std::min_element(
         candidates.begin(), candidates.end(),
         [&](std::uint32_t a, std::uint32_t b) { return power(a, p) < power(b, p); }));
-  query(points, cursors.data(), answers.data());
+  query(points, cursors.data(), band, answers.data());
 }
 
 }  // namespace lumen::convert

@@ -33,8 +33,9 @@ TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t bra
 /// Answers of libblob. Any number of threads may ask.
 class VesselDistance {
 public:
-  /// `exact`: to the nearest point of the wall, instead of the one-evaluation form (blob.h). Throws Error(Failed) for a
-  /// case whose models libblob refuses.
+  /// Outside of the lumen distances are those to the nearest point of the wall: libblob's one-evaluation form may be many
+  /// millimetres short there. In the lumen they are of that form (blob.h), which has no kink at the axis, or with `exact`
+  /// to the nearest point as well. Throws Error(Failed) for a case whose models libblob refuses.
   explicit VesselDistance(const formats::Case& source, bool exact = false);
 
   /// Of all vessels together, which is what one grid can hold: the nearest node answers, and every branch within
@@ -51,17 +52,21 @@ private:
   struct Box {
     Place low, high;
   };
-  void query(std::span<const Place> points, std::uint32_t* cursors, WallDistance* answers) const;
+  void query(std::span<const Place> points, std::uint32_t* cursors, double band,
+             WallDistance* answers) const;
   /// Of points[chosen[k]] from the nodes cursors[k]; kept where less.
   void takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
-                std::vector<std::uint32_t>& cursors, std::span<WallDistance> answers) const;
-  void askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box,
+                std::vector<std::uint32_t>& cursors, double band,
+                std::span<WallDistance> answers) const;
+  void askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box, double band,
                  std::span<WallDistance> answers) const;
+  [[nodiscard]] bool isBeyond(std::uint32_t node, const Place& p, double band) const;
   [[nodiscard]] double power(std::uint32_t node, const Place& p) const;
 
   const formats::CenterlineTree& m_tree;
   std::unique_ptr<blob_model, void (*)(blob_model*)> m_model;
   std::uint32_t m_flags;
+  double m_widest = 0;       ///< mm, of all radii
   std::vector<Box> m_reach;  ///< of each branch: the box of its nodes' balls of twice the radius
 };
 

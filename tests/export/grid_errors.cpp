@@ -31,10 +31,10 @@ namespace {
 using namespace lumen;
 using namespace lumen::convert;
 
-constexpr double kNear = 0.5;      // mm: points are as far from a wall, at most
-constexpr double kTouching = 1;    // mm: another vessel's wall is as near
-constexpr double kClearly = 0.1;   // mm: a sign that is wrong deeper than this is no rounding
-constexpr double kBand = 1;        // mm
+constexpr double kNear = 0.5;     // mm: points are as far from a wall, at most
+constexpr double kTouching = 1;   // mm: another vessel's wall is as near
+constexpr double kClearly = 0.1;  // mm: a sign that is wrong deeper than this is no rounding
+constexpr double kBand = 1;       // mm
 constexpr int kPoints = 200000;
 
 /// A place of a tool in a branch, near that branch's wall.
@@ -180,9 +180,8 @@ void measureBranches(const Case& c, const std::vector<Probe>& probes, double h) 
 void measureVdb(const Case& c, const std::vector<Probe>& probes, double h, bool half) {
   Progress silent;
   const Clock clock;
-  const std::string bytes =
-      encodeVdb({c.vessels, nullptr, std::max(kBand, 3 * h)},
-                latticeOver(boxOf(c, nullptr), 2, h), {.half = half}, silent);
+  const std::string bytes = encodeVdb({c.vessels, nullptr, std::max(kBand, 3 * h)},
+                                      latticeOver(boxOf(c, nullptr), 2, h), {.half = half}, silent);
   const double seconds = clock.seconds();
   std::istringstream in(bytes, std::ios::binary);
   openvdb::io::Stream stream(in, false);
@@ -192,8 +191,8 @@ void measureVdb(const Case& c, const std::vector<Probe>& probes, double h, bool 
   const openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> sample(*set);
   Answers answers;
   for (const Probe& probe : probes)
-    answers.push_back(static_cast<double>(
-        sample.wsSample({probe.place[0], probe.place[1], probe.place[2]})));
+    answers.push_back(
+        static_cast<double>(sample.wsSample({probe.place[0], probe.place[1], probe.place[2]})));
   report(half ? "OpenVDB, half floats" : "OpenVDB", h, 1e-6 * static_cast<double>(bytes.size()),
          seconds, probes, answers, false);
 }
@@ -239,11 +238,13 @@ int main(int argc, char** argv) {
   const std::vector<Probe> probes = probesOf(c);
   const auto touched = std::count_if(probes.begin(), probes.end(),
                                      [](const Probe& probe) { return probe.touching; });
-  std::printf("%zu points within %g mm of a wall, %td of them where another vessel's wall is within "
-              "%g mm\n\n",
-              probes.size(), kNear, touched, kTouching);
-  std::puts("| grid | h, mm | MB | s | mean error | 99 % | greatest | touching | wrong sign | leaks > "
-            "0.1 mm | walls > 0.1 mm |\n|---|---|---|---|---|---|---|---|---|---|---|");
+  std::printf(
+      "%zu points within %g mm of a wall, %td of them where another vessel's wall is within "
+      "%g mm\n\n",
+      probes.size(), kNear, touched, kTouching);
+  std::puts(
+      "| grid | h, mm | MB | s | mean error | 99 % | greatest | touching | wrong sign | leaks > "
+      "0.1 mm | walls > 0.1 mm |\n|---|---|---|---|---|---|---|---|---|---|---|");
   for (int i = 2; i < argc; ++i) {
     const double h = std::atof(argv[i]);
     attempt([&] { measureDense(c, probes, h); });

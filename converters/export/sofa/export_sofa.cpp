@@ -89,10 +89,10 @@ std::string startOf(const SceneInput& input, const SofaOptions& options) {
 }
 
 void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
-  constexpr double kBorder = 1, kBorderSamples = 3;  // mm: contacts look for the wall so far from it
+  constexpr double kBorder = 1,
+                   kBorderSamples = 3;  // mm: contacts look for the wall so far from it
   const PlaceBox box{scene.low, scene.high};
-  const double spacing =
-      gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
+  const double spacing = gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
   const Lattice lattice = latticeOver(box, kBorder + kBorderSamples * spacing, spacing);
   const VesselDistance vessels(input.source);
   const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);

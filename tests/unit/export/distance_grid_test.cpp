@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "kissing.h"
 #include "../surface/closed_cases.h"
 #include "converters/common/error.h"
+#include "kissing.h"
 
 namespace lumen::test {
 
@@ -30,7 +30,7 @@ TEST(DistanceGrid, OfAllIsNegativeInEachOfTwoVesselsThatOverlap) {
 
 TEST(DistanceGrid, OfABranchKnowsNothingOfOneThatTouches) {
   const formats::Case source = kissingCase(-0.1);
-  const VesselDistance vessels(source, true);
+  const VesselDistance vessels(source);
   const TreeRegion wide = regionOfBranch(source.tree, 0), narrow = regionOfBranch(source.tree, 1);
   EXPECT_EQ(wide.size(), 20U);
   EXPECT_EQ(narrow.size(), 12U);
@@ -92,6 +92,20 @@ TEST(DistanceGrid, OneGridMergesWhatTouchesAndOneForEachBranchDoesNot) {
     mergedMost = std::max(mergedMost, trilinear(merged, {10, y, 0}));
   EXPECT_LT(mergedMost, 0.05);
   EXPECT_NEAR(ownAtOther, 0.62, 0.05);
+}
+
+TEST(DistanceGrid, IsTheDistanceToTheWallFarFromItToo) {
+  formats::Case source;
+  source.metadata.voxelSize = 0.2;
+  addVessel(source, "wide", straightPath({0, 0, 0}, {1, 0, 0}, 20), 1.0, 1.0);
+  addVessel(source, "narrow", straightPath({0, 12, 0}, {1, 0, 0}, 20), 0.5, 1.0);
+  addModels(source);
+  const VesselDistance vessels(source);
+  for (double y = 1.5; y < 11; y += 0.1)
+    for (double x = 3; x < 16; x += 0.7)
+      // where both are far, the node of less power answers: at most the difference of the radii
+      // decides between them
+      ASSERT_NEAR(askAll(vessels, {x, y, 0}).distance, std::min(y - 1, 11.5 - y), 0.5) << y;
 }
 
 TEST(DistanceGrid, ClampsToItsBand) {

@@ -100,8 +100,8 @@ void expectField(const Image& distance, const Image& branch, const VesselDistanc
 
 TEST_F(GridFiles, AreReadByItkAtTheirPlaces) {
   const formats::Case source = landmarkCase();
-  write(source, {.spacing = 0.35,
-                 .formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Mhd}});
+  write(source,
+        {.spacing = 0.35, .formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Mhd}});
   const VesselDistance vessels(source);
   expectField(*read<itk::NrrdImageIO>("distance.nrrd"), *read<itk::NrrdImageIO>("branch.nrrd"),
               vessels);
@@ -172,9 +172,8 @@ TEST_F(GridFiles, RefuseWhatTheirFormatsCannotHold) {
 
 TEST_F(GridFiles, HaveTheSameBytesAgain) {
   const formats::Case source = landmarkCase();
-  const GridOptions options{.spacing = 0.5,
-                            .formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Cdf},
-                            .band = 1};
+  const GridOptions options{
+      .spacing = 0.5, .formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Cdf}, .band = 1};
   const ExportResult one = write(source, options), two = write(source, options);
   ASSERT_EQ(one.files.size(), two.files.size());
   for (std::size_t i = 0; i < one.files.size(); ++i)

@@ -52,7 +52,8 @@ inline double trilinear(const convert::DistanceGrid& grid, const convert::Place&
   return sum;
 }
 
-inline convert::WallDistance askAll(const convert::VesselDistance& vessels, const convert::Place& p) {
+inline convert::WallDistance askAll(const convert::VesselDistance& vessels,
+                                    const convert::Place& p) {
   convert::WallDistance answer;
   vessels.ofAll({&p, 1}, 1e9, {&answer, 1});
   return answer;
