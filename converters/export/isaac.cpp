@@ -11,7 +11,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/common/error.h"
 #include "converters/export/distance_grid.h"
 #include "converters/export/npy.h"
 #include "converters/export/surface.h"
@@ -120,15 +119,12 @@ void addCache(ExportResult& result, const ExportInput& input, const DistanceGrid
 
 /// The wall as a solid, or, where that cannot be, the lumen's surface.
 ExportedSurface wallOf(const ExportInput& input, ExportResult& result) {
-  try {
-    return wallSurface(input, kWall);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::Failed) throw;
-    result.losses.push_back(
-        std::string("the wall in vessel.usda has no thickness, as a thick one cannot be made: ") +
-        error.what());
-  }
-  return lumenSurface(input);
+  ExportedSurface lumen = lumenSurface(input);
+  WallAttempt attempt = tryWall(input, kWall, lumen.report);
+  if (attempt.wall) return std::move(*attempt.wall);
+  result.losses.push_back("the wall in vessel.usda is the lumen's surface, without a thickness: " +
+                          attempt.whyNot);
+  return lumen;
 }
 
 const char* const kStart =

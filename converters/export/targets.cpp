@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: all that the command line knows of one is its row.
+#include "converters/export/engines.h"
 #include "converters/export/grid.h"
 #include "converters/export/isaac.h"
+#include "converters/export/print.h"
+#include "converters/export/slicer.h"
 #include "converters/export/sofa/export_sofa.h"
 #include "converters/export/steve.h"
 #include "converters/export/target.h"
@@ -10,7 +13,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr auto kMm = LengthUnit::Millimetre;
+constexpr auto kMm = LengthUnit::Millimetre, kCm = LengthUnit::Centimetre, kM = LengthUnit::Metre;
 
 // clang-format off
 std::vector<ExportTarget> makeTable() {
@@ -29,9 +32,47 @@ std::vector<ExportTarget> makeTable() {
        .lacks = "links that close loops, and that an aneurysm is one",
        .options = {"--edge", "--max-error"},
        .write = exportSteve},
+      {.name = "godot", .title = "Godot 3 and 4", .files = {"vessels.glb"},
+       .units = {kM}, .axes = {Axes::Lsa},
+       .holds = "the wall as a solid with a collider of its triangles; the ends as nodes",
+       .lacks = "the tree, its radii and its models",
+       .options = {"--edge", "--max-error", "--thickness"}, .needsVessel = false,
+       .write = exportGodot},
+      {.name = "unity", .title = "Unity, by a package for glTF", .files = {"vessels.glb"},
+       .units = {kM}, .axes = {Axes::Lsa},
+       .holds = "the wall as a solid in three levels of detail; the ends as nodes",
+       .lacks = "the tree, its radii and its models; a collider, which Unity makes",
+       .options = {"--edge", "--max-error", "--thickness"}, .needsVessel = false,
+       .write = exportUnity},
+      {.name = "unreal", .title = "Unreal Engine 5", .files = {"vessels.glb"},
+       .units = {kM, kCm}, .axes = {Axes::Lsa},
+       .holds = "the wall as a solid in three levels of detail; the ends as nodes",
+       .lacks = "the tree, its radii and its models; a collider, which Unreal makes",
+       .options = {"--edge", "--max-error", "--thickness"}, .needsVessel = false,
+       .write = exportUnreal},
+      {.name = "blender", .title = "Blender", .files = {"vessels.glb"},
+       .units = {kM}, .axes = {Axes::Lsa},
+       .holds = "the wall as a solid; the ends as empties",
+       .lacks = "the tree, its radii and its models",
+       .options = {"--edge", "--max-error", "--thickness"}, .needsVessel = false,
+       .write = exportBlender},
+      {.name = "slicer", .title = "3D Slicer",
+       .files = {"scene.mrml", "vessels.vtp", "seeds.mrk.json", "ends.mrk.json"},
+       .units = {kMm}, .axes = {Axes::Lps},
+       .holds = "the surface; the branches as curves with radii; where they begin; the ends",
+       .lacks = "links that close loops, and that an aneurysm is one",
+       .options = {"--edge", "--max-error"},
+       .write = exportSlicer},
+      {.name = "print", .title = "3D printers",
+       .files = {"core.3mf", "core.stl"},
+       .units = {kMm}, .axes = {Axes::Lps},
+       .holds = "the lumen as a solid; a wall around it, with its least thickness",
+       .lacks = "the tree, its radii and its models",
+       .options = {"--edge", "--max-error", "--thickness"}, .needsVessel = false,
+       .write = exportPrint},
       {.name = "grid", .title = "those who read grids of distances",
        .files = {"branches.json"},
-       .units = {kMm, LengthUnit::Metre}, .axes = {Axes::Lps},
+       .units = {kMm, kM}, .axes = {Axes::Lps},
        .holds = "the signed distance to the wall, and whose lumen a sample is in",
        .lacks = "what is thinner than two samples; where vessels touch, their walls, but for --per-branch",
        .options = {"--grid", "--format", "--band", "--half", "--per-branch", "--exact"},
@@ -39,10 +80,10 @@ std::vector<ExportTarget> makeTable() {
       {.name = "isaac", .title = "catheter navigation of isaac-for-healthcare, and Isaac Sim",
        .files = {"metadata.json", "mu_volume.npy", "vessel_mask.npy", "centerline_points_mm.npy", "centerline_edges.npy",
                  "centerline_radii_mm.npy", "vessel.usda"},
-       .units = {LengthUnit::Metre, kMm}, .axes = {Axes::Lps, Axes::Lsa},
+       .units = {kM, kMm}, .axes = {Axes::Lps, Axes::Lsa},
        .holds = "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of USD, and its ends",
        .lacks = "names of branches, and that an aneurysm is one",
-       .options = {"--edge", "--max-error", "--grid"},
+       .options = {"--edge", "--max-error", "--thickness", "--grid"},
        .write = exportIsaac},
   };
 }
