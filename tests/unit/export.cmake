@@ -5,11 +5,12 @@ lumen_test(grids_test
 
 # Grids in the hands of those who read them, where they are.
 find_library(BULLET_COLLISION BulletCollision)
+find_library(BULLET_DYNAMICS BulletDynamics)
 find_library(BULLET_MATH LinearMath)
 find_path(BULLET_INCLUDE BulletCollision/CollisionShapes/btSdfCollisionShape.h PATH_SUFFIXES bullet)
-if(BULLET_COLLISION AND BULLET_MATH AND BULLET_INCLUDE)
+if(BULLET_DYNAMICS AND BULLET_COLLISION AND BULLET_MATH AND BULLET_INCLUDE)
   lumen_test(cdf_test
-    LIBS lumen_grids lumen_surface ${BULLET_COLLISION} ${BULLET_MATH}
+    LIBS lumen_grids lumen_surface ${BULLET_DYNAMICS} ${BULLET_COLLISION} ${BULLET_MATH}
     SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/cdf_test.cpp)
   target_include_directories(cdf_test SYSTEM PRIVATE ${BULLET_INCLUDE})
 else()

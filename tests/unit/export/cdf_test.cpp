@@ -9,6 +9,7 @@
 #include <string>
 
 #include <BulletCollision/CollisionShapes/btSdfCollisionShape.h>
+#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include "kissing.h"
@@ -96,6 +97,37 @@ TEST(Cdf, LeavesOutWhatIsBeyondItsBand) {
     ASSERT_TRUE(ask(near, 10, y, 0)) << y;
     EXPECT_EQ(*ask(near, 10, y, 0), *ask(all, 10, y, 0)) << y;
   }
+}
+
+/// A sphere that falls in a vessel comes to rest on its wall; it is Bullet's own engine that asks.
+TEST(Cdf, BulletsSphereRestsOnTheWallInTheLumen) {
+  const formats::Case source = kissingCase(0.5);
+  const VesselDistance vessels(source);
+  const std::string bytes = fileOf(vessels, 0.2, 1, kNoBand);
+  btSdfCollisionShape wall;
+  ASSERT_TRUE(wall.initializeSDF(bytes.data(), static_cast<int>(bytes.size())));
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+  world.setGravity({0, -10, 0});
+  const btScalar radius = 0.4F;
+  btSphereShape ball(radius);
+  btVector3 inertia;
+  ball.calculateLocalInertia(1, inertia);
+  btDefaultMotionState still, start(btTransform(btQuaternion::getIdentity(), {10, 0.2F, 0}));
+  btRigidBody vessel({0, &still, &wall}), body({1, &start, &ball, inertia});
+  world.addRigidBody(&vessel);
+  world.addRigidBody(&body);
+  for (int step = 0; step < 600; ++step) world.stepSimulation(1.0F / 120, 0);
+  const btVector3 p = body.getWorldTransform().getOrigin();
+  const Place place{static_cast<double>(p.x()), static_cast<double>(p.y()),
+                    static_cast<double>(p.z())};
+  EXPECT_LT(place[1], -0.4) << "it fell";
+  const double gap = -static_cast<double>(askAll(vessels, place).distance) - 0.4;
+  EXPECT_GT(gap, -0.1) << "into the wall";
+  EXPECT_LT(gap, 0.1) << "it does not lie on it";
 }
 
 }  // namespace lumen::test
