@@ -71,6 +71,7 @@ void addGridOptions(CLI::App& app, convert::GridOptions& grid) {
       ->type_name("WORD")
       ->group("Grid")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->default_str("nrrd")
       ->check(oneOf(app::namesOf(kGridFormats)));
   app.add_option("--band", grid.band,

@@ -94,6 +94,8 @@ std::vector<GridPlan> plansOf(const ExportInput& input) {
   const GridOptions& options = input.options.grid;
   const formats::CenterlineTree& tree = input.source.tree;
   const SurfaceMesh wall = quickSurface(input.source, input.progress);
+  if (wall.position.empty())
+    throw invalidInput("the models of this case have no wall, so there is no distance to it");
   const PlaceBox box = boxOf(wall);
   const double spacing = gridSpacing(options.spacing, box, kBorder, tree);
   const double border = (options.band ? *options.band : kBorder) + kBorderSamples * spacing;

@@ -155,6 +155,18 @@ TEST_F(GridFiles, OfEachBranchAreSamplesOfTheOneGridThatKeepWhatTouchesApart) {
   for (unsigned a = 0; a < 3; ++a) EXPECT_NEAR(index[a], std::round(index[a]), 1e-6);
 }
 
+TEST_F(GridFiles, HoldAnAneurysmAlone) {
+  for (const bool perBranch : {false, true}) {
+    const ExportResult result = write(sphereCase(2, 2.5), {.spacing = 0.3, .perBranch = perBranch});
+    const std::string name = perBranch ? "sphere.distance.nrrd" : "distance.nrrd";
+    const Image::Pointer image = read<itk::NrrdImageIO>(name);
+    itk::Point<double, 3> p;
+    p[0] = p[1] = p[2] = 0.05;
+    EXPECT_LT(image->GetPixel(image->TransformPhysicalPointToIndex(p)), -1);
+    EXPECT_TRUE(result.ends.empty());
+  }
+}
+
 TEST_F(GridFiles, RefuseWhatTheirFormatsCannotHold) {
   const formats::Case source = landmarkCase();
   const auto kindOf = [&](const GridOptions& grid, LengthUnit unit) {
