@@ -92,8 +92,6 @@ VesselDistance::VesselDistance(const formats::Case& source, bool exact)
     : m_tree(source.tree),
       m_model(openModels(source)),
       m_flags(exact ? BLOB_BLENDED | BLOB_DISTANCE_EXACT : BLOB_BLENDED) {
-  for (const float radius : m_tree.radius)
-    m_widest = std::max(m_widest, static_cast<double>(radius));
   for (const formats::Branch& branch : m_tree.branches) {
     Box box{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
     for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n) {
@@ -114,14 +112,16 @@ double VesselDistance::power(std::uint32_t node, const Place& p) const {
   return x * x + y * y + z * z - r * r;
 }
 
-/// Whether no wall can be within `band` of a place whose node of least power is `node`: any other has at least its power,
-/// and its wall within its doubled ball.
-bool VesselDistance::isBeyond(std::uint32_t node, const Place& p, double band) const {
-  const double least = std::max(power(node, p), 0.0);
-  return std::sqrt(least + m_widest * m_widest) - kReach * m_widest > band;
+bool VesselDistance::hasNodeNear(std::uint32_t branch, const Box& box, double band) const {
+  const formats::Branch& own = m_tree.branches[branch];
+  for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
+    const double reach = kReach * static_cast<double>(m_tree.radius[n]) + band;
+    if (squaredRange(box.low, box.high, centreOf(m_tree, n)).first <= reach * reach) return true;
+  }
+  return false;
 }
 
-void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors, double band,
+void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors,
                            WallDistance* answers) const {
   std::vector<blob_sample> samples(points.size());
   blob_query_many(m_model.get(), m_flags, points.size(),
@@ -133,10 +133,6 @@ void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors
     const blob_sample& sample = samples[i];
     answers[i] = {static_cast<float>(sample.distance), m_tree.branch[sample.node]};
     if (sample.distance <= 0 || (m_flags & BLOB_DISTANCE_EXACT)) continue;
-    if (isBeyond(sample.node, points[i], band)) {
-      answers[i].distance = static_cast<float>(band);
-      continue;
-    }
     outside.push_back(i);
     places.push_back(points[i]);
     nodes.push_back(sample.node);
@@ -150,19 +146,19 @@ void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors
 }
 
 void VesselDistance::takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
-                              std::vector<std::uint32_t>& cursors, double band,
+                              std::vector<std::uint32_t>& cursors,
                               std::span<WallDistance> answers) const {
   if (chosen.empty()) return;
   std::vector<Place> places;
   for (const std::size_t i : chosen) places.push_back(points[i]);
   std::vector<WallDistance> found(places.size());
-  query(places, cursors.data(), band, found.data());
+  query(places, cursors.data(), found.data());
   for (std::size_t k = 0; k < chosen.size(); ++k)
     if (found[k].distance < answers[chosen[k]].distance) answers[chosen[k]] = found[k];
 }
 
 void VesselDistance::askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box,
-                               double band, std::span<WallDistance> answers) const {
+                               std::span<WallDistance> answers) const {
   TreeRegion near;
   const formats::Branch& own = m_tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
@@ -183,7 +179,7 @@ void VesselDistance::askBranch(std::uint32_t branch, std::span<const Place> poin
     chosen.push_back(i);
     cursors.push_back(node);
   }
-  takeLess(points, chosen, cursors, band, answers);
+  takeLess(points, chosen, cursors, answers);
 }
 
 namespace {
@@ -211,15 +207,15 @@ void VesselDistance::ofAll(std::span<const Place> points, double band,
     double gap = 0;
     for (std::size_t a = 0; a < 3; ++a)
       gap = std::max({gap, m_reach[b].low[a] - box.high[a], box.low[a] - m_reach[b].high[a]});
-    isNear = isNear || gap <= band;
+    isNear = isNear || (gap <= band && hasNodeNear(b, box, band));
     if (gap <= 0) branches.push_back(b);
   }
   if (!isNear) {
     std::fill(answers.begin(), answers.end(), WallDistance{static_cast<float>(band), 0});
     return;
   }
-  query(points, nullptr, band, answers.data());
-  for (const std::uint32_t b : branches) askBranch(b, points, box, band, answers);
+  query(points, nullptr, answers.data());
+  for (const std::uint32_t b : branches) askBranch(b, points, box, answers);
 }
 
 void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Place> points, double band,
@@ -248,7 +244,7 @@ void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Place> p
     cursors.push_back(*std::min_element(
         candidates.begin(), candidates.end(),
         [&](std::uint32_t a, std::uint32_t b) { return power(a, p) < power(b, p); }));
-  query(points, cursors.data(), band, answers.data());
+  query(points, cursors.data(), answers.data());
 }
 
 }  // namespace lumen::convert

@@ -35,7 +35,7 @@ constexpr double kNear = 0.5;     // mm: points are as far from a wall, at most
 constexpr double kTouching = 1;   // mm: another vessel's wall is as near
 constexpr double kClearly = 0.1;  // mm: a sign that is wrong deeper than this is no rounding
 constexpr double kBand = 1;       // mm
-constexpr int kPoints = 200000;
+constexpr int kPoints = 100000;
 
 /// A place of a tool in a branch, near that branch's wall.
 struct Probe {
