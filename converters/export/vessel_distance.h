@@ -52,21 +52,19 @@ private:
   struct Box {
     Place low, high;
   };
-  void query(std::span<const Place> points, std::uint32_t* cursors, double band,
-             WallDistance* answers) const;
+  void query(std::span<const Place> points, std::uint32_t* cursors, WallDistance* answers) const;
   /// Of points[chosen[k]] from the nodes cursors[k]; kept where less.
   void takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
-                std::vector<std::uint32_t>& cursors, double band,
-                std::span<WallDistance> answers) const;
-  void askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box, double band,
+                std::vector<std::uint32_t>& cursors, std::span<WallDistance> answers) const;
+  void askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box,
                  std::span<WallDistance> answers) const;
-  [[nodiscard]] bool isBeyond(std::uint32_t node, const Place& p, double band) const;
+  /// Whether a wall of the branch may be within `band` of the box.
+  [[nodiscard]] bool hasNodeNear(std::uint32_t branch, const Box& box, double band) const;
   [[nodiscard]] double power(std::uint32_t node, const Place& p) const;
 
   const formats::CenterlineTree& m_tree;
   std::unique_ptr<blob_model, void (*)(blob_model*)> m_model;
   std::uint32_t m_flags;
-  double m_widest = 0;       ///< mm, of all radii
   std::vector<Box> m_reach;  ///< of each branch: the box of its nodes' balls of twice the radius
 };
 
