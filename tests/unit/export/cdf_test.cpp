@@ -117,7 +117,7 @@ TEST(Cdf, BulletsSphereRestsOnTheWallInTheLumen) {
   btVector3 inertia;
   ball.calculateLocalInertia(1, inertia);
   btDefaultMotionState still, start(btTransform(btQuaternion::getIdentity(), {10, 0.2F, 0}));
-  btRigidBody vessel({0, &still, &wall}), body({1, &start, &ball, inertia});
+  btRigidBody vessel(0, &still, &wall), body(1, &start, &ball, inertia);
   world.addRigidBody(&vessel);
   world.addRigidBody(&body);
   for (int step = 0; step < 600; ++step) world.stepSimulation(1.0F / 120, 0);
