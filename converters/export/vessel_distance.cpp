@@ -44,7 +44,8 @@ std::unique_ptr<blob_model, void (*)(blob_model*)> openModels(const formats::Cas
   blob_model* model = nullptr;
   const blob_status status = blob_model_open_bytes(file.data(), file.size(), nullptr, &model);
   if (status != BLOB_OK)
-    throw failed(std::string("the case's models: ") + blob_status_text(status));
+    throw invalidInput(std::string("libblob refuses the models of this case: ") +
+                       blob_status_text(status));
   return {model, &blob_model_close};
 }
 

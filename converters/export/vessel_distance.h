@@ -35,7 +35,7 @@ class VesselDistance {
 public:
   /// Outside of the lumen distances are those to the nearest point of the wall: libblob's one-evaluation form may be many
   /// millimetres short there. In the lumen they are of that form (blob.h), which has no kink at the axis, or with `exact`
-  /// to the nearest point as well. Throws Error(Failed) for a case whose models libblob refuses.
+  /// to the nearest point as well. Throws Error(InvalidInput) for a case whose models libblob refuses.
   explicit VesselDistance(const formats::Case& source, bool exact = false);
 
   /// Of all vessels together, which is what one grid can hold: the nearest node answers, and every branch within

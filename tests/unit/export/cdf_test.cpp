@@ -87,7 +87,7 @@ TEST(Cdf, InMetresIsAThousandthOfMillimetres) {
 TEST(Cdf, LeavesOutWhatIsBeyondItsBand) {
   const formats::Case source = kissingCase(0.5);
   const VesselDistance vessels(source);
-  const std::string whole = fileOf(vessels, 0.2, 1, kNoBand), banded = fileOf(vessels, 0.2, 1, 0.3);
+  const std::string whole = fileOf(vessels, 0.3, 1, kNoBand), banded = fileOf(vessels, 0.3, 1, 0.3);
   EXPECT_LT(banded.size(), whole.size());
   btSdfCollisionShape all, near;
   ASSERT_TRUE(all.initializeSDF(whole.data(), static_cast<int>(whole.size())));
@@ -103,7 +103,7 @@ TEST(Cdf, LeavesOutWhatIsBeyondItsBand) {
 TEST(Cdf, BulletsSphereRestsOnTheWallInTheLumen) {
   const formats::Case source = kissingCase(0.5);
   const VesselDistance vessels(source);
-  const std::string bytes = fileOf(vessels, 0.2, 1, kNoBand);
+  const std::string bytes = fileOf(vessels, 0.3, 1, 1.2);
   btSdfCollisionShape wall;
   ASSERT_TRUE(wall.initializeSDF(bytes.data(), static_cast<int>(bytes.size())));
   btDefaultCollisionConfiguration configuration;
