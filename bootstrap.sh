@@ -19,10 +19,10 @@ packages=(
   build-essential cmake ninja-build ccache git ca-certificates
   libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
-  libexpat1-dev robin-map-dev libcpp-httplib-dev
+  libopenvdb-dev libexpat1-dev robin-map-dev libcpp-httplib-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
-  libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
+  libgtest-dev libbenchmark-dev libcgal-dev libbullet-dev python3-vtk9 tetgen
 )
 
 say() { printf '\n== %s\n' "$*"; }

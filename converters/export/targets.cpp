@@ -3,6 +3,8 @@
 #include "converters/export/engines.h"
 #include "converters/export/oned.h"
 #include "converters/export/openfoam.h"
+#include "converters/export/grid.h"
+#include "converters/export/isaac.h"
 #include "converters/export/print.h"
 #include "converters/export/simvascular.h"
 #include "converters/export/slicer.h"
@@ -103,6 +105,21 @@ std::vector<ExportTarget> makeTable() {
        .lacks = "the tree, its radii and its models",
        .options = {"--edge", "--max-error", "--thickness"}, .needsVessel = false,
        .write = exportPrint},
+      {.name = "grid", .title = "those who read grids of distances",
+       .files = {"branches.json"},
+       .units = {kMm, kM}, .axes = {Axes::Lps},
+       .holds = "the signed distance to the wall, and whose lumen a sample is in",
+       .lacks = "what is thinner than two samples; where vessels touch, their walls, but for --per-branch",
+       .options = {"--grid", "--format", "--band", "--half", "--per-branch", "--exact"},
+       .needsVessel = false, .write = exportGrid},
+      {.name = "isaac", .title = "catheter navigation of isaac-for-healthcare, and Isaac Sim",
+       .files = {"metadata.json", "mu_volume.npy", "vessel_mask.npy", "centerline_points_mm.npy", "centerline_edges.npy",
+                 "centerline_radii_mm.npy", "vessel.usda"},
+       .units = {kM, kMm}, .axes = {Axes::Lps, Axes::Lsa},
+       .holds = "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of USD, and its ends",
+       .lacks = "names of branches, and that an aneurysm is one",
+       .options = {"--edge", "--max-error", "--thickness", "--grid"},
+       .write = exportIsaac},
   };
 }
 // clang-format on

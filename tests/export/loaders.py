@@ -225,6 +225,22 @@ def read_openfoam(folder):
 
 def read_simvascular(folder):
     return Found(vertices=10 * read_vtp(folder / "Models/vessel.vtp")[0], centerline=read_pth(folder / "Paths")), ""
+def read_isaac(folder):
+    """The arrays by NumPy, which are mm, LPS; the stage by three's USD loader, whose world is metres, y up."""
+    found = Found(centerline=np.load(folder / "centerline_points_mm.npy").astype(float))
+    modules = HERE.parent.parent / "viewer/page/node_modules"
+    if not shutil.which("node") or not (modules / "three").is_dir(): return None, "node or three.js is not here"
+    done = subprocess.run(["node", str(HERE / "load_usda.mjs"), str(folder / "vessel.usda"), str(modules)],
+                          capture_output=True, text=True)
+    if done.returncode != 0: return Found(faults=["three.js: " + done.stderr[-500:]]), ""
+    stage = json.loads(done.stdout)
+    found.vertices = np.array(stage["wall"], float).reshape(-1, 3) @ GLTF_TO_LPS.T
+    found.ends = {name.replace("_", "-"): GLTF_TO_LPS @ np.array(place) for name, place in stage["ends"].items()}
+    return found, ""
+
+
+def read_grid(_folder):
+    return None, "grid_files_test compares each sample with the field where ITK finds it"
 
 
 WALL = ["--thickness", "0.4r"]
@@ -241,5 +257,7 @@ LOADERS = {
     "unreal": Loader(read_blender, surface=WALL),
     "blender": Loader(read_blender, surface=WALL),
     "slicer": Loader(read_slicer),
+    "grid": Loader(read_grid, has_surface=False),
+    "isaac": Loader(read_isaac, surface=["--thickness", "0.2r"]),
     "print": Loader(read_print, surface=["--thickness", "1"], ends=[]),
 }
