@@ -36,4 +36,5 @@ endif()
 
 if(LUMEN_BUILD_BENCHMARKS)
   include(bench/query/query.cmake)
+  include(bench/contact/contact.cmake)
 endif()
