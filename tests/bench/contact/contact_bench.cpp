@@ -10,7 +10,6 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "closed_mesh.h"
 #include "exact_field.h"
@@ -58,7 +57,6 @@ Methods allMethods() {
   addEmbree(methods, true);
 #endif
 #ifdef LUMEN_BENCH_FCL
-  addFcl(methods, false);
   addFcl(methods, true);
 #endif
 #ifdef LUMEN_BENCH_OPENVDB
@@ -76,12 +74,13 @@ std::vector<std::size_t> environmentCounts(std::size_t most) {
   return counts;
 }
 
-// Every method follows all wires from the first frame to the last, which is the one that is judged.
+// Every method follows the wires that are judged from the first frame to the last.
 Tally judge(Method& method, const Wires& wires, const std::vector<Truth>& truth,
             const std::vector<Kiss>& kisses) {
+  const std::size_t judged = truth.size() / wires.points;
   AnswerBuffer answers(wires.count());
-  Stepper stepper(method, wires, wires.environments, 1, answers);
-  stepper.place();
+  placeWires(method, wires, judged);
+  Stepper stepper(method, wires, 0, judged, answers);
   while (stepper.frame() + 1 < wires.frames()) stepper.step();
   Tally tally;
   countWires(truth, answers.distance(), tally);
@@ -90,8 +89,8 @@ Tally judge(Method& method, const Wires& wires, const std::vector<Truth>& truth,
 }
 
 CaseResult runCase(const std::string& file, const Options& options) {
-  constexpr double kMostCells = 1e8, kEnough = 20;
-  constexpr std::size_t kRays = 200000, kMostKisses = 20000;
+  constexpr double kMostCells = 1e8, kEnough = 2;
+  constexpr std::size_t kJudged = 1024, kRays = 100000, kMostKisses = 20000;
   OwnedVessel owned = openVessel(readCase(file), std::filesystem::path(file).stem().string());
   Vessel& vessel = owned.vessel;
   vessel.mesh = closedMesh(owned.source);
@@ -102,7 +101,7 @@ CaseResult runCase(const std::string& file, const Options& options) {
   load.environments = options.environments;
   const Wires wires = makeWires(owned.source.tree, vessel.model, load);
   if (wires.count() == 0) throw std::runtime_error(file + ": no vessel has two nodes");
-  const std::vector<Truth> truth = truthOf(exact, wires, wires.frames() - 1);
+  const std::vector<Truth> truth = truthOf(exact, wires, wires.frames() - 1, std::min(kJudged, wires.environments));
   const std::vector<Kiss> kisses = findKisses(exact, owned.source.tree, kRays, kMostKisses);
   std::cerr << "  " << truth.size() << " points, " << kisses.size() << " kisses\n";
 
@@ -120,9 +119,9 @@ CaseResult runCase(const std::string& file, const Options& options) {
               << row.tally.leaks << " leaks\n";
   }
   for (const std::size_t environments : environmentCounts(options.environments))
-    for (const int threads : {1, 2})
-      for (const auto& method : methods)
-        contests.push_back({method.get(), environments, threads, 0, 0});
+    for (const auto& method : methods) contests.push_back({method.get(), environments, 1, 0, 0});
+  for (const auto& method : methods)
+    contests.push_back({method.get(), options.environments, 2, 0, 0});
   measure(contests, wires, options.turns, kEnough);
   for (std::size_t i = 0; i < contests.size(); ++i)
     result.methods[i % methods.size()].rates.push_back(

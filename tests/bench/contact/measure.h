@@ -26,14 +26,14 @@ private:
   std::vector<double> m_distance, m_normal;
 };
 
-/// A number of wires that are stepped together, on a number of threads. The wires and the method stay.
+/// A range of wires that one thread steps. The wires and the method stay.
 class Stepper {
 public:
-  Stepper(Method& method, const Wires& wires, std::size_t environments, int threads,
+  /// Answers of all wires go to `answers`, each to its place.
+  Stepper(Method& method, const Wires& wires, std::size_t firstWire, std::size_t wireCount,
           AnswerBuffer& answers);
-  /// Places all points anew, in the first frame.
-  void place();
-  /// Queries all points of the next frame: forth and back through all frames, so that no point jumps.
+  /// Queries all points of the next frame: forth and back through all frames, so that no point jumps. The
+  /// first step is frame 0.
   void step();
   [[nodiscard]] std::size_t frame() const { return m_frame; }
   [[nodiscard]] std::size_t count() const { return m_count; }
@@ -41,12 +41,14 @@ public:
 private:
   Method& m_method;
   const Wires& m_wires;
-  std::size_t m_count;
-  int m_threads;
+  std::size_t m_first, m_count;  ///< points
   AnswerBuffer& m_answers;
   std::size_t m_frame = 0;
-  bool m_forward = true;
+  bool m_isNew = true, m_forward = true;
 };
+
+/// Starts the first so many wires anew.
+void placeWires(Method& method, const Wires& wires, std::size_t environments);
 
 /// One thing to measure, and the best that was seen of it.
 struct Contest {
@@ -58,7 +60,8 @@ struct Contest {
 };
 
 /// Takes turns, so that whatever else the machine does hits all alike; who has spent `enough` seconds is
-/// left out from then on.
+/// left out from then on. Seconds are those of the threads' own clocks, which stand while others have the
+/// processor; of several threads those of the one that needs most.
 void measure(std::vector<Contest>& contests, const Wires& wires, int turns, double enough);
 
 }  // namespace lumen::bench

@@ -40,7 +40,7 @@ std::string rates(const CaseResult& result) {
   out << "| million queries/s |";
   for (const std::size_t n : counts) out << " " << n << " |";
   const std::size_t most = counts.back();
-  out << " " << most << ", 2 threads | libblob is faster by | MB |\n|---|";
+  out << " " << most << ", 2 threads | times libblob's time | MB |\n|---|";
   for (std::size_t i = 0; i < counts.size() + 3; ++i) out << "---:|";
   out << "\n";
   const double own = rateOf(result.methods.front(), most, 1);

@@ -36,8 +36,9 @@ struct Tally {
 /// outside.
 void countWires(const std::vector<Truth>& truth, const double* distance, Tally& tally);
 
-/// What is true of each point of a frame.
-std::vector<Truth> truthOf(const ExactField& exact, const Wires& wires, std::size_t frame);
+/// What is true of each point of a frame, of so many wires.
+std::vector<Truth> truthOf(const ExactField& exact, const Wires& wires, std::size_t frame,
+                           std::size_t environments);
 
 /// A point of a tool that is pushed out of its vessel.
 struct Kiss {
