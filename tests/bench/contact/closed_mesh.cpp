@@ -6,9 +6,8 @@
 namespace lumen::bench {
 
 Triangles closedMesh(const formats::Case& source) {
-  constexpr double kError = 0.05;  // voxels
   convert::ClosedSurfaceOptions options;
-  options.maxError = kError * source.metadata.voxelSize.value_or(0.2);
+  options.edge.share = 0.5;
   Progress progress;
   const convert::SurfaceMesh surface =
       convert::closedSurface(source, options, progress).levels.front();

@@ -6,9 +6,9 @@
 
 namespace lumen::bench {
 
-/// The closed surface of a case as `lumen convert` makes it, with its triangles reduced as far as a
-/// twentieth of a voxel allows: what a simulator would load, and fewer triangles than the default, which
-/// makes every search among them faster. Throws as convert::closedSurface().
+/// The closed surface of a case as `lumen convert CASE MESH --edge 0.5r` makes it: what a simulator would
+/// load, with a quarter of the default's triangles, which makes every search among them faster. Throws as
+/// convert::closedSurface().
 Triangles closedMesh(const formats::Case& source);
 
 }  // namespace lumen::bench

@@ -70,7 +70,8 @@ ExactField::ExactField(const formats::Case& source)
     : m_model(scalarModel(source)),
       m_level(blob_model_describe(m_model.get()).iso_level),
       m_vessel(source.tree.nodeCount()) {
-  for (const formats::Vec3f& c : source.tree.centre) m_centre.insert(m_centre.end(), {c.x, c.y, c.z});
+  for (const formats::Vec3f& c : source.tree.centre)
+    m_centre.insert(m_centre.end(), {c.x, c.y, c.z});
   m_radius.assign(source.tree.radius.begin(), source.tree.radius.end());
   const Edges edges = edgesOf(source.tree);
   const double greatest = *std::max_element(m_radius.begin(), m_radius.end());
@@ -96,6 +97,10 @@ double ExactField::distanceAt(std::uint32_t node, const double* point) const {
 }
 
 double ExactField::distance(std::uint32_t station, const double* point) const {
+  return distanceAt(station, point);
+}
+
+double ExactField::ownDistance(std::uint32_t station, const double* point) const {
   std::uint32_t best = station;
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t node : m_vessel[station])

@@ -13,16 +13,20 @@
 namespace lumen::bench {
 
 /// The blended field of a case (docs/method.md, 3), by the scalar reference: its sign in doubles, its
-/// distance that to the nearest point of the wall. Which of its sheets is meant is not left to a cursor
-/// that walks: a node of the tree, the station, is given, and the nodes of its vessel are those that are
-/// no farther along the tree than four times the sum of both radii, as far as nodes can be neighbours; of
-/// them the one of least power answers. All others are other vessels, however near.
+/// distance that to the nearest point of the wall. Which of its sheets is meant is not left to what a
+/// cursor has been through: a node of the tree is given, the station, on whose axis the point was made.
 class ExactField {
 public:
   explicit ExactField(const formats::Case& source);
 
-  /// Signed distance to the wall of the station's vessel, mm, negative in its lumen.
+  /// Signed distance to the wall, mm, negative in the lumen, at the node that the tree leads to from the
+  /// station.
   [[nodiscard]] double distance(std::uint32_t station, const double* point) const;
+
+  /// The same at the node of least power of the station's vessel: the nodes that are no farther along the
+  /// tree than four times the sum of both radii, as far as nodes can be neighbours. All others are other
+  /// vessels, however near. No walk is made.
+  [[nodiscard]] double ownDistance(std::uint32_t station, const double* point) const;
 
   /// The same of the other vessel that is nearest to a point: that of the node of least power among those
   /// that are not of the station's vessel; that node. Infinite if there is none.

@@ -20,8 +20,9 @@ struct Share {
 };
 
 Share takeShare(Stepper stepper) {
-  constexpr double kTurn = 0.05;            // seconds
-  constexpr std::size_t kBetween = 12800;  // queries between looks at the clock, which costs some too
+  constexpr double kTurn = 0.05;  // seconds
+  constexpr std::size_t kBetween =
+      12800;  // queries between looks at the clock, which costs some too
   const std::size_t steps = 1 + kBetween / std::max<std::size_t>(stepper.count(), 1);
   stepper.step();  // of cold caches, and of searches that have no step before
   Share share;
@@ -80,8 +81,7 @@ void Stepper::step() {
 }
 
 void placeWires(Method& method, const Wires& wires, std::size_t environments) {
-  method.place(
-      {environments * wires.points, wires.position[0].data(), wires.station[0].data()});
+  method.place({environments * wires.points, wires.position[0].data(), wires.station[0].data()});
 }
 
 void measure(std::vector<Contest>& contests, const Wires& wires, int turns, double enough) {

@@ -27,8 +27,7 @@ double rateOf(const MethodResult& method, std::size_t environments, int threads)
 double bestOf(const CaseResult& result, const std::string& prefix, std::size_t environments) {
   double best = 0;
   for (const MethodResult& method : result.methods)
-    if (method.name.rfind(prefix, 0) == 0)
-      best = std::max(best, rateOf(method, environments, 1));
+    if (method.name.rfind(prefix, 0) == 0) best = std::max(best, rateOf(method, environments, 1));
   return best;
 }
 
@@ -48,7 +47,8 @@ std::string rates(const CaseResult& result) {
     out << "| " << method.name << " |";
     for (const std::size_t n : counts) out << " " << number(rateOf(method, n, 1) * 1e-6, 3) << " |";
     out << " " << number(rateOf(method, most, 2) * 1e-6, 3) << " | "
-        << number(own / rateOf(method, most, 1), 1) << " | " << number(method.megabytes, 1) << " |\n";
+        << number(own / rateOf(method, most, 1), 1) << " | " << number(method.megabytes, 1)
+        << " |\n";
   }
   if (const double embree = bestOf(result, "Embree", most); embree > 0)
     out << "\nlibblob beside the faster form of Embree, one thread, " << most
@@ -85,7 +85,8 @@ CaseResult describeCase(const Vessel& vessel, const std::vector<Truth>& truth,
   result.voxelMm = vessel.voxel;
   for (std::size_t i = 0; i < tree.nodeCount(); ++i) {
     if (tree.parent[i] < 0) continue;
-    const formats::Vec3f &a = tree.centre[i], &b = tree.centre[static_cast<std::size_t>(tree.parent[i])];
+    const formats::Vec3f &a = tree.centre[i],
+                         &b = tree.centre[static_cast<std::size_t>(tree.parent[i])];
     result.lengthMm += std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
   }
   result.points = truth.size();
@@ -98,12 +99,13 @@ CaseResult describeCase(const Vessel& vessel, const std::vector<Truth>& truth,
 
 std::string markdown(const CaseResult& result) {
   std::ostringstream out;
-  out << "### " << result.name << "\n\n" << result.nodes << " nodes, " << number(result.lengthMm, 0)
-      << " mm, voxels of " << number(result.voxelMm, 2) << " mm, " << result.triangles
-      << " triangles. Of " << result.points << " points " << result.touching << " touch, "
-      << result.past << " are past the wall.\n\n"
-      << rates(result)
-      << "\n| of " << result.points << " points | wrong signs | false contacts | missed contacts | leaks of "
+  out << "### " << result.name << "\n\n"
+      << result.nodes << " nodes, " << number(result.lengthMm, 0) << " mm, voxels of "
+      << number(result.voxelMm, 2) << " mm, " << result.triangles << " triangles. Of "
+      << result.points << " points " << result.touching << " touch, " << result.past
+      << " are past the wall.\n\n"
+      << rates(result) << "\n| of " << result.points
+      << " points | wrong signs | false contacts | missed contacts | leaks of "
       << result.methods.front().tally.kisses << " |\n|---|---:|---:|---:|---:|\n";
   for (const MethodResult& method : result.methods)
     out << "| " << method.name << " | " << method.tally.wrongSigns << " | "

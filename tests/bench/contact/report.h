@@ -29,7 +29,8 @@ struct CaseResult {
   std::string name;
   std::size_t nodes = 0, triangles = 0;
   double lengthMm = 0, voxelMm = 0;
-  std::size_t points = 0, touching = 0, past = 0;  ///< of wires; touching the wall; with the axis past it
+  std::size_t points = 0, touching = 0,
+              past = 0;  ///< of wires; touching the wall; with the axis past it
   std::vector<MethodResult> methods;
 };
 

@@ -26,11 +26,10 @@ std::optional<Kiss> kissAlong(const ExactField& exact, const formats::Centerline
   for (int k = 0; k < 3; ++k) kiss.inside[k] = axis[k] + 0.9 * wall * direction[k];
   if (!(exact.distance(station, kiss.inside) < 0)) return std::nullopt;
   for (double beyond = kStep; beyond <= kFarthest; beyond += kStep) {
-    for (int k = 0; k < 3; ++k)
-      kiss.pushed[k] = axis[k] + (wall + beyond * radius) * direction[k];
+    for (int k = 0; k < 3; ++k) kiss.pushed[k] = axis[k] + (wall + beyond * radius) * direction[k];
     const ExactField::Other other = exact.otherVessel(station, kiss.pushed);
     if (!(other.distance < -kTolerance * exact.radius(other.node))) continue;
-    if (exact.distance(station, kiss.pushed) > kTolerance * radius) return kiss;
+    if (exact.ownDistance(station, kiss.pushed) > kTolerance * radius) return kiss;
   }
   return std::nullopt;
 }

@@ -83,8 +83,8 @@ void placePoint(const CenterlineTree& tree, const blob_model* model, const Path&
   constexpr double kTurn = 0.3, kWave = 1.1;  // radians per mm
   double direction[3];
   across(along, phase + kTurn * s, direction);
-  const double off = (0.55 + 0.5 * std::sin(kWave * s + 2 * phase)) *
-                     wallAlong(model, station, axis, direction);
+  const double off =
+      (0.55 + 0.5 * std::sin(kWave * s + 2 * phase)) * wallAlong(model, station, axis, direction);
   for (int k = 0; k < 3; ++k) point[k] = axis[k] + off * direction[k];
 }
 

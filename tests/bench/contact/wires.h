@@ -23,8 +23,9 @@ struct WireOptions {
 /// Points of one frame lie wire after wire, from the tip back.
 struct Wires {
   std::size_t environments = 0, points = 0;
-  std::vector<std::vector<double>> position;        ///< of each frame: x, y, z, mm
-  std::vector<std::vector<std::uint32_t>> station;  ///< of each frame: the node whose axis a point is off
+  std::vector<std::vector<double>> position;  ///< of each frame: x, y, z, mm
+  std::vector<std::vector<std::uint32_t>>
+      station;  ///< of each frame: the node whose axis a point is off
   [[nodiscard]] std::size_t frames() const { return position.size(); }
   [[nodiscard]] std::size_t count() const { return environments * points; }
 };

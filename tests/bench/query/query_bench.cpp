@@ -62,8 +62,8 @@ void runSurface(const std::string& what, bool atWall, Methods& methods, std::vec
   const Surface& surface = owned.surface;
   const Vessel& vessel = owned.owned.vessel;
   const blob_model_info info = blob_model_describe(vessel.model);
-  std::cerr << vessel.name << ": " << info.node_count << " nodes, " << info.blob_count
-            << " blobs, " << vessel.mesh.face.size() << " triangles\n";
+  std::cerr << vessel.name << ": " << info.node_count << " nodes, " << info.blob_count << " blobs, "
+            << vessel.mesh.face.size() << " triangles\n";
   std::vector<double> truth, distances;
   for (const auto& method : methods) {
     method->prepare(vessel);
