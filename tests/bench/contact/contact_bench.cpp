@@ -2,7 +2,7 @@
 // Thousands of guidewires in one vessel: one step of contact queries by libblob and by what others use, and
 // what each gets wrong. docs/benchmarks.md says what is counted.
 //
-//   contact_bench [--json FILE] [--environments N] [--turns N] CASE...
+//   contact_bench --json FILE [--environments N] [--turns N] CASE...
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -42,8 +42,9 @@ Options optionsOf(int argc, char** argv) {
     else
       options.cases.push_back(argument);
   }
-  if (options.cases.empty() || options.environments == 0)
-    throw std::runtime_error("usage: contact_bench [--json FILE] [--environments N] CASE...");
+  if (options.cases.empty() || options.json.empty() || options.environments == 0)
+    throw std::runtime_error(
+        "usage: contact_bench --json FILE [--environments N] [--turns N] CASE...");
   return options;
 }
 
@@ -135,8 +136,7 @@ int run(int argc, char** argv) {
   std::vector<CaseResult> results;
   for (const std::string& file : options.cases) {
     results.push_back(runCase(file, options));
-    std::cout << markdown(results.back()) << std::endl;
-    if (!options.json.empty()) std::ofstream(options.json) << json(results);
+    std::ofstream(options.json) << json(results);
   }
   return 0;
 }

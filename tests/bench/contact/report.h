@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What contact_bench has measured, as text.
+// What contact_bench has measured.
 #pragma once
 
 #include <cstddef>
@@ -38,8 +38,7 @@ struct CaseResult {
 CaseResult describeCase(const Vessel& vessel, const std::vector<Truth>& truth,
                         const formats::CenterlineTree& tree);
 
-/// Two tables: rates, and what was counted.
-std::string markdown(const CaseResult& result);
+/// For report.py.
 std::string json(const std::vector<CaseResult>& results);
 
 }  // namespace lumen::bench

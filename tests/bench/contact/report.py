@@ -54,6 +54,12 @@ def tables(cases):
         yield ""
 
 
+def short(name):
+    """Without sizes of cells, which differ between cases."""
+    name = name.replace(" closest point", "").replace(" sphere to mesh", "")
+    return name.split(",")[0] + (", coherent" if "coherent" in name else "")
+
+
 def draw(cases, file):
     """Rates over environments above, leaks below; one column for each case."""
     import matplotlib
@@ -69,8 +75,8 @@ def draw(cases, file):
             style = {"LOCAL": "--", "EXACT": ":", "coherent": "--"}.get(m["name"].split()[-1], "-")
             counts = sorted({r["environments"] for r in m["rates"]})
             above.plot(counts, [rate(m, n, 1) for n in counts], style, color=colour, marker="o", markersize=3,
-                       label=m["name"].split(",")[0] + (", coherent" if "coherent" in m["name"] else ""))
-            names.append(m["name"].replace(" closest point", "").replace(" sphere to mesh", ""))
+                       label=short(m["name"]))
+            names.append(short(m["name"]))
             colours.append(colour)
             leaks.append(100 * m["leaks"] / m["kisses"] if m["kisses"] else 0)
         above.set(xscale="log", yscale="log", title=case["name"], xlabel="environments of 100 points",
@@ -87,8 +93,9 @@ def draw(cases, file):
         if column:
             below.set_yticklabels([])
     axes[0][0].set_ylabel("contact queries per second, one thread")
-    axes[0][-1].legend(fontsize=7, loc="lower left")
-    figure.savefig(file, dpi=90)
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4)
+    figure.savefig(file, dpi=80, bbox_inches="tight")
 
 
 def main():
