@@ -36,4 +36,8 @@ endif()
 
 if(LUMEN_BUILD_BENCHMARKS)
   include(bench/query/query.cmake)
+  include(bench/contact/contact.cmake)
+  lumen_test(contact_test
+    LIBS lumen_options lumen_contact_count
+    SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/bench/contact_test.cpp)
 endif()

@@ -16,6 +16,8 @@
 #include <thread>
 
 #include "method.h"
+#include "report.h"
+#include "surfaces.h"
 
 namespace lumen::bench {
 namespace {
@@ -33,8 +35,8 @@ double measure(Method& method, const Surface& surface, std::vector<double>& dist
   for (int pass = 0; pass <= method.passes(); ++pass) {
     const Clock::time_point start = Clock::now();
     for (std::size_t frame = 0; frame < surface.frames(); ++frame)
-      method.query(&surface.points[3 * frame * surface.toolPoints], surface.toolPoints,
-                   &distances[frame * surface.toolPoints]);
+      method.query(0, &surface.points[3 * frame * surface.toolPoints], surface.toolPoints,
+                   Answers{&distances[frame * surface.toolPoints], {}});
     const double time = nanosecondsSince(start) / static_cast<double>(distances.size());
     if (pass > 0 || method.passes() == 1) best = std::min(best, time);
   }
@@ -58,14 +60,16 @@ bool givesDistance(const std::string& method) {
 void runSurface(const std::string& what, bool atWall, Methods& methods, std::vector<Row>& rows) {
   const OwnedSurface owned = makeSurface(what, atWall);
   const Surface& surface = owned.surface;
-  const blob_model_info info = blob_model_describe(surface.model);
-  std::cerr << surface.name << ": " << info.node_count << " nodes, " << info.blob_count
-            << " blobs, " << surface.mesh.face.size() << " triangles\n";
+  const Vessel& vessel = owned.owned.vessel;
+  const blob_model_info info = blob_model_describe(vessel.model);
+  std::cerr << vessel.name << ": " << info.node_count << " nodes, " << info.blob_count << " blobs, "
+            << vessel.mesh.face.size() << " triangles\n";
   std::vector<double> truth, distances;
   for (const auto& method : methods) {
-    method->prepare(surface);
+    method->prepare(vessel);
+    method->place({surface.toolPoints, surface.points.data(), nullptr});
     Row row;
-    row.surface = surface.name;
+    row.surface = vessel.name;
     row.method = method->name();
     row.nanoseconds = measure(*method, surface, distances);
     row.megabytes = method->megabytes();
@@ -77,14 +81,15 @@ void runSurface(const std::string& what, bool atWall, Methods& methods, std::vec
 }
 
 // Half of the tool in each of two threads, against all of it in one: the speed-up.
-double twoThreads(const Surface& surface) {
+double twoThreads(const OwnedSurface& owned) {
+  const Surface& surface = owned.surface;
   constexpr int kPasses = 2000;
   const auto work = [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> cursor(end - begin, BLOB_NOWHERE);
     std::vector<blob_sample> sample(end - begin);
     for (int pass = 0; pass < kPasses; ++pass)
       for (std::size_t frame = 0; frame < surface.frames(); ++frame)
-        blob_query_many(surface.model, 0, end - begin,
+        blob_query_many(owned.owned.vessel.model, 0, end - begin,
                         reinterpret_cast<const double(*)[3]>(
                             &surface.points[3 * (frame * surface.toolPoints + begin)]),
                         cursor.data(), sample.data());
@@ -169,18 +174,18 @@ int run(int argc, char** argv) {
   addOpenVdb(methods);
 #endif
 #ifdef LUMEN_BENCH_EMBREE
-  addEmbree(methods);
+  addEmbree(methods, false);
 #endif
 #ifdef LUMEN_BENCH_CGAL
   addCgal(methods);
 #endif
 #ifdef LUMEN_BENCH_FCL
-  addFcl(methods);
+  addFcl(methods, false);
 #endif
   std::vector<Row> rows;
   for (const std::string& what : surfaces) runSurface(what, atWall, methods, rows);
   std::cout << markdown(rows) << "\nlocate among 10,000 nodes: " << locateTenThousand()
-            << " ns\ntwo threads: " << twoThreads(makeSurface(surfaces.back(), atWall).surface)
+            << " ns\ntwo threads: " << twoThreads(makeSurface(surfaces.back(), atWall))
             << " times as fast as one\n";
   write(jsonFile, json(rows));
   write(svgFile, svg(rows));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
-
-#include "method.h"
 
 namespace lumen::bench {
 namespace {
@@ -31,12 +31,6 @@ const char* colourOf(const std::string& method) {
 }
 
 }  // namespace
-
-std::string inMm(double length) {
-  std::ostringstream out;
-  out << std::setprecision(2) << length << " mm";
-  return out.str();
-}
 
 std::string markdown(const std::vector<Row>& rows) {
   std::ostringstream out;

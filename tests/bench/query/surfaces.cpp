@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "surfaces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
 
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
 #include "converters/surface/polygonise.h"
-#include "formats/case/blobby.h"
-#include "formats/case/case_file.h"
-#include "method.h"
 #include "tests/unit/mesh/open_mesh.h"
+#include "tubes.h"
 
 namespace lumen::bench {
 namespace {
@@ -21,49 +20,6 @@ using formats::Vec3f;
 
 constexpr std::size_t kToolPoints = 200, kFrames = 50;
 constexpr double kPi = 3.14159265358979323846;
-
-// A tube around a line of nodes: each has a model of seven equal blobs on the line, as wide as puts
-// the wall of the straight tube at `radius`.
-Case tubeAlong(const std::vector<Vec3f>& line, double spacing, double radius) {
-  Case result;
-  formats::BlobbyModels models;
-  const auto wall = [&](double width) {
-    formats::BlobbyModels probe;
-    for (int j = -3; j <= 3; ++j) {
-      probe.centre.push_back({static_cast<float>(j * spacing), 0, 0});
-      probe.width.push_back(static_cast<float>(width));
-    }
-    probe.offset = {0, 7};
-    return formats::evaluateField(probe, 0, {0, radius, 0}).f;
-  };
-  double low = 0.01 * radius, high = 2 * radius;
-  for (int i = 0; i < 40; ++i) (wall(0.5 * (low + high)) < 0.1 ? low : high) = 0.5 * (low + high);
-  const int last = static_cast<int>(line.size()) - 1;
-  models.offset.push_back(0);
-  for (int i = 0; i <= last; ++i) {
-    for (int j = i - 3; j <= i + 3; ++j) {
-      models.centre.push_back(line[static_cast<std::size_t>(std::clamp(j, 0, last))]);
-      models.width.push_back(static_cast<float>(low));
-    }
-    models.offset.push_back(static_cast<std::uint32_t>(models.width.size()));
-    result.tree.centre.push_back(line[static_cast<std::size_t>(i)]);
-    const Vec3f& a = line[static_cast<std::size_t>(std::max(i - 1, 0))];
-    const Vec3f& b = line[static_cast<std::size_t>(std::min(i + 1, last))];
-    const double x = b.x - a.x, y = b.y - a.y, length = std::hypot(x, y);
-    result.tree.direction.push_back(
-        {static_cast<float>(x / length), static_cast<float>(y / length), 0});
-    result.tree.parent.push_back(i - 1);
-  }
-  result.tree.radius.assign(line.size(), static_cast<float>(radius));
-  result.tree.height.assign(line.size(), static_cast<float>(spacing));
-  result.tree.branch.assign(line.size(), 0);
-  formats::Branch branch;
-  branch.label = "tube";
-  branch.nodeCount = static_cast<std::uint32_t>(line.size());
-  result.tree.branches.push_back(branch);
-  result.models = models;
-  return result;
-}
 
 // A line of 10 mm; the capsule of Yureidini's thesis measures 11.9 x 2.5 x 2.5 mm.
 Case capsule() {
@@ -203,27 +159,20 @@ std::vector<double> toolPoints(const formats::CenterlineTree& tree, bool atWall)
 Case caseOf(const std::string& what) {
   if (what == "capsule") return capsule();
   if (what == "spiral") return spiral();
-  auto read = formats::readCaseFile(what);
-  if (!read) throw std::runtime_error(read.error().text());
-  return *std::move(read);
+  return readCase(what);
 }
 
 }  // namespace
 
 OwnedSurface makeSurface(const std::string& what, bool atWall) {
-  const Case source = caseOf(what);
-  const std::vector<std::byte> bytes = formats::encodeBinary(source);
-  blob_model* model = nullptr;
-  const blob_status status = blob_model_open_bytes(bytes.data(), bytes.size(), nullptr, &model);
-  if (status != BLOB_OK) throw std::runtime_error(what + ": " + blob_status_text(status));
+  constexpr double kMostCells = 2e7;
   OwnedSurface result;
-  result.model = std::shared_ptr<blob_model>(model, blob_model_close);
-  result.surface.name = std::filesystem::path(what).stem().string();
-  result.surface.model = model;
-  result.surface.mesh = wantedMesh(source);
-  result.surface.voxel = source.metadata.voxelSize.value_or(result.surface.voxel);
+  result.owned = openVessel(caseOf(what), std::filesystem::path(what).stem().string());
+  Vessel& vessel = result.owned.vessel;
+  vessel.mesh = wantedMesh(result.owned.source);
+  vessel.gridCell = gridCell(vessel.model, vessel.voxel, kMostCells);
   result.surface.toolPoints = kToolPoints;
-  result.surface.points = toolPoints(source.tree, atWall);
+  result.surface.points = toolPoints(result.owned.source.tree, atWall);
   return result;
 }
 

@@ -22,11 +22,11 @@ class Cgal : public Method {
 public:
   [[nodiscard]] std::string name() const override { return "CGAL AABB tree"; }
 
-  void prepare(const Surface& surface) override {
+  void prepare(const Vessel& vessel) override {
     m_triangle.clear();
-    for (const auto& face : surface.mesh.face) {
+    for (const auto& face : vessel.mesh.face) {
       const auto corner = [&](std::size_t i) {
-        const auto& v = surface.mesh.vertex[face[i]];
+        const auto& v = vessel.mesh.vertex[face[i]];
         return Kernel::Point_3(v[0], v[1], v[2]);
       };
       const Triangle triangle(corner(0), corner(1), corner(2));
@@ -38,10 +38,11 @@ public:
     m_tree.accelerate_distance_queries();
   }
 
-  void query(const double* points, std::size_t count, double* distances) override {
+  void query(std::size_t, const double* points, std::size_t count,
+             const Answers& answers) override {
     for (std::size_t i = 0; i < count; ++i) {
       const Kernel::Point_3 p(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-      distances[i] = std::sqrt(CGAL::squared_distance(p, m_tree.closest_point(p)));
+      answers.distance[i] = std::sqrt(CGAL::squared_distance(p, m_tree.closest_point(p)));
     }
   }
 

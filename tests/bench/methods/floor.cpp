@@ -38,8 +38,9 @@ class Floor : public Method {
 public:
   [[nodiscard]] std::string name() const override { return "floor: bare kernel"; }
 
-  void prepare(const Surface& surface) override {
-    m_block.resize(blob_model_describe(surface.model).node_count);
+  void prepare(const Vessel& vessel) override {
+    m_model = vessel.model;
+    m_block.resize(blob_model_describe(m_model).node_count);
     for (Block& block : m_block)
       for (int i = 0; i < 8; ++i) {
         block.x[i] = 0.1f * static_cast<float>(i);
@@ -47,19 +48,22 @@ public:
         block.a[i] = 0.5f;
         block.w[i] = 0.3f;
       }
+  }
+
+  void place(const Start& start) override {
     m_node.clear();
     m_points.clear();
-    for (std::size_t i = 0; i < surface.toolPoints; ++i) {
-      m_node.push_back(blob_cursor_locate(surface.model, &surface.points[3 * i]));
+    for (std::size_t i = 0; i < start.count; ++i) {
+      m_node.push_back(blob_cursor_locate(m_model, start.points + 3 * i));
       for (std::size_t k = 0; k < 3; ++k)
         m_points.push_back(0.01f * static_cast<float>(i) * static_cast<float>(k + 1));
     }
-    m_out.resize(4 * surface.toolPoints);
+    m_out.resize(4 * start.count);
   }
 
-  void query(const double*, std::size_t count, double* distances) override {
+  void query(std::size_t, const double*, std::size_t count, const Answers& answers) override {
     run(count);
-    distances[0] = static_cast<double>(m_out[0]);
+    answers.distance[0] = static_cast<double>(m_out[0]);
   }
 
 private:
@@ -71,6 +75,7 @@ private:
     for (std::size_t i = 0; i < count; ++i) kernel(blocks[node[i]], points + 3 * i, out + 4 * i);
   }
 
+  const blob_model* m_model = nullptr;
   std::vector<Block> m_block;
   std::vector<std::uint32_t> m_node;
   std::vector<float> m_points, m_out;

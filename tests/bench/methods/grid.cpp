@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
 #include "method.h"
 
 namespace lumen::bench {
@@ -12,36 +14,28 @@ class Grid : public Method {
 public:
   [[nodiscard]] std::string name() const override { return "dense grid, " + inMm(m_cell); }
 
-  void prepare(const Surface& surface) override {
-    constexpr double kMost = 2e7;
-    const blob_model_info info = blob_model_describe(surface.model);
-    double volume = 1;
-    for (std::size_t i = 0; i < 3; ++i) volume *= info.high[i] - info.low[i] + 2;
-    m_cell = std::max(surface.voxel, std::cbrt(volume / kMost));
+  void prepare(const Vessel& vessel) override {
+    const blob_model_info info = blob_model_describe(vessel.model);
+    m_cell = vessel.gridCell;
     for (std::size_t i = 0; i < 3; ++i) {
       m_low[i] = info.low[i] - 1;
       m_size[i] = static_cast<std::size_t>((info.high[i] - info.low[i] + 2) / m_cell) + 2;
     }
     m_value.resize(m_size[0] * m_size[1] * m_size[2]);
-    std::size_t at = 0;
-    std::uint32_t cursor;
-    for (std::size_t z = 0; z < m_size[2]; ++z)
-      for (std::size_t y = 0; y < m_size[1]; ++y)
-        for (std::size_t x = 0; x < m_size[0]; ++x) {
-          const double p[3] = {m_low[0] + m_cell * static_cast<double>(x),
-                               m_low[1] + m_cell * static_cast<double>(y),
-                               m_low[2] + m_cell * static_cast<double>(z)};
-          cursor = BLOB_NOWHERE;
-          blob_sample s;
-          blob_query(surface.model, 0, p, &cursor, &s);
-          m_value[at++] = static_cast<float>(s.distance);
-        }
-    m_gradient.resize(3 * surface.toolPoints);
+    tbb::parallel_for(std::size_t{0}, m_size[2],
+                      [&](std::size_t z) { fillSlice(vessel.model, z); });
   }
 
-  void query(const double* points, std::size_t count, double* distances) override {
-    for (std::size_t i = 0; i < count; ++i)
-      distances[i] = sample(points + 3 * i, &m_gradient[3 * i]);
+  void query(std::size_t, const double* points, std::size_t count,
+             const Answers& answers) override {
+    for (std::size_t i = 0; i < count; ++i) {
+      double gradient[3];
+      answers.distance[i] = sample(points + 3 * i, gradient);
+      if (answers.normal[0] == nullptr) continue;
+      const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
+      for (std::size_t k = 0; k < 3; ++k)
+        answers.normal[k][i] = length > 0 ? gradient[k] / length : 0;
+    }
   }
 
   [[nodiscard]] double megabytes() const override {
@@ -49,6 +43,20 @@ public:
   }
 
 private:
+  void fillSlice(const blob_model* model, std::size_t z) {
+    std::size_t at = z * m_size[0] * m_size[1];
+    for (std::size_t y = 0; y < m_size[1]; ++y)
+      for (std::size_t x = 0; x < m_size[0]; ++x) {
+        const double p[3] = {m_low[0] + m_cell * static_cast<double>(x),
+                             m_low[1] + m_cell * static_cast<double>(y),
+                             m_low[2] + m_cell * static_cast<double>(z)};
+        std::uint32_t cursor = BLOB_NOWHERE;
+        blob_sample s;
+        blob_query(model, 0, p, &cursor, &s);
+        m_value[at++] = static_cast<float>(s.distance);
+      }
+  }
+
   [[nodiscard]] double sample(const double* p, double* gradient) const {
     std::size_t cell[3];
     double t[3];
@@ -71,11 +79,10 @@ private:
     return mix(c0, c1, t[2]);
   }
 
-  double m_cell = 0.2;  // mm: a voxel of the volume, or as fine as kMost values allow
+  double m_cell = 0.2;  // mm
   double m_low[3]{};
   std::size_t m_size[3]{};
   std::vector<float> m_value;
-  std::vector<double> m_gradient;
 };
 
 }  // namespace

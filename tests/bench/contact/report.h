@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What contact_bench has measured.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "formats/case/case.h"
+#include "method.h"
+#include "tally.h"
+
+namespace lumen::bench {
+
+struct Rate {
+  std::size_t environments;
+  int threads;
+  double queriesPerSecond;
+};
+
+struct MethodResult {
+  std::string name;
+  double megabytes = 0;
+  Tally tally;
+  std::vector<Rate> rates;
+};
+
+struct CaseResult {
+  std::string name;
+  std::size_t nodes = 0, triangles = 0;
+  double lengthMm = 0, voxelMm = 0;
+  std::size_t points = 0, touching = 0,
+              past = 0;  ///< of wires; touching the wall; with the axis past it
+  std::vector<MethodResult> methods;
+};
+
+/// The case and its load; no methods yet.
+CaseResult describeCase(const Vessel& vessel, const std::vector<Truth>& truth,
+                        const formats::CenterlineTree& tree);
+
+/// For report.py.
+std::string json(const std::vector<CaseResult>& results);
+
+}  // namespace lumen::bench

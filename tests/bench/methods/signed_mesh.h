@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// On which side of a closed mesh a point lies, told from what is nearest to it: J. A. Baerentzen and
+// H. Aanaes, Signed distance computation using the angle weighted pseudonormal, IEEE TVCG, 2005.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "closest_point.h"
+#include "method.h"
+
+namespace lumen::bench {
+
+class SignedMesh {
+public:
+  using Vector = std::array<float, 3>;
+
+  /// Of a mesh that stays where it is. One that is not closed has no signs.
+  void prepare(const Triangles& mesh);
+
+  /// The point of face `face` that is nearest to p goes to q.
+  Feature closest(const float* p, std::uint32_t face, float* q) const {
+    const auto& corner = m_mesh->face[face];
+    return closestOnTriangle(p, m_mesh->vertex[corner[0]].data(), m_mesh->vertex[corner[1]].data(),
+                             m_mesh->vertex[corner[2]].data(), q);
+  }
+
+  /// Distance and normal of point i, at p, whose nearest point q lies on a feature of a face.
+  void answer(const float* p, const float* q, std::uint32_t face, Feature feature, std::size_t i,
+              const Answers& answers) const;
+
+  [[nodiscard]] double megabytes() const;
+
+private:
+  [[nodiscard]] const Vector& normalOf(std::uint32_t face, Feature feature) const;
+
+  const Triangles* m_mesh = nullptr;
+  std::vector<Vector> m_vertex, m_edge, m_face;  ///< edges: three of each face, unit length each
+};
+
+}  // namespace lumen::bench

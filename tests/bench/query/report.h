@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What query_bench has measured, as tables and a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lumen::bench {
+
+struct Row {
+  std::string surface, method;
+  double nanoseconds = 0;                 ///< per query
+  double medianError = 0, highError = 0;  ///< of the distance, against EXACT; 99th percentile, mm
+  double megabytes = 0;
+};
+std::string markdown(const std::vector<Row>& rows);
+std::string json(const std::vector<Row>& rows);
+std::string svg(const std::vector<Row>& rows);
+
+}  // namespace lumen::bench
