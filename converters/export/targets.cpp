@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: all that the command line knows of one is its row.
 #include "converters/export/engines.h"
-#include "converters/export/oned.h"
-#include "converters/export/openfoam.h"
 #include "converters/export/grid.h"
 #include "converters/export/isaac.h"
+#include "converters/export/oned.h"
+#include "converters/export/openfoam.h"
 #include "converters/export/print.h"
 #include "converters/export/simvascular.h"
 #include "converters/export/slicer.h"

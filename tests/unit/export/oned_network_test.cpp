@@ -15,7 +15,8 @@ namespace lumen::convert {
 namespace {
 
 /// A network of straight segments between joints, of which `inlets` have an inlet and those that nothing leaves an outlet.
-FlowNetwork networkOf(const std::vector<std::array<std::uint32_t, 2>>& segments, std::uint32_t inlets = 1) {
+FlowNetwork networkOf(const std::vector<std::array<std::uint32_t, 2>>& segments,
+                      std::uint32_t inlets = 1) {
   FlowNetwork network;
   network.trees.emplace_back();
   for (const auto& [from, to] : segments) {
@@ -78,7 +79,8 @@ TEST(OneDNetwork, KeepsTheResistanceOfABumpyVessel) {
   const OneDVessel cone = oneDNetwork(bumpy, 0).vessels[0];
   const double a = cone.inRadius, b = cone.outRadius;
   EXPECT_NEAR(a / b, 2, 1e-9);
-  const double resistance = 8 * 0.004 / std::numbers::pi * cone.length * (a * a + a * b + b * b) / 3 / std::pow(a * b, 3);
+  const double resistance =
+      8 * 0.004 / std::numbers::pi * cone.length * (a * a + a * b + b * b) / 3 / std::pow(a * b, 3);
   EXPECT_NEAR(resistance / lumped(bumpy.segments[0]).resistance, 1, 1e-9);
 }
 
