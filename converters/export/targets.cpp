@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: all that the command line knows of one is its row.
+#include "converters/export/mujoco/export_mujoco.h"
 #include "converters/export/sofa/export_sofa.h"
 #include "converters/export/steve.h"
 #include "converters/export/target.h"
@@ -9,10 +10,18 @@ namespace lumen::convert {
 namespace {
 
 constexpr auto kMm = LengthUnit::Millimetre;
+constexpr auto kMetre = LengthUnit::Metre;
 
 // clang-format off
 std::vector<ExportTarget> makeTable() {
   return {
+      {.name = "mujoco", .title = "MuJoCo 3",
+       .files = {"scene.xml", "scene-joints.xml", "meshes/wall_0.stl"},
+       .units = {kMetre}, .axes = {Axes::Lps},
+       .holds = "the wall as a solid; a guidewire at the root, pushed by an actuator; the ends",
+       .lacks = "the tree and its radii",
+       .options = {"--edge", "--max-error", "--insert"},
+       .write = exportMujoco},
       {.name = "sofa", .title = "SOFA with BeamAdapter",
        .files = {"scene.scn", "scene.py", "vessel.obj", "case.lumen"},
        .units = {kMm}, .axes = {Axes::Lps},

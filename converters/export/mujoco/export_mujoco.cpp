@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/mujoco/export_mujoco.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/common/error.h"
+#include "converters/common/tree_losses.h"
+#include "converters/export/mujoco/stl_metres.h"
+#include "converters/export/mujoco/wall_pieces.h"
+#include "converters/export/mujoco/wire.h"
+#include "converters/export/sofa/insertion.h"
+#include "converters/export/surface.h"
+#include "converters/mesh/plain_names.h"
+
+namespace lumen::convert {
+
+namespace {
+
+// MuJoCo samples a mesh's distance in an octree of six levels: 64 cells along its longest side. With cells of 0.4
+// radii the distance between samples is off by h^2 / 8 R, 0.02 radii.
+constexpr std::size_t kCells = 64;
+constexpr double kCellRadii = 0.4;
+
+struct Solid {
+  ExportedSurface surface;
+  bool isShell = true;  ///< a wall of some thickness; else all but the lumen
+  std::string why;      ///< not a shell
+};
+
+/// A thick wall; where none can be made, the lumen's open surface, turned over: solid is all that is not lumen.
+Solid solidOf(const ExportInput& input) {
+  // half a radius: much thicker than a wire sinks in, thinner than the gaps of most trees
+  const Length usual{0, 0.5};
+  try {
+    return {wallSurface(input, usual), true, ""};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Failed || input.options.surface.thickness) throw;
+    ExportOptions options = input.options;
+    options.surface.open = true;
+    Solid solid{lumenSurface({input.source, options, input.frame, input.progress}), false,
+                error.what()};
+    solid.surface.ends = endsOf(input.source.tree);
+    solid.surface.mesh = turnedOver(std::move(solid.surface.mesh));
+    return solid;
+  }
+}
+
+/// As long as its way, up to where a chain gets slow: its cost grows with the square of its links.
+Wire wireFor(const Insertion& insertion) {
+  constexpr double kLeast = 0.03, kMost = 0.12, kMetres = 1e-3;
+  Wire wire;
+  const double length = std::clamp(insertion.way * kMetres, kLeast, kMost);
+  wire.links = static_cast<int>(std::lround(length / wire.link));
+  return wire;
+}
+
+struct Scene {
+  const ExportInput& input;
+  const Solid& solid;
+  std::size_t pieces = 0;
+  Insertion insertion;
+  Wire wire;
+};
+
+std::string head(const Scene& scene, WireSprings springs) {
+  std::string text =
+      "<!-- Vessels of a case and a guidewire; metres, kg, s; LPS. Made by lumen " LUMEN_VERSION
+      ". -->\n"
+      "<mujoco model=\"vessels\">\n"
+      "  <compiler autolimits=\"true\" boundinertia=\"1e-14\" meshdir=\"meshes\"/>\n";
+  // Damping within the contact solver, not behind it: it would make contacts as soft as it is great.
+  text += "  <option timestep=\"" + mujocoNumbers({kMujocoStep}) +
+          "\" gravity=\"0 0 0\" integrator=\"Euler\" sdf_iterations=\"5\" sdf_initpoints=\"4\">\n"
+          "    <flag eulerdamp=\"disable\"/>\n  </option>\n  <size memory=\"200M\"/>\n";
+  if (springs == WireSprings::Plugin)
+    text += "  <extension>\n    <plugin plugin=\"mujoco.elasticity.cable\"/>\n  </extension>\n";
+  // Contacts are found when there is penetration: five steps to undo it, and hard from 0.05 mm on.
+  text +=
+      "  <default>\n    <default class=\"wall\">\n"
+      "      <geom contype=\"2\" conaffinity=\"1\" priority=\"1\" friction=\"0.1 0 0\" solref=\"" +
+      mujocoNumbers({5 * kMujocoStep, 1}) + "\" solimp=\"0.9 0.99 5e-05\"/>\n    </default>\n  </default>\n";
+  text += "  <asset>\n";
+  for (std::size_t k = 0; k < scene.pieces; ++k) {
+    const std::string name = "wall_" + std::to_string(k);
+    text += "    <mesh name=\"" + name + "\" file=\"" + name + ".stl\" inertia=\"shell\"/>\n";
+  }
+  return text + "  </asset>\n";
+}
+
+std::string sceneText(const Scene& scene, WireSprings springs) {
+  std::string text = head(scene, springs) + "  <worldbody>\n";
+  text += "    <light pos=\"0 0 1\" dir=\"0 0 -1\" directional=\"true\"/>\n";
+  for (std::size_t k = 0; k < scene.pieces; ++k) {
+    const std::string name = "wall_" + std::to_string(k);
+    text += "    <geom name=\"" + name + "\" class=\"wall\" type=\"sdf\" mesh=\"" + name +
+            "\" rgba=\"0.8 0.3 0.3 0.3\"/>\n";
+  }
+  const ExportFrame& frame = scene.input.frame;
+  for (const NamedEnd& end : scene.solid.surface.ends)
+    text += "    <site name=\"" + end.name + "\" pos=\"" +
+            mujocoNumbers(frame.position(end.position)) + "\" zaxis=\"" +
+            mujocoNumbers(frame.direction(end.direction)) + "\" size=\"" +
+            mujocoNumbers({frame.length(end.radius)}) + "\" rgba=\"0 0.6 0 0.3\"/>\n";
+  text += wireBodies(scene.wire, frame.position(scene.insertion.position),
+                     frame.direction(scene.insertion.direction), springs);
+  return text + "  </worldbody>\n" + wireControls(scene.wire) + "</mujoco>\n";
+}
+
+std::string startOf(const Scene& scene) {
+  std::string text =
+      "In Python (`pip install mujoco`, 3.3.5 or later):\n\n"
+      "    import mujoco\n"
+      "    model = mujoco.MjModel.from_xml_path(\"scene.xml\")\n"
+      "    data = mujoco.MjData(model)\n"
+      "    mujoco.mj_resetDataKeyframe(model, data, 0)   # insertion\n"
+      "    data.ctrl[0] = 0.01                            # m/s, forward\n"
+      "    while data.time < 5: mujoco.mj_step(model, data)\n\n"
+      "`python -m mujoco.viewer --mjcf=scene.xml` shows it. `scene-joints.xml` is the same wire with springs in its\n"
+      "joints instead of the plugin mujoco.elasticity.cable, for engines without plugins (such as the npm package\n"
+      "`@mujoco/mujoco`): as stiff in bending, a third stiffer in torsion.\n\n";
+  text += scene.solid.isShell
+              ? "The wall is a solid of half a radius around the lumen"
+              : "All that is not lumen is solid, since a wall of some thickness meets itself here: the lumen's surface,\n"
+                "open at its ends and with normals into the lumen";
+  text += ", in " + std::to_string(scene.pieces) +
+          (scene.pieces == 1 ? " piece" : " pieces, as MuJoCo samples each in at most 64 cells along a side") +
+          ".\nIts geoms are of type `sdf`: as type `mesh` each would be its convex hull, and the lumen solid.\n";
+  return text;
+}
+
+std::vector<NamedEnd> plainlyNamed(std::vector<NamedEnd> ends) {
+  std::vector<std::string> names;
+  for (const NamedEnd& end : ends) names.push_back(end.name);
+  names = distinct(names, openFoamWord);
+  for (std::size_t k = 0; k < ends.size(); ++k) ends[k].name = names[k];
+  return ends;
+}
+
+}  // namespace
+
+ExportResult exportMujoco(const ExportInput& input) {
+  const Wire thickness;
+  const Insertion insertion =
+      insertionOf(input.source.tree, input.options.sofa.insert, thickness.radius * 1e3);
+  Solid solid = solidOf(input);
+  solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
+  const std::vector<SurfaceMesh> pieces = piecesOf(solid.surface.mesh, kCells, kCellRadii);
+  const Scene scene{input, solid, pieces.size(), insertion, wireFor(insertion)};
+
+  ExportResult result;
+  result.files = {{"scene.xml", sceneText(scene, WireSprings::Plugin),
+                   "vessels, guidewire, actuator `advance`, keyframe `insertion`, a site at each end", ""},
+                  {"scene-joints.xml", sceneText(scene, WireSprings::Joints),
+                   "the same without a plugin", ""}};
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    result.files.push_back(
+        {"meshes/wall_" + std::to_string(k) + ".stl", stlInMetres(pieces[k]), "", ""});
+  result.others.push_back({"meshes/wall_*.stl", "the wall, in metres"});
+  result.start = startOf(scene);
+  result.losses = treeLosses(input.source.tree);
+  if (!solid.isShell)
+    result.remarks.push_back("all that is not lumen is solid, since a thick wall cannot be made: " +
+                             solid.why);
+  result.ends = std::move(solid.surface.ends);
+  result.surface = std::move(solid.surface.report);
+  return result;
+}
+
+}  // namespace lumen::convert
