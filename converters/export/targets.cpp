@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: all that the command line knows of one is its row.
+#include "converters/export/cathsim/export_cathsim.h"
 #include "converters/export/mujoco/export_mujoco.h"
 #include "converters/export/sofa/export_sofa.h"
 #include "converters/export/steve.h"
@@ -15,6 +16,14 @@ constexpr auto kMetre = LengthUnit::Metre;
 // clang-format off
 std::vector<ExportTarget> makeTable() {
   return {
+      {.name = "cathsim", .title = "CathSim",
+       .files = {"phantom_assets/vessel.xml", "phantom_assets/meshes/vessel/visual.stl",
+                 "phantom_assets/meshes/vessel/simplified.stl", "phantom_assets/meshes/vessel/hull_0.stl"},
+       .units = {kMetre}, .axes = {Axes::Lps},
+       .holds = "the surface; the wall as convex pieces; the ends as targets",
+       .lacks = "the tree and its radii",
+       .options = {"--edge", "--max-error"},
+       .write = exportCathsim},
       {.name = "mujoco", .title = "MuJoCo 3",
        .files = {"scene.xml", "scene-joints.xml", "meshes/wall_0.stl"},
        .units = {kMetre}, .axes = {Axes::Lps},

@@ -10,12 +10,12 @@
 
 #include "converters/common/error.h"
 #include "converters/common/tree_losses.h"
-#include "converters/export/mujoco/stl_metres.h"
+#include "converters/export/mujoco/mujoco_text.h"
 #include "converters/export/mujoco/wall_pieces.h"
 #include "converters/export/mujoco/wire.h"
+#include "converters/export/mujoco/wire_reach.h"
 #include "converters/export/sofa/insertion.h"
 #include "converters/export/surface.h"
-#include "converters/mesh/plain_names.h"
 
 namespace lumen::convert {
 
@@ -113,10 +113,7 @@ std::string sceneText(const Scene& scene, WireSprings springs) {
   }
   const ExportFrame& frame = scene.input.frame;
   for (const NamedEnd& end : scene.solid.surface.ends)
-    text += "    <site name=\"" + end.name + "\" pos=\"" +
-            mujocoNumbers(frame.position(end.position)) + "\" zaxis=\"" +
-            mujocoNumbers(frame.direction(end.direction)) + "\" size=\"" +
-            mujocoNumbers({frame.length(end.radius)}) + "\" rgba=\"0 0.6 0 0.3\"/>\n";
+    text += "    " + endSite(frame, end);
   text += wireBodies(scene.wire, frame.position(scene.insertion.position),
                      frame.direction(scene.insertion.direction), springs);
   return text + "  </worldbody>\n" + wireControls(scene.wire) + "</mujoco>\n";
@@ -140,16 +137,9 @@ std::string startOf(const Scene& scene) {
                     ":\nthe lumen's surface, open at its ends, with normals into the lumen";
   text += ", in " + std::to_string(scene.pieces) +
           (scene.pieces == 1 ? " piece" : " pieces, as MuJoCo samples each in at most 64 cells along a side") +
-          ".\nIts geoms are of type `sdf`: as type `mesh` each would be its convex hull, and the lumen solid.\n";
+          ".\nIt ends where the guidewire of " + mujocoNumbers({scene.wire.length() * 1e3}) +
+          " mm does not reach. Its geoms are of type `sdf`: as type `mesh` each would be its convex hull, and the lumen solid.\n";
   return text;
-}
-
-std::vector<NamedEnd> plainlyNamed(std::vector<NamedEnd> ends) {
-  std::vector<std::string> names;
-  for (const NamedEnd& end : ends) names.push_back(end.name);
-  names = distinct(names, openFoamWord);
-  for (std::size_t k = 0; k < ends.size(); ++k) ends[k].name = names[k];
-  return ends;
 }
 
 }  // namespace
@@ -160,8 +150,12 @@ ExportResult exportMujoco(const ExportInput& input) {
       insertionOf(input.source.tree, input.options.sofa.insert, thickness.radius * 1e3);
   Solid solid = solidOf(input);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
+  const Wire wire = wireFor(insertion);
+  // what the wire cannot touch costs memory and time, most of them in a large tree
+  solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree, insertion.node,
+                                    wire.length() * 1e3);
   const std::vector<SurfaceMesh> pieces = piecesOf(solid.surface.mesh, kCells, kCellRadii);
-  const Scene scene{input, solid, pieces.size(), insertion, wireFor(insertion)};
+  const Scene scene{input, solid, pieces.size(), insertion, wire};
 
   ExportResult result;
   result.files = {{"scene.xml", sceneText(scene, WireSprings::Plugin),

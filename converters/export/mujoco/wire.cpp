@@ -3,11 +3,12 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <initializer_list>
 #include <numbers>
 
 #include <Eigen/Geometry>
+
+#include "converters/export/mujoco/mujoco_text.h"
 
 namespace lumen::convert {
 
@@ -60,20 +61,6 @@ double Wire::damping() const {
   // c = 2 z sqrt(k J) with J = kArmature k h^2
   constexpr double kShare = 0.3;
   return 2 * kShare * std::sqrt(kArmature) * jointStiffness() * kMujocoStep;
-}
-
-std::string mujocoNumbers(std::initializer_list<double> values) {
-  std::string text;
-  for (const double value : values) {
-    std::array<char, 32> digits{};
-    std::snprintf(digits.data(), digits.size(), "%.9g", value + 0.0);
-    text += (text.empty() ? "" : " ") + std::string(digits.data());
-  }
-  return text;
-}
-
-std::string mujocoNumbers(const Eigen::Vector3d& vector) {
-  return mujocoNumbers({vector.x(), vector.y(), vector.z()});
 }
 
 std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,

@@ -43,8 +43,4 @@ std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,
 /// Its <actuator> and <keyframe>.
 std::string wireControls(const Wire& wire);
 
-/// Numbers with spaces between them, as MuJoCo reads them.
-std::string mujocoNumbers(std::initializer_list<double> values);
-std::string mujocoNumbers(const Eigen::Vector3d& vector);
-
 }  // namespace lumen::convert
