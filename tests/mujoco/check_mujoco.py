@@ -7,7 +7,7 @@ asks libblob whether the guidewire stays in the lumen. Exits with 77, saying so,
 
 Without --case: synthetic phantoms, and it fails if
 - the engine refuses a folder, or its sites are not at the ends that lumen-export.json names,
-- the guidewire does not advance by 0.8 of what was asked in 5 s, or its axis leaves the lumen,
+- the guidewire does not advance by 0.8 of what was asked in 5 s, or its axis leaves the lumen by more than 0.05 mm,
 - a coordinate is not finite, a speed is above 5 (m/s, rad/s), or a link has more than 4 contacts,
 - it stays although the walls are convex hulls: so nothing above would be said by walls that are not there.
 With --case: prints the figures of that case.
@@ -24,6 +24,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 RADIUS = 0.18  # mm, of the guidewire
 SECONDS = 5
+SUNK = 0.05  # mm: contacts are soft, so that the engine finds them; a wire's axis may be so far out of the lumen
 
 
 def skip(reason):
@@ -109,7 +110,7 @@ def expect_stay(bench, name, answer, speed):
         return
     links = len(answer["records"][0]["points"]) / 3
     bench.expect(answer["inserted"] > 0.8 * speed * SECONDS * 1e3, name + ": the guidewire advances")
-    bench.expect(answer["deepest"] < 0, name + ": its axis stays in the lumen")
+    bench.expect(answer["deepest"] < SUNK, f"{name}: its axis stays within {SUNK} mm of the lumen")
     bench.expect(answer["restarts"] == 0 and answer["speed"] < 5, name + ": nothing explodes")
     bench.expect(answer["contacts"] <= 4 * links, name + ": contacts are bounded")
 
@@ -160,7 +161,7 @@ def check_phantom(bench, phantom, speed):
 def check_hulls(bench, case, folder, manifest, speed):
     hulls = rewritten(folder, "scene-joints.xml", "scene-hulls.xml", lambda text: text.replace('type="sdf"', 'type="mesh"'))
     answer = figures(bench, "convex hulls", case, hulls, manifest["ends"][0], speed)
-    bench.expect(answer is not None and not (answer["deepest"] < 0 and answer["inserted"] > 0.8 * speed * SECONDS * 1e3),
+    bench.expect(answer is not None and not (answer["deepest"] < SUNK and answer["inserted"] > 0.8 * speed * SECONDS * 1e3),
                  "convex hulls throw the guidewire out, or do not let it in")
 
 
@@ -184,7 +185,7 @@ def check_cathsim(bench, case, folder, manifest, speed):
     answer = figures(bench, "cathsim", case, os.path.join(assets, "with-wire.xml"), manifest["ends"][0], speed)
     if answer is not None:
         bench.expect(answer["inserted"] > 0.8 * speed * SECONDS * 1e3, "cathsim: the guidewire advances")
-        bench.expect(answer["deepest"] < 0, "cathsim: its axis stays in the lumen")
+        bench.expect(answer["deepest"] < SUNK, f"cathsim: its axis stays within {SUNK} mm of the lumen")
 
 
 def main():

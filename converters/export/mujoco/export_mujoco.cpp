@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "converters/common/error.h"
 #include "converters/common/tree_losses.h"
 #include "converters/export/mujoco/mujoco_text.h"
 #include "converters/export/mujoco/wall_pieces.h"
@@ -28,41 +27,28 @@ constexpr double kCellRadii = 0.4;
 
 struct Solid {
   ExportedSurface surface;
-  bool isShell = true;  ///< a wall of some thickness; else all but the lumen
-  std::string why;      ///< not a shell
+  bool isShell = false;  ///< a wall of some thickness; else all but the lumen
 };
 
-/// The lumen's open surface, turned over: solid is all that is not lumen.
+/// All that is not lumen: the lumen's open surface, turned over. It always exists, also where vessels touch, and a wire
+/// that is pressed into it is pushed back the right way however deep it is; in a wall, no farther than its middle.
 Solid carvedOut(const ExportInput& input) {
   ExportOptions options = input.options;
   options.surface.open = true;
-  Solid solid{lumenSurface({input.source, options, input.frame, input.progress}), false, ""};
+  Solid solid{lumenSurface({input.source, options, input.frame, input.progress}), false};
   solid.surface.ends = endsOf(input.source.tree);
   solid.surface.mesh = turnedOver(std::move(solid.surface.mesh));
   return solid;
 }
 
-/// A thick wall, unless vessels touch, whose walls would meet.
 Solid solidOf(const ExportInput& input) {
-  Solid carved = carvedOut(input);
-  if (!carved.surface.report.overlaps.empty() && !input.options.surface.thickness) {
-    carved.why = "vessels touch, so thick walls would meet";
-    return carved;
-  }
-  // half a radius: much thicker than a wire sinks in, thinner than the gaps of most trees
-  const Length usual{0, 0.5};
-  try {
-    return {wallSurface(input, usual), true, ""};
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::Failed || input.options.surface.thickness) throw;
-    carved.why = error.what();
-    return carved;
-  }
+  const auto& thickness = input.options.surface.thickness;
+  return thickness ? Solid{wallSurface(input, *thickness), true} : carvedOut(input);
 }
 
 /// As long as its way, up to where a chain gets slow: its cost grows with the square of its links.
 Wire wireFor(const Insertion& insertion) {
-  constexpr double kLeast = 0.03, kMost = 0.12, kMetres = 1e-3;
+  constexpr double kLeast = 0.03, kMost = 0.08, kMetres = 1e-3;
   Wire wire;
   const double length = std::clamp(insertion.way * kMetres, kLeast, kMost);
   wire.links = static_cast<int>(std::lround(length / wire.link));
@@ -90,7 +76,7 @@ std::string head(const Scene& scene, WireSprings springs) {
   if (springs == WireSprings::Plugin)
     text += "  <extension>\n    <plugin plugin=\"mujoco.elasticity.cable\"/>\n  </extension>\n";
   // MuJoCo finds contacts of distance fields by a search that misses shallow ones. So they are soft, twenty steps:
-  // a wire that is pressed to the wall rests some 0.03 mm in it. Harder, it flickers, and snaps through the wall.
+  // a wire that is pressed to the wall rests some hundredths of a millimetre in it. Harder, it flickers, and snaps through the wall.
   text +=
       "  <default>\n    <default class=\"wall\">\n"
       "      <geom contype=\"2\" conaffinity=\"1\" priority=\"1\" friction=\"0.1 0 0\" solref=\"" +
@@ -132,9 +118,8 @@ std::string startOf(const Scene& scene) {
       "joints instead of the plugin mujoco.elasticity.cable, for engines without plugins (such as the npm package\n"
       "`@mujoco/mujoco`): as stiff in bending, a third stiffer in torsion.\n\n";
   text += scene.solid.isShell
-              ? std::string("The wall is a solid of half a radius around the lumen")
-              : "All that is not lumen is solid, since " + scene.solid.why +
-                    ":\nthe lumen's surface, open at its ends, with normals into the lumen";
+              ? "The wall is a solid of the thickness that was asked for"
+              : "All that is not lumen is solid: the lumen's surface, open at its ends, with normals into the lumen";
   text += ", in " + std::to_string(scene.pieces) +
           (scene.pieces == 1 ? " piece" : " pieces, as MuJoCo samples each in at most 64 cells along a side") +
           ".\nIt ends where the guidewire of " + mujocoNumbers({scene.wire.length() * 1e3}) +
@@ -168,8 +153,6 @@ ExportResult exportMujoco(const ExportInput& input) {
   result.others.push_back({"meshes/wall_*.stl", "the wall, in metres"});
   result.start = startOf(scene);
   result.losses = treeLosses(input.source.tree);
-  if (!solid.isShell)
-    result.remarks.push_back("all that is not lumen is solid instead of a thick wall: " + solid.why);
   result.ends = std::move(solid.surface.ends);
   result.surface = std::move(solid.surface.report);
   return result;

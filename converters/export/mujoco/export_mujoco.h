@@ -7,8 +7,8 @@
 namespace lumen::convert {
 
 /// scene.xml, whose wire bends by the plugin mujoco.elasticity.cable; scene-joints.xml, the same for engines without
-/// plugins; meshes/wall_K.stl. Metres. The wall is a solid around the lumen where one of usual thickness can be made
-/// without touching itself, else all that is not lumen (SolidKind). Throws as lumenSurface() and insertionOf().
+/// plugins; meshes/wall_K.stl. Metres. Solid is all that is not lumen, or with a thickness in the options a wall of it,
+/// as far as the wire reaches. Throws as lumenSurface() and insertionOf().
 ExportResult exportMujoco(const ExportInput& input);
 
 }  // namespace lumen::convert

@@ -11,7 +11,7 @@ namespace lumen::convert {
 /// A rod of one material and what its chain needs to be integrated. Sources of the material: docs/sofa.md.
 struct Wire {
   double radius = 0.18e-3;  ///< m: 0.014 inches
-  double modulus = 10e9;    ///< Pa, in bending
+  double modulus = 1e9;     ///< Pa, in bending: a cable has one, here that of the soft tip
   double poisson = 0.33;
   double density = 6450;  ///< kg/m^3
   double link = 1e-3;     ///< m; the chord of a bend of 3 mm radius leaves it by 0.04 mm
@@ -22,15 +22,15 @@ struct Wire {
   [[nodiscard]] double shearModulus() const { return modulus / (2 + 2 * poisson); }
   /// N m / rad, of the joint between two links: E I / link.
   [[nodiscard]] double jointStiffness() const;
-  /// kg m^2. A link of a millimetre swings in microseconds. Inertia against bending, not against motion, lets it
-  /// swing once in some twenty steps, and leaves what is slower than that as it is.
+  /// kg m^2. A link of a millimetre swings in microseconds. Inertia against bending, not against motion, slows
+  /// that down to what a time step can follow, and leaves what is slower as it is.
   [[nodiscard]] double armature() const;
-  /// N m s / rad: damps the fastest swing by 0.3 of the critical.
+  /// N m s / rad: damps that swing almost critically.
   [[nodiscard]] double damping() const;
 };
 
 /// s
-constexpr double kMujocoStep = 2e-3;
+constexpr double kMujocoStep = 1e-3;
 
 /// How a wire bends in a scene.
 enum class WireSprings { Plugin, Joints };
