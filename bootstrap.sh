@@ -149,7 +149,7 @@ run_ctest() {
   all=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* tests="\([0-9]*\)".*/\1/p')
   failed=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* failures="\([0-9]*\)".*/\1/p')
   skipped=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* skipped="\([0-9]*\)".*/\1/p')
-  [ "$skipped" -eq 0 ] || echo "$skipped skipped: they need files that are not in the repository"
+  [ "$skipped" -eq 0 ] || echo "$skipped skipped: they need files or programs that are not here; each says which"
   echo "$((all - failed - skipped)) passed, $failed failed"
   return "$status"
 }

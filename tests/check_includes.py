@@ -24,7 +24,7 @@ FORMATS = ["formats/container", "formats/field", "formats/view", "formats/case"]
 MAY_INCLUDE["converters/common"] = FORMATS
 STAGES = {"volume": [], "seeds": ["volume"], "centerline": ["seeds"], "tracking": ["seeds", "volume"], "fitting": [], "mesh": [], "surface": ["mesh"], "compare": [],
           "check": ["volume"], "phantom": ["seeds", "volume", "centerline"],
-          "export": ["mesh", "surface", "export/sofa"], "export/sofa": ["mesh", "surface", "export"],
+          "export": ["mesh", "surface", "centerline", "export/sofa"], "export/sofa": ["mesh", "surface", "export"],
           "inside": ["volume", "centerline", "mesh", "surface"], "editing": ["fitting"]}
 for stage, below in STAGES.items():
     MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]

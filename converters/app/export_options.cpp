@@ -77,6 +77,14 @@ void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
       ->type_name("LENGTH")
       ->group("Surface")
       ->default_str("0.5r");
+  app.add_option_function<std::string>(
+         "--thickness",
+         [&surface](const std::string& text) {
+           surface.thickness = convert::parseLength(text, "--thickness");
+         },
+         "Of a wall as a solid, such as 0.5 (mm) or 0.2r [by the target]")
+      ->type_name("LENGTH")
+      ->group("Surface");
   OptionGroup(app, "Surface")
       .add("--max-error", surface.maxError, "MM",
            "Drop triangles as long as the surface stays within this distance of that with all; 0: "

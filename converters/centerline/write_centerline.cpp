@@ -115,6 +115,20 @@ void writeCurve(formats::JsonWriter& json, const CenterlineTree& tree,
   json.end();
 }
 
+template <class Write>
+std::string markupsFile(Write write) {
+  formats::JsonWriter json(formats::JsonStyle::Readable);
+  json.beginObject();
+  json.key("@schema");
+  json.text(kMarkupsSchema);
+  json.key("markups");
+  json.beginArray();
+  write(json);
+  json.end();
+  json.end();
+  return json.take() + '\n';
+}
+
 }  // namespace
 
 std::string encodeSwc(const CenterlineTree& tree) {
@@ -145,19 +159,14 @@ std::string encodeTre(const CenterlineTree& tree) {
 }
 
 std::string encodeCurves(const CenterlineTree& tree) {
-  formats::JsonWriter json(formats::JsonStyle::Readable);
-  json.beginObject();
-  json.key("@schema");
-  json.text(
-      "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
-      "Schema/markups-schema-v1.0.3.json#");
-  json.key("markups");
-  json.beginArray();
-  for (const formats::Branch& branch : tree.branches)
-    if (branch.nodeCount > 0) writeCurve(json, tree, branch);
-  json.end();
-  json.end();
-  return json.take() + '\n';
+  return markupsFile([&tree](formats::JsonWriter& json) {
+    for (const formats::Branch& branch : tree.branches)
+      if (branch.nodeCount > 0) writeCurve(json, tree, branch);
+  });
+}
+
+std::string encodeCurve(const CenterlineTree& tree, const formats::Branch& branch) {
+  return markupsFile([&](formats::JsonWriter& json) { writeCurve(json, tree, branch); });
 }
 
 }  // namespace lumen::convert

@@ -29,4 +29,12 @@ std::string encodeVtpCenterline(const formats::CenterlineTree& tree);
 /// its parent's axis.
 std::string encodeCurves(const formats::CenterlineTree& tree);
 
+/// The same of one branch, which has a node.
+std::string encodeCurve(const formats::CenterlineTree& tree, const formats::Branch& branch);
+
+/// What "@schema" of a Slicer Markups file says.
+inline constexpr const char* kMarkupsSchema =
+    "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
+    "Schema/markups-schema-v1.0.3.json#";
+
 }  // namespace lumen::convert

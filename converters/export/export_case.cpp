@@ -22,11 +22,14 @@ bool hasLength(const Branch& branch) {
 
 void requireParts(const ExportTarget& target, const formats::Case& source) {
   if (target.needsModels && !source.models)
-    throw invalidInput("this case has no models, so there is no wall to export; lumen fit makes them");
+    throw invalidInput(
+        "this case has no models, so there is no wall to export; lumen fit makes them");
   const auto& branches = source.tree.branches;
   if (target.needsVessel && std::none_of(branches.begin(), branches.end(), hasLength))
-    throw invalidInput("this case has no vessel with a length, that is, of two nodes or more, so there is "
-                       "nothing to export to " + std::string(target.name));
+    throw invalidInput(
+        "this case has no vessel with a length, that is, of two nodes or more, so there is "
+        "nothing to export to " +
+        std::string(target.name));
 }
 
 template <class Value>

@@ -66,9 +66,8 @@ std::span<const std::byte> bytesOf(const std::string& text) {
 Json filesJson(const std::vector<ExportFile>& files) {
   Json list = Json::array();
   for (const ExportFile& file : files) {
-    Json one = {{"name", file.name},
-                {"bytes", file.bytes.size()},
-                {"sha256", sha256(bytesOf(file.bytes))}};
+    Json one = {
+        {"name", file.name}, {"bytes", file.bytes.size()}, {"sha256", sha256(bytesOf(file.bytes))}};
     if (!file.unit.empty()) one["unit"] = file.unit;
     list.push_back(std::move(one));
   }
@@ -99,7 +98,8 @@ std::string endsTable(const ExportFrame& frame, const std::vector<NamedEnd>& end
   if (ends.empty()) return "";
   const std::string unit(unitName(frame.unit));
   std::string text = "\n## Ends of the vessels\n\n| name | position, " + unit +
-                     " | direction, out of the vessel | radius, " + unit + " |\n|---|---|---|---|\n";
+                     " | direction, out of the vessel | radius, " + unit +
+                     " |\n|---|---|---|---|\n";
   for (const NamedEnd& end : ends)
     text += "| " + cell(end.name) + " | " + tuple(frame.position(end.position)) + " | " +
             tuple(frame.direction(end.direction)) + " | " + digits(frame.length(end.radius)) +
@@ -125,21 +125,20 @@ std::string readmeOf(const ExportTarget& target, const ExportFrame& frame,
 std::string manifestOf(const ExportTarget& target, const ExportFrame& frame,
                        const formats::Case& source, const OptionTexts& options,
                        const ExportResult& result) {
-  const Json json = {
-      {"format", "lumen-export"},
-      {"version", kManifestVersion},
-      {"target", target.name},
-      {"title", target.title},
-      {"generator", "lumen " LUMEN_VERSION},
-      {"case", {{"sha256", sha256(formats::encodeBinary(source))}}},
-      {"options", options},
-      {"unit", unitName(frame.unit)},
-      {"axes", axesName(frame.axes)},
-      {"transform", matrixJson(frame.matrix())},
-      {"ends", endsJson(frame, result.ends)},
-      {"remarks", result.remarks},
-      {"losses", result.losses},
-      {"files", filesJson(result.files)}};
+  const Json json = {{"format", "lumen-export"},
+                     {"version", kManifestVersion},
+                     {"target", target.name},
+                     {"title", target.title},
+                     {"generator", "lumen " LUMEN_VERSION},
+                     {"case", {{"sha256", sha256(formats::encodeBinary(source))}}},
+                     {"options", options},
+                     {"unit", unitName(frame.unit)},
+                     {"axes", axesName(frame.axes)},
+                     {"transform", matrixJson(frame.matrix())},
+                     {"ends", endsJson(frame, result.ends)},
+                     {"remarks", result.remarks},
+                     {"losses", result.losses},
+                     {"files", filesJson(result.files)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

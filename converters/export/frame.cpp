@@ -25,18 +25,24 @@ Eigen::Vector3d doubles(const Float3& v) {
 
 std::string_view unitName(LengthUnit unit) {
   switch (unit) {
-    case LengthUnit::Centimetre: return "cm";
-    case LengthUnit::Metre: return "m";
-    case LengthUnit::Millimetre: break;
+    case LengthUnit::Centimetre:
+      return "cm";
+    case LengthUnit::Metre:
+      return "m";
+    case LengthUnit::Millimetre:
+      break;
   }
   return "mm";
 }
 
 std::string_view axesName(Axes axes) {
   switch (axes) {
-    case Axes::Ras: return "RAS";
-    case Axes::Lsa: return "LSA";
-    case Axes::Lps: break;
+    case Axes::Ras:
+      return "RAS";
+    case Axes::Lsa:
+      return "LSA";
+    case Axes::Lps:
+      break;
   }
   return "LPS";
 }
@@ -47,18 +53,24 @@ std::string_view upName(Axes axes) {
 
 std::string_view axesText(Axes axes) {
   switch (axes) {
-    case Axes::Ras: return "x right, y anterior, z superior (up)";
-    case Axes::Lsa: return "x left, y superior (up), z anterior";
-    case Axes::Lps: break;
+    case Axes::Ras:
+      return "x right, y anterior, z superior (up)";
+    case Axes::Lsa:
+      return "x left, y superior (up), z anterior";
+    case Axes::Lps:
+      break;
   }
   return "x left, y posterior, z superior (up)";
 }
 
 double ExportFrame::scale() const {
   switch (unit) {
-    case LengthUnit::Centimetre: return 0.1;
-    case LengthUnit::Metre: return 0.001;
-    case LengthUnit::Millimetre: break;
+    case LengthUnit::Centimetre:
+      return 0.1;
+    case LengthUnit::Metre:
+      return 0.001;
+    case LengthUnit::Millimetre:
+      break;
   }
   return 1;
 }

@@ -22,7 +22,7 @@ enum class Axes : std::uint8_t {
 
 std::string_view unitName(LengthUnit unit);  ///< "mm", "cm", "m"
 std::string_view axesName(Axes axes);        ///< "LPS", "RAS", "LSA"
-std::string_view upName(Axes axes);    ///< the axis that looks up: "y", "z"
+std::string_view upName(Axes axes);          ///< the axis that looks up: "y", "z"
 std::string_view axesText(Axes axes);        ///< "x left, y posterior, z superior (up)"
 
 /// A rotation of a case's frame, then a scale: nothing is mirrored or moved.

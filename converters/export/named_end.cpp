@@ -67,8 +67,8 @@ Eigen::Vector3d faceArea(const SurfaceMesh& mesh, std::uint32_t group) {
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
     if (mesh.group[t] != group) continue;
     const Eigen::Vector3d a = pointOf(mesh, mesh.triangle[t][0]);
-    sum += 0.5 * (pointOf(mesh, mesh.triangle[t][1]) - a)
-                     .cross(pointOf(mesh, mesh.triangle[t][2]) - a);
+    sum += 0.5 *
+           (pointOf(mesh, mesh.triangle[t][1]) - a).cross(pointOf(mesh, mesh.triangle[t][2]) - a);
   }
   return sum;
 }

@@ -16,9 +16,9 @@ namespace lumen::convert {
 struct NamedEnd {
   std::string name;  ///< of its group of faces: "inlet", "inlet-LABEL", "outlet-LABEL", "cap-LABEL"
   FaceKind kind = FaceKind::Outlet;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS: the middle of the opening
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< mm, LPS: the middle of the opening
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit, LPS, out of the vessel
-  double radius = 0;  ///< mm, of the circle of the same area
+  double radius = 0;                                     ///< mm, of the circle of the same area
 };
 
 /// One for each group of faces but walls, in their order, measured on the edges that it shares with the lumen's

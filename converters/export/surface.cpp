@@ -2,7 +2,10 @@
 #include "converters/export/surface.h"
 
 #include <cstddef>
+#include <string>
 #include <utility>
+
+#include "converters/common/error.h"
 
 namespace lumen::convert {
 
@@ -31,6 +34,19 @@ ExportedSurface wallSurface(const ExportInput& input, const Length& usual) {
   ClosedSurfaceOptions options = input.options.surface;
   if (!options.thickness) options.thickness = usual;
   return surfaceWith(input, options);
+}
+
+WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen) {
+  if (input.options.surface.thickness) return {wallSurface(input, usual), ""};
+  // it takes minutes to find that the walls of many touching vessels meet
+  if (!lumen.overlaps.empty())
+    return {std::nullopt, "vessels overlap, so walls around them would meet"};
+  try {
+    return {wallSurface(input, usual), ""};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Failed) throw;
+    return {std::nullopt, error.what()};
+  }
 }
 
 }  // namespace lumen::convert

@@ -32,7 +32,7 @@ struct ExportOptions {
 struct ExportInput {
   const formats::Case& source;
   const ExportOptions& options;
-  ExportFrame frame;    ///< as chosen, or the target's first unit and axes
+  ExportFrame frame;  ///< as chosen, or the target's first unit and axes
   Progress& progress;
 };
 
@@ -45,12 +45,14 @@ struct ExportFile {
 };
 
 struct ExportResult {
-  std::vector<ExportFile> files;  ///< without README.md and lumen-export.json, which every folder gets
-  std::vector<NamedEnd> ends;     ///< under the names that the files use
+  std::vector<ExportFile>
+      files;                   ///< without README.md and lumen-export.json, which every folder gets
+  std::vector<NamedEnd> ends;  ///< under the names that the files use
   std::optional<SurfaceReport> surface;  ///< of the surface among the files
   std::vector<std::string> remarks;      ///< sentences for the answer
   std::vector<std::string> losses;       ///< sentences of what the case has and the folder has not
-  std::string start;  ///< README.md: how to start, and what to know; Markdown, without headings of level 1
+  std::string
+      start;  ///< README.md: how to start, and what to know; Markdown, without headings of level 1
   /// README.md: rows of its table for files that are many, or made later.
   std::vector<std::array<std::string, 2>> others;
 };
@@ -59,12 +61,13 @@ struct ExportTarget {
   /// Throws lumen::Error: InvalidInput where a case is not what the target can hold, and why.
   using Writer = ExportResult (*)(const ExportInput& input);
 
-  std::string_view name;                ///< as the command takes it
-  std::string_view title;               ///< what reads the folder
-  std::vector<std::string_view> files;  ///< that are in every folder, besides those that all targets write
-  std::vector<LengthUnit> units;        ///< that may be chosen, the usual one first
-  std::vector<Axes> axes;               ///< likewise
-  std::string_view holds;               ///< of a case
+  std::string_view name;   ///< as the command takes it
+  std::string_view title;  ///< what reads the folder
+  std::vector<std::string_view>
+      files;  ///< that are in every folder, besides those that all targets write
+  std::vector<LengthUnit> units;  ///< that may be chosen, the usual one first
+  std::vector<Axes> axes;         ///< likewise
+  std::string_view holds;         ///< of a case
   std::string_view lacks;
   std::vector<std::string_view> options;  ///< that it takes, besides --unit and --up
   bool needsModels = true;

@@ -198,12 +198,21 @@ std::vector<json> dracoPrimitives(GltfDocument& document, const Level& level, co
   return primitives;
 }
 
+// The shortest rotation of z to the direction, as a quaternion x, y, z, w.
+json turnFromZ(const std::array<double, 3>& d) {
+  if (d[2] < -1 + 1e-12) return json::array({1.0, 0.0, 0.0, 0.0});
+  const double length = std::sqrt(d[1] * d[1] + d[0] * d[0] + (1 + d[2]) * (1 + d[2]));
+  return json::array({-d[1] / length, d[0] / length, 0.0, (1 + d[2]) / length});
+}
+
 // Writes the levels of one surface; holds what they share.
 class Scene {
 public:
-  Scene(std::span<const SurfaceMesh> levels, const WriteMeshOptions& options)
+  Scene(std::span<const SurfaceMesh> levels, const WriteMeshOptions& options,
+        const GltfScene* layout = nullptr)
       : m_document(options.meshopt),
         m_options(options),
+        m_layout(layout),
         m_first(levels.front()),
         m_scale(scaleOf(m_first, options.color)),
         m_grid(gridOf(levels)),
@@ -211,31 +220,46 @@ public:
     m_document.content["asset"] = {{"version", "2.0"}, {"generator", "lumen " LUMEN_VERSION}};
     m_document.content["scene"] = 0;
     m_document.add("scenes", {{"nodes", json::array({0})}});
-    m_document.add("nodes", rootNode());
+    m_document.add("nodes", layout ? json{{"name", "vessels"}} : rootNode());
     for (const SurfaceMesh& level : levels) addLevel(level);
     for (const auto& [branch, nodes] : m_nodes) link(nodes);
+    if (layout)
+      for (const GltfPlace& place : layout->places) addPlace(place);
   }
 
   std::string write(bool binary) { return m_document.write(binary); }
 
 private:
+  void addChild(int node) { m_document.content["nodes"][0]["children"].push_back(node); }
+
+  void addPlace(const GltfPlace& place) {
+    addChild(m_document.add("nodes", {{"name", place.name},
+                                      {"translation", place.position},
+                                      {"rotation", turnFromZ(place.direction)}}));
+  }
+
   void addLevel(const SurfaceMesh& surface) {
     Level level{surface, partsOf(surface, m_options.per), {}};
     if (!m_options.draco)
       for (MeshPart& part : level.parts) orderForDrawing(part);
     level.streams = streamsOf(surface, level.parts, m_scale);
+    if (m_layout)
+      std::erase_if(level.streams, [](const VertexStream& stream) {
+        return stream.name != "POSITION" && stream.name != "NORMAL";
+      });
     if (level.parts.empty()) return;
     const std::vector<json> primitives = m_options.draco
                                              ? dracoPrimitives(m_document, level, m_grid, m_options)
                                              : plainPrimitives(m_document, level);
     for (std::size_t i = 0; i < primitives.size();) {
       const std::uint32_t branch = level.parts[i].branch;
-      json mesh = {{"name", nameOf(branch)},
-                   {"extras", meshExtras(surface, level.streams, m_scale)}};
+      const std::string name = m_layout ? m_layout->nodes[m_nodes[branch].size()] : nameOf(branch);
+      json mesh = {{"name", name}};
+      if (!m_layout) mesh["extras"] = meshExtras(surface, level.streams, m_scale);
       for (; i < primitives.size() && level.parts[i].branch == branch; ++i)
         mesh["primitives"].push_back(finished(primitives[i], level.parts[i].group));
       const int node = m_document.add(
-          "nodes", {{"name", nameOf(branch)}, {"mesh", m_document.add("meshes", std::move(mesh))}});
+          "nodes", {{"name", name}, {"mesh", m_document.add("meshes", std::move(mesh))}});
       m_nodes[branch].push_back(node);
     }
   }
@@ -263,11 +287,14 @@ private:
 
   // The nodes of one mesh in all levels.
   void link(const std::vector<int>& nodes) {
-    json& all = m_document.content["nodes"];
-    all[0]["children"].push_back(nodes.front());
+    addChild(nodes.front());
+    if (m_layout && !m_layout->lod) {
+      for (std::size_t i = 1; i < nodes.size(); ++i) addChild(nodes[i]);
+      return;
+    }
     if (nodes.size() == 1) return;
     m_document.useExtension(kLod, false);
-    json& first = all[static_cast<std::size_t>(nodes.front())];
+    json& first = m_document.content["nodes"][static_cast<std::size_t>(nodes.front())];
     first["extensions"][kLod]["ids"] = std::vector<int>(nodes.begin() + 1, nodes.end());
     json coverage;
     for (std::size_t i = 1; i < nodes.size(); ++i)
@@ -278,6 +305,7 @@ private:
 
   GltfDocument m_document;
   const WriteMeshOptions& m_options;
+  const GltfScene* m_layout;
   const SurfaceMesh& m_first;
   ColorScale m_scale;
   DracoGrid m_grid;
@@ -293,6 +321,10 @@ std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
   if (options.draco && options.meshopt)
     throw Error(ErrorKind::Usage, "--draco and --meshopt: found both, expected one of them");
   return Scene(levels, options).write(binary);
+}
+
+std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene) {
+  return Scene(levels, WriteMeshOptions{}, &scene).write(true);
 }
 
 }  // namespace lumen::convert

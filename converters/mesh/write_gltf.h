@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "converters/mesh/surface_mesh.h"
 #include "converters/mesh/write_options.h"
@@ -33,5 +34,24 @@ constexpr std::array<double, 16> kGltfFromLps = {0.001, 0,     0,      0,  //
 /// a mesh.
 std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
                        const WriteMeshOptions& options);
+
+/// A node without a mesh: a place with a name, and with its z axis along `direction`.
+struct GltfPlace {
+  std::string name;
+  std::array<double, 3> position{};
+  std::array<double, 3> direction{0, 0, 1};  ///< unit
+};
+
+/// A scene as programs take it that look at the names of nodes, and not at matrices.
+struct GltfScene {
+  std::vector<std::string> nodes;  ///< names of the nodes, one for each level
+  bool lod = false;  ///< coarser levels by MSFT_lod; otherwise they are nodes of the scene
+  std::vector<GltfPlace> places;
+};
+
+/// The same as GLB for vertices that are in the file's frame already: the root node has no matrix, vertices have
+/// POSITION and NORMAL only, and names are those of `scene`, which has one for each level. Throws
+/// Error(Unsupported) above 2 GiB of vertex data.
+std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene);
 
 }  // namespace lumen::convert

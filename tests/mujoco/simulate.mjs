@@ -3,27 +3,11 @@
 // SPEED, m/s, is what its first actuator is asked for, from its keyframe on. Meshes are read from the folder that the
 // scene names. The answer: what the engine says of names and counts, the greatest speed and number of contacts, and
 // 100 records of time, insertion and points along the capsules, m. Exits with 1 where the engine refuses the scene.
-import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
-import load from '@mujoco/mujoco';
+import { writeFileSync } from 'node:fs';
+import { open } from './engine.mjs';
 
 const kRecords = 100;
 const kCapsule = 3; // mjGEOM_CAPSULE
-
-function filesBelow(folder, below = '') {
-  if (!existsSync(join(folder, below))) return [];
-  return readdirSync(join(folder, below), { withFileTypes: true }).flatMap((entry) => {
-    const name = below === '' ? entry.name : `${below}/${entry.name}`;
-    return entry.isDirectory() ? filesBelow(folder, name) : [name];
-  });
-}
-
-function open(mujoco, scene) {
-  const files = new mujoco.MjVFS();
-  for (const name of filesBelow(dirname(scene)))
-    if (/\.(stl|obj)$/.test(name)) files.addBuffer(name, readFileSync(join(dirname(scene), name)));
-  return mujoco.MjModel.from_xml_string(readFileSync(scene, 'utf8'), files);
-}
 
 function pointsOf(model, data) {
   const centre = [...data.geom_xpos];
@@ -64,14 +48,7 @@ if (output === undefined) {
   console.error('usage: node simulate.mjs SCENE.xml SECONDS SPEED ANSWER.json');
   process.exit(2);
 }
-const mujoco = await load();
-let model;
-try {
-  model = open(mujoco, scene);
-} catch (error) {
-  console.error(String(error).split('\n').slice(0, 3).join(' '));
-  process.exit(1);
-}
+const { mujoco, model } = await open(scene);
 const begin = Date.now();
 const answer = run(mujoco, model, Number(seconds), Number(speed));
 answer.stepsPerSecond = answer.steps / ((Date.now() - begin) / 1000);

@@ -30,13 +30,24 @@ struct Solid {
   bool isShell = false;  ///< a wall of some thickness; else all but the lumen
 };
 
-/// All that is not lumen: the lumen's open surface, turned over. It always exists, also where vessels touch, and a wire
-/// that is pressed into it is pushed back the right way however deep it is; in a wall, no farther than its middle.
+void openEnds(SurfaceMesh& mesh) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
+    const FaceKind kind = mesh.groups[mesh.group[t]].kind;
+    if (kind == FaceKind::Inlet || kind == FaceKind::Outlet) continue;
+    mesh.triangle[kept] = mesh.triangle[t];
+    mesh.group[kept++] = mesh.group[t];
+  }
+  mesh.triangle.resize(kept);
+  mesh.group.resize(kept);
+}
+
+/// All that is not lumen: the lumen's surface without its flat ends, turned over. It always exists, also where vessels
+/// touch, and a wire that is pressed into it is pushed back the right way however deep it is; in a wall, no farther
+/// than its middle.
 Solid carvedOut(const ExportInput& input) {
-  ExportOptions options = input.options;
-  options.surface.open = true;
-  Solid solid{lumenSurface({input.source, options, input.frame, input.progress}), false};
-  solid.surface.ends = endsOf(input.source.tree);
+  Solid solid{lumenSurface(input), false};
+  openEnds(solid.surface.mesh);
   solid.surface.mesh = turnedOver(std::move(solid.surface.mesh));
   return solid;
 }
