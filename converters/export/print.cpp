@@ -20,8 +20,9 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr Length kWall = {1, 0};       // mm: what printers of resin and powder hold without support
-constexpr double kLeastPrintable = .6;  // mm: below it walls of resin tear (makers' guides say 0.4 to 0.8)
+constexpr Length kWall = {1, 0};  // mm: what printers of resin and powder hold without support
+constexpr double kLeastPrintable =
+    .6;  // mm: below it walls of resin tear (makers' guides say 0.4 to 0.8)
 
 std::string fixedText(double value) {
   std::array<char, 32> text{};
@@ -68,8 +69,10 @@ void addSolid(ExportResult& result, const std::string& name, const SurfaceMesh& 
 }
 
 const char* const kStart =
-    "Open a `.3mf` in the program of the printer; it says that it is in mm, which a `.stl` cannot. `wall` is a tube "
-    "around the\nlumen, open at the ends; `core` is the lumen itself as a solid, for casting around it. Nothing is "
+    "Open a `.3mf` in the program of the printer; it says that it is in mm, which a `.stl` cannot. "
+    "`wall` is a tube "
+    "around the\nlumen, open at the ends; `core` is the lumen itself as a solid, for casting "
+    "around it. Nothing is "
     "scaled or turned.\n";
 
 }  // namespace

@@ -30,11 +30,20 @@ std::string attributeText(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < ' ' ? '_' : c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < ' ' ? '_' : c;
     }
   }
   return out;
@@ -56,7 +65,8 @@ public:
         " color=\"" + color + R"(" visibility="true" pointLabelsVisibility="true")");
   }
   [[nodiscard]] std::string text() const {
-    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<MRML version=\"Slicer4.4.0\" userTags=\"\">\n" +
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<MRML version=\"Slicer4.4.0\" "
+           "userTags=\"\">\n" +
            m_text + "</MRML>\n";
   }
 
@@ -94,7 +104,7 @@ Json pointJson(std::size_t id, const std::string& label, const std::string& desc
 }
 
 std::string markupsOf(const std::string& name, Json points) {
-  const Json markup = {{"type", "Fiducial"},       {"name", name},
+  const Json markup = {{"type", "Fiducial"},        {"name", name},
                        {"coordinateSystem", "LPS"}, {"coordinateUnits", "mm"},
                        {"labelFormat", "%N-%d"},    {"controlPoints", std::move(points)}};
   const Json file = {{"@schema", kMarkupsSchema}, {"markups", {markup}}};
@@ -146,15 +156,19 @@ ExportResult exportSlicer(const ExportInput& input) {
   scene.addPoints("seeds", "seeds.mrk.json", "0.3 0.8 0.3");
   scene.addPoints("ends", "ends.mrk.json", "0.3 0.6 1");
   result.files = {{"scene.mrml", scene.text(), "opens all of the others", ""},
-                  {"vessels.vtp", encodeVtp(made.mesh), "the closed surface of the vessels, with radii and faces by name", ""},
+                  {"vessels.vtp", encodeVtp(made.mesh),
+                   "the closed surface of the vessels, with radii and faces by name", ""},
                   {"seeds.mrk.json", seedsOf(tree),
                    "where each branch begins; `lumen track` takes it as seeds", ""},
                   {"ends.mrk.json", endMarkups(made.ends), "the named ends", ""}};
   result.files.insert(result.files.end(), curves.begin(), curves.end());
-  result.others.push_back({"centerlines/*.mrk.json", "a curve for each branch, with the measurement Radius"});
+  result.others.push_back(
+      {"centerlines/*.mrk.json", "a curve for each branch, with the measurement Radius"});
   result.start =
-      "Drag `scene.mrml` onto 3D Slicer, or File, Add Data. Every file says that its positions are LPS; Slicer shows "
-      "them in\nRAS, that is, with x and y the other way, and they lie on the volume that the case was made from.\n";
+      "Drag `scene.mrml` onto 3D Slicer, or File, Add Data. Every file says that its positions are "
+      "LPS; Slicer shows "
+      "them in\nRAS, that is, with x and y the other way, and they lie on the volume that the case "
+      "was made from.\n";
   result.losses = treeLosses(tree);
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);

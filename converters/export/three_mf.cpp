@@ -18,8 +18,10 @@ namespace {
 constexpr const char* kTypes =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
     "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
-    "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
-    "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>"
+    "<Default Extension=\"rels\" "
+    "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
+    "<Default Extension=\"model\" "
+    "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>"
     "</Types>\n";
 constexpr const char* kRelations =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -29,7 +31,8 @@ constexpr const char* kRelations =
 
 void appendFloat(std::string& text, float value) {
   std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value == 0 ? 0.0F : value);
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value == 0 ? 0.0F : value);
   text.append(digits.data(), end.ptr);
 }
 
@@ -37,7 +40,8 @@ std::string modelOf(const SurfaceMesh& mesh, const std::string& name) {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
       "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
-      "<metadata name=\"Application\">lumen " LUMEN_VERSION "</metadata>\n<resources>\n<object id=\"1\" "
+      "<metadata name=\"Application\">lumen " LUMEN_VERSION
+      "</metadata>\n<resources>\n<object id=\"1\" "
       "type=\"model\" name=\"";
   text += name;
   text += "\">\n<mesh>\n<vertices>\n";
@@ -52,10 +56,11 @@ std::string modelOf(const SurfaceMesh& mesh, const std::string& name) {
   }
   text += "</vertices>\n<triangles>\n";
   for (const Triangle& t : mesh.triangle)
-    text += "<triangle v1=\"" + std::to_string(t[0]) + "\" v2=\"" + std::to_string(t[1]) + "\" v3=\"" +
-            std::to_string(t[2]) + "\"/>\n";
+    text += "<triangle v1=\"" + std::to_string(t[0]) + "\" v2=\"" + std::to_string(t[1]) +
+            "\" v3=\"" + std::to_string(t[2]) + "\"/>\n";
   return text +
-         "</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>\n";
+         "</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item "
+         "objectid=\"1\"/>\n</build>\n</model>\n";
 }
 
 void put(std::string& to, std::uint32_t value, int bytes) {
@@ -65,7 +70,8 @@ void put(std::string& to, std::uint32_t value, int bytes) {
 std::string deflated(const std::string& raw) {
   z_stream stream{};
   // raw deflate, as zip has it
-  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) !=
+      Z_OK)
     throw failed("zlib could not begin to compress");
   std::string out(deflateBound(&stream, static_cast<uLong>(raw.size())), '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(raw.data()));
@@ -86,14 +92,14 @@ public:
     if (raw.size() >= UINT32_MAX || m_bytes.size() >= UINT32_MAX / 2)
       throw unsupported("3MF: the mesh is too large for a zip without its 64-bit extension");
     const std::string packed = deflated(raw);
-    const auto crc = static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(raw.data()),
-                                                      static_cast<uInt>(raw.size())));
+    const auto crc = static_cast<std::uint32_t>(
+        crc32(0, reinterpret_cast<const Bytef*>(raw.data()), static_cast<uInt>(raw.size())));
     const auto offset = static_cast<std::uint32_t>(m_bytes.size());
     std::string common;
-    put(common, 20, 2);          // version needed: 2.0
-    put(common, 0, 2);           // flags
-    put(common, 8, 2);           // deflate
-    put(common, 0, 2);           // time
+    put(common, 20, 2);               // version needed: 2.0
+    put(common, 0, 2);                // flags
+    put(common, 8, 2);                // deflate
+    put(common, 0, 2);                // time
     put(common, (1U << 5U) | 1U, 2);  // date: 1980-01-01
     put(common, crc, 4);
     put(common, static_cast<std::uint32_t>(packed.size()), 4);

@@ -26,7 +26,8 @@ constexpr const char* kFolder = "phantom_assets/meshes/vessel/";
 ExportedSurface coarseSurface(const ExportInput& input) {
   constexpr double kShare = 0.05;
   std::vector<float> radii = input.source.tree.radius;
-  std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
+  std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
+                   radii.end());
   ExportOptions options = input.options;
   if (options.surface.maxError == 0) options.surface.maxError = kShare * radii[radii.size() / 2];
   return lumenSurface({input.source, options, input.frame, input.progress});
@@ -37,7 +38,7 @@ struct CloseModel {
 };
 
 std::vector<SurfaceMesh> hullsOf(const ExportInput& input, const SurfaceMesh& mesh) {
-  constexpr double kHeight = 0.5;        // radii: a wire sinks in by much less
+  constexpr double kHeight = 0.5;         // radii: a wire sinks in by much less
   constexpr double kLeastVolume = 2e-15;  // m^3: MuJoCo refuses meshes of less than half of it
   const auto bytes = formats::encodeBinary(input.source);
   blob_model* opened = nullptr;
@@ -54,7 +55,8 @@ std::vector<SurfaceMesh> hullsOf(const ExportInput& input, const SurfaceMesh& me
   });
 }
 
-std::string phantomText(const ExportFrame& frame, std::size_t hulls, const std::vector<NamedEnd>& ends) {
+std::string phantomText(const ExportFrame& frame, std::size_t hulls,
+                        const std::vector<NamedEnd>& ends) {
   std::string text =
       "<!-- Vessels of a case as a phantom of CathSim; metres; LPS. Made by lumen " LUMEN_VERSION
       ". -->\n<mujoco model=\"phantom\">\n  <compiler meshdir=\"meshes\"/>\n  <asset>\n"
@@ -62,8 +64,10 @@ std::string phantomText(const ExportFrame& frame, std::size_t hulls, const std::
   const auto nameOf = [](std::size_t k) { return "hull_" + std::to_string(k); };
   for (std::size_t k = 0; k < hulls; ++k)
     text += "    <mesh name=\"" + nameOf(k) + "\" file=\"vessel/" + nameOf(k) + ".stl\"/>\n";
-  text += "  </asset>\n  <worldbody>\n    <body name=\"phantom\">\n"
-          "      <geom name=\"visual\" type=\"mesh\" mesh=\"visual\" contype=\"0\" conaffinity=\"0\"/>\n";
+  text +=
+      "  </asset>\n  <worldbody>\n    <body name=\"phantom\">\n"
+      "      <geom name=\"visual\" type=\"mesh\" mesh=\"visual\" contype=\"0\" "
+      "conaffinity=\"0\"/>\n";
   for (std::size_t k = 0; k < hulls; ++k)
     text += "      <geom name=\"" + nameOf(k) + "\" type=\"mesh\" mesh=\"" + nameOf(k) + "\"/>\n";
   for (const NamedEnd& end : ends) text += "      " + endSite(frame, end);
@@ -71,11 +75,17 @@ std::string phantomText(const ExportFrame& frame, std::size_t hulls, const std::
 }
 
 std::string startOf(std::size_t hulls) {
-  return "Copy what is in `phantom_assets` into CathSim's folder `phantom_assets` and ask for the phantom by\n"
-         "`phantom_xml=\"vessel.xml\"`. To give it another name, rename `vessel.xml` and `meshes/vessel`, and the\n"
-         "files' names in the former. Lengths are in metres: the scale of the phantom in CathSim's configuration is 1.\n\n"
-         "The wall is " + std::to_string(hulls) + " convex pieces: a prism outwards from each triangle of\n"
-         "`simplified.stl` but its flat ends, which stay open. Neighbours share their sides, and none reaches into a\n"
+  return "Copy what is in `phantom_assets` into CathSim's folder `phantom_assets` and ask for the "
+         "phantom by\n"
+         "`phantom_xml=\"vessel.xml\"`. To give it another name, rename `vessel.xml` and "
+         "`meshes/vessel`, and the\n"
+         "files' names in the former. Lengths are in metres: the scale of the phantom in CathSim's "
+         "configuration is 1.\n\n"
+         "The wall is " +
+         std::to_string(hulls) +
+         " convex pieces: a prism outwards from each triangle of\n"
+         "`simplified.stl` but its flat ends, which stay open. Neighbours share their sides, and "
+         "none reaches into a\n"
          "lumen. There is a target site at each end.\n";
 }
 

@@ -11,7 +11,9 @@ namespace lumen::convert {
 
 namespace {
 
-Eigen::Vector3d vectorOf(const Float3& p) { return {p[0], p[1], p[2]}; }
+Eigen::Vector3d vectorOf(const Float3& p) {
+  return {p[0], p[1], p[2]};
+}
 
 Float3 floatsOf(const Eigen::Vector3d& v) {
   const Eigen::Vector3f f = v.cast<float>();
@@ -25,7 +27,8 @@ std::vector<Eigen::Vector3d> wallNormals(const SurfaceMesh& mesh) {
     if (mesh.groups[mesh.group[t]].kind != FaceKind::Wall) continue;
     const auto& [a, b, c] = mesh.triangle[t];
     const Eigen::Vector3d o = vectorOf(mesh.position[a]);
-    const Eigen::Vector3d area = (vectorOf(mesh.position[b]) - o).cross(vectorOf(mesh.position[c]) - o);
+    const Eigen::Vector3d area =
+        (vectorOf(mesh.position[b]) - o).cross(vectorOf(mesh.position[c]) - o);
     for (const std::uint32_t v : mesh.triangle[t]) normals[v] += area;
   }
   for (Eigen::Vector3d& normal : normals) normal.normalize();

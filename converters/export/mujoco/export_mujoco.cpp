@@ -91,7 +91,8 @@ std::string head(const Scene& scene, WireSprings springs) {
   text +=
       "  <default>\n    <default class=\"wall\">\n"
       "      <geom contype=\"2\" conaffinity=\"1\" priority=\"1\" friction=\"0.1 0 0\" solref=\"" +
-      mujocoNumbers({20 * kMujocoStep, 1}) + "\" solimp=\"0.9 0.99 5e-05\"/>\n    </default>\n  </default>\n";
+      mujocoNumbers({20 * kMujocoStep, 1}) +
+      "\" solimp=\"0.9 0.99 5e-05\"/>\n    </default>\n  </default>\n";
   text += "  <asset>\n";
   for (std::size_t k = 0; k < scene.pieces; ++k) {
     const std::string name = "wall_" + std::to_string(k);
@@ -109,8 +110,7 @@ std::string sceneText(const Scene& scene, WireSprings springs) {
             "\" rgba=\"0.8 0.3 0.3 0.3\"/>\n";
   }
   const ExportFrame& frame = scene.input.frame;
-  for (const NamedEnd& end : scene.solid.surface.ends)
-    text += "    " + endSite(frame, end);
+  for (const NamedEnd& end : scene.solid.surface.ends) text += "    " + endSite(frame, end);
   text += wireBodies(scene.wire, frame.position(scene.insertion.position),
                      frame.direction(scene.insertion.direction), springs);
   return text + "  </worldbody>\n" + wireControls(scene.wire) + "</mujoco>\n";
@@ -125,16 +125,20 @@ std::string startOf(const Scene& scene) {
       "    mujoco.mj_resetDataKeyframe(model, data, 0)   # insertion\n"
       "    data.ctrl[0] = 0.01                            # m/s, forward\n"
       "    while data.time < 5: mujoco.mj_step(model, data)\n\n"
-      "`python -m mujoco.viewer --mjcf=scene.xml` shows it. `scene-joints.xml` is the same wire with springs in its\n"
-      "joints instead of the plugin mujoco.elasticity.cable, for engines without plugins (such as the npm package\n"
+      "`python -m mujoco.viewer --mjcf=scene.xml` shows it. `scene-joints.xml` is the same wire "
+      "with springs in its\n"
+      "joints instead of the plugin mujoco.elasticity.cable, for engines without plugins (such as "
+      "the npm package\n"
       "`@mujoco/mujoco`): as stiff in bending, a third stiffer in torsion.\n\n";
-  text += scene.solid.isShell
-              ? "The wall is a solid of the thickness that was asked for"
-              : "All that is not lumen is solid: the lumen's surface, open at its ends, with normals into the lumen";
+  text += scene.solid.isShell ? "The wall is a solid of the thickness that was asked for"
+                              : "All that is not lumen is solid: the lumen's surface, open at its "
+                                "ends, with normals into the lumen";
   text += ", in " + std::to_string(scene.pieces) +
-          (scene.pieces == 1 ? " piece" : " pieces, as MuJoCo samples each in at most 64 cells along a side") +
+          (scene.pieces == 1 ? " piece"
+                             : " pieces, as MuJoCo samples each in at most 64 cells along a side") +
           ".\nIt ends where the guidewire of " + mujocoNumbers({scene.wire.length() * 1e3}) +
-          " mm does not reach. Its geoms are of type `sdf`: as type `mesh` each would be its convex hull, and the lumen solid.\n";
+          " mm does not reach. Its geoms are of type `sdf`: as type `mesh` each would be its "
+          "convex hull, and the lumen solid.\n";
   return text;
 }
 
@@ -148,16 +152,16 @@ ExportResult exportMujoco(const ExportInput& input) {
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
   const Wire wire = wireFor(insertion);
   // what the wire cannot touch costs memory and time, most of them in a large tree
-  solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree, insertion.node,
-                                    wire.length() * 1e3);
+  solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree,
+                                    insertion.node, wire.length() * 1e3);
   const std::vector<SurfaceMesh> pieces = piecesOf(solid.surface.mesh, kCells, kCellRadii);
   const Scene scene{input, solid, pieces.size(), insertion, wire};
 
   ExportResult result;
-  result.files = {{"scene.xml", sceneText(scene, WireSprings::Plugin),
-                   "vessels, guidewire, actuator `advance`, keyframe `insertion`, a site at each end", ""},
-                  {"scene-joints.xml", sceneText(scene, WireSprings::Joints),
-                   "the same without a plugin", ""}};
+  result.files = {
+      {"scene.xml", sceneText(scene, WireSprings::Plugin),
+       "vessels, guidewire, actuator `advance`, keyframe `insertion`, a site at each end", ""},
+      {"scene-joints.xml", sceneText(scene, WireSprings::Joints), "the same without a plugin", ""}};
   for (std::size_t k = 0; k < pieces.size(); ++k)
     result.files.push_back(
         {"meshes/wall_" + std::to_string(k) + ".stl", stlInMetres(pieces[k]), "", ""});

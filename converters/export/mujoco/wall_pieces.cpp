@@ -60,8 +60,7 @@ void keepSide(const Facet& facet, int axis, double at, double sign, Facets& kept
   }
   for (std::size_t c = 2; c < corners.size(); ++c) {
     const Eigen::Vector3d& o = corners[0].position;
-    const Eigen::Vector3d area =
-        (corners[c - 1].position - o).cross(corners[c].position - o);
+    const Eigen::Vector3d area = (corners[c - 1].position - o).cross(corners[c].position - o);
     if (area.norm() > 0) kept.push_back({corners[0], corners[c - 1], corners[c]});
   }
 }

@@ -21,7 +21,9 @@ constexpr double kArmature = 400;
 // N/m, of the servo that holds the hub at what was asked: soft, as a hand is; a stop costs it 0.2 mm for each mN.
 constexpr double kServo = 5;
 
-double secondMoment(double radius) { return std::numbers::pi * std::pow(radius, 4) / 4; }
+double secondMoment(double radius) {
+  return std::numbers::pi * std::pow(radius, 4) / 4;
+}
 
 std::string attribute(const char* name, const std::string& value) {
   return " " + std::string(name) + "=\"" + value + "\"";
@@ -41,8 +43,10 @@ std::string channel(const Wire& wire) {
   const double room = 1.6 * wire.radius, side = 1e-3;
   std::string text;
   int count = 0;
-  for (const auto& [y, z] : std::initializer_list<std::array<double, 2>>{{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-    text += "      <geom name=\"introducer_" + std::to_string(count++) + "\" class=\"wall\" type=\"box\"" +
+  for (const auto& [y, z] :
+       std::initializer_list<std::array<double, 2>>{{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+    text += "      <geom name=\"introducer_" + std::to_string(count++) +
+            "\" class=\"wall\" type=\"box\"" +
             attribute("pos", mujocoNumbers({half, y * (room + side), z * (room + side)})) +
             attribute("size", mujocoNumbers({half, y != 0 ? side : room, z != 0 ? side : room})) +
             " rgba=\"0.6 0.6 0.6 0.3\"/>\n";
@@ -55,9 +59,13 @@ double Wire::mass() const {
   return density * std::numbers::pi * radius * radius * length();
 }
 
-double Wire::jointStiffness() const { return modulus * secondMoment(radius) / link; }
+double Wire::jointStiffness() const {
+  return modulus * secondMoment(radius) / link;
+}
 
-double Wire::armature() const { return kArmature * jointStiffness() * kMujocoStep * kMujocoStep; }
+double Wire::armature() const {
+  return kArmature * jointStiffness() * kMujocoStep * kMujocoStep;
+}
 
 double Wire::damping() const {
   // c = 2 z sqrt(k J) with J = kArmature k h^2
@@ -69,7 +77,8 @@ std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,
                        const Eigen::Vector3d& direction, WireSprings springs) {
   const bool isPlugin = springs == WireSprings::Plugin;
   const std::string frame = frameOf(tip - direction * wire.length(), direction);
-  std::string text = "    <body name=\"introducer\"" + frame + ">\n" + channel(wire) + "    </body>\n";
+  std::string text =
+      "    <body name=\"introducer\"" + frame + ">\n" + channel(wire) + "    </body>\n";
   text += "    <body name=\"hub\"" + frame + ">\n" +
           "      <joint name=\"advance\" type=\"slide\" axis=\"1 0 0\"/>\n" +
           "      <inertial pos=\"0 0 0\"" + attribute("mass", mujocoNumbers({wire.mass()})) +
@@ -79,7 +88,8 @@ std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,
           attribute("size", mujocoNumbers({wire.length()})) + ">\n";
   if (isPlugin)
     text += "        <plugin plugin=\"mujoco.elasticity.cable\">\n          <config key=\"twist\"" +
-            attribute("value", mujocoNumbers({wire.shearModulus()})) + "/>\n          <config key=\"bend\"" +
+            attribute("value", mujocoNumbers({wire.shearModulus()})) +
+            "/>\n          <config key=\"bend\"" +
             attribute("value", mujocoNumbers({wire.modulus})) + "/>\n        </plugin>\n";
   text += "        <joint kind=\"main\"";
   if (!isPlugin) text += attribute("stiffness", mujocoNumbers({wire.jointStiffness()}));

@@ -53,8 +53,9 @@ public:
   }
   const wall* at(int place) {
     const std::lock_guard lock(m_mutex);
-    return place >= 0 && place < static_cast<int>(m_walls.size()) ? m_walls[static_cast<std::size_t>(place)].get()
-                                                                  : nullptr;
+    return place >= 0 && place < static_cast<int>(m_walls.size())
+               ? m_walls[static_cast<std::size_t>(place)].get()
+               : nullptr;
   }
 
 private:
@@ -76,7 +77,8 @@ double unitOf(const char* text) {
 
 int init(const mjModel* m, mjData* d, int instance) {
   const char* file = mj_getPluginConfig(m, instance, "file");
-  const int place = vessels().find(file == nullptr ? "" : file, unitOf(mj_getPluginConfig(m, instance, "unit")));
+  const int place =
+      vessels().find(file == nullptr ? "" : file, unitOf(mj_getPluginConfig(m, instance, "unit")));
   d->plugin_data[instance] = reinterpret_cast<uintptr_t>(vessels().at(place));
   return place < 0 ? -1 : 0;
 }
@@ -140,6 +142,8 @@ void registerVessel() {
 }
 
 // The engine's own macro for this took other arguments from version to version.
-__attribute__((constructor)) void onLoad() { registerVessel(); }
+__attribute__((constructor)) void onLoad() {
+  registerVessel();
+}
 
 }  // namespace

@@ -19,7 +19,7 @@ typedef struct wall {
 
 /* Of a point in the vessel's frame, in the simulator's unit. */
 typedef struct wall_answer {
-  double gap;       /* to the wall, in that unit: positive in the lumen; NaN for a point that is none */
+  double gap; /* to the wall, in that unit: positive in the lumen; NaN for a point that is none */
   double normal[3]; /* unit vector out of the lumen; the gap's gradient is its opposite */
 } wall_answer;
 
