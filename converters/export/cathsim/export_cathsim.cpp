@@ -43,7 +43,9 @@ std::vector<SurfaceMesh> hullsOf(const ExportInput& input, const SurfaceMesh& me
   const auto bytes = formats::encodeBinary(input.source);
   blob_model* opened = nullptr;
   const blob_status status = blob_model_open_bytes(bytes.data(), bytes.size(), nullptr, &opened);
-  if (status != BLOB_OK) throw failed(blob_status_text(status));
+  if (status != BLOB_OK)
+    throw invalidInput(std::string("libblob cannot take the models of this case: ") +
+                       blob_status_text(status));
   const std::unique_ptr<blob_model, CloseModel> model(opened);
   const Eigen::Matrix3d back = input.frame.rotation().transpose() / input.frame.scale();
   return wallPrisms(mesh, kHeight, kLeastVolume, [&](const Float3& point) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A surface in pieces for MuJoCo's distance fields, and as prisms for CathSim.
+#include "converters/export/mujoco/wall_pieces.h"
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -8,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "converters/export/cathsim/wall_prisms.h"
-#include "converters/export/mujoco/wall_pieces.h"
 
 namespace lumen::convert {
 
@@ -59,7 +60,9 @@ double areaOf(const SurfaceMesh& mesh) {
   return sum;
 }
 
-bool isInTube(const Float3& p) { return std::hypot(p[1], p[2]) < kRadius * 0.9; }
+bool isInTube(const Float3& p) {
+  return std::hypot(p[1], p[2]) < kRadius * 0.9;
+}
 
 TEST(WallPieces, ASurfaceThatFitsIsLeftAsItIs) {
   const SurfaceMesh mesh = tube();
@@ -99,7 +102,8 @@ TEST(WallPrisms, OneForEachTriangleAndTheLumenStaysOpen) {
   const double least = kRadius * std::cos(std::numbers::pi / kSides);
   for (const SurfaceMesh& prism : prisms)
     for (const Triangle& t : prism.triangle) {
-      const Eigen::Vector3d middle = (corner(prism, t[0]) + corner(prism, t[1]) + corner(prism, t[2])) / 3;
+      const Eigen::Vector3d middle =
+          (corner(prism, t[0]) + corner(prism, t[1]) + corner(prism, t[2])) / 3;
       ASSERT_GE(std::hypot(middle.y(), middle.z()), least - 1e-6);
     }
 }
