@@ -19,10 +19,10 @@ packages=(
   build-essential cmake ninja-build ccache git ca-certificates
   libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
-  libexpat1-dev robin-map-dev libcpp-httplib-dev
+  libopenvdb-dev libexpat1-dev robin-map-dev libcpp-httplib-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
-  libgtest-dev libbenchmark-dev libcgal-dev python3-vtk9 tetgen
+  libgtest-dev libbenchmark-dev libcgal-dev libbullet-dev python3-vtk9 tetgen
 )
 
 say() { printf '\n== %s\n' "$*"; }
@@ -176,6 +176,8 @@ install_test_packages() {
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
   packages+=(libembree-dev libmujoco-dev python3-numpy)
+  # what reads openBF's input
+  packages+=(python3-yaml)
   # where a SOFA is: to run it, and to build its plugin
   packages+=(libtinyxml2-9 libglew2.2 libopengl0 libglu1-mesa libgl1)
   packages+=(libtinyxml2-dev libboost-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev)

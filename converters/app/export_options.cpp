@@ -27,6 +27,13 @@ const std::map<std::string, WallKind> kWalls = {
 const std::map<std::string, SofaDialect> kDialects = {{"current", SofaDialect::Current},
                                                       {"v23.06", SofaDialect::V23_06}};
 
+const std::map<std::string, convert::GridFormat> kGridFormats = {
+    {"nrrd", convert::GridFormat::Nrrd},
+    {"nifti", convert::GridFormat::Nifti},
+    {"mhd", convert::GridFormat::Mhd},
+    {"vdb", convert::GridFormat::Vdb},
+    {"cdf", convert::GridFormat::Cdf}};
+
 const std::map<std::string, convert::LengthUnit> kUnits = {{"mm", convert::LengthUnit::Millimetre},
                                                            {"cm", convert::LengthUnit::Centimetre},
                                                            {"m", convert::LengthUnit::Metre}};
@@ -46,10 +53,40 @@ void addSofaOptions(CLI::App& app, convert::SofaOptions& sofa) {
   app.add_option("--insert", sofa.insert, "Branch at whose beginning it is inserted [the root]")
       ->type_name("LABEL")
       ->group("SOFA");
+}
+
+void addGridOptions(CLI::App& app, convert::GridOptions& grid) {
+  OptionGroup group(app, "Grid");
   group
-      .add("--grid", sofa.grid, "MM",
-           "Distance between the samples of --wall grid; 0: by the size of the vessels")
+      .add("--grid", grid.spacing, "MM",
+           "Distance between the samples of a grid; 0: by the size of the vessels")
       ->check(kNotNegative);
+  app.add_option_function<std::vector<std::string>>(
+         "--format",
+         [&grid](const std::vector<std::string>& words) {
+           grid.formats.clear();
+           for (const std::string& word : words) grid.formats.push_back(kGridFormats.at(word));
+         },
+         "Of the files, one or more: " + alternatives(app::namesOf(kGridFormats)))
+      ->type_name("WORD")
+      ->group("Grid")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->default_str("nrrd")
+      ->check(oneOf(app::namesOf(kGridFormats)));
+  app.add_option("--band", grid.band,
+                 "How far from the wall distances go on; beyond it they are clamped, or left out "
+                 "[everywhere; vdb: 3 samples]")
+      ->type_name("MM")
+      ->group("Grid")
+      ->check(kPositive);
+  group.addFlag("--half", grid.half, "vdb: distances of 16 bits");
+  group.addFlag("--per-branch", grid.perBranch,
+                "A grid for each branch and its neighbourhood along the tree, instead of one, in "
+                "which vessels that touch are merged");
+  group.addFlag("--exact", grid.exact,
+                "Distances to the nearest point of the wall in the lumen, too, with a kink at its "
+                "axis, instead of libblob's, which are smooth, and right to first order");
 }
 
 template <class Value>
@@ -77,6 +114,15 @@ void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
       ->type_name("LENGTH")
       ->group("Surface")
       ->default_str("0.5r");
+  app.add_option_function<std::vector<std::string>>(
+         "--extend",
+         [&surface](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts)
+             surface.extend.push_back(convert::parseEndLength(text, "--extend"));
+         },
+         "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
+      ->option_text("[LABEL=]LENGTH")
+      ->group("Surface");
   app.add_option_function<std::string>(
          "--thickness",
          [&surface](const std::string& text) {
@@ -100,6 +146,7 @@ void addExportOptions(CLI::App& app, convert::ExportOptions& options) {
   addOptionalChoice(app, "--up", options.axes, kUp,
                     "The axis that looks up (superior), where the target leaves a choice");
   addSurfaceOptions(app, options.surface);
+  addGridOptions(app, options.grid);
   addSofaOptions(app, options.sofa);
 }
 

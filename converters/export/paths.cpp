@@ -22,11 +22,6 @@ using formats::CenterlineTree;
 
 constexpr double kCentimetres = 0.1;  // of a millimetre
 
-/// In lower case, as stEVE makes the names of files.
-std::string fileWord(const std::string& label) {
-  return lowerCase(openFoamWord(label));
-}
-
 BranchPath pathOf(const CenterlineTree& tree, std::uint32_t index, std::string name) {
   const formats::Branch& branch = tree.branches[index];
   BranchPath path{index, std::move(name), {}, {}};
@@ -48,6 +43,10 @@ std::string element(const std::string& name, const Eigen::Vector3d& v) {
 }
 
 }  // namespace
+
+std::string fileWord(const std::string& label) {
+  return lowerCase(openFoamWord(label));  // as stEVE makes the names of files
+}
 
 std::string plainNumber(double value) {
   std::array<char, 32> text{};

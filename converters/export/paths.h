@@ -25,6 +25,9 @@ struct BranchPath {
 /// Of all branches with a length. Throws Error(InvalidInput) if there is none.
 std::vector<BranchPath> branchPaths(const formats::CenterlineTree& tree);
 
+/// A label as the stem of a file's name: small letters, digits, "_", "." and "-".
+std::string fileWord(const std::string& label);
+
 /// A path as a file of SimVascular (.pth), in cm; `id` from 1.
 std::string encodePth(const BranchPath& path, std::size_t id);
 

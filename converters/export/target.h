@@ -13,6 +13,7 @@
 
 #include "converters/common/progress.h"
 #include "converters/export/frame.h"
+#include "converters/export/grid_options.h"
 #include "converters/export/named_end.h"
 #include "converters/export/sofa/scene.h"
 #include "converters/surface/closed_surface.h"
@@ -25,6 +26,7 @@ struct ExportOptions {
   std::optional<LengthUnit> unit;  ///< one of the target's
   std::optional<Axes> axes;        ///< one of the target's
   ClosedSurfaceOptions surface;
+  GridOptions grid;
   SofaOptions sofa;
 };
 

@@ -3,10 +3,16 @@
 #include "converters/export/cathsim/export_cathsim.h"
 #include "converters/export/engines.h"
 #include "converters/export/mujoco/export_mujoco.h"
+#include "converters/export/oned.h"
+#include "converters/export/openfoam.h"
+#include "converters/export/grid.h"
+#include "converters/export/isaac.h"
 #include "converters/export/print.h"
+#include "converters/export/simvascular.h"
 #include "converters/export/slicer.h"
 #include "converters/export/sofa/export_sofa.h"
 #include "converters/export/steve.h"
+#include "converters/export/svzerod.h"
 #include "converters/export/target.h"
 
 namespace lumen::convert {
@@ -47,6 +53,37 @@ std::vector<ExportTarget> makeTable() {
        .lacks = "links that close loops, and that an aneurysm is one",
        .options = {"--edge", "--max-error"},
        .write = exportSteve},
+      {.name = "svzerod", .title = "svZeroDSolver",
+       .files = {"model.json"},
+       .units = {kCm}, .axes = {Axes::Lps},
+       .holds = "lengths, radii, junctions and loops, as resistance, compliance and inertance of each segment",
+       .lacks = "aneurysms; the shape of sections",
+       .options = {},
+       .needsModels = false,
+       .write = exportSvZeroD},
+      {.name = "oned", .title = "svOneDSolver and openBF",
+       .files = {"vessels.in", "vessels.yml", "vessels_inlet.dat"},
+       .units = {kCm}, .axes = {Axes::Lps},
+       .holds = "lengths, radii, junctions; svOneDSolver also positions of junctions",
+       .lacks = "aneurysms; the shape of sections; of vessels all but a cone",
+       .options = {},
+       .needsModels = false,
+       .write = exportOneD},
+      {.name = "openfoam", .title = "OpenFOAM",
+       .files = {"Allrun", "system/blockMeshDict", "system/snappyHexMeshDict", "system/controlDict",
+                 "constant/triSurface/vessel.stl", "0/U", "0/p"},
+       .units = {kM}, .axes = {Axes::Lps},
+       .holds = "the surface with its named ends; a steady flow",
+       .lacks = "branches, radii, and that an aneurysm is one",
+       .options = {"--edge", "--max-error", "--extend"},
+       .write = exportOpenFoam},
+      {.name = "simvascular", .title = "SimVascular",
+       .files = {"vessels.svproj", "Models/vessel.mdl", "Models/vessel.vtp"},
+       .units = {kCm}, .axes = {Axes::Lps},
+       .holds = "branches as paths, radii as circles; the surface with its named ends; a volume mesh, by TetGen if it is installed",
+       .lacks = "links that close loops, and that an aneurysm is one",
+       .options = {"--edge", "--max-error", "--extend"},
+       .write = exportSimVascular},
       {.name = "godot", .title = "Godot 3 and 4", .files = {"vessels.glb"},
        .units = {kM}, .axes = {Axes::Lsa},
        .holds = "the wall as a solid with a collider of its triangles; the ends as nodes",
@@ -85,6 +122,21 @@ std::vector<ExportTarget> makeTable() {
        .lacks = "the tree, its radii and its models",
        .options = {"--edge", "--max-error", "--thickness"}, .needsVessel = false,
        .write = exportPrint},
+      {.name = "grid", .title = "those who read grids of distances",
+       .files = {"branches.json"},
+       .units = {kMm, kM}, .axes = {Axes::Lps},
+       .holds = "the signed distance to the wall, and whose lumen a sample is in",
+       .lacks = "what is thinner than two samples; where vessels touch, their walls, but for --per-branch",
+       .options = {"--grid", "--format", "--band", "--half", "--per-branch", "--exact"},
+       .needsVessel = false, .write = exportGrid},
+      {.name = "isaac", .title = "catheter navigation of isaac-for-healthcare, and Isaac Sim",
+       .files = {"metadata.json", "mu_volume.npy", "vessel_mask.npy", "centerline_points_mm.npy", "centerline_edges.npy",
+                 "centerline_radii_mm.npy", "vessel.usda"},
+       .units = {kM, kMm}, .axes = {Axes::Lps, Axes::Lsa},
+       .holds = "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of USD, and its ends",
+       .lacks = "names of branches, and that an aneurysm is one",
+       .options = {"--edge", "--max-error", "--thickness", "--grid"},
+       .write = exportIsaac},
   };
 }
 // clang-format on

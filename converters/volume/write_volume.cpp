@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/volume/write_volume.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <fstream>
+#include <functional>
+#include <iterator>
 #include <span>
+#include <utility>
+
+#include <itkMetaDataObject.h>
 
 #include "converters/common/error.h"
 #include "converters/common/sha256.h"
@@ -46,14 +53,16 @@ void setGeometry(itk::ImageIOBase& io, const VolumeGeometry& geometry) {
   io.SetIORegion(region);
 }
 
-void writeWithItk(const Volume& volume, const fs::path& file, VolumeFormat format,
-                  bool compressed) {
+void writeWithItk(const Volume& volume, const fs::path& file, VolumeFormat format, bool compressed,
+                  const VolumeNotes& notes) {
   const auto io = makeImageIo(format);
   setGeometry(*io, volume.geometry);
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetNumberOfComponents(1);
   io->SetUseCompression(compressed);
   io->SetFileName(file.string());
+  for (const auto& [key, text] : notes)
+    itk::EncapsulateMetaData<std::string>(io->GetMetaDataDictionary(), key, text);
   std::visit(
       [&](const auto& voxels) {
         io->SetComponentType(componentOf(voxels));
@@ -63,18 +72,29 @@ void writeWithItk(const Volume& volume, const fs::path& file, VolumeFormat forma
       volume.voxels);
 }
 
-/// True if the file holds the volume's voxels. A library may not notice that a disk is full.
+bool isConstant(const Volume& volume) {
+  return std::visit(
+      [](const auto& voxels) {
+        return std::adjacent_find(voxels.begin(), voxels.end(), std::not_equal_to<>()) ==
+               voxels.end();
+      },
+      volume.voxels);
+}
+
+/// True if the file holds the volume's voxels. A library may not notice that a disk is full. Volumes whose voxels are all
+/// the same are not read.
 bool readsBack(const Volume& volume, const fs::path& file, VolumeFormat format) {
+  if (isConstant(volume)) return true;
   return readVolume(file, format, {}, Progress()).voxels == volume.voxels;
 }
 
 bool writeWhole(const Volume& volume, const fs::path& file, VolumeFormat format, bool compressed,
-                const fs::path& name) {
+                const fs::path& name, const VolumeNotes& notes) {
   try {
     if (format == VolumeFormat::Nifti)
       writeNifti(volume, file, compressed, name);
     else
-      writeWithItk(volume, file, format, compressed);
+      writeWithItk(volume, file, format, compressed, notes);
     return readsBack(volume, file, format);
   } catch (const itk::ExceptionObject&) {
     return false;
@@ -84,17 +104,35 @@ bool writeWhole(const Volume& volume, const fs::path& file, VolumeFormat format,
   }
 }
 
-}  // namespace
-
-void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format, bool compressed) {
+/// A hidden file beside `path` that holds the volume.
+formats::PendingFile pendingVolume(const Volume& volume, const fs::path& path, VolumeFormat format,
+                                   bool compressed, const VolumeNotes& notes) {
   if (format == VolumeFormat::Dicom) throw unsupported(path.string() + ": DICOM is not written");
   auto pending = formats::PendingFile::beside(path);
   if (!pending) throw failed(pending.error().message);
-  if (!writeWhole(volume, pending->path(), format, compressed, path))
+  if (!writeWhole(volume, pending->path(), format, compressed, path, notes))
     throw failed(
         path.string() +
         ": cannot be written; is the disk full, or the size of files limited (ulimit -f)?");
-  if (const auto written = pending->commit(); !written) throw failed(written.error().message);
+  return std::move(*pending);
+}
+
+}  // namespace
+
+std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
+                         const VolumeNotes& notes) {
+  const char* const ending = format == VolumeFormat::Nrrd    ? "nrrd"
+                             : format == VolumeFormat::Nifti ? "nii"
+                                                             : "mha";
+  const fs::path place = fs::temp_directory_path() / (std::string("volume.") + ending);
+  const formats::PendingFile pending = pendingVolume(volume, place, format, compressed, notes);
+  std::ifstream in(pending.path(), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format, bool compressed) {
+  auto pending = pendingVolume(volume, path, format, compressed, {});
+  if (const auto written = pending.commit(); !written) throw failed(written.error().message);
 }
 
 formats::SourceVolume describeGeometry(const VolumeGeometry& g) {

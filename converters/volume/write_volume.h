@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "converters/volume/read_volume.h"
 #include "converters/volume/volume.h"
@@ -14,6 +16,14 @@ namespace lumen::convert {
 /// for NRRD, and in .mha for MetaImage. Throws Error(Unsupported) for DICOM.
 void writeVolume(const Volume& volume, const std::filesystem::path& path, VolumeFormat format,
                  bool compressed);
+
+/// Texts that a header of NRRD keeps beside its own fields.
+using VolumeNotes = std::map<std::string, std::string>;
+
+/// The bytes of such a file, which it writes into the system's folder of temporary files. Notes are for NRRD alone. Throws as
+/// writeVolume().
+std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
+                         const VolumeNotes& notes = {});
 
 /// The part of the next that needs no voxels.
 formats::SourceVolume describeGeometry(const VolumeGeometry& geometry);

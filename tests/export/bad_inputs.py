@@ -48,7 +48,7 @@ def edited(file, name, change):
 
 
 def ring():
-    """A trunk, and two ways round that meet again: their last nodes get a link."""
+    """A trunk, two ways round, of which the first goes on behind them: the second one's last node gets a link to it."""
     rows, first = line(1, [0, 0, -12], [0, 0, 1], 13, 1.0), 14
     for side in (1, -1):
         parent = 13
@@ -57,6 +57,9 @@ def ring():
             place = (side * 8 * math.sin(angle), 0, 8 - 8 * math.cos(angle))
             rows.append(f"{first} 0 {place[0]} {place[1]} {place[2]} 1.0 {parent}")
             parent, first = first, first + 1
+        if side == 1:
+            onward = line(first, [0, 0, 17], [0, 0, 1], 10, 1.0, parent)
+            rows, first = rows + onward, first + len(onward)
     return rows
 
 
@@ -80,10 +83,12 @@ def write(file, rows):
 
 
 def add_link(case):
-    """Between the last nodes of the two ways round."""
+    """Between the last node of the second way round and the node of another branch that is nearest to it."""
     tree = case["tree"]
-    tips = [b["firstNode"] + b["nodeCount"] - 1 for b in tree["branches"]]
-    tree["links"] = [sorted(tips[:2])]
+    second = max(range(len(tree["branches"])), key=lambda b: tree["branches"][b]["firstNode"])
+    tip = tree["branches"][second]["firstNode"] + tree["branches"][second]["nodeCount"] - 1
+    others = [n for n in range(len(tree["centre"])) if tree["branch"][n] != second]
+    tree["links"] = [sorted([tip, min(others, key=lambda n: math.dist(tree["centre"][n], tree["centre"][tip]))])]
 
 
 def folder_faults(folder):

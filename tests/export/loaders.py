@@ -221,9 +221,64 @@ def read_cathsim(folder):
     return Found(vertices=said["meshes"]["visual"], ends=said["sites"]), ""
 
 
+def read_svzerod(folder):
+    """A model without a dimension has no places but those that it notes of its ends, in cm."""
+    ends = json.loads((folder / "model.json").read_text())["boundary_conditions"]
+    return Found(ends={end["bc_name"]: 10 * np.array(end["_place"]) for end in ends}), ""
+
+
+def read_oned(folder):
+    """svOneDSolver's nodes, in cm; the first one is the inlet, others without a joint are the ends of their segments."""
+    cards = [line.split() for line in (folder / "vessels.in").read_text().splitlines()]
+    place = {card[1]: 10 * np.array([float(x) for x in card[2:5]]) for card in cards if card[:1] == ["NODE"]}
+    found = Found(ends={"inlet": place["0"]})
+    for card in cards:
+        if card[:1] == ["SEGMENT"] and "RESISTANCE" in card:
+            found.ends["outlet-" + re.sub(r"_\d+$", "", card[1])] = place[card[6]]
+    return found, ""
+
+
+def read_openfoam(folder):
+    """The text STL, in metres; the block around it, and a place within it, from the dictionaries."""
+    text = (folder / "constant/triSurface/vessel.stl").read_text()
+    found = Found(vertices=1000 * np.array([[float(x) for x in line.split()[1:]] for line in text.splitlines() if "vertex" in line]))
+    vectors = lambda file, key: [[1000 * float(x) for x in m.split()] for m in
+                                 re.findall(r"\(([-0-9.e+ ]+)\)", re.search(key + r"[^;]*;", (folder / file).read_text(), re.S)[0])]
+    corners = np.array([v for v in vectors("system/blockMeshDict", "vertices") if len(v) == 3])
+    inside = np.array(vectors("system/snappyHexMeshDict", "locationInMesh")[0])
+    low, high = found.vertices.min(axis=0), found.vertices.max(axis=0)
+    if not ((corners.min(axis=0) < low) & (corners.max(axis=0) > high)).all(): found.faults.append("the block does not hold the vessels")
+    if not ((inside > low) & (inside < high)).all(): found.faults.append("locationInMesh is not in the vessels")
+    return found, ""
+
+
+def read_simvascular(folder):
+    return Found(vertices=10 * read_vtp(folder / "Models/vessel.vtp")[0], centerline=read_pth(folder / "Paths")), ""
+def read_isaac(folder):
+    """The arrays by NumPy, which are mm, LPS; the stage by three's USD loader, whose world is metres, y up."""
+    found = Found(centerline=np.load(folder / "centerline_points_mm.npy").astype(float))
+    modules = HERE.parent.parent / "viewer/page/node_modules"
+    if not shutil.which("node") or not (modules / "three").is_dir(): return None, "node or three.js is not here"
+    done = subprocess.run(["node", str(HERE / "load_usda.mjs"), str(folder / "vessel.usda"), str(modules)],
+                          capture_output=True, text=True)
+    if done.returncode != 0: return Found(faults=["three.js: " + done.stderr[-500:]]), ""
+    stage = json.loads(done.stdout)
+    found.vertices = np.array(stage["wall"], float).reshape(-1, 3) @ GLTF_TO_LPS.T
+    found.ends = {name.replace("_", "-"): GLTF_TO_LPS @ np.array(place) for name, place in stage["ends"].items()}
+    return found, ""
+
+
+def read_grid(_folder):
+    return None, "grid_files_test compares each sample with the field where ITK finds it"
+
+
 WALL = ["--thickness", "0.4r"]
 LOADERS = {
     "sofa": Loader(read_sofa),
+    "svzerod": Loader(read_svzerod, has_surface=False),
+    "oned": Loader(read_oned, has_surface=False),
+    "openfoam": Loader(read_openfoam),
+    "simvascular": Loader(read_simvascular),
     "steve": Loader(read_steve),
     "godot": Loader(read_godot, surface=WALL),
     # no engine of theirs is to be had here: Blender's importer of glTF stands in
@@ -233,5 +288,7 @@ LOADERS = {
     "slicer": Loader(read_slicer),
     "mujoco": Loader(read_mujoco),
     "cathsim": Loader(read_cathsim),
+    "grid": Loader(read_grid, has_surface=False),
+    "isaac": Loader(read_isaac, surface=["--thickness", "0.2r"]),
     "print": Loader(read_print, surface=["--thickness", "1"], ends=[]),
 }

@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "converters/common/text.h"
-#include "converters/export/sofa/distance_grid.h"
+#include "converters/export/distance_grid.h"
+#include "converters/export/meta_image.h"
 #include "converters/export/surface.h"
 #include "converters/mesh/write_plain.h"
 #include "formats/case/binary_encode.h"
@@ -87,31 +88,22 @@ std::string startOf(const SceneInput& input, const SofaOptions& options) {
   return text;
 }
 
-/// Sentences about vessels that a grid passes over: those with less than two samples across.
-std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTree& tree) {
-  const auto lost = std::count_if(tree.radius.begin(), tree.radius.end(),
-                                  [spacing](float radius) { return radius < spacing; });
-  if (lost == 0) return {};
-  return {"the grid's samples are " + fixedText(spacing) +
-          " mm apart, too wide for the vessels at " +
-          counted(static_cast<std::size_t>(lost), "node", "nodes") + " of " +
-          std::to_string(tree.nodeCount()) + "; --grid takes a smaller distance"};
-}
-
-void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input,
-                  std::span<const std::byte> bytes) {
-  const auto& radius = input.source.tree.radius;
-  const double thinnest = *std::min_element(radius.begin(), radius.end());
-  const DistanceGrid grid =
-      distanceGrid(bytes, scene.low, scene.high, input.options.sofa.grid, thinnest, input.progress);
-  scene.grid = {grid.size, grid.first, grid.last()};
-  result.losses = gridLosses(grid.spacing, input.source.tree);
-  result.files.push_back({"wall.raw", encodeGridDoubles(grid),
+void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
+  constexpr double kBorder = 1,
+                   kBorderSamples = 3;  // mm: contacts look for the wall so far from it
+  const PlaceBox box{scene.low, scene.high};
+  const double spacing = gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
+  const Lattice lattice = latticeOver(box, kBorder + kBorderSamples * spacing, spacing);
+  const VesselDistance vessels(input.source);
+  const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);
+  scene.grid = {lattice.size, lattice.first, lattice.last()};
+  result.losses = gridLosses(spacing, input.source.tree);
+  result.files.push_back({"wall.raw", distancesOf<double>(grid, -1),
                           "distances to the wall, mm, positive in the lumen, doubles, x fastest",
                           ""});
-  result.files.push_back({"distance.mhd", gridHeader(grid, "distance.raw"),
+  result.files.push_back({"distance.mhd", metaImageHeader(lattice, "MET_FLOAT", "distance.raw"),
                           "the same in floats, in `distance.raw`, for a DiscreteGridField", ""});
-  result.files.push_back({"distance.raw", encodeGridFloats(grid), "", ""});
+  result.files.push_back({"distance.raw", distancesOf<float>(grid, -1), "", ""});
 }
 
 void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOptions& options) {
@@ -140,7 +132,7 @@ ExportResult exportSofa(const ExportInput& input) {
   ExportedSurface made = lumenSurface(input);
   setBox(scene, made.mesh);
   const std::vector<std::byte> bytes = formats::encodeBinary(input.source);
-  if (options.wall == WallKind::Grid) addGridFiles(result, scene, input, bytes);
+  if (options.wall == WallKind::Grid) addGridFiles(result, scene, input);
   addSceneFiles(result, scene, options);
   result.files.push_back({"vessel.obj", encodeObj(made.mesh),
                           "the surface of the vessels, closed, normals outwards", ""});

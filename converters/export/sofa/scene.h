@@ -23,8 +23,7 @@ struct SofaOptions {
   InstrumentKind instrument = InstrumentKind::Guidewire;
   WallKind wall = WallKind::Mesh;
   SofaDialect dialect = SofaDialect::Current;
-  double step = 0.1;  ///< mm that an instrument advances in a time step
-  double grid = 0;    ///< mm between the samples of WallKind::Grid; 0: by the size of the vessels
+  double step = 0.1;     ///< mm that an instrument advances in a time step
   std::string insert{};  ///< label of a branch; empty: the root
 };
 

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/network.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "converters/common/error.h"
+#include "converters/export/blood.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using formats::BranchKind;
+using formats::CenterlineTree;
+using formats::Vec3f;
+
+void addBranch(CenterlineTree& tree, const std::string& label, int parent, const Vec3f& from,
+               const Vec3f& step, int nodes, float radius, BranchKind kind = BranchKind::Vessel) {
+  formats::Branch branch;
+  branch.label = label;
+  branch.kind = kind;
+  branch.parentNode = parent;
+  branch.firstNode = static_cast<std::uint32_t>(tree.nodeCount());
+  branch.nodeCount = static_cast<std::uint32_t>(nodes);
+  for (int k = 0; k < nodes; ++k) {
+    const auto s = static_cast<float>(k);
+    tree.parent.push_back(k == 0 ? parent : static_cast<int>(tree.nodeCount()) - 1);
+    tree.centre.push_back({from.x + s * step.x, from.y + s * step.y, from.z + s * step.z});
+    tree.direction.push_back(step);
+    tree.radius.push_back(radius);
+    tree.height.push_back(1);
+    tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
+  }
+  tree.branches.push_back(branch);
+}
+
+/// 20 mm along z with a radius of 2 mm; a side branch leaves it at 10 mm.
+CenterlineTree fork() {
+  CenterlineTree tree;
+  addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 21, 2);
+  addBranch(tree, "side", 10, {3, 0, 10}, {1, 0, 0}, 10, 1);
+  return tree;
+}
+
+const FlowSegment& segment(const FlowNetwork& network, const std::string& name) {
+  for (const FlowSegment& one : network.segments)
+    if (one.name == name) return one;
+  throw std::runtime_error("no segment " + name);
+}
+
+std::size_t count(const FlowNetwork& network, JointKind kind) {
+  std::size_t sum = 0;
+  for (const FlowJoint& joint : network.joints) sum += joint.kind == kind ? 1 : 0;
+  return sum;
+}
+
+}  // namespace
+
+TEST(FlowNetwork, SplitsAParentWhereABranchLeavesIt) {
+  const FlowNetwork network = flowNetwork(fork());
+  ASSERT_EQ(network.segments.size(), 3U);
+  EXPECT_DOUBLE_EQ(segment(network, "trunk").length(), 10);
+  EXPECT_DOUBLE_EQ(segment(network, "trunk_2").length(), 10);
+  const FlowJoint& junction = network.joints[segment(network, "trunk").to];
+  EXPECT_EQ(junction.kind, JointKind::Junction);
+  EXPECT_EQ(junction.in.size(), 1U);
+  EXPECT_EQ(junction.out.size(), 2U);
+  EXPECT_EQ(junction.place, Eigen::Vector3d(0, 0, 10));
+}
+
+TEST(FlowNetwork, BeginsASideBranchAtItsParentsWallWithItsOwnRadius) {
+  const FlowNetwork network = flowNetwork(fork());
+  const FlowSegment& side = segment(network, "side");
+  EXPECT_DOUBLE_EQ(side.length(), 10);  // from x = 2 to x = 12
+  EXPECT_EQ(side.points.front(), Eigen::Vector3d(2, 0, 10));
+  EXPECT_DOUBLE_EQ(side.radii.front(), 1);
+}
+
+TEST(FlowNetwork, BeginsBranchesOfAnEndingParentAtItsLastNode) {
+  CenterlineTree tree;
+  addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 11, 2);
+  addBranch(tree, "left", 10, {1, 0, 10}, {1, 0, 0}, 5, 1);
+  addBranch(tree, "right", 10, {-1, 0, 10}, {-1, 0, 0}, 5, 1);
+  const FlowNetwork network = flowNetwork(tree);
+  ASSERT_EQ(network.segments.size(), 3U);
+  EXPECT_DOUBLE_EQ(segment(network, "left").length(), 5);
+  EXPECT_DOUBLE_EQ(segment(network, "left").radii.front(), 1);
+}
+
+TEST(FlowNetwork, NamesEndsAsTheSurfaceDoes) {
+  CenterlineTree tree = fork();
+  const FlowNetwork one = flowNetwork(tree);
+  EXPECT_EQ(one.joints[one.trees[0].inlets[0]].name, "inlet");
+  EXPECT_EQ(one.joints[segment(one, "side").to].name, "outlet-side");
+  addBranch(tree, "other", -1, {50, 0, 0}, {0, 0, 1}, 5, 1);
+  const FlowNetwork two = flowNetwork(tree);
+  ASSERT_EQ(two.trees.size(), 2U);
+  EXPECT_EQ(two.joints[two.trees[1].inlets[0]].name, "inlet-other");
+  EXPECT_EQ(two.trees[1].outlets.size(), 1U);
+}
+
+TEST(FlowNetwork, LeavesOutSacsAndSaysSo) {
+  CenterlineTree tree = fork();
+  addBranch(tree, "sac", 5, {0, 3, 5}, {0, 1, 0}, 3, 3, BranchKind::Aneurysm);
+  const FlowNetwork network = flowNetwork(tree);
+  EXPECT_EQ(network.segments.size(), 3U);
+  ASSERT_EQ(network.messages.size(), 1U);
+  EXPECT_EQ(network.messages[0], "sac: an aneurysm, which is left out");
+}
+
+TEST(FlowNetwork, KeepsASacThatAVesselHangsOn) {
+  CenterlineTree tree = fork();
+  addBranch(tree, "sac", 20, {0, 0, 22}, {0, 0, 1}, 4, 3, BranchKind::Aneurysm);
+  addBranch(tree, "beyond", 33, {0, 0, 27}, {0, 0, 1}, 5, 1);
+  const FlowNetwork network = flowNetwork(tree);
+  EXPECT_EQ(network.trees.size(), 1U);
+  EXPECT_EQ(count(network, JointKind::Outlet), 2U);  // none at the dome, behind the vessel
+  EXPECT_EQ(network.messages.size(), 1U);
+}
+
+TEST(FlowNetwork, RefusesATreeThatNothingCanFlowOutOf) {
+  CenterlineTree tree = fork();
+  tree.links.push_back({20, 30});  // the ends of both
+  EXPECT_THROW(flowNetwork(tree), Error);
+}
+
+TEST(FlowNetwork, JoinsALinkedVesselToTheMiddleOfAnother) {
+  CenterlineTree tree = fork();
+  addBranch(tree, "bridge", 15, {3, 0, 15}, {1, 0, 0}, 5, 0.5F);
+  tree.links.push_back({26, 35});  // the middle of the side branch, the bridge's end
+  const FlowNetwork network = flowNetwork(tree);
+  ASSERT_EQ(network.trees.size(), 1U);
+  EXPECT_TRUE(network.trees[0].hasLoop);
+  EXPECT_EQ(count(network, JointKind::Outlet), 2U);
+  EXPECT_EQ(network.segments.size(), 6U);
+  EXPECT_DOUBLE_EQ(segment(network, "bridge").radii.back(), 0.5);
+}
+
+TEST(FlowNetwork, PutsAnInletBeforeARootThatForksAtOnce) {
+  CenterlineTree tree;
+  addBranch(tree, "trunk", -1, {0, 0, 0}, {0, 0, 1}, 11, 2);
+  addBranch(tree, "side", 0, {3, 0, 0}, {1, 0, 0}, 5, 1);
+  const FlowNetwork network = flowNetwork(tree);
+  ASSERT_EQ(network.trees[0].inlets.size(), 1U);
+  const FlowJoint& inlet = network.joints[network.trees[0].inlets[0]];
+  EXPECT_EQ(inlet.name, "inlet");
+  EXPECT_EQ(inlet.place, Eigen::Vector3d(0, 0, -2));
+  ASSERT_EQ(inlet.out.size(), 1U);
+  EXPECT_DOUBLE_EQ(network.segments[inlet.out[0]].length(), 2);
+}
+
+TEST(FlowNetwork, RefusesWhatNothingCanFlowThrough) {
+  CenterlineTree point;
+  addBranch(point, "one", -1, {0, 0, 0}, {0, 0, 1}, 1, 2);
+  EXPECT_THROW(flowNetwork(point), Error);
+  CenterlineTree sac;
+  addBranch(sac, "sac", -1, {0, 0, 0}, {0, 0, 1}, 5, 2, BranchKind::Aneurysm);
+  EXPECT_THROW(flowNetwork(sac), Error);
+}
+
+TEST(FlowNetwork, GivesEachEdgeToOneSegment) {
+  CenterlineTree tree = fork();
+  addBranch(tree, "twig", 10, {-3, 0, 10}, {-1, 0, 0}, 4, 1);
+  addBranch(tree, "leaf", 25, {7, 3, 10}, {0, 1, 0}, 1, 0.5F);
+  const FlowNetwork network = flowNetwork(tree);
+  double sum = 0;
+  for (const FlowSegment& one : network.segments) sum += one.length();
+  EXPECT_NEAR(sum, 20 + 10 + (1 + 3) + 2, 1e-6);  // of each guest what lies outside of its parent
+}
+
+TEST(Lumped, GivesPoiseuillesResistanceOfATube) {
+  CenterlineTree tree;
+  addBranch(tree, "tube", -1, {0, 0, 0}, {0, 0, 1}, 101, 2);
+  const Lumped values = lumped(flowNetwork(tree).segments[0]);
+  const double r = 2e-3, l = 0.1, pi = std::numbers::pi;
+  EXPECT_NEAR(values.resistance / (8 * 0.004 * l / (pi * std::pow(r, 4))), 1, 1e-9);
+  EXPECT_NEAR(values.inertance / (1060 * l / (pi * r * r)), 1, 1e-9);
+  EXPECT_NEAR(values.compliance / (1.5 * pi * r * r * l / blood::stiffness(r)), 1, 1e-9);
+}
+
+TEST(Lumped, IntegratesACone) {
+  CenterlineTree coarse, fine;
+  addBranch(coarse, "cone", -1, {0, 0, 0}, {0, 0, 10}, 2, 2);
+  coarse.radius[1] = 1;
+  addBranch(fine, "cone", -1, {0, 0, 0}, {0, 0, 0.01F}, 1001, 2);
+  for (std::size_t k = 0; k < fine.radius.size(); ++k)
+    fine.radius[k] = 2 - 0.001F * static_cast<float>(k);
+  const Lumped a = lumped(flowNetwork(coarse).segments[0]);
+  const Lumped b = lumped(flowNetwork(fine).segments[0]);
+  EXPECT_NEAR(a.resistance / b.resistance, 1, 1e-4);
+  EXPECT_NEAR(a.inertance / b.inertance, 1, 1e-4);
+  EXPECT_NEAR(a.compliance / b.compliance, 1, 5e-3);
+}
+
+TEST(OutletResistances, LetAFlowSplitByTheCubesOfRadii) {
+  const FlowNetwork network = flowNetwork(fork());
+  const std::vector<double> resistance = outletResistances(network, network.trees[0]);
+  ASSERT_EQ(resistance.size(), 2U);
+  EXPECT_NEAR(resistance[1] / resistance[0], 8, 1e-9);
+  const double flow = blood::meanFlow(2e-3);
+  EXPECT_NEAR(blood::kMeanPressure * (1 / resistance[0] + 1 / resistance[1]), flow, 1e-9 * flow);
+}
+
+}  // namespace lumen::convert
