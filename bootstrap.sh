@@ -154,13 +154,14 @@ run_ctest() {
   return "$status"
 }
 
-install_validator() {
-  local folder=tests/gltf
+# $1: a folder of tests with a package.json; $2: what it installs
+install_from_npm() {
+  local folder=$1
   if [ "$folder/node_modules/.package-lock.json" -nt "$folder/package-lock.json" ]; then
-    say "The glTF validator: present"
+    say "$2: present"
     return
   fi
-  say "The glTF validator: installing it into $folder"
+  say "$2: installing it into $folder"
   # node brings its own list of authorities; a proxy's certificate is only in the system's
   local authorities=/etc/ssl/certs/ca-certificates.crt
   [ ! -r "$authorities" ] || export NODE_EXTRA_CA_CERTS="${NODE_EXTRA_CA_CERTS:-$authorities}"
@@ -187,7 +188,8 @@ run_tests() {
   install_test_packages
   build_page
   configure_and_build
-  install_validator
+  install_from_npm tests/gltf "The glTF validator"
+  install_from_npm tests/mujoco "MuJoCo"
   run_ctest
 }
 

@@ -24,11 +24,14 @@ FORMATS = ["formats/container", "formats/field", "formats/view", "formats/case"]
 MAY_INCLUDE["converters/common"] = FORMATS
 STAGES = {"volume": [], "seeds": ["volume"], "centerline": ["seeds"], "tracking": ["seeds", "volume"], "fitting": [], "mesh": [], "surface": ["mesh"], "compare": [],
           "check": ["volume"], "phantom": ["seeds", "volume", "centerline"],
-          "export": ["volume", "mesh", "surface", "centerline", "export/sofa"], "export/sofa": ["mesh", "surface", "export"],
+          "export": ["volume", "mesh", "surface", "centerline", "export/sofa", "export/mujoco", "export/cathsim"],
+          "export/sofa": ["mesh", "surface", "export"], "export/mujoco": ["mesh", "surface", "export", "export/sofa"],
+          "export/cathsim": ["mesh", "surface", "export", "export/mujoco"],
           "inside": ["volume", "centerline", "mesh", "surface"], "editing": ["fitting"]}
 for stage, below in STAGES.items():
     MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]
 MAY_INCLUDE["converters/export"] += ["libblob/include"]  # its grids hold what libblob answers
+MAY_INCLUDE["converters/export/cathsim"] += ["libblob/include"]  # which outer corners of its prisms lie in a lumen
 MAY_INCLUDE["converters/app"] = FORMATS + ["converters/common"] + ["converters/" + s for s in STAGES]
 MAY_INCLUDE["converters/export/sofa/plugin/src/LumenSofa"] = ["libblob/include", "formats/container", "formats/view"]
 MAY_INCLUDE["converters/export/sofa/plugin/tests"] = []

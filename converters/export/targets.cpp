@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: all that the command line knows of one is its row.
+#include "converters/export/cathsim/export_cathsim.h"
 #include "converters/export/engines.h"
 #include "converters/export/grid.h"
 #include "converters/export/isaac.h"
+#include "converters/export/mujoco/export_mujoco.h"
 #include "converters/export/oned.h"
 #include "converters/export/openfoam.h"
 #include "converters/export/print.h"
@@ -22,6 +24,21 @@ constexpr auto kMm = LengthUnit::Millimetre, kCm = LengthUnit::Centimetre, kM = 
 // clang-format off
 std::vector<ExportTarget> makeTable() {
   return {
+      {.name = "cathsim", .title = "CathSim",
+       .files = {"phantom_assets/vessel.xml", "phantom_assets/meshes/vessel/visual.stl",
+                 "phantom_assets/meshes/vessel/simplified.stl", "phantom_assets/meshes/vessel/hull_0.stl"},
+       .units = {kM}, .axes = {Axes::Lps},
+       .holds = "the surface; the wall as convex pieces; the ends as targets",
+       .lacks = "the tree and its radii",
+       .options = {"--edge", "--max-error"},
+       .write = exportCathsim},
+      {.name = "mujoco", .title = "MuJoCo 3",
+       .files = {"scene.xml", "scene-joints.xml", "meshes/wall_0.stl"},
+       .units = {kM}, .axes = {Axes::Lps},
+       .holds = "the wall as a solid; a guidewire at the root, pushed by an actuator; the ends",
+       .lacks = "the tree and its radii",
+       .options = {"--edge", "--max-error", "--thickness", "--insert"},
+       .write = exportMujoco},
       {.name = "sofa", .title = "SOFA with BeamAdapter",
        .files = {"scene.scn", "scene.py", "vessel.obj", "case.lumen"},
        .units = {kMm}, .axes = {Axes::Lps},

@@ -192,6 +192,35 @@ def read_print(folder):
     return found, ""
 
 
+def read_engine(scene):
+    """What MuJoCo has of a scene: vertices of each mesh geom, and sites, in the world; m, turned to mm."""
+    engine = HERE.parent / "mujoco"
+    if not shutil.which("node") or not (engine / "node_modules/@mujoco/mujoco").exists():
+        return None, "MuJoCo is not here (npm ci in tests/mujoco)"
+    done = subprocess.run(["node", str(engine / "read_scene.mjs"), str(scene)], capture_output=True, text=True)
+    if done.returncode != 0: return None, "MuJoCo refuses it: " + done.stderr[-500:]
+    said = json.loads(done.stdout)
+    return {part: {name: 1000 * np.array(place) for name, place in said[part].items()} for part in said}, ""
+
+
+def read_mujoco(folder):
+    """The sites; planes cut the wall into pieces, whose vertices are others than the surface's, so of those it asks that
+    they reach as far as the ends do."""
+    said, why = read_engine(folder / "scene-joints.xml")
+    if said is None: return None, why
+    found = Found(ends={name: place for name, place in said["sites"].items() if not name.startswith("wire_")})
+    wall = np.concatenate([v for name, v in said["meshes"].items() if name.startswith("wall_")])
+    for name, place in found.ends.items():
+        if np.linalg.norm(wall - place, axis=1).min() > 5: found.faults.append(f"no wall is near {name}")
+    return found, ""
+
+
+def read_cathsim(folder):
+    said, why = read_engine(folder / "phantom_assets/vessel.xml")
+    if said is None: return None, why
+    return Found(vertices=said["meshes"]["visual"], ends=said["sites"]), ""
+
+
 def read_svzerod(folder):
     """A model without a dimension has no places but those that it notes of its ends, in cm."""
     ends = json.loads((folder / "model.json").read_text())["boundary_conditions"]
@@ -257,6 +286,8 @@ LOADERS = {
     "unreal": Loader(read_blender, surface=WALL),
     "blender": Loader(read_blender, surface=WALL),
     "slicer": Loader(read_slicer),
+    "mujoco": Loader(read_mujoco),
+    "cathsim": Loader(read_cathsim),
     "grid": Loader(read_grid, has_surface=False),
     "isaac": Loader(read_isaac, surface=["--thickness", "0.2r"]),
     "print": Loader(read_print, surface=["--thickness", "1"], ends=[]),

@@ -3,30 +3,30 @@
 
 #include <stdlib.h>
 
+#include "wall.h"
+
 static struct {
-  const blob_model* blobs;
+  wall wall;
   int geom, body;
-  double unit;
   int cursor_count;
   uint32_t (*cursors)[2]; /* of each geom: a sphere's centre, or a capsule's ends */
   mjfCollision sphere_box, capsule_box;
 } g_vessel;
 
-/* A point of the world in the vessel's frame, mm. */
+/* A point of the world in the vessel's frame. */
 static void to_vessel(const mjData* d, const mjtNum world[3], double point[3]) {
-  mjtNum away[3], local[3];
+  mjtNum away[3];
   mju_sub3(away, world, d->xpos + 3 * g_vessel.body);
-  mju_rotVecMatT(local, away, d->xmat + 9 * g_vessel.body);
-  for (int a = 0; a < 3; ++a) point[a] = local[a] / g_vessel.unit;
+  mju_rotVecMatT(point, away, d->xmat + 9 * g_vessel.body);
 }
 
-/* Fills a contact of a ball with the wall that is `distance` (mm, negative in the lumen) from its
- * centre. MuJoCo's normal points from the first geom, the tool, to the second, the wall. */
+/* Fills a contact of a ball with the wall. MuJoCo's normal points from the first geom, the tool, to the second, the
+ * wall. */
 static int fill_contact(const mjData* d, mjContact* contact, const mjtNum centre[3], mjtNum radius,
-                        double distance, const double normal[3], mjtNum margin) {
-  const mjtNum gap = -distance * g_vessel.unit - radius;
+                        const wall_answer* at_centre, mjtNum margin) {
+  const mjtNum gap = at_centre->gap - radius;
   if (!(gap <= margin)) return 0; /* nor if the tool is at no place */
-  mju_rotVecMat(contact->frame, normal, d->xmat + 9 * g_vessel.body);
+  mju_rotVecMat(contact->frame, at_centre->normal, d->xmat + 9 * g_vessel.body);
   mju_zero3(contact->frame + 3);
   mju_addScl3(contact->pos, centre, contact->frame, radius + 0.5 * gap);
   contact->dist = gap;
@@ -36,10 +36,9 @@ static int fill_contact(const mjData* d, mjContact* contact, const mjtNum centre
 static int collide_ball(const mjData* d, mjContact* contact, const mjtNum centre[3], mjtNum radius,
                         uint32_t* cursor, mjtNum margin) {
   double point[3];
-  blob_sample s;
   to_vessel(d, centre, point);
-  blob_query(g_vessel.blobs, BLOB_BLENDED, point, cursor, &s);
-  return fill_contact(d, contact, centre, radius, s.distance, s.normal, margin);
+  const wall_answer at_centre = wall_at(&g_vessel.wall, point, cursor);
+  return fill_contact(d, contact, centre, radius, &at_centre, margin);
 }
 
 static int sphere_vessel(const mjModel* m, const mjData* d, mjContact* contact, int g1, int g2,
@@ -68,15 +67,13 @@ static int capsule_vessel(const mjModel* m, const mjData* d, mjContact* contact,
   double from[3], to[3];
   to_vessel(d, end[0], from);
   to_vessel(d, end[1], to);
-  uint32_t cursor = g_vessel.cursors[g1][0];
-  blob_approach deepest;
-  blob_capsule_approach(g_vessel.blobs, BLOB_BLENDED, from, to, radius / g_vessel.unit, &cursor,
-                        &deepest);
-  if (deepest.t < 0.05 || deepest.t > 0.95) return count; /* an end has it */
+  wall_answer deepest;
+  const double t =
+      wall_deepest(&g_vessel.wall, from, to, radius, g_vessel.cursors[g1][0], &deepest);
+  if (t < 0.05 || t > 0.95) return count; /* an end has it */
   mjtNum point[3];
-  mju_addScl3(point, end[0], axis, 2 * half * deepest.t);
-  return count +
-         fill_contact(d, contact + count, point, radius, deepest.distance, deepest.normal, margin);
+  mju_addScl3(point, end[0], axis, 2 * half * t);
+  return count + fill_contact(d, contact + count, point, radius, &deepest, margin);
 }
 
 int vessel_attach(const mjModel* m, const char* name, const blob_model* blobs, double unit) {
@@ -88,10 +85,10 @@ int vessel_attach(const mjModel* m, const char* name, const blob_model* blobs, d
   if (g_vessel.cursors == NULL) return 0;
   for (size_t i = 0; i < size; ++i) g_vessel.cursors[i][0] = g_vessel.cursors[i][1] = BLOB_NOWHERE;
   g_vessel.cursor_count = m->ngeom;
-  g_vessel.blobs = blobs;
+  g_vessel.wall.blobs = blobs;
+  g_vessel.wall.unit = unit;
   g_vessel.geom = geom;
   g_vessel.body = m->geom_bodyid[geom];
-  g_vessel.unit = unit;
   g_vessel.sphere_box = mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX];
   g_vessel.capsule_box = mjCOLLISIONFUNC[mjGEOM_CAPSULE][mjGEOM_BOX];
   mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX] = sphere_vessel;

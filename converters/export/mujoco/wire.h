@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The guidewire of a scene of MuJoCo: a chain of rigid links with springs between them, in SI units.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+namespace lumen::convert {
+
+/// A rod of one material and what its chain needs to be integrated. Sources of the material: docs/sofa.md.
+struct Wire {
+  double radius = 0.18e-3;  ///< m: 0.014 inches
+  double modulus = 1e9;     ///< Pa, in bending: a cable has one, here that of the soft tip
+  double poisson = 0.33;
+  double density = 6450;  ///< kg/m^3
+  double link = 1e-3;     ///< m; the chord of a bend of 3 mm radius leaves it by 0.04 mm
+  int links = 0;
+
+  [[nodiscard]] double length() const { return link * links; }
+  [[nodiscard]] double mass() const;
+  [[nodiscard]] double shearModulus() const { return modulus / (2 + 2 * poisson); }
+  /// N m / rad, of the joint between two links: E I / link.
+  [[nodiscard]] double jointStiffness() const;
+  /// kg m^2. A link of a millimetre swings in microseconds. Inertia against bending, not against motion, slows
+  /// that down to what a time step can follow, and leaves what is slower as it is.
+  [[nodiscard]] double armature() const;
+  /// N m s / rad: damps that swing almost critically.
+  [[nodiscard]] double damping() const;
+};
+
+/// s
+constexpr double kMujocoStep = 1e-3;
+
+/// How a wire bends in a scene.
+enum class WireSprings { Plugin, Joints };
+
+/// The wire and what holds it, as elements of <worldbody>: a straight channel that ends at `tip` and looks along
+/// `direction`, and in it the wire, which ends there. m, in the scene's frame.
+std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,
+                       const Eigen::Vector3d& direction, WireSprings springs);
+
+/// Its <actuator> and <keyframe>.
+std::string wireControls(const Wire& wire);
+
+}  // namespace lumen::convert
