@@ -13,10 +13,10 @@ enum class GridFormat : std::uint8_t { Nrrd, Nifti, Mhd, Vdb, Cdf };
 struct GridOptions {
   double spacing = 0;  ///< mm between samples; 0: by the size of the vessels (gridSpacing())
   std::vector<GridFormat> formats = {GridFormat::Nrrd};
-  std::optional<double> band;  ///< mm
-  bool half = false;           ///< VDB: distances of 16 bits
-  bool perBranch = false;      ///< a grid for each branch instead of one
-  bool exact = false;          ///< distances to the nearest point of the wall
+  std::optional<double> band{};  ///< mm
+  bool half = false;             ///< VDB: distances of 16 bits
+  bool perBranch = false;        ///< a grid for each branch instead of one
+  bool exact = false;            ///< distances to the nearest point of the wall
 };
 
 }  // namespace lumen::convert
