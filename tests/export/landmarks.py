@@ -9,7 +9,12 @@ another. Of each folder: lumen-export.json agrees with its schema and with the f
 transform, are those of the surface; what the target's loader finds (loaders.py) lies, by the frame and unit that the
 target is known to have, where the case has it, to 1e-4 mm. Exit status: 0 all, 1 some not, 77 nothing could be read."""
 import argparse, hashlib, json, pathlib, subprocess, sys, tempfile
-import numpy as np
+try:
+    import numpy as np
+    import vtkmodules.vtkIOXML
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
 import loaders
 from loaders import farthest
 

@@ -40,6 +40,22 @@ if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
   target_compile_options(grid_files_test PRIVATE -include ${PROJECT_SOURCE_DIR}/converters/volume/itk_for_clang.h)
 endif()
 
+lumen_test(export_test
+  LIBS lumen_export
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/export_case_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/frame_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/named_end_test.cpp)
+
+# One case through every target, located again by the target's own loader; and cases that are hard to export.
+if(PYTHON AND NOT LUMEN_SANITIZE)
+  add_test(NAME Export.OneCaseIsLocatedAgainInEveryFolder
+    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/export/landmarks.py $<TARGET_FILE:lumen>)
+  add_test(NAME Export.HardCasesAreWrittenWholeOrRefused
+    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/export/bad_inputs.py $<TARGET_FILE:lumen>)
+  set_tests_properties(Export.OneCaseIsLocatedAgainInEveryFolder PROPERTIES SKIP_RETURN_CODE 77)
+endif()
+
 # Arrays by NumPy, the stage by three's USD loader.
 if(PYTHON AND NOT no_numpy AND NOT LUMEN_SANITIZE)
   add_test(NAME Isaac.ArraysAndStageAreReadByNumpyAndThree

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/named_end.h"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace lumen::convert {
+
+namespace {
+
+/// A box of 4 by 2 by 10 along z, open groups at both ends; the wall is group 0.
+SurfaceMesh box() {
+  SurfaceMesh mesh;
+  for (const float z : {0.0F, 10.0F})
+    for (const auto& [x, y] : {std::pair{0.0F, 0.0F}, {4.0F, 0.0F}, {4.0F, 2.0F}, {0.0F, 2.0F}})
+      mesh.position.push_back({x, y, z});
+  mesh.groups = {{"wall", FaceKind::Wall}, {"inlet", FaceKind::Inlet}, {"outlet-a", FaceKind::Outlet}};
+  const auto add = [&mesh](std::uint32_t group, const Triangle& t) {
+    mesh.triangle.push_back(t);
+    mesh.group.push_back(group);
+  };
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    add(0, {i, j, j + 4});
+    add(0, {i, j + 4, i + 4});
+  }
+  add(1, {0, 2, 1});
+  add(1, {0, 3, 2});
+  add(2, {4, 5, 6});
+  add(2, {4, 6, 7});
+  return mesh;
+}
+
+formats::CenterlineTree chain(std::size_t nodes) {
+  formats::CenterlineTree tree;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    tree.centre.push_back({0, 0, static_cast<float>(i)});
+    tree.direction.push_back({0, 0, 1});
+    tree.radius.push_back(1.5F);
+    tree.height.push_back(1);
+    tree.parent.push_back(static_cast<std::int32_t>(i) - 1);
+    tree.branch.push_back(0);
+  }
+  formats::Branch& branch = tree.branches.emplace_back();
+  branch.label = "a";
+  branch.nodeCount = static_cast<std::uint32_t>(nodes);
+  return tree;
+}
+
+}  // namespace
+
+TEST(NamedEnd, OfASurfaceHasItsMiddleItsWayOutAndItsArea) {
+  const auto ends = endsOf(box());
+  ASSERT_EQ(ends.size(), 2U);
+  EXPECT_EQ(ends[0].name, "inlet");
+  EXPECT_TRUE(ends[0].position.isApprox(Eigen::Vector3d(2, 1, 0)));
+  EXPECT_TRUE(ends[0].direction.isApprox(-Eigen::Vector3d::UnitZ()));
+  EXPECT_EQ(ends[1].name, "outlet-a");
+  EXPECT_TRUE(ends[1].position.isApprox(Eigen::Vector3d(2, 1, 10)));
+  EXPECT_TRUE(ends[1].direction.isApprox(Eigen::Vector3d::UnitZ()));
+  EXPECT_NEAR(ends[1].radius, std::sqrt(8 / 3.14159265358979), 1e-9);
+}
+
+TEST(NamedEnd, OfATreeAreItsFirstAndLastNodes) {
+  const auto ends = endsOf(chain(4));
+  ASSERT_EQ(ends.size(), 2U);
+  EXPECT_EQ(ends[0].name, "inlet");
+  EXPECT_EQ(ends[0].direction, -Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(ends[1].name, "outlet-a");
+  EXPECT_EQ(ends[1].position, Eigen::Vector3d(0, 0, 3));
+  EXPECT_EQ(ends[1].radius, 1.5);
+}
+
+TEST(NamedEnd, OfATreeIsNoneWhereALinkGoesOn) {
+  auto tree = chain(4);
+  tree.links = {{{1, 3}}};
+  EXPECT_EQ(endsOf(tree).size(), 1U);
+}
+
+}  // namespace lumen::convert
