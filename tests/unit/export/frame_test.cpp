@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/export/frame.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 
 namespace lumen::convert {
 

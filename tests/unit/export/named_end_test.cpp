@@ -17,7 +17,8 @@ SurfaceMesh box() {
   for (const float z : {0.0F, 10.0F})
     for (const auto& [x, y] : {std::pair{0.0F, 0.0F}, {4.0F, 0.0F}, {4.0F, 2.0F}, {0.0F, 2.0F}})
       mesh.position.push_back({x, y, z});
-  mesh.groups = {{"wall", FaceKind::Wall}, {"inlet", FaceKind::Inlet}, {"outlet-a", FaceKind::Outlet}};
+  mesh.groups = {
+      {"wall", FaceKind::Wall}, {"inlet", FaceKind::Inlet}, {"outlet-a", FaceKind::Outlet}};
   const auto add = [&mesh](std::uint32_t group, const Triangle& t) {
     mesh.triangle.push_back(t);
     mesh.group.push_back(group);
@@ -45,7 +46,7 @@ formats::CenterlineTree chain(std::size_t nodes) {
     tree.branch.push_back(0);
   }
   formats::Branch& branch = tree.branches.emplace_back();
-  branch.label = "a";
+  branch.label.assign(1, 'a');  // gcc 12 warns of "a"
   branch.nodeCount = static_cast<std::uint32_t>(nodes);
   return tree;
 }
