@@ -118,7 +118,7 @@ def check_target(target, loader, reference, work):
     for name, place in found.ends.items():
         if name in ends: faults.near(np.linalg.norm(place - ends[name]), f"end {name}")
         else: faults.append(f"end {name} is none of {sorted(ends)}")
-    faults.expect(found.vertices is not None or found.centerline is not None or found.ends, "nothing was located")
+    faults.expect(found.vertices is not None or found.centerline is not None or found.ends or found.samples, "nothing was located")
     faults.extend(found.faults)
     return faults, ""
 

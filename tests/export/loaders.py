@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """How each target of lumen export reads its folder, brought back to mm, LPS by the unit and frame that the target is
 known to have, whatever lumen-export.json says."""
-import dataclasses, json, pathlib, re, shutil, subprocess, tempfile, time, xml.etree.ElementTree as ET, zipfile
+import ctypes, ctypes.util, dataclasses, json, os, pathlib, re, shutil, subprocess, sys, tempfile, time, xml.etree.ElementTree as ET, zipfile
 import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -14,6 +14,7 @@ class Found:
     centerline: np.ndarray = None  # the tree's nodes, in any order, repeated or not
     ends: dict = dataclasses.field(default_factory=dict)
     faults: list = dataclasses.field(default_factory=list)
+    samples: int = 0               # of a grid, which were compared by the loader itself
 
 
 @dataclasses.dataclass
@@ -175,14 +176,36 @@ def read_slicer(folder):
     return found, ""
 
 
+def lib3mf_faults(file):
+    """What lib3mf, the reference reader of the 3MF Consortium, says of a file; none where it is not here."""
+    name = ctypes.util.find_library("3MF")
+    if name is None: return []
+    library, model, reader, found, mesh = ctypes.CDLL(name), *(ctypes.c_void_p() for _ in range(4))
+    warnings, count, flag = ctypes.c_uint32(), ctypes.c_uint32(), ctypes.c_int()
+    read = (library.lib3mf_createmodel(ctypes.byref(model)) or
+            library.lib3mf_model_queryreader(model, b"3mf", ctypes.byref(reader)) or
+            library.lib3mf_reader_readfromfileutf8(reader, str(file).encode()) or
+            library.lib3mf_reader_getwarningcount(reader, ctypes.byref(warnings)) or
+            library.lib3mf_model_getmeshobjects(model, ctypes.byref(found)) or
+            library.lib3mf_resourceiterator_movenext(found, ctypes.byref(flag)) or
+            library.lib3mf_resourceiterator_getcurrent(found, ctypes.byref(mesh)) or
+            library.lib3mf_meshobject_gettrianglecount(mesh, ctypes.byref(count)) or
+            library.lib3mf_meshobject_ismanifoldandoriented(mesh, ctypes.byref(flag)))
+    if read != 0: return [f"lib3mf refuses {file.name}: {read:#x}"]
+    faults = [] if flag.value else [f"lib3mf: {file.name} is not manifold and oriented"]
+    if warnings.value: faults.append(f"lib3mf has {warnings.value} warnings about {file.name}")
+    return faults + ([] if count.value else [f"lib3mf finds no triangle in {file.name}"])
+
+
 def read_print(folder):
-    """admesh's verdict on the STL; the 3MF by its XML, which says its unit."""
+    """admesh's verdict on the STL; the 3MF by lib3mf, and by its XML, which says its unit."""
     with zipfile.ZipFile(folder / "wall.3mf") as package:
         model = ET.fromstring(package.read("3D/3dmodel.model"))
     space = {"m": "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"}
     found = Found(vertices=np.array([[float(v.get(a)) for a in "xyz"] for v in model.iterfind(".//m:vertex", space)]))
     if model.get("unit") != "millimeter": found.faults.append("3MF is not in millimetres")
     if len(model.findall(".//m:item", space)) != 1: found.faults.append("3MF builds nothing")
+    found.faults += lib3mf_faults(folder / "wall.3mf") + lib3mf_faults(folder / "core.3mf")
     for name in ("wall.stl", "core.stl"):
         if not shutil.which("admesh"): return None, "admesh is not here"
         said = subprocess.run(["admesh", str(folder / name)], capture_output=True, text=True).stdout
@@ -268,8 +291,26 @@ def read_isaac(folder):
     return found, ""
 
 
-def read_grid(_folder):
-    return None, "grid_files_test compares each sample with the field where ITK finds it"
+def read_grid(folder):
+    """By VTK's reader of MetaImage: in the lumen its samples are libblob's distances at the places that it gives."""
+    library = os.environ.get("LUMEN_BLOB_LIBRARY")
+    if not library: return None, "LUMEN_BLOB_LIBRARY does not say where libblob.so is"
+    sys.path.insert(0, str(HERE.parent.parent / "libblob/python"))
+    import lumen_blob
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOImage import vtkMetaImageReader
+    reader = vtkMetaImageReader()
+    reader.SetFileName(str(folder / "distance.mhd"))
+    reader.Update()
+    image = reader.GetOutput()
+    values = vtk_to_numpy(image.GetPointData().GetScalars())
+    inside = np.flatnonzero(values < 0)
+    places = np.array([image.GetPoint(int(i)) for i in inside])
+    model = lumen_blob.Model(str(folder.parent / "landmark.lumen"))
+    distances = model.query(places).distance if len(places) else np.zeros(0)
+    off = float(np.abs(distances - values[inside]).max(initial=0))
+    faults = [] if len(places) > 1000 and off <= 1e-4 else [f"{len(places)} samples in the lumen, {off:.3g} mm off"]
+    return Found(faults=faults, samples=len(places)), ""
 
 
 WALL = ["--thickness", "0.4r"]
@@ -288,7 +329,7 @@ LOADERS = {
     "slicer": Loader(read_slicer),
     "mujoco": Loader(read_mujoco),
     "cathsim": Loader(read_cathsim),
-    "grid": Loader(read_grid, has_surface=False),
+    "grid": Loader(read_grid, options=["--format", "mhd"], has_surface=False),
     "isaac": Loader(read_isaac, surface=["--thickness", "0.2r"]),
     "print": Loader(read_print, surface=["--thickness", "1"], ends=[]),
 }
