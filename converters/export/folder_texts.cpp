@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/export/folder_texts.h"
 
-#include <array>
 #include <cstddef>
-#include <cstdio>
 #include <span>
 
 #include <nlohmann/json.hpp>
 
 #include "converters/common/sha256.h"
+#include "converters/export/number_text.h"
 #include "converters/mesh/face_kind.h"
 #include "formats/case/binary_encode.h"
 #include "formats/container/printable.h"
@@ -20,16 +19,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kManifestVersion = 1;  // of spec/export.md
-
-std::string digits(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.5g", value == 0 ? 0.0 : value);
-  return text.data();
-}
+constexpr int kDigits = 5;           // of numbers in README.md
 
 std::string tuple(const Eigen::Vector3d& v) {
   std::string text = "(";
-  text += digits(v.x()) + ", " + digits(v.y()) + ", " + digits(v.z()) + ")";
+  text += numberText(v.x(), kDigits) + ", " + numberText(v.y(), kDigits) + ", " +
+          numberText(v.z(), kDigits) + ")";
   return text;
 }
 
@@ -102,8 +97,8 @@ std::string endsTable(const ExportFrame& frame, const std::vector<NamedEnd>& end
                      " |\n|---|---|---|---|\n";
   for (const NamedEnd& end : ends)
     text += "| " + cell(end.name) + " | " + tuple(frame.position(end.position)) + " | " +
-            tuple(frame.direction(end.direction)) + " | " + digits(frame.length(end.radius)) +
-            " |\n";
+            tuple(frame.direction(end.direction)) + " | " +
+            numberText(frame.length(end.radius), kDigits) + " |\n";
   return text;
 }
 

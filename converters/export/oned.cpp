@@ -2,16 +2,15 @@
 #include "converters/export/oned.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "converters/export/blood.h"
+#include "converters/export/number_text.h"
 #include "converters/export/oned_network.h"
 
 namespace lumen::convert {
@@ -22,12 +21,6 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kCm = 100, kCm2 = 1e4, kCm3 = 1e6;  // of SI
 constexpr double kDyn = 10;                          // dyn/cm^2 of Pa
 constexpr double kCgsResistance = 1e-5;              // dyn s/cm^5 of Pa s/m^3
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value == 0 ? 0.0 : value);
-  return text.data();
-}
 
 template <class... Words>
 std::string line(const Words&... words) {
@@ -59,15 +52,15 @@ std::string segmentCards(const OneDNetwork& network) {
   for (std::size_t v = 0; v < network.vessels.size(); ++v) {
     const OneDVessel& vessel = network.vessels[v];
     const std::string id = std::to_string(v);
-    const auto area = [](double r) { return number(kCm2 * kPi * r * r); };
+    const auto area = [](double r) { return numberText(kCm2 * kPi * r * r); };
     const bool isOutlet = vessel.resistance > 0;
-    text += line("SEGMENT", vessel.name, id, number(kCm * vessel.length),
+    text += line("SEGMENT", vessel.name, id, numberText(kCm * vessel.length),
                  std::to_string(vessel.cells()), std::to_string(vessel.from),
                  std::to_string(vessel.to), area(vessel.inRadius), area(vessel.outRadius),
                  "0.0 MAT1 NONE 0.0 0 0", isOutlet ? "RESISTANCE R" + id : "NOBOUND NONE");
     if (isOutlet)
-      tables += "DATATABLE R" + id + " LIST\n0.0 " + number(kCgsResistance * vessel.resistance) +
-                "\nENDDATATABLE\n";
+      tables += "DATATABLE R" + id + " LIST\n0.0 " +
+                numberText(kCgsResistance * vessel.resistance) + "\nENDDATATABLE\n";
   }
   return text + "\n" + tables;
 }
@@ -77,16 +70,17 @@ std::string inputCards(const OneDNetwork& network, const std::string& name) {
   std::string text = "# cm, g, s, dyn; patient coordinates, LPS\nMODEL " + name + "_\n\n";
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
     const Eigen::Vector3d p = 0.1 * network.nodes[n];
-    text += line("NODE", std::to_string(n), number(p.x()), number(p.y()), number(p.z()));
+    text +=
+        line("NODE", std::to_string(n), numberText(p.x()), numberText(p.y()), numberText(p.z()));
   }
-  const std::string flow = number(kCm3 * network.flow);
+  const std::string flow = numberText(kCm3 * network.flow);
   text += "\n" + jointCards(network) + "\n" + segmentCards(network) +
           "DATATABLE INFLOW LIST\n0.0 " + flow + "\n1.0 " + flow + "\nENDDATATABLE\n\n";
   // the parabola of a Poiseuille flow has the exponent 2; radii are those at the mean pressure
-  text +=
-      line("MATERIAL MAT1 OLUFSEN", number(blood::kDensity / 1e3), number(10 * blood::kViscosity),
-           number(kDyn * blood::kMeanPressure), "2.0", number(kDyn * blood::kStiffness1),
-           number(blood::kStiffness2 / kCm), number(kDyn * blood::kStiffness3));
+  text += line("MATERIAL MAT1 OLUFSEN", numberText(blood::kDensity / 1e3),
+               numberText(10 * blood::kViscosity), numberText(kDyn * blood::kMeanPressure), "2.0",
+               numberText(kDyn * blood::kStiffness1), numberText(blood::kStiffness2 / kCm),
+               numberText(kDyn * blood::kStiffness3));
   // steps of 1 ms for 2 s, each fiftieth kept; Gauss points, tolerance, conservative form, stabilised
   return text + "\nSOLVEROPTIONS 0.001 50 2000 2 INFLOW FLOW 1.0e-6 1 1\n\nOUTPUT TEXT\n";
 }
@@ -99,27 +93,28 @@ std::string windkessel(const OneDVessel& vessel, double stiffness) {
   constexpr double kMostShare = 0.5;  // of the whole, should a wave meet more than that
   const double first = std::min(blood::kDensity * speed / area, kMostShare * vessel.resistance);
   const double second = vessel.resistance - first;
-  return "    R1: " + number(first) + "\n    R2: " + number(second) +
-         "\n    Cc: " + number(blood::kDecay / second) + "\n";
+  return "    R1: " + numberText(first) + "\n    R2: " + numberText(second) +
+         "\n    Cc: " + numberText(blood::kDecay / second) + "\n";
 }
 
 /// For openBF v2, SI.
 std::string yaml(const OneDNetwork& network, const std::string& name) {
   std::string text =
       "# SI units\nproject_name: " + name + "\ninlet_file: " + name +
-      "_inlet.dat\nwrite_results: [P, Q]\n\nblood:\n  rho: " + number(blood::kDensity) +
-      "\n  mu: " + number(blood::kViscosity) +
+      "_inlet.dat\nwrite_results: [P, Q]\n\nblood:\n  rho: " + numberText(blood::kDensity) +
+      "\n  mu: " + numberText(blood::kViscosity) +
       "\n\nsolver:\n  Ccfl: 0.9\n  cycles: 100\n  jump: 100\n  convergence_tolerance: 1.0\n\n"
       "network:\n";
   for (const OneDVessel& vessel : network.vessels) {
     const double mean = vessel.meanRadius(), stiffness = blood::stiffness(mean);
     text += "  - label: \"" + vessel.name + "\"\n    sn: " + std::to_string(vessel.from + 1) +
-            "\n    tn: " + std::to_string(vessel.to + 1) + "\n    L: " + number(vessel.length) +
-            "\n    M: " + std::to_string(vessel.cells()) + "\n    Rp: " + number(vessel.inRadius) +
-            "\n    Rd: " + number(vessel.outRadius) +
-            "\n    h0: " + number(blood::kThickness * mean) +
-            "\n    E: " + number(stiffness / blood::kThickness) +
-            "\n    Pext: " + number(blood::kMeanPressure) + "\n";
+            "\n    tn: " + std::to_string(vessel.to + 1) + "\n    L: " + numberText(vessel.length) +
+            "\n    M: " + std::to_string(vessel.cells()) +
+            "\n    Rp: " + numberText(vessel.inRadius) +
+            "\n    Rd: " + numberText(vessel.outRadius) +
+            "\n    h0: " + numberText(blood::kThickness * mean) +
+            "\n    E: " + numberText(stiffness / blood::kThickness) +
+            "\n    Pext: " + numberText(blood::kMeanPressure) + "\n";
     if (vessel.resistance > 0) text += windkessel(vessel, stiffness);
   }
   return text;
@@ -147,7 +142,7 @@ const char* const kStart =
     "2009 |\n";
 
 void addTree(ExportResult& result, const OneDNetwork& network, const std::string& name) {
-  const std::string flow = number(network.flow);
+  const std::string flow = numberText(network.flow);
   result.files.push_back(
       {name + ".in", inputCards(network, name), "for svOneDSolver, in cgs", "cm"});
   result.files.push_back({name + ".yml", yaml(network, name), "for openBF v2, in SI", "m"});

@@ -2,16 +2,15 @@
 #include "converters/export/openfoam.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "converters/common/error.h"
 #include "converters/export/blood.h"
+#include "converters/export/number_text.h"
 #include "converters/export/openfoam_cells.h"
 #include "converters/export/paths.h"
 #include "converters/export/surface.h"
@@ -30,9 +29,7 @@ struct Patch {
 };
 
 std::string exact(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.12g", value == 0 ? 0.0 : value);
-  return text.data();
+  return numberText(value, 12);
 }
 
 std::string vectorText(const Eigen::Vector3d& v) {
@@ -318,7 +315,7 @@ std::vector<ExportFile> dictionaries(const std::vector<Patch>& patches, const Fo
       {"constant/transportProperties",
        header("dictionary", "transportProperties") +
            "transportModel Newtonian;\nnu [0 2 -1 0 0 0 0] " +
-           plainNumber(blood::kViscosity / blood::kDensity) + ";\n",
+           numberText(blood::kViscosity / blood::kDensity) + ";\n",
        "blood", ""},
       {"constant/turbulenceProperties",
        header("dictionary", "turbulenceProperties") + "simulationType laminar;\n", "", ""},
@@ -327,7 +324,7 @@ std::vector<ExportFile> dictionaries(const std::vector<Patch>& patches, const Fo
 }
 
 std::string cellsRemark(const FoamCells& cells) {
-  return "cells of " + plainNumber(1e-5 * std::round(1e8 * cells.atWall)) + " mm at the wall, " +
+  return "cells of " + numberText(1e-5 * std::round(1e8 * cells.atWall)) + " mm at the wall, " +
          std::to_string(static_cast<int>(cells.acrossThinnest)) + " across the thinnest vessel";
 }
 

@@ -2,16 +2,15 @@
 #include "converters/export/paths.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "converters/common/error.h"
 #include "converters/common/text.h"
+#include "converters/export/number_text.h"
 #include "converters/mesh/plain_names.h"
 
 namespace lumen::convert {
@@ -38,20 +37,14 @@ BranchPath pathOf(const CenterlineTree& tree, std::uint32_t index, std::string n
 }
 
 std::string element(const std::string& name, const Eigen::Vector3d& v) {
-  return "<" + name + " x=\"" + plainNumber(v.x()) + "\" y=\"" + plainNumber(v.y()) + "\" z=\"" +
-         plainNumber(v.z()) + "\" />\n";
+  return "<" + name + " x=\"" + numberText(v.x()) + "\" y=\"" + numberText(v.y()) + "\" z=\"" +
+         numberText(v.z()) + "\" />\n";
 }
 
 }  // namespace
 
 std::string fileWord(const std::string& label) {
   return lowerCase(openFoamWord(label));  // as stEVE makes the names of files
-}
-
-std::string plainNumber(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value == 0 ? 0.0 : value);
-  return text.data();
 }
 
 Eigen::Vector3d BranchPath::tangent(std::size_t k) const {

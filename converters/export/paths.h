@@ -31,7 +31,4 @@ std::string fileWord(const std::string& label);
 /// A path as a file of SimVascular (.pth), in cm; `id` from 1.
 std::string encodePth(const BranchPath& path, std::size_t id);
 
-/// The shortest text that reads back as a float, for files of other programs.
-std::string plainNumber(double value);
-
 }  // namespace lumen::convert

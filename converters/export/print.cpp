@@ -2,15 +2,14 @@
 #include "converters/export/print.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "converters/export/number_text.h"
 #include "converters/export/surface.h"
 #include "converters/export/three_mf.h"
 #include "converters/mesh/triangle_tree.h"
@@ -23,12 +22,6 @@ namespace {
 constexpr Length kWall = {1, 0};  // mm: what printers of resin and powder hold without support
 constexpr double kLeastPrintable =
     .6;  // mm: below it walls of resin tear (makers' guides say 0.4 to 0.8)
-
-std::string fixedText(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f", value);
-  return text.data();
-}
 
 struct Thinnest {
   double thickness = 0;  ///< mm
@@ -57,9 +50,9 @@ Thinnest thinnestOf(const SurfaceMesh& mesh) {
 }
 
 std::string thicknessText(const Thinnest& least) {
-  return "the wall is thinnest, " + fixedText(least.thickness) + " mm, at (" +
-         fixedText(least.place.x()) + ", " + fixedText(least.place.y()) + ", " +
-         fixedText(least.place.z()) + ") mm";
+  return "the wall is thinnest, " + fixedText(least.thickness, 2) + " mm, at (" +
+         fixedText(least.place.x(), 2) + ", " + fixedText(least.place.y(), 2) + ", " +
+         fixedText(least.place.z(), 2) + ") mm";
 }
 
 void addSolid(ExportResult& result, const std::string& name, const SurfaceMesh& mesh,
@@ -94,7 +87,8 @@ ExportResult exportPrint(const ExportInput& input) {
   result.remarks.push_back(thicknessText(least));
   result.start += "\nChecked: " + thicknessText(least) + ".\n";
   if (least.thickness < kLeastPrintable)
-    result.losses.push_back(thicknessText(least) + ", less than the " + fixedText(kLeastPrintable) +
+    result.losses.push_back(thicknessText(least) + ", less than the " +
+                            fixedText(kLeastPrintable, 2) +
                             " mm that most printers hold; a greater --thickness may help");
   result.surface = std::move(attempt.wall->report);
   return result;

@@ -15,6 +15,7 @@
 
 #include "converters/common/tree_losses.h"
 #include "converters/common/vectors.h"
+#include "converters/export/number_text.h"
 #include "converters/export/paths.h"
 #include "converters/export/surface.h"
 #include "converters/export/volume_mesh.h"
@@ -43,8 +44,8 @@ const char* const kProject =
     "</projectDescription>\n";
 
 std::string element(const std::string& name, const Eigen::Vector3d& v) {
-  return "<" + name + " x=\"" + plainNumber(v.x()) + "\" y=\"" + plainNumber(v.y()) + "\" z=\"" +
-         plainNumber(v.z()) + "\" />\n";
+  return "<" + name + " x=\"" + numberText(v.x()) + "\" y=\"" + numberText(v.y()) + "\" z=\"" +
+         numberText(v.z()) + "\" />\n";
 }
 
 std::string point(std::size_t id, const Eigen::Vector3d& mm) {

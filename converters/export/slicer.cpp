@@ -15,6 +15,7 @@
 #include "converters/centerline/write_centerline.h"
 #include "converters/common/tree_losses.h"
 #include "converters/common/vectors.h"
+#include "converters/export/number_text.h"
 #include "converters/export/paths.h"
 #include "converters/export/surface.h"
 #include "converters/mesh/write_vtp.h"
@@ -117,7 +118,7 @@ std::string seedsOf(const formats::CenterlineTree& tree) {
   Json points = Json::array();
   for (const formats::Branch& branch : tree.branches) {
     if (branch.nodeCount == 0) continue;
-    std::string description = "radius=" + plainNumber(tree.radius[branch.firstNode]);
+    std::string description = "radius=" + numberText(tree.radius[branch.firstNode]);
     if (branch.kind == formats::BranchKind::Aneurysm) description += "; kind=aneurysm";
     if (branch.parentNode >= 0) {
       const auto parent = tree.branch[static_cast<std::size_t>(branch.parentNode)];
@@ -134,7 +135,7 @@ std::string endMarkups(const std::vector<NamedEnd>& ends) {
   Json points = Json::array();
   for (const NamedEnd& end : ends)
     points.push_back(pointJson(points.size() + 1, end.name,
-                               "radius " + plainNumber(end.radius) + " mm", end.position));
+                               "radius " + numberText(end.radius) + " mm", end.position));
   return markupsOf("ends", std::move(points));
 }
 

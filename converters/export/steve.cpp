@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/common/tree_losses.h"
+#include "converters/export/number_text.h"
 #include "converters/export/paths.h"
 #include "converters/export/surface.h"
 #include "converters/mesh/write_plain.h"
@@ -18,7 +19,7 @@ namespace {
 
 std::string tuple(const Eigen::Vector3d& v) {
   std::string text = "(";
-  text += plainNumber(v.x()) + ", " + plainNumber(v.y()) + ", " + plainNumber(v.z()) + ")";
+  text += numberText(v.x()) + ", " + numberText(v.y()) + ", " + numberText(v.z()) + ")";
   return text;
 }
 
@@ -37,8 +38,8 @@ std::string moduleOf(const std::vector<BranchPath>& paths) {
     text += "    (\"" + path.name + "\", [\n";
     for (std::size_t k = 0; k < path.points.size(); ++k) {
       const Eigen::Vector3d& p = path.points[k];
-      text += "        (" + plainNumber(p.x()) + ", " + plainNumber(p.y()) + ", " +
-              plainNumber(p.z()) + ", " + plainNumber(path.radii[k]) + "),\n";
+      text += "        (" + numberText(p.x()) + ", " + numberText(p.y()) + ", " +
+              numberText(p.z()) + ", " + numberText(path.radii[k]) + "),\n";
     }
     text += "    ]),\n";
   }

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/common/vectors.h"
+#include "converters/export/number_text.h"
 #include "converters/export/paths.h"
 #include "converters/mesh/plain_names.h"
 #include "formats/container/printable.h"
@@ -21,7 +22,7 @@ constexpr int kSdfResolution = 256;
 
 std::string usdTuple(const Eigen::Vector3d& v) {
   std::string text = "(";
-  text += plainNumber(v.x()) + ", " + plainNumber(v.y()) + ", " + plainNumber(v.z()) + ")";
+  text += numberText(v.x()) + ", " + numberText(v.y()) + ", " + numberText(v.z()) + ")";
   return text;
 }
 
@@ -124,7 +125,7 @@ std::string centerlinePrim(const formats::CenterlineTree& tree, const ExportFram
   text += "\n        point3f[] points = " +
           usdList(points.size(), [&](std::size_t i) { return usdTuple(points[i]); });
   text += "\n        float[] widths = " +
-          usdList(widths.size(), [&](std::size_t i) { return plainNumber(widths[i]); }) +
+          usdList(widths.size(), [&](std::size_t i) { return numberText(widths[i]); }) +
           " (\n            interpolation = \"vertex\"\n        )\n    }\n";
   return text;
 }
@@ -134,10 +135,10 @@ std::string endPrim(const NamedEnd& end, const std::string& word, const ExportFr
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), frame.direction(end.direction));
   std::string text = "        def Xform \"" + word + "\"\n        {\n";
   text += "            custom string lumen:name = " + usdString(end.name) + "\n";
-  text += "            custom float lumen:radius = " + plainNumber(frame.length(end.radius)) + "\n";
+  text += "            custom float lumen:radius = " + numberText(frame.length(end.radius)) + "\n";
   text += "            double3 xformOp:translate = " + usdTuple(frame.position(end.position));
-  text += "\n            quatf xformOp:orient = (" + plainNumber(turn.w()) + ", " +
-          plainNumber(turn.x()) + ", " + plainNumber(turn.y()) + ", " + plainNumber(turn.z());
+  text += "\n            quatf xformOp:orient = (" + numberText(turn.w()) + ", " +
+          numberText(turn.x()) + ", " + numberText(turn.y()) + ", " + numberText(turn.z());
   text +=
       ")\n            uniform token[] xformOpOrder = [\"xformOp:translate\", "
       "\"xformOp:orient\"]\n        }\n";
@@ -161,7 +162,7 @@ std::string encodeUsda(const SurfaceMesh& mesh, const formats::CenterlineTree& t
       "#usda 1.0\n(\n"
       "    defaultPrim = \"vessel\"\n";
   text += "    doc = \"Vessels in patient coordinates: " + std::string(axesText(frame.axes)) +
-          "\"\n    metersPerUnit = " + plainNumber(0.001 / frame.scale());
+          "\"\n    metersPerUnit = " + numberText(0.001 / frame.scale());
   text += "\n    upAxis = \"";
   text += frame.axes == Axes::Lsa ? "Y" : "Z";
   text += "\"\n)\n\ndef Xform \"vessel\"\n{\n";

@@ -2,10 +2,9 @@
 #include "converters/export/mujoco/mujoco_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdio>
 
+#include "converters/export/number_text.h"
 #include "converters/mesh/plain_names.h"
 #include "converters/mesh/write_plain.h"
 
@@ -14,9 +13,8 @@ namespace lumen::convert {
 std::string mujocoNumbers(std::initializer_list<double> values) {
   std::string text;
   for (const double value : values) {
-    std::array<char, 32> digits{};
-    std::snprintf(digits.data(), digits.size(), "%.9g", value + 0.0);
-    text += (text.empty() ? "" : " ") + std::string(digits.data());
+    if (!text.empty()) text += " ";
+    text += numberText(value);
   }
   return text;
 }

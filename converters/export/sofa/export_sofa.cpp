@@ -2,9 +2,7 @@
 #include "converters/export/sofa/export_sofa.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <span>
 #include <string>
@@ -14,6 +12,7 @@
 #include "converters/common/text.h"
 #include "converters/export/distance_grid.h"
 #include "converters/export/meta_image.h"
+#include "converters/export/number_text.h"
 #include "converters/export/surface.h"
 #include "converters/mesh/write_plain.h"
 #include "formats/case/binary_encode.h"
@@ -22,12 +21,6 @@
 namespace lumen::convert {
 
 namespace {
-
-std::string fixedText(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f", value);
-  return text.data();
-}
 
 double insertedRadius(InstrumentKind kind) {
   double greatest = 0;
@@ -118,8 +111,8 @@ void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOpti
 
 std::string insertedText(const SceneInput& input, const SofaOptions& options) {
   const Eigen::Vector3d& p = input.insertion.position;
-  return "inserted in " + formats::printable(input.branch) + " at (" + fixedText(p.x()) + ", " +
-         fixedText(p.y()) + ", " + fixedText(p.z()) + ") mm, " +
+  return "inserted in " + formats::printable(input.branch) + " at (" + fixedText(p.x(), 2) + ", " +
+         fixedText(p.y(), 2) + ", " + fixedText(p.z(), 2) + ") mm, " +
          std::to_string(stepsOf(input, options)) + " steps";
 }
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <vector>
 
 #include "converters/common/error.h"
+#include "converters/export/number_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -59,12 +59,6 @@ std::vector<std::uint32_t> widestWay(const CenterlineTree& tree, std::uint32_t f
   return way;
 }
 
-std::string twoDigits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
 }  // namespace
 
 Insertion insertionOf(const CenterlineTree& tree, const std::string& label, double clearance) {
@@ -85,7 +79,7 @@ Insertion insertionOf(const CenterlineTree& tree, const std::string& label, doub
   if (k == way.size())
     throw invalidInput("branch " + formats::printable(tree.branches[result.branch].label) +
                        ": an instrument that is inserted there needs a lumen of " +
-                       twoDigits(clearance) + " mm radius and some length, and there is none; " +
+                       fixedText(clearance, 2) + " mm radius and some length, and there is none; " +
                        "--insert names another branch, --instrument a thinner instrument");
   result.node = way[k];
   result.position = centreOf(tree, way[k]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "converters/export/number_text.h"
 #include "converters/export/sofa/dialect.h"
 #include "converters/export/sofa/scene_parts.h"
 #include "formats/container/printable.h"
@@ -62,7 +63,7 @@ void addActions(SceneItem& node, const SceneInput& input, const SofaOptions& opt
   for (std::size_t k = 0; k < list.size(); ++k) {
     // half a step early, so that a sum of time steps that was rounded down is not late
     if (k > 0) times += ' ', actions += ' ';
-    times += sceneNumber(k == 0 ? 0 : (static_cast<double>(k) - 0.5) * kTimeStep);
+    times += numberText(k == 0 ? 0 : (static_cast<double>(k) - 0.5) * kTimeStep);
     actions += std::to_string(list[k]);
   }
   node.add("BeamAdapterActionController",
@@ -152,8 +153,8 @@ std::vector<std::string> aboutScene(const SceneInput& input, const SofaOptions& 
           formats::printable(input.branch) + ".",
       "Positions are those of the case: patient coordinates, LPS, in mm. Masses are in kg and time",
       "is in s, so moduli are in kPa (kg / (mm s^2)), forces in mN and densities in kg / mm^3.",
-      "The instrument advances " + sceneNumber(options.step) + " mm in a time step of " +
-          sceneNumber(kTimeStep) + " s, for " + std::to_string(stepsOf(input, options)) + " steps.",
+      "The instrument advances " + numberText(options.step) + " mm in a time step of " +
+          numberText(kTimeStep) + " s, for " + std::to_string(stepsOf(input, options)) + " steps.",
       "Sources of the instruments' values: docs/sofa.md of lumen."};
 }
 

@@ -2,8 +2,8 @@
 #include "converters/export/sofa/scene_tree.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+
+#include "converters/export/number_text.h"
 
 namespace lumen::convert {
 
@@ -19,7 +19,7 @@ SceneItem& SceneItem::set(const std::string& name, const std::string& value) {
 }
 
 SceneItem& SceneItem::set(const std::string& name, double value) {
-  return set(name, sceneNumber(value));
+  return set(name, numberText(value));
 }
 
 SceneItem& SceneItem::set(const std::string& name, int value) {
@@ -39,17 +39,11 @@ SceneItem& SceneItem::addNode(const std::string& name, const std::string& about)
   return add("Node", about).set("name", name);
 }
 
-std::string sceneNumber(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value == 0 ? 0.0 : value);
-  return text.data();
-}
-
 std::string sceneNumbers(const std::vector<double>& values) {
   std::string text;
   for (const double value : values) {
     if (!text.empty()) text += ' ';
-    text += sceneNumber(value);
+    text += numberText(value);
   }
   return text;
 }

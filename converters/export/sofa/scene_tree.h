@@ -34,8 +34,6 @@ struct SceneItem {
   SceneItem& addNode(const std::string& name, const std::string& about = {});
 };
 
-/// The shortest decimal text of at most nine digits that SOFA reads as that number.
-std::string sceneNumber(double value);
 /// Numbers with spaces between them.
 std::string sceneNumbers(const std::vector<double>& values);
 
