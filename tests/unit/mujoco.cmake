@@ -1,6 +1,8 @@
 lumen_test(mujoco_export_test
   LIBS lumen_export
-  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wall_pieces_test.cpp)
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wall_pieces_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wire_reach_test.cpp)
 
 # What it exports for MuJoCo and CathSim, in the official engine: `npm ci` in tests/mujoco; skipped, saying so, without it.
 find_program(PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)

@@ -8,13 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "converters/common/error.h"
 #include "converters/common/tree_losses.h"
 #include "converters/export/mujoco/mujoco_text.h"
 #include "converters/export/mujoco/wall_pieces.h"
 #include "converters/export/mujoco/wire.h"
 #include "converters/export/mujoco/wire_reach.h"
+#include "converters/export/number_text.h"
 #include "converters/export/sofa/insertion.h"
 #include "converters/export/surface.h"
+#include "formats/container/printable.h"
 
 namespace lumen::convert {
 
@@ -57,13 +60,33 @@ Solid solidOf(const ExportInput& input) {
   return thickness ? Solid{wallSurface(input, *thickness), true} : carvedOut(input);
 }
 
+constexpr double kLeast = 0.03, kMost = 0.08;  // m, of a wire
+
 /// As long as its way, up to where a chain gets slow: its cost grows with the square of its links.
 Wire wireFor(const Insertion& insertion) {
-  constexpr double kLeast = 0.03, kMost = 0.08, kMetres = 1e-3;
+  constexpr double kMetres = 1e-3;
   Wire wire;
   const double length = std::clamp(insertion.way * kMetres, kLeast, kMost);
   wire.links = static_cast<int>(std::lround(length / wire.link));
   return wire;
+}
+
+/// The wire lies straight behind its tip before it is pushed: as much of it as no wall is in the way of. Throws
+/// Error(InvalidInput) where that is less than a wire has.
+void shorten(Wire& wire, const std::vector<SurfaceMesh>& pieces, const ExportInput& input,
+             const Insertion& insertion) {
+  const double free =
+      freeBehind(pieces, input.frame.position(insertion.position),
+                 input.frame.direction(insertion.direction), wire.length(), wire.radius);
+  if (free >= wire.length()) return;
+  if (free < kLeast)
+    throw invalidInput("branch " +
+                       formats::printable(input.source.tree.branches[insertion.branch].label) +
+                       ": " + fixedText(1e3 * free, 1) +
+                       " mm straight behind its beginning are free of other vessels, and a "
+                       "guidewire that is pushed in there needs " +
+                       fixedText(1e3 * kLeast, 0) + "; --insert takes another branch");
+  wire.links = static_cast<int>(free / wire.link);
 }
 
 struct Scene {
@@ -150,11 +173,12 @@ ExportResult exportMujoco(const ExportInput& input) {
       insertionOf(input.source.tree, input.options.sofa.insert, thickness.radius * 1e3);
   Solid solid = solidOf(input);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
-  const Wire wire = wireFor(insertion);
+  Wire wire = wireFor(insertion);
   // what the wire cannot touch costs memory and time, most of them in a large tree
   solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree,
                                     insertion.node, wire.length() * 1e3);
   const std::vector<SurfaceMesh> pieces = piecesOf(solid.surface.mesh, kCells, kCellRadii);
+  shorten(wire, pieces, input, insertion);
   const Scene scene{input, solid, pieces.size(), insertion, wire};
 
   ExportResult result;

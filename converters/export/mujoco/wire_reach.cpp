@@ -10,6 +10,10 @@
 
 #include <Eigen/Core>
 
+#include "converters/mesh/mesh_edges.h"
+#include "converters/mesh/triangle_mesh.h"
+#include "converters/mesh/triangle_tree.h"
+
 namespace lumen::convert {
 
 namespace {
@@ -51,7 +55,50 @@ std::vector<double> distancesFrom(const CenterlineTree& tree, std::uint32_t node
   return distance;
 }
 
+/// A piece as MuJoCo sees it: a box, in which the nearest triangle tells the side.
+class PieceSolid {
+public:
+  explicit PieceSolid(const SurfaceMesh& piece) : m_mesh(meshOf(piece)), m_tree(m_mesh) {
+    const MeshBox box = boxOf(m_mesh);
+    m_low = box.low;
+    m_high = box.high;
+  }
+  PieceSolid(const PieceSolid&) = delete;
+  PieceSolid& operator=(const PieceSolid&) = delete;
+
+  [[nodiscard]] bool isTouched(const Eigen::Vector3d& p, double radius) const {
+    if (((p - m_low).array() < -radius).any() || ((p - m_high).array() > radius).any())
+      return false;
+    const NearestPoint near = m_tree.nearest(p);
+    return near.distance < radius || m_tree.normal(near.triangle).dot(p - near.position) < 0;
+  }
+
+private:
+  static TriangleMesh meshOf(const SurfaceMesh& piece) {
+    TriangleMesh mesh;
+    for (const Float3& p : piece.position) mesh.position.emplace_back(p[0], p[1], p[2]);
+    mesh.triangle = piece.triangle;
+    return mesh;
+  }
+
+  TriangleMesh m_mesh;
+  TriangleTree m_tree;
+  Eigen::Vector3d m_low, m_high;
+};
+
 }  // namespace
+
+double freeBehind(const std::vector<SurfaceMesh>& pieces, const Eigen::Vector3d& tip,
+                  const Eigen::Vector3d& direction, double length, double radius) {
+  double free = length;
+  for (const SurfaceMesh& piece : pieces) {
+    if (piece.triangle.empty()) continue;
+    const PieceSolid solid(piece);
+    for (double behind = 0; behind < free; behind += radius)
+      if (solid.isTouched(tip - behind * direction, radius)) free = behind;
+  }
+  return free;
+}
 
 SurfaceMesh wallsInReach(SurfaceMesh mesh, const CenterlineTree& tree, std::uint32_t node,
                          double length) {
