@@ -33,6 +33,15 @@ ExportedSurface coarseSurface(const ExportInput& input) {
   return lumenSurface({input.source, options, input.frame, input.progress});
 }
 
+/// Each triangle becomes a file and a geom: more than this no one loads.
+void requireFew(const SurfaceMesh& coarse) {
+  constexpr std::size_t kMostHulls = 20000;
+  if (coarse.triangle.size() > kMostHulls)
+    throw invalidInput("the wall would be " + std::to_string(coarse.triangle.size()) +
+                       " convex pieces, expected are at most " + std::to_string(kMostHulls) +
+                       "; a greater --max-error makes fewer");
+}
+
 struct CloseModel {
   void operator()(blob_model* model) const { blob_model_close(model); }
 };
@@ -94,8 +103,9 @@ std::string startOf(std::size_t hulls) {
 }  // namespace
 
 ExportResult exportCathsim(const ExportInput& input) {
-  const ExportedSurface fine = lumenSurface(input);
   ExportedSurface coarse = coarseSurface(input);
+  requireFew(coarse.mesh);
+  const ExportedSurface fine = lumenSurface(input);
   const std::vector<SurfaceMesh> hulls = hullsOf(input, coarse.mesh);
   ExportResult result;
   result.ends = plainlyNamed(std::move(coarse.ends));

@@ -14,7 +14,8 @@ SurfaceMesh plate(double x, int side) {
   SurfaceMesh mesh;
   const auto at = static_cast<float>(x);
   for (const float depth : {0.0F, -0.010F})
-    for (const auto& [y, z] : {std::pair{-0.01F, -0.01F}, {0.01F, -0.01F}, {0.01F, 0.01F}, {-0.01F, 0.01F}})
+    for (const auto& [y, z] :
+         {std::pair{-0.01F, -0.01F}, {0.01F, -0.01F}, {0.01F, 0.01F}, {-0.01F, 0.01F}})
       mesh.position.push_back({at + depth, y, z});
   mesh.triangle = {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}};  // the last one gives the box a depth
   if (side < 0)
