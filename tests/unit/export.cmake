@@ -16,7 +16,7 @@ if(BULLET_DYNAMICS AND BULLET_COLLISION AND BULLET_MATH AND BULLET_INCLUDE)
 else()
   message(STATUS "Bullet (libbullet-dev) not found: .cdf files are not read back")
 endif()
-if(OPENVDB_INCLUDE_DIR AND OPENVDB_LIBRARY AND IMATH_LIBRARY)
+if(LUMEN_WRITES_VDB)
   lumen_test(vdb_test
     LIBS lumen_grids lumen_surface ${OPENVDB_LIBRARY} ${IMATH_LIBRARY}
     SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/vdb_test.cpp)
