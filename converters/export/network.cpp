@@ -10,6 +10,7 @@
 
 #include "converters/common/disjoint_sets.h"
 #include "converters/common/error.h"
+#include "converters/common/text.h"
 #include "converters/common/vectors.h"
 #include "converters/export/blood.h"
 
@@ -214,16 +215,16 @@ private:
     joint.kind = JointKind::Inlet;
     joint.place = m_made.joints[root].place - radius * toEigen(m_tree.direction[node]);
     joint.tree = t;
-    FlowSegment stub;
-    stub.branch = m_tree.branch[node];
-    stub.from = static_cast<std::uint32_t>(m_made.joints.size());
-    stub.to = root;
-    stub.points = {joint.place, m_made.joints[root].place};
-    stub.radii = {radius, radius};
-    tree.inlets.push_back(stub.from);
+    FlowSegment entry;
+    entry.branch = m_tree.branch[node];
+    entry.from = static_cast<std::uint32_t>(m_made.joints.size());
+    entry.to = root;
+    entry.points = {joint.place, m_made.joints[root].place};
+    entry.radii = {radius, radius};
+    tree.inlets.push_back(entry.from);
     m_made.joints.push_back(std::move(joint));
     m_nodeOf.push_back(node);
-    addSegment(std::move(stub));
+    addSegment(std::move(entry));
     m_made.messages.push_back(
         labelAt(root) +
         ": no single vessel begins at its root, so an inlet of one radius was "
@@ -306,9 +307,6 @@ std::string summaryOf(const FlowNetwork& network) {
     inlets += tree.inlets.size();
     outlets += tree.outlets.size();
   }
-  const auto counted = [](std::size_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-  };
   return counted(network.segments.size(), "segment", "segments") + ", " +
          counted(network.joints.size() - inlets - outlets, "junction", "junctions") + ", " +
          counted(inlets, "inlet", "inlets") + ", " + counted(outlets, "outlet", "outlets") + ", " +

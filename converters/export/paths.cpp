@@ -36,12 +36,12 @@ BranchPath pathOf(const CenterlineTree& tree, std::uint32_t index, std::string n
   return path;
 }
 
-std::string element(const std::string& name, const Eigen::Vector3d& v) {
+}  // namespace
+
+std::string pointElement(const std::string& name, const Eigen::Vector3d& v) {
   return "<" + name + " x=\"" + numberText(v.x()) + "\" y=\"" + numberText(v.y()) + "\" z=\"" +
          numberText(v.z()) + "\" />\n";
 }
-
-}  // namespace
 
 std::string fileWord(const std::string& label) {
   return lowerCase(openFoamWord(label));  // as stEVE makes the names of files
@@ -75,14 +75,14 @@ std::string encodePth(const BranchPath& path, std::size_t id) {
       "\" spacing=\"0\">\n<timestep id=\"0\">\n<path_element method=\"0\" calculation_number=\"" +
       count + "\" spacing=\"0\">\n<control_points>\n";
   for (std::size_t k = 0; k < path.points.size(); ++k)
-    text += element("point id=\"" + std::to_string(k) + "\"", kCentimetres * path.points[k]);
+    text += pointElement("point id=\"" + std::to_string(k) + "\"", kCentimetres * path.points[k]);
   text += "</control_points>\n<path_points>\n";
   for (std::size_t k = 0; k < path.points.size(); ++k) {
     const Eigen::Vector3d tangent = path.tangent(k);
     text += "<path_point id=\"" + std::to_string(k) + "\">\n";
-    text += element("pos", kCentimetres * path.points[k]);
-    text += element("tangent", tangent);
-    text += element("rotation", tangent.unitOrthogonal());
+    text += pointElement("pos", kCentimetres * path.points[k]);
+    text += pointElement("tangent", tangent);
+    text += pointElement("rotation", tangent.unitOrthogonal());
     text += "</path_point>\n";
   }
   return text + "</path_points>\n</path_element>\n</timestep>\n</path>\n";

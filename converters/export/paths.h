@@ -31,4 +31,7 @@ std::string fileWord(const std::string& label);
 /// A path as a file of SimVascular (.pth), in cm; `id` from 1.
 std::string encodePth(const BranchPath& path, std::size_t id);
 
+/// <NAME x=".." y=".." z=".." />, as SimVascular's files have points, with a line break.
+std::string pointElement(const std::string& name, const Eigen::Vector3d& v);
+
 }  // namespace lumen::convert

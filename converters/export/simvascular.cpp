@@ -43,13 +43,8 @@ const char* const kProject =
     "    <simulations folder_name=\"Simulations\"/>\n"
     "</projectDescription>\n";
 
-std::string element(const std::string& name, const Eigen::Vector3d& v) {
-  return "<" + name + " x=\"" + numberText(v.x()) + "\" y=\"" + numberText(v.y()) + "\" z=\"" +
-         numberText(v.z()) + "\" />\n";
-}
-
 std::string point(std::size_t id, const Eigen::Vector3d& mm) {
-  return element("point id=\"" + std::to_string(id) + "\"", kCentimetres * mm);
+  return pointElement("point id=\"" + std::to_string(id) + "\"", kCentimetres * mm);
 }
 
 /// The circle of a node, as SimVascular draws one by hand: its middle, a point on it, and points around.
@@ -63,10 +58,10 @@ std::string contour(const BranchPath& path, std::size_t k, std::size_t id) {
       "\" type=\"Circle\" method=\"Manual\" closed=\"true\" min_control_number=\"2\" "
       "max_control_number=\"2\" subdivision_type=\"0\" subdivision_number=\"0\" "
       "subdivision_spacing=\"0\">\n<path_point id=\"" +
-      std::to_string(k) + "\">\n" + element("pos", kCentimetres * path.points[k]) +
-      element("tangent", tangent) + element("rotation", u) + "</path_point>\n<control_points>\n" +
-      point(0, path.points[k]) + point(1, path.points[k] + r * u) +
-      "</control_points>\n<contour_points>\n";
+      std::to_string(k) + "\">\n" + pointElement("pos", kCentimetres * path.points[k]) +
+      pointElement("tangent", tangent) + pointElement("rotation", u) +
+      "</path_point>\n<control_points>\n" + point(0, path.points[k]) +
+      point(1, path.points[k] + r * u) + "</control_points>\n<contour_points>\n";
   for (int n = 0; n < kAround; ++n) {
     const double angle = 2 * std::numbers::pi * n / kAround;
     text += point(static_cast<std::size_t>(n),

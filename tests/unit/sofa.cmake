@@ -1,7 +1,7 @@
 lumen_test(sofa_test
   LIBS lumen_export
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/sofa/insertion_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/insertion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/sofa/scene_test.cpp)
 
 # What it exports for simulators, from outside: by SOFA itself where it is, by lists of its components, by a reader of

@@ -10,12 +10,12 @@
 
 #include "converters/common/error.h"
 #include "converters/common/tree_losses.h"
+#include "converters/export/insertion.h"
 #include "converters/export/mujoco/mujoco_text.h"
 #include "converters/export/mujoco/wall_pieces.h"
 #include "converters/export/mujoco/wire.h"
 #include "converters/export/mujoco/wire_reach.h"
 #include "converters/export/number_text.h"
-#include "converters/export/sofa/insertion.h"
 #include "converters/export/surface.h"
 #include "formats/container/printable.h"
 

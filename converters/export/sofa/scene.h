@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/export/sofa/insertion.h"
+#include "converters/export/insertion.h"
 #include "converters/export/sofa/instrument.h"
 #include "converters/export/sofa/scene_tree.h"
 

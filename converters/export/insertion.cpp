@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/sofa/insertion.h"
+#include "converters/export/insertion.h"
 
 #include <algorithm>
 #include <cstddef>

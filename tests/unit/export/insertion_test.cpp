@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/sofa/insertion.h"
+#include "converters/export/insertion.h"
 
 #include <gtest/gtest.h>
 
 #include "converters/common/error.h"
+#include "tests/unit/export/made_tree.h"
 
 namespace lumen::convert {
 
@@ -11,27 +12,6 @@ namespace {
 
 using formats::BranchKind;
 using formats::CenterlineTree;
-using formats::Vec3f;
-
-void addBranch(CenterlineTree& tree, const std::string& label, int parent, const Vec3f& from,
-               const Vec3f& step, int nodes, float radius, BranchKind kind = BranchKind::Vessel) {
-  formats::Branch branch;
-  branch.label = label;
-  branch.kind = kind;
-  branch.parentNode = parent;
-  branch.firstNode = static_cast<std::uint32_t>(tree.nodeCount());
-  branch.nodeCount = static_cast<std::uint32_t>(nodes);
-  for (int k = 0; k < nodes; ++k) {
-    const auto s = static_cast<float>(k);
-    tree.parent.push_back(k == 0 ? parent : static_cast<int>(tree.nodeCount()) - 1);
-    tree.centre.push_back({from.x + s * step.x, from.y + s * step.y, from.z + s * step.z});
-    tree.direction.push_back(step);
-    tree.radius.push_back(radius);
-    tree.height.push_back(1);
-    tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
-  }
-  tree.branches.push_back(branch);
-}
 
 /// A trunk along z of 20 mm that goes on in a wide branch of 9 mm; a thin one and a sac hang on it.
 CenterlineTree fork() {
