@@ -27,11 +27,13 @@ STAGES = {"volume": [], "seeds": ["volume"], "centerline": ["seeds"], "tracking"
           "export": ["volume", "mesh", "surface", "centerline", "export/sofa", "export/mujoco", "export/cathsim"],
           "export/sofa": ["mesh", "surface", "export"], "export/mujoco": ["mesh", "surface", "export", "export/sofa"],
           "export/cathsim": ["mesh", "surface", "export", "export/mujoco"],
+          "picture": ["check", "mesh", "volume"],
           "inside": ["volume", "centerline", "mesh", "surface"], "editing": ["fitting"]}
 for stage, below in STAGES.items():
     MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]
 MAY_INCLUDE["converters/export"] += ["libblob/include"]  # its grids hold what libblob answers
 MAY_INCLUDE["converters/export/cathsim"] += ["libblob/include"]  # which outer corners of its prisms lie in a lumen
+MAY_INCLUDE["converters/picture"] += ["libblob/include"]  # it draws what libblob answers
 MAY_INCLUDE["converters/app"] = FORMATS + ["converters/common"] + ["converters/" + s for s in STAGES]
 MAY_INCLUDE["converters/export/sofa/plugin/src/LumenSofa"] = ["libblob/include", "formats/container", "formats/view"]
 MAY_INCLUDE["converters/export/sofa/plugin/tests"] = []

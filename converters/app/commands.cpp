@@ -12,6 +12,7 @@ std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeValidateCommand();
 std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeCheckCommand();
+std::unique_ptr<Command> makePictureCommand();
 std::unique_ptr<Command> makeViewCommand();  // viewer/server
 std::unique_ptr<Command> makePhantomCommand();
 std::unique_ptr<Command> makeCompletionCommand();
@@ -20,8 +21,8 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   std::vector<std::unique_ptr<Command>> commands;
   for (const auto make :
        {makeConvertCommand, makeExportCommand, makeTrackCommand, makeFitCommand, makeInfoCommand,
-        makeValidateCommand, makeCompareCommand, makeCheckCommand, makeViewCommand,
-        makePhantomCommand, makeCompletionCommand})
+        makeValidateCommand, makeCompareCommand, makeCheckCommand, makePictureCommand,
+        makeViewCommand, makePhantomCommand, makeCompletionCommand})
     commands.push_back(make());
   return commands;
 }
