@@ -47,7 +47,7 @@ void writePng(const convert::Picture& picture, const std::string& file) {
 
 /// "head.png" and 3 give "head-003.png".
 std::string frameName(const std::string& file, int frame) {
-  std::array<char, 8> number{};
+  std::array<char, 16> number{};
   std::snprintf(number.data(), number.size(), "-%03d", frame);
   const std::size_t dot = file.rfind('.');
   return file.substr(0, dot) + number.data() + file.substr(dot);

@@ -11,6 +11,16 @@ const wire = async page => {
 };
 const inserted = text => Number(/^([\d.]+) mm in/.exec(text)[1]);
 
+/** The highest place of a column of pixels of the scene where the pointer would take hold of the wire. */
+const firstOf = async (page, box, x) => {
+  for (let y = box.y + 0.2 * box.height; y < box.y + 0.8 * box.height; y += 8) {
+    await page.mouse.move(x, y);
+    await frames(page, 3);
+    if ((await page.locator("#view-scene.over-wire").count()) > 0) return y + 8;
+  }
+  throw new Error("the wire is nowhere in the middle of the scene");
+};
+
 story("a wire is pushed past where two vessels touch, and every point of it stays in its vessel", async t => {
   const file = makeFolder(t), browser = await startBrowser(t);
   kissing(file);
@@ -61,16 +71,12 @@ story("a wire is pushed past where two vessels touch, and every point of it stay
   }
 
   // by the pointer: taken hold of in the vessel's middle, and drawn back along it, which runs from right to left
-  const before = inserted((await wire(page)).text), box = await page.locator("#view-scene").boundingBox();
-  let y = 0.2;
-  do {
-    y += 0.02;
-    await page.mouse.move(box.x + box.width / 2, box.y + y * box.height);
-    await frames(page, 3);
-  } while (y < 0.8 && (await page.locator("#view-scene.over-vessel").count()) === 0);
-  y += 0.02;
+  const before = inserted((await wire(page)).text), box = await page.locator("#view-scene").boundingBox(), x = box.x + box.width / 2;
+  const y = await firstOf(page, box, x);
+  await page.mouse.move(x, y);
+  await page.locator("#view-scene.over-wire").waitFor();
   await page.mouse.down();
-  await page.mouse.move(box.x + box.width / 2 - 60, box.y + y * box.height, { steps: 20 });
+  await page.mouse.move(x - 60, y, { steps: 20 });
   await page.mouse.up();
   await page.waitForFunction(mm => parseFloat(document.getElementById("wire-about").textContent) < mm - 5, before);
   assert.deepEqual((await wire(page)).vessels, ["root"]);

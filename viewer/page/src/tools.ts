@@ -157,6 +157,7 @@ export class Tools {
       const answer = hit === null || hit.branch < -1 ? null : probe(this.app.store.get(), hit.point, hit.node >= 0 ? hit.node : undefined);
       for (const listener of this.listeners) listener(answer);
       scene.element.classList.toggle("over-vessel", hit !== null);
+      scene.element.classList.toggle("over-wire", this.tool === "wire" && this.wire?.isNear(scene, x, y) === true);
     });
   }
 

@@ -10,6 +10,7 @@ import { scale, unit } from "./vec";
 const kSettle = 45; // steps after the last push
 const kPush = 0.25; // mm for a pixel; per step no more than half a spacing
 const kMostPush = 0.3; // spacings in a step
+const kMostAhead = 4; // spacings that keys may ask for ahead of it
 const kStep = 1000 / 60; // ms of a step
 const kMostSteps = 4; // that a late frame makes up for
 const kTurn = 0.02; // radians for a pixel
@@ -58,7 +59,13 @@ export class WireTool {
     this.onChange?.();
   }
 
-  push(steps: number): void { this.wanted += steps * this.options.spacing * 2; this.wake(); }
+  /** By keys and wheel. A key that is held down asks for more than the wire can do: it stops soon after the key does, and turns back at once. */
+  push(steps: number): void {
+    const asked = steps * this.options.spacing * 2, most = kMostAhead * this.options.spacing;
+    if (asked * this.wanted < 0) this.wanted = 0;
+    this.wanted = Math.min(most, Math.max(-most, this.wanted + asked));
+    this.wake();
+  }
   twist(radians: number): void { this.turn += radians; this.wake(); }
   key(key: string): boolean {
     if (key === "Enter" && this.wire === null) { this.place(); return true; }
@@ -73,9 +80,14 @@ export class WireTool {
     }
   }
 
+  /** Whether a pointer that is pressed there takes hold of the wire. */
+  isNear(scene: SceneView, x: number, y: number): boolean {
+    const kReach = 24; // pixels
+    return this.wire !== null && this.nearest(this.wire, scene, x, y).away < kReach;
+  }
   grab(scene: SceneView, x: number, y: number): boolean {
-    const kReach = 24; // pixels around the wire that a pointer takes hold of
-    this.last = this.wire !== null && this.nearest(this.wire, scene, x, y).away < kReach ? { x, y } : null;
+    this.last = this.isNear(scene, x, y) ? { x, y } : null;
+    if (this.last !== null) this.wanted = this.turn = 0; // a hand that holds it stops it
     return this.last !== null;
   }
   /** The point of the wire that a pixel is nearest to, and how far that is. */
