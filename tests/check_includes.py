@@ -28,6 +28,7 @@ STAGES = {"volume": [], "seeds": ["volume"], "centerline": ["seeds"], "tracking"
           "export/sofa": ["mesh", "surface", "export"], "export/mujoco": ["mesh", "surface", "export", "export/sofa"],
           "export/cathsim": ["mesh", "surface", "export", "export/mujoco"],
           "picture": ["check", "mesh", "volume"],
+          "library": ["mesh", "surface", "export", "picture", "check", "volume"],
           "inside": ["volume", "centerline", "mesh", "surface"], "editing": ["fitting"]}
 for stage, below in STAGES.items():
     MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]

@@ -36,6 +36,7 @@ public:
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
 
+  /// One word, or a group's word and another: "library add".
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual std::string summary() const = 0;  ///< one line
   [[nodiscard]] virtual std::string example() const = 0;  ///< shell lines for the help's end
@@ -47,5 +48,13 @@ public:
 
 /// Every command of lumen, in the order of the help: the list in commands.cpp.
 std::vector<std::unique_ptr<Command>> allCommands();
+
+/// What the commands do whose names begin with this word and a space, in one line; null for another word.
+const char* groupSummary(const std::string& word);
+
+/// The first word of a command's name.
+inline std::string firstWord(const std::string& name) {
+  return name.substr(0, name.find(' '));
+}
 
 }  // namespace lumen::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen completion: what a shell offers when the tabulator key is pressed.
+#include <map>
 #include <sstream>
 
 #include "converters/app/command_line.h"
@@ -30,24 +31,33 @@ std::string spaced(std::string list) {
 
 /// File names are completed by the shell itself wherever nothing here answers.
 std::string bashScript() {
-  std::string names;
-  std::ostringstream options;
+  std::map<std::string, std::string> seconds;  // by the word of their group
+  std::string names, last;
+  std::ostringstream options, groups;
   for (const auto& command : allCommands()) {
-    names += (names.empty() ? "" : " ") + command->name();
-    options << "      " << command->name() << ") words=\"" << optionNames(*command) << "\" ;;\n";
+    const std::string first = firstWord(command->name());
+    const bool isGroup = groupSummary(first) != nullptr;
+    if (first != last) names += (names.empty() ? "" : " ") + first;
+    if (isGroup) seconds[first] += command->name().substr(first.size());
+    options << "      \"" << command->name() << (isGroup ? "\"" : " \"*") << ") words=\""
+            << optionNames(*command) << "\" ;;\n";
+    last = first;
   }
+  for (const auto& [first, words] : seconds)
+    groups << "  elif [ \"$COMP_CWORD\" -eq 2 ] && [ \"${COMP_WORDS[1]}\" = " << first
+           << " ]; then\n    words=\"" << words.substr(1) << " --help\"\n";
   std::ostringstream script;
   script << "# bash: eval \"$(lumen completion bash)\"\n"
             "_lumen() {\n"
             "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} words=\n"
             "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
          << "    words=\"" << names << " help --help --version\"\n"
-         << "  elif [ \"$before\" = --from ]; then\n"
+         << groups.str() << "  elif [ \"$before\" = --from ]; then\n"
          << "    words=\"" << spaced(formatNames(canRead)) << "\"\n"
          << "  elif [ \"$before\" = --to ]; then\n"
          << "    words=\"" << spaced(formatNames(canWrite)) << "\"\n"
          << "  elif [[ $word == -* ]]; then\n"
-            "    case ${COMP_WORDS[1]} in\n"
+            "    case \"${COMP_WORDS[1]} ${COMP_WORDS[2]}\" in\n"
          << options.str()
          << "    esac\n"
             "  fi\n"

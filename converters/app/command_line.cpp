@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -79,31 +80,66 @@ int runCommand(Command& command, int argc, const char* const* argv) {
   return execute(command, common);
 }
 
-std::string topLevelHelp() {
-  CLI::App app("From an angiography volume to a simulator-ready vessel case.", "lumen");
+std::string listOfCommands(CLI::App& app, const std::string& how) {
   app.formatter(std::make_shared<HelpFormatter>());
-  app.set_version_flag("-V,--version", "", "Print the version");
-  for (const auto& command : allCommands()) app.add_subcommand(command->name(), command->summary());
-  app.footer("lumen COMMAND --help, or lumen help COMMAND, tells more, with an example.\n" +
-             std::string(kExitCodes));
+  app.footer(how + " --help, or " + how.substr(0, 5) + " help" + how.substr(5) +
+             ", tells more, with an example.\n" + kExitCodes);
   return app.help();
 }
 
-int runNamed(const std::string& name, int argc, const char* const* argv) {
+std::string topLevelHelp() {
+  CLI::App app("From an angiography volume to a simulator-ready vessel case.", "lumen");
+  app.set_version_flag("-V,--version", "", "Print the version");
+  std::string last;
+  for (const auto& command : allCommands()) {
+    const std::string word = firstWord(command->name());
+    const char* const group = groupSummary(word);
+    if (word != last) app.add_subcommand(word, group != nullptr ? group : command->summary());
+    last = word;
+  }
+  return listOfCommands(app, "lumen COMMAND");
+}
+
+std::string groupHelp(const std::string& word) {
+  CLI::App app(groupSummary(word), "lumen " + word);
   for (const auto& command : allCommands())
-    if (command->name() == name) return runCommand(*command, argc, argv);
+    if (command->name().starts_with(word + " "))
+      app.add_subcommand(command->name().substr(word.size() + 1), command->summary());
+  return listOfCommands(app, "lumen " + word + " COMMAND");
+}
+
+/// `arguments`: the words of the command's name, then its own.
+int runNamed(std::span<const char* const> arguments) {
+  std::string name = arguments[0];
+  if (groupSummary(name) != nullptr) {
+    const std::string second = arguments.size() > 1 ? arguments[1] : "";
+    if (second == "--help" || second == "-h") {
+      answer(groupHelp(name));
+      return 0;
+    }
+    if (second.empty()) {
+      std::fputs(groupHelp(name).c_str(), stderr);
+      throw Error(ErrorKind::Usage, "lumen " + name + ": a command is missing");
+    }
+    name += " " + second;
+    arguments = arguments.subspan(1);
+  }
+  for (const auto& command : allCommands())
+    if (command->name() == name)
+      return runCommand(*command, static_cast<int>(arguments.size()), arguments.data());
   throw unknownCommand(name);
 }
 
-int dispatch(int argc, const char* const* argv) {
-  const std::string first = argc > 1 ? argv[1] : "";
-  if (argc < 2) {
+int dispatch(std::span<const char* const> words) {
+  const std::string first = words.size() > 1 ? words[1] : "";
+  if (words.size() < 2) {
     std::fputs(topLevelHelp().c_str(), stderr);
     throw Error(ErrorKind::Usage, "a command is missing");
   }
-  if (first == "help" && argc > 2) {
-    const char* const question[] = {argv[2], "--help"};
-    return runNamed(argv[2], 2, question);
+  if (first == "help" && words.size() > 2) {
+    std::vector<const char*> question(words.begin() + 2, words.end());
+    question.push_back("--help");
+    return runNamed(question);
   }
   if (first == "help" || first == "--help" || first == "-h") {
     answer(topLevelHelp());
@@ -113,7 +149,7 @@ int dispatch(int argc, const char* const* argv) {
     answer(kVersion);
     return 0;
   }
-  return runNamed(first, argc - 1, argv + 1);
+  return runNamed(words.subspan(1));
 }
 
 }  // namespace
@@ -139,7 +175,7 @@ void bindOptions(CLI::App& app, Command& command, CommonOptions& common) {
 int runCommandLine(int argc, const char* const* argv) {
   reportFileSizeLimit();
   try {
-    return dispatch(argc, argv);
+    return dispatch({argv, static_cast<std::size_t>(argc)});
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::Cancelled)
       std::fputs("lumen: interrupted\n", stderr);

@@ -27,4 +27,8 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   return commands;
 }
 
+const char* groupSummary(const std::string& word) {
+  return word == "library" ? "Make, change, check, sign and publish libraries of cases" : nullptr;
+}
+
 }  // namespace lumen::app

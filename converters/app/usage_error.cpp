@@ -114,8 +114,14 @@ Error usageError(const CLI::App& app, const CLI::ParseError& error, const std::s
 }
 
 Error unknownCommand(const std::string& word) {
+  const std::string group = firstWord(word);
+  const bool inGroup = group != word && groupSummary(group) != nullptr;
   std::vector<std::string> names;
-  for (const auto& command : allCommands()) names.push_back(command->name());
+  for (const auto& command : allCommands()) {
+    const std::string name = inGroup ? command->name() : firstWord(command->name());
+    if ((!inGroup || name.starts_with(group + " ")) && (names.empty() || names.back() != name))
+      names.push_back(name);
+  }
   const std::string list = "; lumen has " + alternatives(names);
   std::error_code ignored;
   if (word.starts_with('-')) return {ErrorKind::Usage, word + ": options follow a command" + list};

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "converters/common/error.h"
-#include "converters/seeds/seed_text.h"
+#include "converters/common/shown_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "converters/common/error.h"
-#include "converters/seeds/seed_text.h"
+#include "converters/common/shown_text.h"
 #include "formats/container/printable.h"
 #include "formats/view/limits.h"
 #include "formats/view/text_rules.h"

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "converters/common/error.h"
+#include "converters/common/shown_text.h"
 #include "converters/common/text.h"
 #include "converters/seeds/seed_rules.h"
-#include "converters/seeds/seed_text.h"
 #include "converters/seeds/seeds_fcsv.h"
 #include "converters/seeds/seeds_json.h"
 #include "converters/seeds/seeds_markups.h"

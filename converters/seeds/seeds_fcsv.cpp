@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "converters/common/error.h"
+#include "converters/common/shown_text.h"
 #include "converters/common/text.h"
 #include "converters/seeds/seed_description.h"
-#include "converters/seeds/seed_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

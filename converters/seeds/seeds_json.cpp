@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "converters/seeds/seed_text.h"
+#include "converters/common/shown_text.h"
 
 namespace lumen::convert {
 namespace {

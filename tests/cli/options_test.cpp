@@ -48,10 +48,13 @@ bool isFile(const Argument& argument) {
                              : argument.type == "FILE" || argument.type == "PATH";
 }
 
-/// Exit code and standard error of a run in this process.
+/// Exit code and standard error of a run in this process; the first argument is the name of a command.
 std::pair<int, std::string> runHere(const std::vector<std::string>& arguments) {
-  std::vector<const char*> argv = {"lumen"};
-  for (const auto& argument : arguments) argv.push_back(argument.c_str());
+  std::vector<std::string> words = {"lumen", app::firstWord(arguments.front())};
+  if (words[1] != arguments.front()) words.push_back(arguments.front().substr(words[1].size() + 1));
+  words.insert(words.end(), arguments.begin() + 1, arguments.end());
+  std::vector<const char*> argv;
+  for (const auto& word : words) argv.push_back(word.c_str());
   testing::internal::CaptureStderr();
   const int code = app::runCommandLine(static_cast<int>(argv.size()), argv.data());
   return {code, testing::internal::GetCapturedStderr()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Labels, numbers and points in messages about seeds. Private to the sources of seeds.
+// Texts, numbers and points of files as messages show them.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ namespace lumen::convert {
 /// A text of a file between quotes, short enough for a sentence.
 inline std::string quotedText(const std::string& text) {
   std::size_t shown = 80;  // bytes
-  if (text.size() <= shown) return "\"" + formats::printable(text) + "\"";
+  if (text.size() <= shown) return std::string("\"").append(formats::printable(text)).append("\"");
   while (shown > 0 && (static_cast<unsigned char>(text[shown]) & 0xC0U) == 0x80U) --shown;
-  return "\"" + formats::printable(text.substr(0, shown)) + "...\"";
+  return std::string("\"").append(formats::printable(text.substr(0, shown))).append("...\"");
 }
 
 /// Six significant digits, as a person reads them.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is in a library: library.json (spec/library.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lumen::convert {
+
+/// A case of a library, and what its record must be.
+struct LibraryEntry {
+  std::string id;
+  std::uint32_t version = 1;
+  std::string title;
+  std::uint64_t recordBytes = 0;
+  std::string recordSha256;
+  std::uint64_t files = 0, bytes = 0;  ///< that the record lists
+};
+
+struct LibraryFile {
+  std::string id;  ///< UUID
+  std::uint64_t revision = 1;
+  std::optional<std::string> previous;  ///< SHA-256 of library.json of the revision before
+  std::string title, description, publisher;
+  std::string licence;  ///< an SPDX expression
+  std::string date;     ///< YYYY-MM-DD
+  std::string generator;
+  std::vector<LibraryEntry> cases;  ///< sorted by id
+};
+
+inline constexpr const char* kLibraryFile = "library.json";
+inline constexpr const char* kRecordFile = "record.json";
+inline constexpr const char* kCrateFile = "ro-crate-metadata.json";
+inline constexpr const char* kPayload = "data";
+
+/// The bytes of library.json. Equal libraries give equal bytes.
+std::string libraryText(const LibraryFile& library);
+
+/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected.
+LibraryFile readLibrary(const std::string& text, const std::filesystem::path& file);
+
+/// library.json of a folder. Throws Error(InvalidInput) for a folder without one.
+LibraryFile openLibrary(const std::filesystem::path& folder);
+
+/// The case of that id, or null.
+const LibraryEntry* findCase(const LibraryFile& library, const std::string& id);
+
+}  // namespace lumen::convert

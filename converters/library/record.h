@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a library states of one case: data/ID/record.json (spec/library.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+namespace lumen::convert {
+
+/// A code of a terminology.
+struct AnatomyCode {
+  std::string system;  ///< "SNOMED CT" or "FMA"
+  std::string code;    ///< digits
+  std::string name;
+};
+
+/// What only people can tell of a case. All texts are UTF-8 without control characters.
+struct CaseAbout {
+  std::string title, description;
+  std::string anatomy;
+  std::vector<AnatomyCode> codes;
+  std::string laterality = "unknown";  ///< left, right, bilateral, midline, unknown
+  std::string modality = "other";      ///< XA, CT, MR, US, mesh, synthetic, other
+  bool synthetic = false;
+  std::string licence;  ///< an SPDX expression
+  std::string attribution, doi, origin, consent, deidentification;
+};
+
+/// What lumen tells of it. Lengths: mm.
+struct CaseFigures {
+  std::size_t branches = 0, aneurysms = 0, nodes = 0;
+  double length = 0;
+  double radiusMin = 0, radiusMean = 0, radiusMax = 0;
+  std::optional<double> errorMedian, errorP95;  ///< without models or points: none
+  std::optional<double> reachable;              ///< without models: none
+};
+
+/// A place where an instrument enters, or a vessel ends. mm, LPS.
+struct CasePlace {
+  std::string name;
+  std::string kind;  ///< of ends: inlet or outlet
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction =
+      Eigen::Vector3d::UnitX();  ///< unit; insertions: into, ends: out of the vessel
+  double radius = 0;
+};
+
+struct RecordedFile {
+  std::string path;    ///< relative to the folder of the record
+  std::string role;    ///< case, surface, export, picture, report, other
+  std::string target;  ///< of an export
+  std::string media;   ///< media type
+  std::uint64_t bytes = 0;
+  std::string sha256;
+};
+
+struct CaseRecord {
+  std::string id;
+  std::uint32_t version = 1;
+  CaseAbout about;
+  Eigen::Vector3d boundsMin = Eigen::Vector3d::Zero(), boundsMax = Eigen::Vector3d::Zero();
+  CaseFigures figures;
+  std::vector<CasePlace> insertions, ends;
+  nlohmann::ordered_json provenance;  ///< as spec/library.md has it
+  std::vector<RecordedFile> files;    ///< sorted by path
+};
+
+/// The bytes of record.json. Equal records give equal bytes.
+std::string recordText(const CaseRecord& record);
+
+/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected.
+CaseRecord readRecord(const std::string& text, const std::filesystem::path& file);
+
+/// The keys of CaseAbout as an object of their own, such as people write for `lumen library add --about`; all may be
+/// missing. Throws as readRecord().
+CaseAbout readAbout(const std::string& text, const std::filesystem::path& file);
+
+/// Whether spec/library.md allows it.
+bool isCaseId(const std::string& id);
+bool isRecordedPath(const std::string& path);
+
+}  // namespace lumen::convert
