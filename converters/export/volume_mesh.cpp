@@ -145,8 +145,12 @@ std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, Progress& progr
   progress.begin("volume mesh", 0);
   writeComplex(surface, folder.path() / "surface.smesh");
   // a complex whose faces stay; ratio of radius to edge 1.4 at most; from 0; quiet; without faces
-  const ProgramEnd end =
-      runProgram(*program, {"-pYq1.4zQF", "surface.smesh"}, folder.path(), kMostSeconds, progress);
+  ProgramCall call;
+  call.program = *program;
+  call.arguments = {"-pYq1.4zQF", "surface.smesh"};
+  call.folder = folder.path();
+  call.seconds = kMostSeconds;
+  const ProgramEnd end = runProgram(call, progress).end;
   progress.end();
   if (end == ProgramEnd::TookTooLong) {
     why = "TetGen was not done in " + std::to_string(kMostSeconds / 60) +

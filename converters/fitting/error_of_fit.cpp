@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <variant>
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -92,6 +94,25 @@ ErrorOfFitSummary summariseErrorOfFit(std::vector<float> errors) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (errors.empty()) return {kNone, kNone, kNone};
   return {nearestRank(errors, 0.5), nearestRank(errors, 0.9), nearestRank(errors, 1.0)};
+}
+
+int fittedNeighbourhood(const formats::Metadata& metadata) {
+  for (auto step = metadata.steps.rbegin(); step != metadata.steps.rend(); ++step) {
+    if (step->name != "fit") continue;
+    const auto found = step->parameters.find("neighbourhood");
+    if (found == step->parameters.end()) break;
+    if (const auto* value = std::get_if<std::int64_t>(&found->second))
+      return static_cast<int>(std::clamp<std::int64_t>(*value, 0, 100));
+  }
+  return 2;
+}
+
+std::optional<ErrorOfFitSummary> fittedError(const formats::Case& value, Progress& progress) {
+  if (!value.points || !value.models) return std::nullopt;
+  const auto summary =
+      summariseErrorOfFit(errorOfFit(value, fittedNeighbourhood(value.metadata), progress));
+  if (std::isnan(summary.median)) return std::nullopt;
+  return summary;
 }
 
 }  // namespace lumen::convert

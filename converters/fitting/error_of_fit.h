@@ -2,6 +2,7 @@
 // How far the fitted surfaces are from the points that they were fitted to.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "converters/common/progress.h"
@@ -30,5 +31,12 @@ struct ErrorOfFitSummary {
   double median, p90, max;  ///< mm
 };
 ErrorOfFitSummary summariseErrorOfFit(std::vector<float> errors);
+
+/// The neighbourhood that the models were fitted over, from the newest "fit" step; 2 if it is not
+/// recorded.
+int fittedNeighbourhood(const formats::Metadata& metadata);
+
+/// The summary over that neighbourhood; nothing without points, models or a node that has an error.
+std::optional<ErrorOfFitSummary> fittedError(const formats::Case& value, Progress& progress);
 
 }  // namespace lumen::convert

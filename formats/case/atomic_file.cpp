@@ -190,6 +190,29 @@ bool flushFolder(const fs::path& folder, const FileCalls& calls) {
   return !error && flushPath(folder, O_DIRECTORY, calls);
 }
 
+// The same by one call, where there is one.
+bool flushSystemOf(const fs::path& folder, const FileCalls& calls) {
+  if (!calls.flushSystem) return flushFolder(folder, calls);
+  const int descriptor =
+      uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  if (descriptor < 0) return false;
+  const bool flushed = calls.flushSystem(descriptor) == 0;
+  const int error = errno;
+  ::close(descriptor);
+  errno = error;
+  return flushed || (isUnsupported(error) && flushFolder(folder, calls));
+}
+
+int flushWholeSystem(int descriptor) {
+#ifdef __linux__
+  return ::syncfs(descriptor);
+#else
+  (void)descriptor;
+  errno = ENOSYS;
+  return -1;
+#endif
+}
+
 int exchangeNames(const char* a, const char* b) {
 #ifdef RENAME_EXCHANGE
   return ::renameat2(AT_FDCWD, a, AT_FDCWD, b, RENAME_EXCHANGE);
@@ -206,7 +229,8 @@ const FileCalls& systemCalls() {
   static const FileCalls calls{
       [](int descriptor) { return ::fsync(descriptor); },
       [](int descriptor, mode_t mode) { return ::fchmod(descriptor, mode); },
-      [](const char* from, const char* to) { return ::rename(from, to); }, exchangeNames};
+      [](const char* from, const char* to) { return ::rename(from, to); }, exchangeNames,
+      flushWholeSystem};
   return calls;
 }
 
@@ -272,8 +296,9 @@ Expected<PendingFolder> PendingFolder::beside(const fs::path& folder, Existing e
   return PendingFolder(*std::move(sibling), *target, existing, calls);
 }
 
-Expected<bool> PendingFolder::commit() {
-  if (!flushFolder(path(), m_calls)) return writeError(m_target, "cannot write", errno);
+Expected<bool> PendingFolder::commit(Flush how) {
+  const auto flush = how == Flush::Each ? flushFolder : flushSystemOf;
+  if (!flush(path(), m_calls)) return writeError(m_target, "cannot write", errno);
   if (m_calls.get().rename(path().c_str(), m_target.c_str()) == 0) {
     m_sibling.release();
   } else {

@@ -41,6 +41,8 @@ struct FileCalls {
   std::function<int(int descriptor, mode_t mode)> permit;       ///< fchmod
   std::function<int(const char* from, const char* to)> rename;  ///< rename
   std::function<int(const char* a, const char* b)> exchange;    ///< renameat2, RENAME_EXCHANGE
+  /// syncfs of the file system of an open folder; nothing where there is no such call.
+  std::function<int(int descriptor)> flushSystem = nullptr;
 };
 const FileCalls& systemCalls();
 
@@ -105,11 +107,14 @@ public:
                                         const FileCalls& calls = systemCalls());
   /// Where to write: an empty folder.
   [[nodiscard]] const std::filesystem::path& path() const { return m_sibling.path(); }
+  /// How a folder gets to the disk: each file and folder by itself, or by one call for its whole file system, which also
+  /// waits for what others write, but not longer for a hundred thousand files than for one.
+  enum class Flush : std::uint8_t { Each, System };
   /// The folder is complete: flushes all in it and puts it in its place. Once only. A folder that
   /// it replaces changes places with it in one step and is removed then; where the kernel or the
   /// file system cannot do that (RENAME_EXCHANGE), the old folder first becomes NAME.lumen-old, so
   /// for an instant, or after a power cut in it, NAME does not exist.
-  Expected<bool> commit();
+  Expected<bool> commit(Flush how = Flush::Each);
 
 private:
   PendingFolder(HiddenSibling sibling, std::filesystem::path target, Existing existing,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lumen validate --privacy takes for personal.
-#include "converters/app/privacy.h"
+#include "converters/common/privacy.h"
 
 #include <set>
 
@@ -13,13 +13,11 @@ namespace lumen::test {
 
 namespace {
 
-using app::PrivacyFinding;
-using app::scanPrivacy;
 using Places = std::multiset<std::string>;
 
 std::string findings(const std::string& text) {
   std::string codes;
-  for (const PrivacyFinding& finding : app::scanText(text, "/metadata/note"))
+  for (const PrivacyFinding& finding : scanText(text, "/metadata/note"))
     codes.append(codes.empty() ? "" : " ").append(finding.code);
   return codes;
 }
@@ -155,7 +153,7 @@ TEST(Privacy, LooksAtCommentsOfABinaryFile) {
 TEST(Privacy, SurvivesLongTexts) {
   for (const char c : {'1', 'a', '@', '.', '/', ' ', '-'}) {
     const std::string text(65535, c);
-    EXPECT_LE(app::scanText(text, "").size(), 2u) << c;
+    EXPECT_LE(scanText(text, "").size(), 2u) << c;
   }
 }
 

@@ -274,6 +274,30 @@ TEST_F(AtomicOutput, ReplacesAFolderWhereTheKernelCannotExchangeNames) {
   EXPECT_EQ(names(), Names{"scene"});
 }
 
+TEST_F(AtomicOutput, FlushesAFolderByItsFileSystemAndOtherwiseEachFile) {
+  ASSERT_EQ(codeOf(writeFolder("scene", "old", PendingFolder::Existing::Refuse)), "OK");
+  for (const int code : {0, ENOSYS, EIO}) {
+    Journal journal;
+    journal.calls.flushSystem = [&](int) {
+      journal.steps.push_back(1);
+      return code == 0 ? 0 : refuse(code);
+    };
+    auto pending =
+        PendingFolder::beside(path("scene"), PendingFolder::Existing::Replace, journal.calls);
+    ASSERT_TRUE(pending);
+    put(pending->path() / "f", std::to_string(code));
+    const ino_t file = inodeOf(pending->path() / "f"), folder = inodeOf(pending->path());
+    EXPECT_EQ(codeOf(pending->commit(PendingFolder::Flush::System)),
+              code == EIO ? "IO_WRITE" : "OK");
+    std::vector<ino_t> steps = {1};
+    if (code == ENOSYS) steps.insert(steps.end(), {file, folder});
+    // a rename that finds the name taken, the exchange, the folder around it
+    if (code != EIO) steps.insert(steps.end(), {0, 0, inodeOf(path(""))});
+    EXPECT_EQ(journal.steps, steps);
+    EXPECT_EQ(get("scene/f"), code == EIO ? std::to_string(ENOSYS) : std::to_string(code));
+  }
+}
+
 TEST_F(AtomicOutput, PutsTheOldFolderBackIfTheNewOneCannotTakeItsPlace) {
   ASSERT_EQ(codeOf(writeFolder("scene", "old", PendingFolder::Existing::Refuse)), "OK");
   int renames = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/app/privacy.h"
+#include "converters/common/privacy.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "formats/view/case_chunks.h"
 #include "formats/view/text_rules.h"
 
-namespace lumen::app {
+namespace lumen {
 
 namespace {
 
@@ -154,4 +154,4 @@ std::vector<PrivacyFinding> scanPrivacy(std::span<const std::byte> file) {
   return findings;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen

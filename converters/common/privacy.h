@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lumen::app {
+namespace lumen {
 
 struct PrivacyFinding {
   std::string_view code;  ///< PRIVACY_DATE, _PATH, _ADDRESS, _NUMBER or _NAME
@@ -28,4 +28,4 @@ std::vector<PrivacyFinding> scanText(std::string_view text, const std::string& p
 /// valid.
 std::vector<PrivacyFinding> scanPrivacy(std::span<const std::byte> file);
 
-}  // namespace lumen::app
+}  // namespace lumen

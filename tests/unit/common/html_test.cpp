@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/common/html.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace lumen {
+namespace {
+
+TEST(Html, NoCharacterOfATextIsMarkup) {
+  EXPECT_EQ(htmlText("<script>alert('1' && \"2\")</script>"),
+            "&lt;script&gt;alert(&#39;1&#39; &amp;&amp; &quot;2&quot;)&lt;/script&gt;");
+}
+
+TEST(Html, ATextThatIsEscapedAlreadyIsEscapedAgain) {
+  EXPECT_EQ(htmlText("&lt;"), "&amp;lt;");
+}
+
+TEST(Html, PlainTextOfAnyScriptStays) {
+  EXPECT_EQ(htmlText("A. cerebri média ثابت 大脳"), "A. cerebri média ثابت 大脳");
+}
+
+TEST(Html, WhatDoesNotShowIsWrittenOut) {
+  EXPECT_EQ(htmlText(std::string("a\0b\nc\x7f", 6)), "a\\u0000b\\u000ac\\u007f");
+  EXPECT_EQ(htmlText("a\u202eb"), "a\\u202eb");
+  EXPECT_EQ(htmlText("a\xff<"), "a\\xff&lt;");
+}
+
+TEST(Html, ANameIsAnElementOfItsOwnDirection) {
+  EXPECT_EQ(htmlName("a<b"), "<bdi>a&lt;b</bdi>");
+}
+
+TEST(Html, AnAddressHoldsItsBytes) {
+  EXPECT_EQ(dataAddress("image/png", "foob"), "data:image/png;base64,Zm9vYg==");
+  EXPECT_EQ(dataAddress("text/plain", ""), "data:text/plain;base64,");
+}
+
+}  // namespace
+}  // namespace lumen
