@@ -148,6 +148,14 @@ std::optional<SourceDifference> sourceDifference(const formats::SourceVolume& vo
   return std::nullopt;
 }
 
+std::size_t requireOverlap(const Volume& volume, const formats::CenterlineTree& tree) {
+  const std::size_t outside = countOutside(volume, tree, Eigen::Vector3d::Ones());
+  if (outside == tree.nodeCount())
+    throw invalidInput("none of the case's " + std::to_string(tree.nodeCount()) +
+                       " nodes lies in the volume: " + likelyReason(volume, tree));
+  return outside;
+}
+
 CheckResult checkCase(const Volume& volume, const formats::Case& value, const EdgeOptions& options,
                       Progress& progress) {
   const formats::CenterlineTree& tree = value.tree;
@@ -155,10 +163,7 @@ CheckResult checkCase(const Volume& volume, const formats::Case& value, const Ed
   CheckReport& report = result.report;
   report.options = options;
   report.voxelSize = volume.geometry.voxelSize();
-  report.nodesOutside = countOutside(volume, tree, Eigen::Vector3d::Ones());
-  if (report.nodesOutside == tree.nodeCount())
-    throw invalidInput("none of the case's " + std::to_string(tree.nodeCount()) +
-                       " nodes lies in the volume: " + likelyReason(volume, tree));
+  report.nodesOutside = requireOverlap(volume, tree);
   const field::BlendedField surface = formats::blendedFieldOf(value);
 
   progress.begin("lumen", tree.nodeCount());

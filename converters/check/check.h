@@ -71,6 +71,9 @@ struct CheckResult {
 /// What the case's tracking recorded; no blur where it recorded none.
 EdgeOptions recordedEdgeOptions(const formats::Case& value);
 
+/// How many nodes lie outside of the volume. Throws Error(InvalidInput) if all do, with the likely reason.
+std::size_t requireOverlap(const Volume& volume, const formats::CenterlineTree& tree);
+
 /// How the volume differs from the one that the case says that it was made from; nothing if it does
 /// not differ.
 struct SourceDifference {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include <tbb/parallel_for.h>
@@ -21,8 +22,8 @@ constexpr int kGap = 8, kLineHeight = 22, kTextScale = 2;  // pixels
 constexpr int kLegendWidth = 560, kLegendHeight = 250;     // pixels, at least
 constexpr std::size_t kManyBranches = 12;                  // more have smaller names
 constexpr std::size_t kNumbered = 9;                       // missing vessels with a number
-constexpr Rgb kBackdrop{24, 24, 32}, kInk{230, 230, 230}, kMissing{255, 80, 255},
-    kLabel{150, 220, 255};
+constexpr Rgb kBackdrop{24, 24, 32}, kInk{230, 230, 230}, kMissing = kMissingColour,
+                                                          kLabel{150, 220, 255};
 
 struct Shade {
   Agreement agreement;
@@ -108,25 +109,27 @@ void drawMissing(Picture& picture, const CheckReport& report, const VolumeGeomet
     }
 }
 
-/// Numbers of the longest missing vessels, then the names of branches at their last nodes.
+/// Numbers of the longest missing vessels, then the names of branches at their last nodes; letters of `least` times
+/// their smallest size and more.
 void drawLabels(Labels& labels, const formats::CenterlineTree& tree, const CheckReport& report,
-                const VolumeGeometry& geometry, const Panel& panel) {
+                const VolumeGeometry& geometry, const Panel& panel, int least) {
   const auto& vessels = report.missing.vessels;
   for (std::size_t i = 0; i < std::min(kNumbered, vessels.size()); ++i) {
     const auto& way = vessels[i].way;
     const auto at = panel.pixel(geometry.indexFromWorld(way[way.size() / 2].position));
-    labels.put(panel, at[0] + 4, at[1] - 9, std::to_string(i + 1), kMissing, kTextScale);
+    labels.put(panel, at[0] + 4, at[1] - 9, std::to_string(i + 1), kMissing, least + 1);
   }
   // large ones to the right, else small ones on any side: those that reach far look like another's
   const bool few = tree.branches.size() <= kManyBranches;
   for (const formats::Branch& branch : tree.branches) {
     const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
     const auto at = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[last])));
-    const double wide = 6.0 * static_cast<double>(branch.label.size()) + 1;
-    if (few && labels.put(panel, at[0] + 4, at[1] - 9, branch.label, kLabel, kTextScale)) continue;
-    for (const auto& [x, y] : {std::pair{4.0, -4.0}, std::pair{-4.0 - wide, -4.0},
-                               std::pair{-0.5 * wide, 4.0}, std::pair{-0.5 * wide, -13.0}})
-      if (labels.put(panel, at[0] + x, at[1] + y, branch.label, kLabel, 1)) break;
+    const double wide = (6.0 * static_cast<double>(branch.label.size()) + 1) * least;
+    if (few && labels.put(panel, at[0] + 4, at[1] - 9, branch.label, kLabel, least + 1)) continue;
+    for (const auto& [x, y] :
+         {std::pair{4.0, -4.0}, std::pair{-4.0 - wide, -4.0}, std::pair{-0.5 * wide, 4.0},
+          std::pair{-0.5 * wide, -4.0 - 9.0 * least}})
+      if (labels.put(panel, at[0] + x, at[1] + y, branch.label, kLabel, least)) break;
   }
 }
 
@@ -156,19 +159,46 @@ void drawLegend(Picture& picture, int left, int top, const CheckReport& report) 
     line(nullptr, "and " + std::to_string(vessels.size() - kNumbered) + " shorter");
 }
 
+void drawPanel(Picture& picture, const Volume& volume, const formats::CenterlineTree& tree,
+               const CheckReport& report, const Panel& panel) {
+  drawProjection(picture, project(volume, panel, report.options.dark ? -1.0F : 1.0F), panel);
+  drawMissing(picture, report, volume.geometry, panel);
+  drawTree(picture, tree, report, volume.geometry, panel);
+}
+
 }  // namespace
+
+Rgb colourOf(Agreement agreement) {
+  for (const Shade& shade : kShades)
+    if (shade.agreement == agreement) return shade.colour;
+  return kInk;
+}
+
+std::vector<OverlayPanel> drawOverlayPanels(const Volume& volume,
+                                            const formats::CenterlineTree& tree,
+                                            const CheckReport& report) {
+  constexpr int kLeastText = 2;  // on paper a panel is half as large as on a screen
+  std::vector<OverlayPanel> panels;
+  for (Panel panel : layOut(volume.geometry, 0, 0, 0).panels) {
+    panel.x = panel.y = 0;
+    Picture picture(panel.width, panel.height, kBackdrop);
+    drawPanel(picture, volume, tree, report, panel);
+    Labels labels(picture);
+    drawLabels(labels, tree, report, volume.geometry, panel, kLeastText);
+    panels.push_back({panel.title, std::move(picture)});
+  }
+  return panels;
+}
 
 Picture drawOverlay(const Volume& volume, const formats::CenterlineTree& tree,
                     const CheckReport& report) {
   const Layout layout = layOut(volume.geometry, kGap, kLegendWidth, kLegendHeight);
   Picture picture(layout.width, layout.height, kBackdrop);
   for (const Panel& panel : layout.panels) {
-    drawProjection(picture, project(volume, panel, report.options.dark ? -1.0F : 1.0F), panel);
-    drawMissing(picture, report, volume.geometry, panel);
-    drawTree(picture, tree, report, volume.geometry, panel);
+    drawPanel(picture, volume, tree, report, panel);
     Labels labels(picture);
     labels.put(panel, panel.x + 2, panel.y + 2, panel.title, kInk, kTextScale);
-    drawLabels(labels, tree, report, volume.geometry, panel);
+    drawLabels(labels, tree, report, volume.geometry, panel, 1);
   }
   drawLegend(picture, layout.legendX, layout.legendY, report);
   return picture;

@@ -2,6 +2,9 @@
 // A picture of a volume with the tree of a case, coloured by how well they agree.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "converters/check/check.h"
 #include "converters/check/picture.h"
 #include "converters/volume/volume.h"
@@ -14,5 +17,19 @@ namespace lumen::convert {
 /// there is room, and missing vessels, the longest ones numbered as in the legend.
 Picture drawOverlay(const Volume& volume, const formats::CenterlineTree& tree,
                     const CheckReport& report);
+
+/// One of its views on a picture of its own.
+struct OverlayPanel {
+  std::string title;  ///< "x right, z up"
+  Picture picture;
+};
+/// The three views for paper, all of one scale: without a legend, and with larger letters.
+std::vector<OverlayPanel> drawOverlayPanels(const Volume& volume,
+                                            const formats::CenterlineTree& tree,
+                                            const CheckReport& report);
+
+/// The colours of these pictures.
+Rgb colourOf(Agreement agreement);
+inline constexpr Rgb kMissingColour{255, 80, 255};
 
 }  // namespace lumen::convert

@@ -29,7 +29,7 @@ struct Picture {
   /// Three pixels wide.
   void thickLine(double x0, double y0, double x1, double y1, const Rgb& colour);
   /// Letters of 5 by 7 pixels, `scale` times as large, with the upper left corner at (x, y): ASCII
-  /// letters (capitals as small ones), digits and the signs , . : ( ) - _ + /; others are left blank.
+  /// letters, digits and the signs , . : ( ) - _ + /; others are left blank.
   /// Gives the x behind the last.
   int text(int x, int y, int scale, std::string_view letters, const Rgb& colour);
 };

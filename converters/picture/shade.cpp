@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <string>
 
 #include <tbb/parallel_for.h>
 
@@ -22,12 +21,6 @@ constexpr float kAmbient = 0.55F, kDiffuse = 0.6F, kSpecular = 0.12F, kShininess
 float linearOf(std::uint8_t value) {
   const float v = static_cast<float>(value) / 255;
   return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F);
-}
-
-std::uint8_t codedOf(float light) {
-  const float v = std::clamp(light, 0.0F, 1.0F);
-  const float s = v <= 0.0031308F ? 12.92F * v : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F;
-  return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
 /// The greatest sine above the surface's plane of what stands in one direction.
@@ -68,6 +61,12 @@ Light litAt(const TracedSurface& surface, std::size_t pixel, const Light& colour
 }
 
 }  // namespace
+
+std::uint8_t codedOf(float light) {
+  const float v = std::clamp(light, 0.0F, 1.0F);
+  const float s = v <= 0.0031308F ? 12.92F * v : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F;
+  return static_cast<std::uint8_t>(std::lround(255 * s));
+}
 
 std::vector<float> occlusionOf(const TracedSurface& surface, const Camera& camera, double reach) {
   std::vector<float> sky(surface.depth.size(), 1);
@@ -117,24 +116,6 @@ Picture shade(const TracedSurface& surface, const Camera& camera, const std::vec
     }
   });
   return picture;
-}
-
-void drawScaleBar(Picture& picture, double pixelsPerMm, const Rgb& colour) {
-  const double most = 0.2 * picture.width / pixelsPerMm;  // mm
-  const double power = std::pow(10, std::floor(std::log10(most)));
-  double length = power;
-  for (const double times : {2.0, 5.0})
-    if (times * power <= most) length = times * power;
-  const int margin = std::max(8, picture.height / 40), scale = picture.height >= 500 ? 2 : 1;
-  const int y = picture.height - margin;
-  const double x1 = margin + length * pixelsPerMm;
-  picture.thickLine(margin, y, x1, y, colour);
-  picture.thickLine(margin, y - 4, margin, y + 4, colour);
-  picture.thickLine(x1, y - 4, x1, y + 4, colour);
-  std::string text = std::to_string(length);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  picture.text(margin, y - 12 - 7 * scale, scale, text + " mm", colour);
 }
 
 }  // namespace lumen::convert

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,6 +12,8 @@
 #include "converters/common/progress.h"
 #include "converters/picture/camera.h"
 #include "formats/case/case.h"
+
+struct blob_model;
 
 namespace lumen::convert {
 
@@ -30,11 +32,19 @@ struct TracedSurface {
   [[nodiscard]] bool isHit(std::size_t pixel) const { return depth[pixel] > kNothing; }
 };
 
-/// Sphere tracing (J. C. Hart, 1996) of libblob's distance, along the tree: a ray enters the ball around a node with
-/// that node's cursor, so vessels that touch stay apart. Balls go from front to back, and end where something nearer
-/// was met. `file`: the bytes of the case, which has models. On all cores; the same bits on any number of them.
-/// Throws Error(Cancelled), and Error(Failed) if libblob does not take the file.
-TracedSurface traceSurface(const formats::CenterlineTree& tree, std::span<const std::byte> file,
-                           const Camera& camera, Progress& progress);
+/// Where rays meet the wall, as section 4.6 of docs/method.md says: sphere tracing (J. C. Hart, 1996) of libblob's distance, of
+/// each node in its own power cell, so vessels that touch stay apart.
+class SurfaceTracer {
+public:
+  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob does not take it.
+  explicit SurfaceTracer(const formats::Case& source);
+
+  /// On all cores; the same bits on any number of them. Throws Error(Cancelled).
+  [[nodiscard]] TracedSurface trace(const Camera& camera, Progress& progress) const;
+
+private:
+  const formats::CenterlineTree& m_tree;
+  std::shared_ptr<const blob_model> m_model;
+};
 
 }  // namespace lumen::convert

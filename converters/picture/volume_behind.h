@@ -2,6 +2,9 @@
 // The projection of a volume as a camera sees it.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "converters/check/picture.h"
 #include "converters/common/progress.h"
 #include "converters/picture/camera.h"
@@ -9,8 +12,32 @@
 
 namespace lumen::convert {
 
-/// The greatest value along each ray, at steps of half of the least spacing, of the nearest voxel; grey between the median of
-/// the picture, which is black, and its highest thousandth. Throws Error(Cancelled).
-Picture volumeBehind(const Volume& volume, const Camera& camera, Progress& progress);
+/// The greatest value along each ray of a volume, which must stay; trilinear between voxels, at steps of the least spacing.
+class Projector {
+public:
+  /// Reads the volume once. Throws Error(Cancelled).
+  Projector(const Volume& volume, Progress& progress);
+
+  /// For each pixel; rows from the top; minus infinity beside the volume. The same bits on any number of threads, and those of
+  /// taking every sample: whole bricks are passed over that hold nothing greater than what was met. Throws Error(Cancelled).
+  [[nodiscard]] std::vector<float> greatest(const Camera& camera, Progress& progress) const;
+
+private:
+  const Volume& m_volume;
+  std::array<int, 3> m_bricks{};
+  std::vector<float> m_most;  ///< of what lies in a brick or is interpolated with it
+};
+
+/// Values that are black and white.
+struct GreyWindow {
+  float black = 0, white = 1;
+};
+
+/// From the median of a projection to its highest thousandth.
+GreyWindow windowOf(std::vector<float> projection);
+
+/// A projection as a picture; black beside the volume.
+Picture greysOf(const std::vector<float>& projection, int width, int height,
+                const GreyWindow& window);
 
 }  // namespace lumen::convert
