@@ -1,0 +1,18 @@
+# The pieces of a report, and texts of cases in pages.
+lumen_test(report_test
+  LIBS lumen_report
+  SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/html_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/axis_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/markup_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/profile_plot_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/tree_profiles_test.cpp)
+
+# The page in Chromium, from disk and on paper. Its packages are those of the viewer's page.
+find_program(NODE node)
+if(NODE)
+  add_test(NAME ReportPage.FitsOnPaperAndRunsNothing COMMAND ${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/report/run.mjs)
+  set_tests_properties(ReportPage.FitsOnPaperAndRunsNothing PROPERTIES
+    SKIP_RETURN_CODE 77 RUN_SERIAL ON TIMEOUT 1800
+    ENVIRONMENT "LUMEN=$<TARGET_FILE:lumen>;LUMEN_PICTURES=${CMAKE_BINARY_DIR}/people")
+endif()
