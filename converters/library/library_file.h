@@ -32,6 +32,7 @@ struct LibraryFile {
 };
 
 inline constexpr const char* kLibraryFile = "library.json";
+inline constexpr const char* kCaseFile = "case.lumen";  ///< in the folder of a case
 inline constexpr const char* kRecordFile = "record.json";
 inline constexpr const char* kCrateFile = "ro-crate-metadata.json";
 inline constexpr const char* kPayload = "data";
@@ -39,13 +40,14 @@ inline constexpr const char* kPayload = "data";
 /// The bytes of library.json. Equal libraries give equal bytes.
 std::string libraryText(const LibraryFile& library);
 
-/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected.
+/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected. What a schema cannot say
+/// is not looked at: ids may be twice there or out of order, the licence may be empty.
 LibraryFile readLibrary(const std::string& text, const std::filesystem::path& file);
 
 /// library.json of a folder. Throws Error(InvalidInput) for a folder without one.
 LibraryFile openLibrary(const std::filesystem::path& folder);
 
-/// The case of that id, or null.
+/// The case of that id, or null. The cases are sorted.
 const LibraryEntry* findCase(const LibraryFile& library, const std::string& id);
 
 }  // namespace lumen::convert

@@ -11,6 +11,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "converters/common/error.h"
+
 namespace lumen::convert {
 
 /// A code of a terminology.
@@ -37,7 +39,7 @@ struct CaseFigures {
   std::size_t branches = 0, aneurysms = 0, nodes = 0;
   double length = 0;
   double radiusMin = 0, radiusMean = 0, radiusMax = 0;
-  std::optional<double> errorMedian, errorP95;  ///< without models or points: none
+  std::optional<double> errorMedian, errorP90;  ///< without models or points: none
   std::optional<double> reachable;              ///< without models: none
 };
 
@@ -63,6 +65,7 @@ struct RecordedFile {
 struct CaseRecord {
   std::string id;
   std::uint32_t version = 1;
+  std::string date;  ///< YYYY-MM-DD: of the library's revision that brought this version
   CaseAbout about;
   Eigen::Vector3d boundsMin = Eigen::Vector3d::Zero(), boundsMax = Eigen::Vector3d::Zero();
   CaseFigures figures;
@@ -74,8 +77,20 @@ struct CaseRecord {
 /// The bytes of record.json. Equal records give equal bytes.
 std::string recordText(const CaseRecord& record);
 
-/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected.
+/// A path that spec/library.md does not allow: one that could leave the folder, or clash with another.
+class PathError : public Error {
+public:
+  explicit PathError(const std::string& what) : Error(ErrorKind::InvalidInput, what) {}
+};
+
+/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected; PathError for a path. Of
+/// what a schema cannot say it sees to the files alone: exactly one case, sorted paths that all file systems tell
+/// apart.
 CaseRecord readRecord(const std::string& text, const std::filesystem::path& file);
+
+/// What can be told of a case by such a record but not shared under the format's rules: no licence, or no consent or
+/// de-identification of a patient. One sentence, or nothing.
+std::string missingStatement(const CaseAbout& about);
 
 /// The keys of CaseAbout as an object of their own, such as people write for `lumen library add --about`; all may be
 /// missing. Throws as readRecord().
@@ -84,5 +99,7 @@ CaseAbout readAbout(const std::string& text, const std::filesystem::path& file);
 /// Whether spec/library.md allows it.
 bool isCaseId(const std::string& id);
 bool isRecordedPath(const std::string& path);
+/// A digital object identifier, or nothing.
+bool isDoi(const std::string& text);
 
 }  // namespace lumen::convert

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/library/build.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "converters/common/error.h"
+#include "converters/library/build_row.h"
+#include "converters/library/change.h"
+#include "converters/library/library_file.h"
+#include "converters/library/record.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kPatience =
+    20;  // a batch waits for as many times as long as the last one took to put in
+
+CaseRecord recordIn(const fs::path& library, const std::string& id) {
+  const fs::path file = library / kPayload / id / kRecordFile;
+  std::ifstream in(file, std::ios::binary);
+  return readRecord({std::istreambuf_iterator<char>(in), {}}, file);
+}
+
+/// Whether the library's case is made from what the row says. A record that cannot be read is not.
+bool isKept(const fs::path& folder, const LibraryFile& library, const PlannedRow& plan) {
+  if (findCase(library, plan.id) == nullptr) return false;
+  try {
+    const CaseRecord record = recordIn(folder, plan.id);
+    return record.provenance.value("recipe_sha256", "") == plan.recipe.all;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// What workers hand over: results, and rows that lie ready for the library.
+class Building {
+public:
+  Building(const std::vector<BuildRow>& rows, fs::path folder, const BuildOptions& options,
+           Progress& progress)
+      : m_rows(rows),
+        m_folder(std::move(folder)),
+        m_library(openLibrary(m_folder)),
+        m_options(options),
+        m_progress(progress),
+        m_results(rows.size()) {}
+
+  std::vector<RowResult> run() {
+    m_progress.begin("building", m_rows.size());
+    std::vector<std::thread> workers;
+    m_working = m_options.jobs;
+    for (int k = 0; k < m_options.jobs; ++k) workers.emplace_back([this] { work(); });
+    std::exception_ptr failure;
+    try {
+      putAll();
+    } catch (...) {
+      failure = std::current_exception();
+      m_next = m_rows.size();  // what runs ends, nothing else begins
+    }
+    for (std::thread& worker : workers) worker.join();
+    if (failure) std::rethrow_exception(failure);
+    m_progress.check();
+    m_progress.end();
+    return std::move(m_results);
+  }
+
+private:
+  void work() {
+    for (std::size_t i = m_next++; i < m_rows.size() && !m_progress.cancelled(); i = m_next++) {
+      try {
+        makeOne(i);
+      } catch (const std::exception& error) {
+        fail(i, error.what());
+      }
+      m_progress.advance();
+    }
+    const std::lock_guard lock(m_mutex);
+    --m_working;
+    m_changed.notify_all();
+  }
+
+  void makeOne(std::size_t i) {
+    m_results[i].row = m_rows[i].number;
+    m_results[i].id = m_rows[i].id;
+    PlannedRow plan = planRow(m_rows[i], m_library, m_options, m_progress);
+    m_results[i].id = plan.id;
+    requireOwnId(plan);
+    if (isKept(m_folder, m_library, plan)) {
+      m_results[i].end = RowEnd::Kept;
+      return;
+    }
+    m_results[i] = makeRow(plan, m_library, m_options, m_progress);
+    if (m_results[i].end == RowEnd::Failed) {
+      warnOf(m_results[i]);
+      return;
+    }
+    const std::lock_guard lock(m_mutex);
+    m_ready.push_back(std::move(plan));
+    m_changed.notify_all();
+  }
+
+  /// Rows without an id get one of their input, which two rows may share.
+  void requireOwnId(const PlannedRow& plan) {
+    const std::lock_guard lock(m_mutex);
+    const auto [first, isNew] = m_ids.emplace(plan.id, plan.row->number);
+    if (!isNew)
+      throw invalidInput("its input is that of row " + std::to_string(first->second) +
+                         ", so it needs an id of its own");
+  }
+
+  void fail(std::size_t i, const std::string& why) {
+    m_results[i].end = RowEnd::Failed;
+    m_results[i].why = why;
+    m_results[i].code = static_cast<int>(ErrorKind::InvalidInput);
+    if (!m_progress.cancelled()) warnOf(m_results[i]);
+  }
+
+  void warnOf(const RowResult& result) {
+    m_progress.warn("row " + std::to_string(result.row) + " (" + formats::printable(result.id) +
+                    "): " + result.why);
+  }
+
+  /// Puts batches into the library until nobody works any more.
+  void putAll() {
+    double cost = 0;  // s
+    for (Clock::time_point last = Clock::now();;) {
+      std::vector<PlannedRow> batch;
+      {
+        std::unique_lock lock(m_mutex);
+        m_changed.wait_for(lock, std::chrono::milliseconds(200));
+        m_progress.check();
+        const std::chrono::duration<double> waited = Clock::now() - last;
+        const bool isLast = m_working == 0;
+        if (isLast && m_ready.empty()) return;
+        if (m_ready.empty() || (!isLast && waited.count() < kPatience * cost)) continue;
+        batch.swap(m_ready);
+      }
+      const Clock::time_point begin = Clock::now();
+      put(batch);
+      last = Clock::now();
+      cost = std::chrono::duration<double>(last - begin).count();
+    }
+  }
+
+  void put(const std::vector<PlannedRow>& batch) {
+    LibraryChange change(m_folder, m_progress);
+    for (const PlannedRow& plan : batch)
+      change.put(recordIn(plan.staged, plan.id), plan.staged / kPayload / plan.id);
+    change.commit(m_options.day);
+    std::error_code ignored;
+    for (const PlannedRow& plan : batch) fs::remove_all(plan.folder, ignored);
+  }
+
+  const std::vector<BuildRow>& m_rows;
+  fs::path m_folder;
+  LibraryFile m_library;  ///< as it was at the beginning
+  const BuildOptions& m_options;
+  Progress& m_progress;
+  std::vector<RowResult> m_results;
+  std::atomic<std::size_t> m_next{0};
+  std::mutex m_mutex;
+  std::condition_variable m_changed;
+  int m_working = 0;
+  std::vector<PlannedRow> m_ready;
+  std::map<std::string, std::size_t> m_ids;  ///< and whose they are
+};
+
+}  // namespace
+
+std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows, const fs::path& library,
+                                    const BuildOptions& options, Progress& progress) {
+  return Building(rows, library, options, progress).run();
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Making the cases of a list, each by commands of lumen in processes of their own, so that one that crashes or runs out
+// of memory costs its own row only.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "converters/common/progress.h"
+#include "converters/library/build_list.h"
+
+namespace lumen::convert {
+
+struct BuildOptions {
+  std::filesystem::path program;  ///< lumen itself
+  std::string version;            ///< of it: another one makes every case again
+  std::filesystem::path
+      work;             ///< where rows are made: what is there from another run is gone on with
+  int jobs = 1;         ///< rows at once
+  int threads = 0;      ///< for all of them together; 0: all cores
+  bool strict = false;  ///< a warning fails the row
+  std::string day;      ///< YYYY-MM-DD: of the revisions that come of it
+};
+
+enum class RowEnd : std::uint8_t { Made, Kept, Failed };
+
+/// What became of a row.
+struct RowResult {
+  std::size_t row = 0;  ///< its number in the list
+  std::string id;
+  RowEnd end = RowEnd::Failed;
+  double seconds = 0;
+  int code = 0;     ///< exit code of the command that failed
+  std::string why;  ///< its message
+  std::size_t warnings = 0;
+  std::filesystem::path log;  ///< what the row's commands wrote to standard error, where it failed
+};
+
+/// Makes every row whose recipe is not that of the case in the library, and puts it there; cases are put into the
+/// library in batches, each atomic. A row that fails is passed over. Results are in the order of the list. Throws
+/// Error(Cancelled): what is made by then is used by the next run; Error(Failed) where neither the library nor the
+/// folder for work can be written.
+std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows,
+                                    const std::filesystem::path& library,
+                                    const BuildOptions& options, Progress& progress);
+
+}  // namespace lumen::convert

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/library/build_list.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <csv.h>
+#include <nlohmann/json.hpp>
+
+#include "converters/common/error.h"
+#include "converters/common/shown_text.h"
+#include "converters/common/text.h"
+#include "converters/library/record.h"
+#include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::convert {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Cells = std::vector<std::string>;
+
+constexpr std::size_t kMostFaultsTold = 20;
+constexpr std::array<std::string_view, 4> kOwnColumns = {"input", "seeds", "id", "targets"};
+constexpr std::array<std::string_view, 13> kAboutColumns = {
+    "title",   "description", "anatomy", "codes",  "laterality", "modality",        "synthetic",
+    "licence", "attribution", "doi",     "origin", "consent",    "deidentification"};
+
+template <class List>
+bool holds(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+struct Table {
+  std::vector<Cells> rows;
+  Cells row;
+};
+
+/// Rows and cells as libcsv finds them; throws what breaks RFC 4180.
+std::vector<Cells> cellsOf(const std::string& text, const std::string& name) {
+  csv_parser parser{};
+  if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL) != 0)
+    throw failed("comma-separated values cannot be read");
+  const std::unique_ptr<csv_parser, void (*)(csv_parser*)> owner(&parser, csv_free);
+  Table table;
+  const auto cell = [](void* bytes, std::size_t size, void* data) {
+    static_cast<Table*>(data)->row.push_back(
+        trimmed(std::string(static_cast<const char*>(bytes), size)));
+  };
+  const auto row = [](int, void* data) {
+    auto& all = *static_cast<Table*>(data);
+    all.rows.push_back(std::exchange(all.row, {}));
+  };
+  const std::size_t read = csv_parse(&parser, text.data(), text.size(), cell, row, &table);
+  if (read != text.size() || csv_fini(&parser, cell, row, &table) != 0)
+    throw invalidInput(
+        name + ": row " + std::to_string(table.rows.size() + 1) +
+        ": found a quote inside of a text, or one without an end; expected comma-" +
+        "separated values in which a text with quotes is \"quoted \"\"like this\"\"\"");
+  return std::move(table.rows);
+}
+
+/// The parts between semicolons, without those that are empty.
+std::vector<std::string> partsOf(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(';', at), text.size());
+    const std::string part = trimmed(text.substr(at, end - at));
+    if (!part.empty()) parts.push_back(part);
+    at = end + 1;
+  }
+  return parts;
+}
+
+/// "SNOMED CT:ID:NAME".
+nlohmann::ordered_json codeOf(const std::string& text) {
+  const std::size_t first = text.find(':'), second = text.find(':', first + 1);
+  if (first == std::string::npos || second == std::string::npos)
+    throw invalidInput("codes: found " + quotedText(text) + ", expected SYSTEM:CODE:NAME");
+  return {{"system", text.substr(0, first)},
+          {"code", text.substr(first + 1, second - first - 1)},
+          {"name", text.substr(second + 1)}};
+}
+
+bool synthetic(const std::string& word) {
+  if (holds(std::array{"yes", "true", "1"}, word)) return true;
+  if (holds(std::array{"no", "false", "0"}, word)) return false;
+  throw invalidInput("synthetic: found " + quotedText(word) + ", expected yes or no");
+}
+
+void addAbout(nlohmann::ordered_json& about, const std::string& column, const std::string& cell) {
+  const auto anatomy = [&about]() -> nlohmann::ordered_json& {
+    if (!about.contains("anatomy"))
+      about["anatomy"] = {{"text", ""}, {"codes", nlohmann::ordered_json::array()}};
+    return about["anatomy"];
+  };
+  if (column == "anatomy") {
+    anatomy()["text"] = cell;
+  } else if (column == "codes") {
+    auto codes = nlohmann::ordered_json::array();
+    for (const std::string& code : partsOf(cell)) codes.push_back(codeOf(code));
+    anatomy()["codes"] = std::move(codes);
+  } else if (column == "synthetic") {
+    about["synthetic"] = synthetic(cell);
+  } else {
+    about[column] = cell;
+  }
+}
+
+void addCell(BuildRow& row, nlohmann::ordered_json& about, const fs::path& folder,
+             const std::string& column, const std::string& cell) {
+  if (cell.empty()) return;
+  if (column == "input")
+    row.input = folder / cell;
+  else if (column == "seeds")
+    row.seeds = folder / cell;
+  else if (column == "id")
+    row.id = cell;
+  else if (column == "targets")
+    row.targets = partsOf(cell);
+  else if (column.starts_with("--"))
+    row.options[column] = cell;
+  else
+    addAbout(about, column, cell);
+}
+
+void requireFile(const fs::path& file, const std::string& column) {
+  std::error_code error;
+  if (!fs::exists(file, error))
+    throw invalidInput(column + ": there is no " + formats::printable(file.string()));
+}
+
+/// Throws what is wrong, without the place.
+BuildRow rowOf(const Cells& names, const Cells& cells, const fs::path& folder) {
+  if (cells.size() > names.size())
+    throw invalidInput("found " + std::to_string(cells.size()) + " cells, expected " +
+                       std::to_string(names.size()) + ": a text with a comma needs quotes");
+  BuildRow row;
+  auto about = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!formats::isUtf8(cells[i])) throw invalidInput(names[i] + ": is not UTF-8");
+    addCell(row, about, folder, names[i], cells[i]);
+  }
+  if (row.input.empty()) throw invalidInput("input: is empty; expected a file or a folder");
+  requireFile(row.input, "input");
+  if (!row.seeds.empty()) requireFile(row.seeds, "seeds");
+  if (!row.id.empty() && !isCaseId(row.id))
+    throw invalidInput("id: found " + quotedText(row.id) +
+                       ", expected a to z, 0 to 9 and -, 64 at most");
+  row.about = about.dump(2) + "\n";
+  (void)readAbout(row.about, "what is told of it");
+  return row;
+}
+
+Cells namesOf(Cells names, const std::string& name) {
+  for (std::string& column : names) {
+    if (column == "volume") column = "input";
+    if (std::count(names.begin(), names.end(), column) > 1)
+      throw invalidInput(name + ": row 1: two columns are called " + quotedText(column));
+    if (holds(kOwnColumns, column) || holds(kAboutColumns, column)) continue;
+    if (column.starts_with("--") && column.size() > 2) continue;
+    throw invalidInput(
+        name + ": row 1: found a column " + quotedText(column) +
+        ", expected input, seeds, id, targets, title, description, anatomy, codes, " +
+        "laterality, modality, synthetic, licence, attribution, doi, origin, " +
+        "consent, deidentification, or an option of lumen convert such as --crop");
+  }
+  if (!holds(names, "input")) throw invalidInput(name + ": row 1: there is no column called input");
+  return names;
+}
+
+void requireDifferentIds(const std::vector<BuildRow>& rows, std::vector<std::string>& faults) {
+  std::map<std::string, std::size_t> first;
+  for (const BuildRow& row : rows) {
+    if (row.id.empty()) continue;
+    const auto [other, isNew] = first.emplace(row.id, row.number);
+    if (!isNew)
+      faults.push_back("row " + std::to_string(row.number) + ": id: " + row.id +
+                       " is that of row " + std::to_string(other->second) + ", too");
+  }
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::vector<std::string>& faults) {
+  std::string text = name + ": " + faults.front();
+  for (std::size_t i = 1; i < std::min(faults.size(), kMostFaultsTold); ++i)
+    text += "\n" + name + ": " + faults[i];
+  if (faults.size() > kMostFaultsTold)
+    text += "\nand " + std::to_string(faults.size() - kMostFaultsTold) + " more";
+  throw invalidInput(text);
+}
+
+}  // namespace
+
+std::vector<BuildRow> readBuildList(const std::string& text, const fs::path& file) {
+  const std::string name = formats::printable(file.string());
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // spreadsheets write it
+  std::vector<Cells> cells =
+      cellsOf(text.starts_with(kMark) ? text.substr(kMark.size()) : text, name);
+  if (cells.empty()) throw invalidInput(name + ": is empty; expected a row of names first");
+  const Cells names = namesOf(std::move(cells.front()), name);
+  std::vector<BuildRow> rows;
+  std::vector<std::string> faults;
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    if (std::all_of(cells[i].begin(), cells[i].end(), [](const auto& c) { return c.empty(); }))
+      continue;
+    try {
+      rows.push_back(rowOf(names, cells[i], file.parent_path()));
+      rows.back().number = i + 1;
+    } catch (const Error& error) {
+      faults.push_back("row " + std::to_string(i + 1) + ": " + error.what());
+    }
+  }
+  requireDifferentIds(rows, faults);
+  if (!faults.empty()) refuse(name, faults);
+  if (rows.empty()) throw invalidInput(name + ": there is no row below the names");
+  return rows;
+}
+
+}  // namespace lumen::convert

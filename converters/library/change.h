@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Changing a library in one step: whoever looks, whenever it is killed, finds the library of before or that of after.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include "converters/common/progress.h"
+#include "converters/library/library_file.h"
+#include "converters/library/record.h"
+
+namespace lumen::convert {
+
+/// A lock on a library: on its folder, so that nothing of it is left behind. Who opens the library again under its name
+/// may find another folder there.
+class LibraryLock {
+public:
+  /// Waits for other writers; tells `progress` so. Throws Error(InvalidInput) if there is no folder, Error(Cancelled).
+  LibraryLock(const std::filesystem::path& library, Progress& progress);
+  ~LibraryLock();
+  LibraryLock(const LibraryLock&) = delete;
+  LibraryLock& operator=(const LibraryLock&) = delete;
+
+private:
+  int m_descriptor = -1;
+};
+
+/// One new revision of a library.
+class LibraryChange {
+public:
+  /// Holds the library's lock from here on. Throws as openLibrary() and LibraryLock(), and Error(InvalidInput) for a
+  /// library whose ids are not in order.
+  LibraryChange(const std::filesystem::path& library, Progress& progress);
+
+  /// As it is before the change.
+  [[nodiscard]] const LibraryFile& library() const { return m_library; }
+
+  /// The case is to be in the library, in place of one with its id. `files` is a folder with record.files in it, as they
+  /// are recorded, which stays until commit() and is not changed. Throws Error(InvalidInput) for what missingStatement()
+  /// says and for two cases of one id.
+  void put(CaseRecord record, std::filesystem::path files);
+  /// Throws Error(Usage) if there is none of this id.
+  void remove(const std::string& id);
+
+  /// Writes the next revision, of the day `date`, and puts it in place of the old one; once only. The signature and the
+  /// pages are those of the old one, and go with it. Throws Error(InvalidInput), and changes nothing, for records that
+  /// are not what library.json states; Error(Failed) if something cannot be written; Error(Cancelled).
+  void commit(const std::string& date);
+
+private:
+  struct Incoming {
+    CaseRecord record;
+    std::filesystem::path files;
+  };
+  LibraryEntry bringIn(Incoming& incoming, const std::filesystem::path& data,
+                       const std::string& date) const;
+
+  std::filesystem::path m_folder;
+  Progress& m_progress;
+  LibraryLock m_lock;
+  LibraryFile m_library;
+  std::map<std::string, Incoming> m_incoming;
+  std::set<std::string> m_removed;
+};
+
+/// Throws Error(Usage) if the library has a case of this id.
+void requireNewId(const LibraryFile& library, const std::string& id);
+
+/// A new library without cases, at revision 1; `library` has its id, texts, licence and date. Throws Error(InvalidInput)
+/// for a licence that is none, and Error(Failed) where there is something already.
+void makeLibrary(const std::filesystem::path& folder, LibraryFile library);
+
+/// The record of a case. Throws Error(InvalidInput) if it is not what the entry states, with the advice to check.
+CaseRecord openRecord(const std::filesystem::path& library, const LibraryEntry& entry);
+
+}  // namespace lumen::convert

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/library/check_case.h"
+
+#include <span>
+#include <utility>
+
+#include "converters/common/privacy.h"
+#include "converters/common/sha256.h"
+#include "converters/common/text.h"
+#include "converters/library/case_folder.h"
+#include "converters/library/derived.h"
+#include "converters/library/figure_faults.h"
+#include "converters/library/record_faults.h"
+#include "formats/case/case_file.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr std::uint64_t kMostRecord = 16U << 20U;  // bytes: tens of thousands of files
+constexpr std::size_t kMostIssues = 20;            // of a case: the rest is lumen validate's
+
+std::span<const std::byte> bytesOf(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+/// One case on its way.
+class CaseChecker {
+public:
+  CaseChecker(const PlainFolder& library, const LibraryEntry& entry, const CheckJournal& journal,
+              std::size_t most, const Progress& progress)
+      : m_library(library),
+        m_entry(entry),
+        m_journal(journal),
+        m_progress(progress),
+        m_folder(std::string(kPayload) + "/" + entry.id),
+        m_result{FaultList(most), {}, {}, false, {}, 0, 0} {}
+
+  CaseCheck run() {
+    auto record = readStated();
+    if (!record) return std::move(m_result);
+    ExpectedFiles expected;
+    expected.add(kRecordFile);
+    expected.add(kCrateFile);
+    for (const RecordedFile& file : record->files) expected.add(file.path);
+    FolderState before = walk(expected);
+    if (m_isStated) m_result.crate = caseCrate(*record);
+    const std::string mark = markOf(before);
+    m_result.isPassedOver = m_result.faults.empty() && before.faults.empty() && m_isStated &&
+                            m_journal.isUsed() && m_journal.knows(m_entry.id, mark);
+    if (!m_result.isPassedOver) {
+      checkRecord(*record, m_entry, recordPath(), m_result.faults);
+      for (const RecordedFile& file : record->files) checkFile(file, *record);
+      if (m_isStated) checkCrate();
+      m_result.faults.append(std::move(before.faults));
+      settle(expected, mark);
+    }
+    if (m_isStated) m_result.record = std::move(record);
+    return std::move(m_result);
+  }
+
+private:
+  [[nodiscard]] std::string pathOf(const std::string& name) const { return m_folder + "/" + name; }
+  [[nodiscard]] std::string recordPath() const { return pathOf(kRecordFile); }
+  [[nodiscard]] FolderState walk(const ExpectedFiles& expected) const {
+    return walkFolder(m_library, m_folder, expected, m_entry.id, m_result.faults.most());
+  }
+  [[nodiscard]] std::string markOf(const FolderState& state) const {
+    return sha256(bytesOf(m_entry.recordSha256 + state.mark));
+  }
+  void fault(FaultCode code, const std::string& path, std::string found, std::string expected) {
+    m_result.faults.add({code, m_entry.id, path, std::move(found), std::move(expected)});
+  }
+
+  PlainRead read(const std::string& path, const WantedRead& wanted) {
+    PlainRead result = m_library.read(path, wanted, m_progress);
+    if (result.isRead) {
+      ++m_result.files;
+      m_result.bytes += result.bytes;
+    }
+    return result;
+  }
+
+  /// Tells why a file is not had; false if it is.
+  bool isNotHad(const PlainRead& read, const std::string& path) {
+    if (read.fault == PlainFault::None) return false;
+    const FaultCode code = read.fault == PlainFault::Missing ? FaultCode::FileMissing
+                           : read.fault == PlainFault::Kind  ? FaultCode::FileKind
+                                                             : FaultCode::FileUnreadable;
+    fault(code, path, read.found, "a file");
+    return true;
+  }
+
+  /// The record, even if it is another than the library states: it still tells which files there should be.
+  std::optional<CaseRecord> readStated() {
+    const std::string path = recordPath();
+    PlainRead text = read(path, {m_entry.recordBytes, m_entry.recordBytes <= kMostRecord});
+    if (isNotHad(text, path)) return {};
+    m_isStated = text.isRead && text.sha256 == m_entry.recordSha256;
+    if (!text.isRead)
+      fault(FaultCode::RecordDigest, path, counted(text.bytes, "byte", "bytes"),
+            std::to_string(m_entry.recordBytes) + ", as in library.json");
+    else if (!m_isStated)
+      fault(FaultCode::RecordDigest, path, "SHA-256 " + text.sha256,
+            m_entry.recordSha256 + ", as in library.json");
+    if (text.bytes > kMostRecord) {
+      fault(FaultCode::RecordFile, path, counted(text.bytes, "byte", "bytes"), "at most 16 MiB");
+      return {};
+    }
+    if (!text.isRead) text = read(path, {text.bytes, true});
+    if (isNotHad(text, path)) return {};
+    return readRecordFaults(text.content, m_entry.id, path, m_result.faults);
+  }
+
+  void checkFile(const RecordedFile& file, const CaseRecord& record) {
+    const std::string path = pathOf(file.path);
+    const bool isCase = file.role == "case";
+    const PlainRead content = read(path, {file.bytes, isCase});
+    if (isNotHad(content, path)) return;
+    if (!content.isRead)
+      return fault(FaultCode::FileAltered, path, counted(content.bytes, "byte", "bytes"),
+                   std::to_string(file.bytes));
+    if (content.sha256 != file.sha256)
+      return fault(FaultCode::FileAltered, path, "SHA-256 " + content.sha256, file.sha256);
+    if (isCase) checkCaseFile(path, content.content, record);
+  }
+
+  void checkCaseFile(const std::string& path, const std::string& content,
+                     const CaseRecord& record) {
+    const auto bytes = bytesOf(content);
+    const formats::ValidationReport report = formats::validateBytes(bytes, kMostIssues);
+    for (const formats::Issue& issue : report.issues)
+      if (formats::severityOf(issue.code) == formats::Severity::Error)
+        fault(FaultCode::CaseInvalid, path, issue.text(), "");
+    if (!report.valid()) return;
+    if (const auto value = formats::decodeCase(bytes))
+      checkFigures(*value, record, recordPath(), m_result.faults);
+    for (const PrivacyFinding& finding : scanPrivacy(bytes))
+      fault(FaultCode::Privacy, path, "at \"" + finding.pointer + "\": " + finding.message, "");
+  }
+
+  void checkCrate() {
+    const std::string path = pathOf(kCrateFile);
+    const PlainRead content = read(path, {m_result.crate.size(), false});
+    if (isNotHad(content, path)) return;
+    if (!content.isRead)
+      fault(FaultCode::Crate, path, counted(content.bytes, "byte", "bytes"),
+            std::to_string(m_result.crate.size()) + ", which the record gives");
+    else if (content.sha256 != sha256(bytesOf(m_result.crate)))
+      fault(FaultCode::Crate, path, "SHA-256 " + content.sha256,
+            sha256(bytesOf(m_result.crate)) + ", which the record gives");
+  }
+
+  /// Whether the journal may keep the case: what was walked through before is there now, as it was, and has been for so
+  /// long that a change in the meantime would show.
+  void settle(const ExpectedFiles& expected, const std::string& mark) {
+    if (!m_journal.isUsed() || !m_result.faults.empty() || !m_isStated) return;
+    const FolderState after = walk(expected);
+    if (after.isSettled && markOf(after) == mark) m_result.mark = mark;
+  }
+
+  const PlainFolder& m_library;
+  const LibraryEntry& m_entry;
+  const CheckJournal& m_journal;
+  const Progress& m_progress;
+  const std::string m_folder;
+  bool m_isStated = false;
+  CaseCheck m_result;
+};
+
+}  // namespace
+
+CaseCheck checkCase(const PlainFolder& library, const LibraryEntry& entry,
+                    const CheckJournal& journal, std::size_t most, const Progress& progress) {
+  return CaseChecker(library, entry, journal, most, progress).run();
+}
+
+}  // namespace lumen::convert

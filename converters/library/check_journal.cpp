@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/library/check_journal.h"
+
+#include <array>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "converters/common/error.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr std::string_view kFormat = "lumen library check, ";
+constexpr std::size_t kMark = 64;  // digits of a digest
+constexpr std::size_t kMostBytes = std::size_t{1}
+                                   << 28;  // more than all cases that a library may have
+
+std::string errorText(int code) {
+  return std::generic_category().message(code);
+}
+
+std::string readAll(int descriptor, const std::filesystem::path& file) {
+  std::string text;
+  std::array<char, 65536> piece{};
+  ssize_t n = 0;
+  while ((n = ::read(descriptor, piece.data(), piece.size())) != 0) {
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw failed(file.string() + ": cannot be read: " + errorText(errno));
+    text.append(piece.data(), static_cast<std::size_t>(n));
+    if (text.size() > kMostBytes)
+      throw invalidInput(file.string() +
+                         ": found more than 256 MiB, expected a file that --resume made");
+  }
+  return text;
+}
+
+void writeAll(int descriptor, std::string_view text, const std::filesystem::path& file) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(descriptor, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw failed(file.string() + ": cannot be written: " + errorText(errno));
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+}  // namespace
+
+CheckJournal::CheckJournal(const std::filesystem::path& file, const std::string& libraryId)
+    : m_file(file) {
+  m_descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666);
+  if (m_descriptor < 0) throw failed(file.string() + ": cannot be opened: " + errorText(errno));
+  try {
+    struct stat status {};
+    if (fstat(m_descriptor, &status) != 0 || !S_ISREG(status.st_mode))
+      throw invalidInput(file.string() + ": found no file, expected one that --resume made");
+    if (flock(m_descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      throw failed(file.string() +
+                   ": another check is using this file; wait for it, or name another");
+    read(readAll(m_descriptor, file),
+         std::string(kFormat) + "lumen " LUMEN_VERSION ", of " + libraryId + "\n");
+  } catch (...) {
+    close(m_descriptor);
+    throw;
+  }
+}
+
+CheckJournal::~CheckJournal() {
+  if (m_descriptor >= 0) close(m_descriptor);
+}
+
+/// A line for each case: the mark, a space, the id. What a killed check left of a line is cut off.
+void CheckJournal::read(const std::string& text, const std::string& head) {
+  if (!text.empty() && !text.starts_with(kFormat))
+    throw invalidInput(
+        m_file.string() +
+        ": found something else, expected a file that --resume made; it is left as it is");
+  if (!text.starts_with(head)) {
+    if (ftruncate(m_descriptor, 0) != 0)
+      throw failed(m_file.string() + ": cannot be written: " + errorText(errno));
+    writeAll(m_descriptor, head, m_file);
+    return;
+  }
+  std::size_t begin = head.size();
+  for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    if (end - begin < kMark + 2 || text[begin + kMark] != ' ') continue;
+    m_marks[text.substr(begin + kMark + 1, end - begin - kMark - 1)] = text.substr(begin, kMark);
+  }
+  if (begin < text.size() && ftruncate(m_descriptor, static_cast<off_t>(begin)) != 0)
+    throw failed(m_file.string() + ": cannot be written: " + errorText(errno));
+}
+
+bool CheckJournal::knows(const std::string& caseId, const std::string& mark) const {
+  const auto found = m_marks.find(caseId);
+  return found != m_marks.end() && found->second == mark;
+}
+
+void CheckJournal::add(const std::string& caseId, const std::string& mark) {
+  writeAll(m_descriptor, mark + " " + caseId + "\n", m_file);
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/library/check_library.h"
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include "converters/common/shown_text.h"
+#include "converters/common/text.h"
+#include "converters/library/bag_check.h"
+#include "converters/library/case_folder.h"
+#include "converters/library/check_case.h"
+#include "converters/library/check_journal.h"
+#include "converters/library/derived.h"
+#include "converters/library/record_faults.h"
+#include "converters/library/signature.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr std::uint64_t kMostLibrary = std::uint64_t{1}
+                                       << 27;  // bytes: 100,000 cases with long titles
+
+/// Cases on their way for each thread: so that one large case does not stop the others, and memory stays bounded.
+constexpr std::size_t kAhead = 8;
+
+/// Sorts the cases and leaves each id once, telling what was not so.
+void sortCases(LibraryFile& library, FaultList& faults) {
+  std::unordered_set<std::string> seen;
+  std::vector<LibraryEntry> kept;
+  std::string last;
+  bool isTold = false;
+  for (LibraryEntry& entry : library.cases) {
+    if (!seen.insert(entry.id).second) {
+      faults.add({FaultCode::LibraryIdTwice, entry.id, kLibraryFile,
+                  "the id " + quotedText(entry.id) + " again", "each id once"});
+      continue;
+    }
+    if (entry.id < last && !isTold) {
+      faults.add({FaultCode::LibraryOrder, entry.id, kLibraryFile,
+                  quotedText(entry.id) + " after " + quotedText(last), "cases sorted by id"});
+      isTold = true;
+    }
+    last = entry.id;
+    kept.push_back(std::move(entry));
+  }
+  std::sort(kept.begin(), kept.end(),
+            [](const LibraryEntry& a, const LibraryEntry& b) { return a.id < b.id; });
+  library.cases = std::move(kept);
+}
+
+/// Files that nothing reads here: they must be files all the same.
+void checkKindsOfOthers(const PlainFolder& folder, FaultList& faults) {
+  std::set<std::string> wrong;
+  const auto look = [&](const PlainEntry& entry) {
+    const bool isFile = entry.name == "index.html" || entry.name == kMinisignSignatureFile ||
+                        entry.name == kOpenSshSignatureFile;
+    const bool isFolder = entry.name == "site";
+    if ((isFile && !S_ISREG(entry.status.st_mode)) || (isFolder && !S_ISDIR(entry.status.st_mode)))
+      wrong.insert(entry.name + "\n" + kindText(entry.status.st_mode));
+    return true;
+  };
+  const PlainRead read = folder.list("", look);
+  if (read.fault != PlainFault::None)
+    faults.add({FaultCode::FileUnreadable, "", ".", read.found, "a folder that can be read"});
+  for (const std::string& text : wrong) {
+    const std::string name = text.substr(0, text.find('\n'));
+    faults.add({FaultCode::FileKind, "", name, text.substr(name.size() + 1),
+                name == "site" ? "a folder" : "a file"});
+  }
+  checkKinds(folder, "site", faults);
+}
+
+/// The library's folder and data/, in which nothing else may be.
+void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultList& faults) {
+  ExpectedFiles root;
+  for (const char* const name :
+       {kLibraryFile, kMinisignSignatureFile, kOpenSshSignatureFile, kBagFile, kBagInfoFile,
+        kManifestFile, kTagManifestFile, "index.html"})
+    root.files.insert(name);
+  root.files.insert({kPayload, "site"});  // their entries are looked at below
+  faults.append(walkFolder(folder, "", root, "", faults.most()).faults);
+  ExpectedFiles payload;
+  payload.files.insert(kCrateFile);
+  for (const LibraryEntry& entry : library.cases) payload.files.insert(entry.id);
+  faults.append(walkFolder(folder, kPayload, payload, "", faults.most()).faults);
+  checkKindsOfOthers(folder, faults);
+}
+
+/// What a case gave, in its place.
+struct Checked {
+  std::size_t at = 0;
+  std::shared_ptr<CaseCheck> check;  // TBB copies what goes from filter to filter
+};
+
+/// All cases, in parallel, and what follows from them, in order.
+void checkCases(const PlainFolder& folder, const LibraryFile& library, CheckJournal& journal,
+                BagCheck& bag, LibraryCheck& result, Progress& progress) {
+  std::size_t next = 0;
+  const auto begin = [&](tbb::flow_control& control) {
+    if (next == library.cases.size() || progress.cancelled()) {
+      control.stop();
+      return std::size_t{0};
+    }
+    return next++;
+  };
+  const auto check = [&](std::size_t at) {
+    return Checked{at, std::make_shared<CaseCheck>(checkCase(folder, library.cases[at], journal,
+                                                             result.faults.most(), progress))};
+  };
+  const auto collect = [&](const Checked& checked) {
+    const LibraryEntry& entry = library.cases[checked.at];
+    CaseCheck& of = *checked.check;
+    bag.add(entry, of);
+    if (!of.mark.empty()) journal.add(entry.id, of.mark);
+    ++result.cases;
+    result.passedOver += of.isPassedOver ? 1 : 0;
+    result.files += of.files;
+    result.bytes += of.bytes;
+    result.faults.append(std::move(of.faults));
+    progress.advance();
+  };
+  const auto tokens = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) * kAhead;
+  tbb::parallel_pipeline(
+      tokens, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, begin) &
+                  tbb::make_filter<std::size_t, Checked>(tbb::filter_mode::parallel, check) &
+                  tbb::make_filter<Checked, void>(tbb::filter_mode::serial_in_order, collect));
+  progress.check();
+}
+
+}  // namespace
+
+std::optional<std::string> readLibraryText(const PlainFolder& folder, FaultList& faults,
+                                           const Progress& progress) {
+  PlainRead text = folder.read(kLibraryFile, {0, false}, progress);
+  if (text.fault == PlainFault::None && text.bytes > kMostLibrary) {
+    faults.add({FaultCode::LibraryFile, "", kLibraryFile, counted(text.bytes, "byte", "bytes"),
+                "at most 128 MiB"});
+    return {};
+  }
+  if (text.fault == PlainFault::None)
+    text = folder.read(kLibraryFile, {text.bytes, true}, progress);
+  if (text.fault == PlainFault::None && text.isRead) return std::move(text.content);
+  faults.add({FaultCode::LibraryFile, "", kLibraryFile,
+              text.found.empty() ? "a file that changes" : text.found, "a file"});
+  return {};
+}
+
+LibraryCheck checkLibrary(const PlainFolder& folder, const std::string& text,
+                          const LibraryCheckOptions& options, Progress& progress) {
+  LibraryCheck result{FaultList(options.mostFaults), {}, 0, 0, 0, 0};
+  try {
+    result.library = readLibrary(text, kLibraryFile);
+  } catch (const Error& error) {
+    std::string what = error.what();
+    const std::string name = std::string(kLibraryFile) + ": ";
+    if (what.starts_with(name)) what.erase(0, name.size());
+    result.faults.add({FaultCode::LibraryFile, "", kLibraryFile, what, ""});
+    return result;
+  }
+  LibraryFile& library = *result.library;
+  sortCases(library, result.faults);
+  checkLicence(library.licence, "", kLibraryFile, result.faults);
+  checkPrivacy(library.title, "/title", "", kLibraryFile, result.faults);
+  checkPrivacy(library.description, "/description", "", kLibraryFile, result.faults);
+  checkFolders(folder, library, result.faults);
+  CheckJournal none;
+  std::optional<CheckJournal> journal;
+  if (!options.journal.empty()) journal.emplace(options.journal, library.id);
+  BagCheck bag(folder, library, text, progress);
+  progress.begin("check", library.cases.size());
+  checkCases(folder, library, journal ? *journal : none, bag, result, progress);
+  bag.finish(result.faults);
+  progress.end();
+  return result;
+}
+
+}  // namespace lumen::convert

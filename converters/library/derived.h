@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a library states a second time for those who do not know its format: the tag files of its bag and its RO-Crates.
+// All follows from library.json and the records, so whoever writes a library and whoever checks it make them by this.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "converters/library/library_file.h"
+#include "converters/library/record.h"
+
+namespace lumen::convert {
+
+inline constexpr const char* kManifestFile = "manifest-sha256.txt";
+inline constexpr const char* kTagManifestFile = "tagmanifest-sha256.txt";
+inline constexpr const char* kBagFile = "bagit.txt";
+inline constexpr const char* kBagInfoFile = "bag-info.txt";
+
+/// Where a text goes, piece by piece.
+using TextSink = std::function<void(std::string_view)>;
+
+/// data/ID/ro-crate-metadata.json: the case as an RO-Crate of its own.
+std::string caseCrate(const CaseRecord& record);
+
+/// The tag files that do not grow with the cases.
+struct TagTexts {
+  std::string bag, bagInfo, tagManifest;
+};
+
+/// The texts of a whole library, of which one case at a time is in memory.
+class LibraryTexts {
+public:
+  /// `library` must outlive this. `manifest` is given manifest-sha256.txt, `crate` data/ro-crate-metadata.json.
+  LibraryTexts(const LibraryFile& library, TextSink manifest, TextSink crate);
+  ~LibraryTexts();
+  LibraryTexts(const LibraryTexts&) = delete;
+  LibraryTexts& operator=(const LibraryTexts&) = delete;
+
+  /// The next case of library.cases. The digest of its record is the one that the library states. `crate` is
+  /// caseCrate(record).
+  void add(const CaseRecord& record, std::string_view crate);
+
+  /// Passes over the next case, whose record is not there; what is made of all cases is not to be had then.
+  void skip();
+
+  /// After the last case.
+  TagTexts finish();
+
+private:
+  struct State;
+  std::unique_ptr<State> m_state;
+};
+
+}  // namespace lumen::convert

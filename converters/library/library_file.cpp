@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/library/library_file.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "converters/common/error.h"
+#include "converters/library/json_values.h"
+#include "formats/case/case_file.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostCases = 100000;
+
+LibraryEntry readEntry(const JsonPlace& place) {
+  place.onlyKeys({"id", "version", "title", "record", "files", "bytes"});
+  const JsonPlace record = place.at("record");
+  record.onlyKeys({"bytes", "sha256"});
+  LibraryEntry entry;
+  entry.id = caseId(place.at("id"));
+  entry.version = static_cast<std::uint32_t>(wholeNumber(place.at("version"), 1, UINT32_MAX));
+  entry.title = plainText(place.at("title"), 255, 1);
+  entry.recordBytes = wholeNumber(record.at("bytes"));
+  entry.recordSha256 = digest(record.at("sha256"));
+  entry.files = wholeNumber(place.at("files"));
+  entry.bytes = wholeNumber(place.at("bytes"));
+  return entry;
+}
+
+}  // namespace
+
+std::string libraryText(const LibraryFile& library) {
+  Json json = {{"format", "lumen-library"},
+               {"formatVersion", 1},
+               {"id", library.id},
+               {"revision", library.revision},
+               {"previous", library.previous ? Json(*library.previous) : Json()},
+               {"title", library.title},
+               {"description", library.description},
+               {"publisher", library.publisher},
+               {"licence", library.licence},
+               {"date", library.date},
+               {"generator", library.generator}};
+  // a line for each case, so that two revisions can be compared by eye
+  std::string text = json.dump(2);
+  text.resize(text.size() - 2);  // "\n}"
+  text += ",\n  \"cases\": [";
+  for (const LibraryEntry& entry : library.cases) {
+    const Json line = {
+        {"id", entry.id},
+        {"version", entry.version},
+        {"title", entry.title},
+        {"record", Json{{"bytes", entry.recordBytes}, {"sha256", entry.recordSha256}}},
+        {"files", entry.files},
+        {"bytes", entry.bytes}};
+    text += (&entry == library.cases.data() ? "\n    " : ",\n    ") + line.dump();
+  }
+  return text + (library.cases.empty() ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+LibraryFile readLibrary(const std::string& text, const fs::path& file) {
+  const JsonFile document{parseJson(text, file), file.string()};
+  const JsonPlace root(document);
+  requireFormat(root, "lumen-library");
+  root.onlyKeys({"format", "formatVersion", "id", "revision", "previous", "title", "description",
+                 "publisher", "licence", "date", "generator", "cases"});
+  LibraryFile library;
+  library.id = root.at("id").text();
+  if (!isUuid(library.id)) root.at("id").refuse("a UUID in lower case");
+  library.revision = wholeNumber(root.at("revision"), 1);
+  if (!root.at("previous").value().is_null()) library.previous = digest(root.at("previous"));
+  library.title = plainText(root.at("title"), 255, 1);
+  library.description = plainText(root.at("description"), 4096);
+  library.publisher = plainText(root.at("publisher"), 255);
+  library.licence = plainText(root.at("licence"), 255);
+  library.date = day(root.at("date"));
+  library.generator = plainText(root.at("generator"), 255);
+  if (!library.generator.starts_with("lumen "))
+    root.at("generator").refuse("\"lumen \" and a version");
+  const auto cases = root.at("cases").elements();
+  if (cases.size() > kMostCases)
+    root.at("cases").refuse("at most " + std::to_string(kMostCases) + " cases");
+  library.cases.reserve(cases.size());
+  for (const JsonPlace& place : cases) library.cases.push_back(readEntry(place));
+  return library;
+}
+
+LibraryFile openLibrary(const fs::path& folder) {
+  const fs::path file = folder / kLibraryFile;
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error)))
+    throw invalidInput(formats::printable(folder.string()) + ": found no " + kLibraryFile +
+                       " in it, expected a library, which lumen library init makes");
+  const auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(formats::printable(file.string() + ": " + bytes.error().message));
+  return readLibrary({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file);
+}
+
+const LibraryEntry* findCase(const LibraryFile& library, const std::string& id) {
+  const auto found = std::lower_bound(
+      library.cases.begin(), library.cases.end(), id,
+      [](const LibraryEntry& entry, const std::string& x) { return entry.id < x; });
+  return found != library.cases.end() && found->id == id ? &*found : nullptr;
+}
+
+}  // namespace lumen::convert

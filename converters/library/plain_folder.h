@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of a folder that somebody else made: nothing is reached through a link, and nothing but a file is read.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <sys/stat.h>
+
+#include "converters/common/progress.h"
+
+namespace lumen::convert {
+
+/// Why a file is not had.
+enum class PlainFault : std::uint8_t {
+  None,
+  Missing,
+  Kind,        ///< a link, a device, a folder, or a file in the way of a folder
+  Unreadable,  ///< also: it changed while it was read
+};
+
+struct PlainRead {
+  PlainFault fault = PlainFault::None;
+  std::string found;        ///< of a fault: "a symbolic link", "Permission denied"
+  std::uint64_t bytes = 0;  ///< the size of the file
+  bool isRead = false;      ///< it has the size that was wanted, and was read
+  std::string sha256;       ///< of what was read
+  std::string content;      ///< if it was to be kept
+};
+
+/// What to read of a file.
+struct WantedRead {
+  std::optional<std::uint64_t> bytes;  ///< a file of another size is not read
+  bool isKept = false;
+};
+
+/// A name in a folder.
+struct PlainEntry {
+  std::string name;
+  struct stat status {};  ///< of the entry itself, not of what it leads to
+};
+
+/// "a file", "a folder", "a symbolic link", "a named pipe", "a device".
+std::string kindText(mode_t mode);
+
+/// An open file, read from the beginning on.
+class PlainStream {
+public:
+  explicit PlainStream(int descriptor) : m_descriptor(descriptor) {}
+  ~PlainStream();
+  PlainStream(const PlainStream&) = delete;
+  PlainStream& operator=(const PlainStream&) = delete;
+  /// The next bytes, at most so many; nothing at the end, or where it cannot be read.
+  std::string read(std::size_t most);
+
+private:
+  int m_descriptor;
+};
+
+class PlainFolder {
+public:
+  /// Throws Error(InvalidInput) if there is no such folder or it cannot be read. Here a link is followed.
+  explicit PlainFolder(const std::filesystem::path& folder);
+  ~PlainFolder();
+  PlainFolder(const PlainFolder&) = delete;
+  PlainFolder& operator=(const PlainFolder&) = delete;
+
+  /// As it was named.
+  [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
+
+  /// Reads a file; `path` is relative, with a / between folders. Throws Error(Cancelled) only.
+  [[nodiscard]] PlainRead read(const std::string& path, const WantedRead& wanted,
+                               const Progress& progress) const;
+
+  /// Opens a file; null, and `why`, for what is none.
+  [[nodiscard]] std::unique_ptr<PlainStream> stream(const std::string& path, PlainRead& why) const;
+
+  /// Calls `see` with each entry of a folder ("" is this one) in the order of the file system, until it gives false.
+  [[nodiscard]] PlainRead list(const std::string& path,
+                               const std::function<bool(const PlainEntry&)>& see) const;
+
+private:
+  std::filesystem::path m_path;
+  int m_descriptor = -1;
+};
+
+}  // namespace lumen::convert

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that is wrong with a record by itself and beside its line of library.json.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "converters/library/library_fault.h"
+#include "converters/library/library_file.h"
+#include "converters/library/record.h"
+
+namespace lumen::convert {
+
+/// The record in `text`, without the files whose paths none may have; nothing if it breaks its format otherwise. `path` is
+/// the record's, for the faults.
+std::optional<CaseRecord> readRecordFaults(const std::string& text, const std::string& caseId,
+                                           const std::string& path, FaultList& faults);
+
+/// What is not as the line of library.json has it; a missing licence, consent or de-identification; texts that look like a
+/// person's.
+void checkRecord(const CaseRecord& record, const LibraryEntry& entry, const std::string& path,
+                 FaultList& faults);
+
+/// A licence that is missing or none.
+void checkLicence(const std::string& licence, const std::string& caseId, const std::string& path,
+                  FaultList& faults);
+
+/// A text that looks like a person's; `pointer` tells which of the file.
+void checkPrivacy(const std::string& text, const std::string& pointer, const std::string& caseId,
+                  const std::string& path, FaultList& faults);
+
+}  // namespace lumen::convert

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// record.h: how ids and paths are spelt, and what must be stated.
+#include <algorithm>
+#include <string_view>
+
+#include "converters/library/record.h"
+#include "converters/library/spdx.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr std::size_t kMostId = 64, kMostPart = 128, kMostPath = 255;
+
+bool isSmallLetterOrDigit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+}
+
+bool isPathCharacter(char c) {
+  return isSmallLetterOrDigit(c) || (c >= 'A' && c <= 'Z') ||
+         std::string_view("._+-").find(c) != std::string_view::npos;
+}
+
+bool isPart(std::string_view part) {
+  return !part.empty() && part.size() <= kMostPart && part.front() != '.' &&
+         std::all_of(part.begin(), part.end(), isPathCharacter);
+}
+
+}  // namespace
+
+bool isCaseId(const std::string& id) {
+  return !id.empty() && id.size() <= kMostId && id.front() != '-' &&
+         std::all_of(id.begin(), id.end(),
+                     [](char c) { return isSmallLetterOrDigit(c) || c == '-'; });
+}
+
+bool isRecordedPath(const std::string& path) {
+  if (path.size() > kMostPath) return false;
+  std::string_view rest = path;
+  for (std::size_t slash = 0; (slash = rest.find('/')) != std::string_view::npos;
+       rest.remove_prefix(slash + 1))
+    if (!isPart(rest.substr(0, slash))) return false;
+  return isPart(rest);
+}
+
+bool isDoi(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (text.empty()) return true;
+  if (!text.starts_with("10.") || slash == std::string::npos || slash + 1 == text.size())
+    return false;
+  const std::string prefix = text.substr(3, slash - 3);
+  return prefix.size() >= 4 && prefix.size() <= 9 &&
+         std::all_of(prefix.begin(), prefix.end(), [](char c) { return c >= '0' && c <= '9'; }) &&
+         text.find(' ') == std::string::npos;
+}
+
+std::string missingStatement(const CaseAbout& about) {
+  if (about.licence.empty())
+    return "no licence is stated, so nobody may use the case; --licence states one, such as "
+           "CC-BY-4.0";
+  if (const std::string fault = licenceFault(about.licence); !fault.empty()) return fault;
+  if (about.synthetic) return {};
+  const std::string what = about.consent.empty()            ? "consent"
+                           : about.deidentification.empty() ? "de-identification"
+                                                            : "";
+  if (what.empty()) return {};
+  return "no statement of " + what + " for a case that is not said to be synthetic; --" +
+         (what == "consent" ? "consent" : "deidentification") +
+         " gives one, --synthetic says that no patient is behind the case";
+}
+
+}  // namespace lumen::convert

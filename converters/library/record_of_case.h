@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a record states of a case that follows from the case itself.
+#pragma once
+
+#include <string>
+
+#include "converters/common/progress.h"
+#include "converters/library/record.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// Sets bounds, figures, insertions, ends and provenance of `record`, whose other members stay. The case is valid and has
+/// a node; `caseSha256` is of its file. Numbers have the precision of a float, in the shortest decimals. Equal cases
+/// give equal records. Throws Error(InvalidInput) for a case without nodes, Error(Cancelled).
+void describe(const formats::Case& source, const std::string& caseSha256, CaseRecord& record,
+              Progress& progress);
+
+}  // namespace lumen::convert

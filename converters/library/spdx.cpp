@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/library/spdx.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "converters/common/shown_text.h"
+#include "converters/common/text.h"
+#include "converters/library/spdx_ids.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr std::size_t kMostBytes = 255;
+
+template <class List>
+bool isIn(const List& sorted, std::string_view word) {
+  return std::binary_search(sorted.begin(), sorted.end(), word);
+}
+
+bool isIdCharacter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+         c == '-';
+}
+
+/// LicenseRef-NAME, or DocumentRef-NAME:LicenseRef-NAME.
+bool isOwnLicence(std::string_view word) {
+  constexpr std::string_view kDocument = "DocumentRef-", kLicence = "LicenseRef-";
+  const auto isNamed = [](std::string_view text, std::string_view prefix) {
+    return text.size() > prefix.size() && text.starts_with(prefix) &&
+           std::all_of(text.begin(), text.end(), isIdCharacter);
+  };
+  if (const auto colon = word.find(':'); colon != std::string_view::npos) {
+    if (!isNamed(word.substr(0, colon), kDocument)) return false;
+    word.remove_prefix(colon + 1);
+  }
+  return isNamed(word, kLicence);
+}
+
+/// Words and parentheses.
+std::vector<std::string> tokensOf(const std::string& text) {
+  std::vector<std::string> tokens;
+  bool inWord = false;
+  for (const char c : text) {
+    const bool isBracket = c == '(' || c == ')';
+    if (isBracket || (c != ' ' && !inWord))
+      tokens.emplace_back(1, c);
+    else if (c != ' ')
+      tokens.back() += c;
+    inWord = c != ' ' && !isBracket;
+  }
+  return tokens;
+}
+
+std::string unknown(const std::string& word) {
+  std::string text = quotedText(word) + " is no identifier of SPDX's list of licences";
+  for (const std::string_view known : kSpdxLicences)
+    if (lowerCase(std::string(known)) == lowerCase(word))
+      return text + "; did you mean " + std::string(known) + "?";
+  return text + "; a licence of your own is written LicenseRef- and a name";
+}
+
+/// expression = term {("AND" | "OR") term}; term = "(" expression ")" | licence ["WITH" exception]
+class Reader {
+public:
+  explicit Reader(const std::string& text) : m_tokens(tokensOf(text)) {}
+
+  /// Of the whole text.
+  std::string fault() {
+    std::size_t open = 0;
+    for (;;) {
+      while (take("(")) ++open;
+      if (const std::string what = licence(); !what.empty()) return what;
+      while (open > 0 && take(")")) --open;
+      if (m_next == m_tokens.size()) return open == 0 ? "" : "a parenthesis is not closed";
+      if (!take("AND") && !take("OR"))
+        return "expected AND or OR before " + quotedText(m_tokens[m_next]);
+    }
+  }
+
+private:
+  bool take(std::string_view word) {
+    if (m_next == m_tokens.size() || m_tokens[m_next] != word) return false;
+    ++m_next;
+    return true;
+  }
+
+  std::string licence() {
+    if (m_next == m_tokens.size()) return "expected a licence at its end";
+    const std::string word = m_tokens[m_next++];
+    std::string_view id = word;
+    if (!isOwnLicence(id)) {
+      if (id.ends_with('+')) id.remove_suffix(1);
+      if (!isIn(kSpdxLicences, id) && !isIn(kSpdxLicences, word)) return unknown(word);
+    }
+    if (!take("WITH")) return {};
+    if (m_next < m_tokens.size() && isIn(kSpdxExceptions, m_tokens[m_next])) {
+      ++m_next;
+      return {};
+    }
+    return "WITH is followed by an exception of SPDX's list, such as Classpath-exception-2.0";
+  }
+
+  std::vector<std::string> m_tokens;
+  std::size_t m_next = 0;
+};
+
+}  // namespace
+
+std::string licenceFault(const std::string& expression) {
+  const std::string prefix = "licence " + quotedText(expression) + ": ";
+  if (expression.size() > kMostBytes) return prefix + "expected at most 255 bytes";
+  const std::string fault = Reader(expression).fault();
+  return fault.empty() ? fault : prefix + fault;
+}
+
+bool isListedLicence(std::string_view identifier) {
+  return isIn(kSpdxLicences, identifier);
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which revision of each library was seen signed before, so that an older one is not taken for news.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace lumen::convert {
+
+/// $XDG_STATE_HOME/lumen/libraries.json, by default below ~/.local/state. Throws Error(Failed) where neither is known.
+std::filesystem::path defaultStateFile();
+
+struct VerifiedRevision {
+  std::uint64_t revision = 0;
+  std::string sha256;  ///< of library.json
+};
+
+/// The state file, which nobody else changes while this lives: two verifications at once take turns.
+class VerifiedRevisions {
+public:
+  /// Makes the file's folder where there is none. Throws Error(InvalidInput) for a file that is damaged, which stays as it is,
+  /// and Error(Failed).
+  explicit VerifiedRevisions(const std::filesystem::path& file);
+  ~VerifiedRevisions();
+  VerifiedRevisions(const VerifiedRevisions&) = delete;
+  VerifiedRevisions& operator=(const VerifiedRevisions&) = delete;
+
+  /// The highest revision that was seen of a library.
+  [[nodiscard]] std::optional<VerifiedRevision> of(const std::string& libraryId) const;
+  /// Remembers a revision that is not lower; the file is replaced atomically. Throws Error(Failed).
+  void remember(const std::string& libraryId, const VerifiedRevision& revision);
+
+private:
+  std::filesystem::path m_file;
+  int m_lock = -1;
+  nlohmann::ordered_json m_libraries;
+};
+
+}  // namespace lumen::convert

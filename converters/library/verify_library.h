@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a library is what somebody who is trusted signed, whole, and not older than what was seen before.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "converters/common/progress.h"
+#include "converters/library/check_library.h"
+#include "converters/library/plain_folder.h"
+#include "converters/library/signature.h"
+
+namespace lumen::convert {
+
+struct VerifyOptions {
+  KeyFile trusted;
+  std::string identity;         ///< whom of a list of allowed signers; nothing: anybody on it
+  std::filesystem::path state;  ///< VerifiedRevisions' file; none: nothing is remembered
+  std::size_t mostFaults = 1000;
+};
+
+struct LibraryVerdict {
+  /// With the faults of signature and revision. The cases were only looked at if there are none of these.
+  LibraryCheck check;
+  Signer signer;                    ///< as far as it is known
+  std::uint64_t knownRevision = 0;  ///< that was verified before; 0 for none
+  [[nodiscard]] bool isTrusted() const { return check.faults.errors() == 0; }
+};
+
+/// A revision is remembered as soon as its signature is trusted, whatever its files are like: from then on it is known that
+/// there is one. Throws as verifySignature(), VerifiedRevisions and checkLibrary().
+LibraryVerdict verifyLibrary(const PlainFolder& folder, const VerifyOptions& options,
+                             Progress& progress);
+
+}  // namespace lumen::convert

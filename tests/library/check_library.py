@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Makes and changes libraries with lumen, and reads them with others: `sha256sum`, a reader of bags and of spec/library.md
+in Python (bag.py), the schemas, npm's ro-crate.
+
+check_library.py LUMEN
+
+Without node_modules beside this file (npm ci) the crates are read by bag.py alone, and it is said. Exit status: 0 all held,
+1 not."""
+import json, os, pathlib, shutil, subprocess, sys, tempfile
+
+sys.dont_write_bytecode = True
+import bag
+
+HERE = pathlib.Path(__file__).resolve().parent
+failures = []
+
+
+def expect(held, what):
+    if not held:
+        failures.append(what)
+        print(what)
+
+
+class Place:
+    """A folder in which lumen runs."""
+
+    def __init__(self, lumen, folder):
+        self.lumen, self.folder = str(lumen.resolve()), folder
+        self.environment = {**os.environ, "SOURCE_DATE_EPOCH": "1795305600"}
+
+    def run(self, *words, code=0):
+        done = subprocess.run([self.lumen, *words], cwd=self.folder, env=self.environment, capture_output=True, text=True)
+        expect(done.returncode == code, f"lumen {' '.join(words)}: ended with {done.returncode}, not {code}: {done.stderr}")
+        return done
+
+    def add(self, *words, code=0, case="tube.lumen"):
+        return self.run("library", "add", "lib", case, "--synthetic", "--no-surface", "--picture", "none", *words, code=code)
+
+    def library(self):
+        return json.loads((self.folder / "lib/library.json").read_text())
+
+    def valid(self, when):
+        for fault in bag.library_faults(self.folder / "lib"): expect(False, f"{when}: {fault}")
+        for name in ("manifest-sha256.txt", "tagmanifest-sha256.txt"):
+            done = subprocess.run(["sha256sum", "--quiet", "--strict", "-c", name], cwd=self.folder / "lib", capture_output=True)
+            expect(done.returncode == 0 or not (self.folder / "lib" / name).stat().st_size, f"{when}: {name}: {done.stdout}")
+
+    def refused(self, code, said, *words, case="tube.lumen"):
+        """Nothing changes, and one sentence tells why."""
+        before = {p: p.read_bytes() for p in (self.folder / "lib").rglob("*") if p.is_file()}
+        done = self.run("library", *words, code=code)
+        errors = [line for line in done.stderr.splitlines() if line.startswith("lumen: error: ")]
+        expect(len(errors) == 1 and said in errors[0], f"{words}: said {done.stderr!r}, not {said!r}")
+        after = {p: p.read_bytes() for p in (self.folder / "lib").rglob("*") if p.is_file()}
+        expect(before == after, f"{words}: the library is another")
+
+
+def making(place):
+    place.run("library", "init", "lib", "--title", "Tubes", "--licence", "CC0-1.0", "--id", "0b8f2ac0-58a8-4d3c-93c9-3f3f39f1f2a4")
+    place.valid("a new library")
+    expect(place.library()["revision"] == 1 and place.library()["previous"] is None, "a new library is of revision 1")
+    expect(place.library()["date"] == "2026-11-22", "the date is that of SOURCE_DATE_EPOCH")
+    place.run("library", "init", "twin", "--title", "Tubes", "--licence", "CC0-1.0", "--id", "0b8f2ac0-58a8-4d3c-93c9-3f3f39f1f2a4")
+    expect((place.folder / "twin/library.json").read_bytes() == (place.folder / "lib/library.json").read_bytes(),
+           "the same library twice is not of the same bytes")
+    place.run("library", "init", "other", "--title", "Tubes", "--licence", "CC0-1.0")
+    expect(json.loads((place.folder / "other/library.json").read_text())["id"] != place.library()["id"], "ids are not random")
+
+
+def adding(place):
+    first = bag.sha256(place.folder / "lib/library.json")
+    place.add("--export", "svzerod", "--export", "slicer")
+    place.valid("one case")
+    whole = place.library()
+    digest = bag.sha256(place.folder / "tube.lumen")
+    expect([case["id"] for case in whole["cases"]] == ["case-" + digest[:12]], "the id is not of the case's digest")
+    expect(whole["revision"] == 2 and whole["previous"] == first, "the revision before is not named")
+    record = json.loads((place.folder / "lib/data" / whole["cases"][0]["id"] / "record.json").read_text())
+    expect((record["licence"], record["modality"]) == ("CC0-1.0", "synthetic"), "licence and modality are not taken over")
+    expect({f["target"] for f in record["files"] if f["role"] == "export"} == {"svzerod", "slicer"}, "exports are not recorded")
+    info = json.loads(place.run("info", "tube.lumen", "--json").stdout)
+    figures = record["figures"]
+    for mine, its in ((figures["length_mm"], info["length_mm"]), (figures["fit_error_mm"]["median"], info["error_of_fit_mm"]["median"]),
+                      (figures["fit_error_mm"]["p90"], info["error_of_fit_mm"]["p90"]),
+                      (figures["radius_mm"]["max"], info["radius_mm"]["max"]), (figures["reachable_mm"], info["reachable"]["length_mm"])):
+        expect(abs(mine - its) <= 1e-6 * abs(its), f"a figure is {mine}, and lumen info says {its}")
+    (place.folder / "about.json").write_text(json.dumps({"title": "From a file", "anatomy": {"text": "tube", "codes": []}, "doi": "10.1234/x"}))
+    (place.folder / "note.txt").write_text("a note")
+    place.run("library", "add", "lib", "tube.lumen", "--id", "full", "--about", "about.json", "--title", "Of the line", "--synthetic",
+              "--code", "FMA:3947:Internal carotid artery", "--turntable", "2", "--picture", "left", "--picture", "best", "--file", "note.txt")
+    place.valid("a case with pictures")
+    record = json.loads((place.folder / "lib/data/full/record.json").read_text())
+    expect((record["title"], record["doi"]) == ("Of the line", "10.1234/x"), "the command line does not win over --about")
+    expect([f["path"] for f in record["files"]] == ["case.lumen", "files/note.txt", "picture-best.png", "picture-left.png", "surface.glb",
+                                                  "thumbnail.png", "turntable/000.png", "turntable/001.png"], "files of the full case")
+    expect(record["anatomy"]["codes"] == [{"system": "FMA", "code": "3947", "name": "Internal carotid artery"}], "codes")
+    place.run("convert", "tube.lumen", "tube.lumen.json")
+    place.add("--id", "of-json", case="tube.lumen.json")
+    place.valid("a case that came as JSON")
+
+
+def changing(place):
+    library = place.folder / "lib"
+    for name in ("library.json.sig", "library.json.minisig", "index.html"): (library / name).write_text("old")
+    (library / "site").mkdir()
+    (library / "site/page.js").write_text("old")
+    (library / "README.md").write_text("somebody's")
+    (library / "data/full/extra.txt").write_text("somebody's")
+    os.chmod(library, 0o750)
+    inode = (library / "data/full/surface.glb").stat().st_ino
+    place.add("--id", "full", "--replace", "--title", "Better", case="tube.lumen")
+    place.add("--id", "later")
+    names = sorted(p.name for p in library.iterdir())
+    expect("README.md" in names and not {"library.json.sig", "library.json.minisig", "index.html", "site"} & set(names), f"left: {names}")
+    expect(library.stat().st_mode & 0o777 == 0o750, "the library's permissions are others")
+    place.valid("after a replacement")
+    full = [case for case in place.library()["cases"] if case["id"] == "full"][0]
+    expect((full["version"], full["title"], full["files"]) == (2, "Better", 1), f"the replaced case: {full}")
+    other = place.library()["cases"][0]["id"]
+    inode = (library / "data" / other / "case.lumen").stat().st_ino
+    place.run("library", "remove", "lib", "full", "of-json")
+    expect((library / "data" / other / "case.lumen").stat().st_ino == inode, "a file that stays is no hard link")
+    expect([case["id"] for case in place.library()["cases"]] == [other, "later"], "removed cases")
+    place.valid("after a removal")
+    listed = json.loads(place.run("library", "list", "lib", "--json").stdout)
+    expect([case["id"] for case in listed["cases"]] == [other, "later"] and listed["cases"][0]["length_mm"] > 20, "the list")
+    expect(sorted(p.name for p in place.folder.iterdir() if p.name.startswith(".")) == [], "hidden files are left")
+
+
+def refusing(place):
+    hurt = ["--consent", "Given", "--deidentification", "Done"]
+    place.refused(2, "has a case later already", "add", "lib", "tube.lumen", "--synthetic", "--id", "later")
+    place.refused(3, "no statement of consent", "add", "lib", "tube.lumen")
+    place.refused(3, "no statement of de-identification", "add", "lib", "tube.lumen", "--consent", "Given")
+    place.refused(2, "expected 1 to 64 of a to z", "add", "lib", "tube.lumen", "--id", "../x", *hurt)
+    place.refused(2, "did you mean CC-BY-4.0?", "add", "lib", "tube.lumen", "--licence", "cc-by-4.0", *hurt)
+    place.refused(2, "expected a DOI such as", "add", "lib", "tube.lumen", "--doi", "https://doi.org/10.1234/x", *hurt)
+    place.refused(2, "expected SNOMED CT or FMA", "add", "lib", "tube.lumen", "--code", "ICD:1:x", *hurt)
+    place.refused(4, "lumen does not export to this", "add", "lib", "tube.lumen", "--export", "nothing", *hurt)
+    place.refused(3, "there is no such case file", "add", "lib", "none.lumen", *hurt)
+    place.refused(3, "there is no such file", "add", "lib", "tube.lumen", "--file", "none.txt", *hurt)
+    place.refused(3, "there is no such file about the case", "add", "lib", "tube.lumen", "--about", "none.json", *hurt)
+    (place.folder / "bad.json").write_text('{"laterality": "links"}')
+    place.refused(3, 'at "/laterality"', "add", "lib", "tube.lumen", "--about", "bad.json", *hurt)
+    (place.folder / "a b.txt").write_text("x")
+    place.refused(3, "cannot have a file of this name", "add", "lib", "tube.lumen", "--file", "a b.txt", *hurt)
+    place.refused(2, "the library has no case gone", "remove", "lib", "gone")
+    place.refused(3, "lumen library init", "list", "tube.json")
+    place.refused(1, "there is something already", "init", "lib", "--title", "x", "--licence", "MIT")
+    place.refused(3, "has no models", "add", "lib", "tree.lumen", "--export", "sofa", *hurt)
+    warned = place.add("--id", "named", "--title", "Born 1.2.1950")
+    expect("PRIVACY_DATE" in warned.stderr, f"a date in the title is passed over: {warned.stderr}")
+    done = place.run("library", "add", "lib", "tube.lumen", "--synthetic", "--id", "strict", "--title", "Born 1.2.1950", "--strict", code=3)
+    expect("PRIVACY_DATE" in done.stderr and "strict" not in [c["id"] for c in place.library()["cases"]], "--strict adds it")
+    record = place.folder / "lib/data/later/record.json"
+    good = record.read_bytes()
+    record.write_bytes(good.replace(b"synthetic", b"Synthetic", 1))
+    place.refused(3, "is not what library.json states", "add", "lib", "tube.lumen", "--synthetic", "--id", "next", "--no-surface")
+    record.unlink()
+    record.write_bytes(good)
+    place.valid("after refusals")
+
+
+def at_once(place):
+    """Changes that begin together are all there at the end."""
+    words = [place.lumen, "library", "add", "lib", "tube.lumen", "--synthetic", "--no-surface", "--picture", "none", "--quiet", "--id"]
+    processes = [subprocess.Popen([*words, f"once-{i}"], cwd=place.folder, env=place.environment) for i in range(6)]
+    expect([process.wait() for process in processes] == [0] * 6, "an add of six at once failed")
+    expect({f"once-{i}" for i in range(6)} <= {case["id"] for case in place.library()["cases"]}, "a case of six at once is lost")
+    place.valid("after six at once")
+
+
+def crates(place):
+    files = sorted((place.folder / "lib/data").rglob("ro-crate-metadata.json"))
+    if not (HERE / "node_modules/ro-crate").is_dir() or not shutil.which("node"):
+        print("npm's ro-crate is not here (npm ci in tests/library): crates were read by bag.py alone")
+        return
+    done = subprocess.run(["node", HERE / "read_crate.mjs", *files], capture_output=True, text=True)
+    expect(done.returncode == 0, f"ro-crate: {done.stderr}")
+    facts = [json.loads(line) for line in done.stdout.splitlines()]
+    expect(len(facts) == len(files), "not all crates were read")
+    for fact in facts:
+        expect(not fact["dangling"] and not fact["terms"] and fact["name"] and fact["license"] == "CC0-1.0", f"ro-crate: {fact}")
+    parts = {pathlib.Path(fact["file"]).parent.name: fact["parts"] for fact in facts}
+    expect(parts["data"] == len(place.library()["cases"]), "cases of the root crate")
+
+
+def main():
+    lumen = pathlib.Path(sys.argv[1])
+    with tempfile.TemporaryDirectory() as name:
+        place = Place(lumen, pathlib.Path(name))
+        place.run("phantom", "stenosis", "tube.nrrd", "--seeds", "tube.json", "--quiet")
+        place.run("convert", "tube.nrrd", "tube.lumen", "--seeds", "tube.json", "--quiet")
+        place.run("track", "tube.nrrd", "tree.lumen", "--seeds", "tube.json", "--quiet")
+        for step in (making, adding, changing, refusing, at_once, crates):
+            step(place)
+    print(f"{len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/library/recipe.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "converters/common/error.h"
+#include "converters/common/sha256.h"
+
+namespace lumen::convert {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class RecipeTest : public testing::Test {
+protected:
+  void SetUp() override { fs::create_directories(m_folder / "scan"); }
+  void TearDown() override { fs::remove_all(m_folder); }
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(m_folder / name, std::ios::binary) << text;
+    return m_folder / name;
+  }
+  [[nodiscard]] std::string digest(const std::string& name) const {
+    return digestOfInput(m_folder / name, {});
+  }
+
+private:
+  fs::path m_folder =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+}  // namespace
+
+TEST_F(RecipeTest, AFileIsItsBytesWhateverItsName) {
+  write("a.nrrd", "voxels");
+  write("b.nrrd", "voxels");
+  EXPECT_EQ(digest("a.nrrd"), digestOfFile(write("c.nrrd", "voxels")).sha256);
+  EXPECT_EQ(digest("a.nrrd"), digest("b.nrrd"));
+  write("b.nrrd", "other voxels");
+  EXPECT_NE(digest("a.nrrd"), digest("b.nrrd"));
+}
+
+TEST_F(RecipeTest, AFolderIsItsFilesAndTheirNames) {
+  write("scan/1.dcm", "one");
+  write("scan/2.dcm", "two");
+  const std::string before = digest("scan");
+  write("scan/2.dcm", "TWO");
+  EXPECT_NE(digest("scan"), before);
+  write("scan/2.dcm", "two");
+  EXPECT_EQ(digest("scan"), before);
+  write("scan/3.dcm", "");
+  EXPECT_NE(digest("scan"), before);
+}
+
+TEST_F(RecipeTest, AHeaderIsAlsoWhatItsVoxelsAreIn) {
+  for (const auto& [header, text, data] :
+       {std::array<std::string, 3>{"a.nhdr", "data file: far.raw", "far.raw"},
+        std::array<std::string, 3>{"b.nhdr", "data file: slice%02d.raw 1 9 1", "slice04.raw"},
+        std::array<std::string, 3>{"c.hdr", "binary", "c.img"}}) {
+    write(header, text);
+    write(data, "voxels");
+    const std::string before = digest(header);
+    write(data, "others");
+    EXPECT_NE(digest(header), before) << header;
+    fs::remove(write(data, ""));
+  }
+}
+
+TEST_F(RecipeTest, WhatTheTreeComesFromAndWhatIsToldAreTwoDigests) {
+  BuildRow row;
+  row.input = write("a.nrrd", "voxels");
+  const Recipe first = recipeOf(row, "1", "CC0-1.0", {});
+  row.about = "{\"title\": \"A\"}";
+  const Recipe told = recipeOf(row, "1", "CC0-1.0", {});
+  EXPECT_EQ(told.tree, first.tree);
+  EXPECT_NE(told.all, first.all);
+  row.options["--rays"] = "42";
+  const Recipe tracked = recipeOf(row, "1", "CC0-1.0", {});
+  EXPECT_NE(tracked.tree, told.tree);
+  EXPECT_NE(tracked.all, told.all);
+  EXPECT_NE(recipeOf(row, "2", "CC0-1.0", {}).tree, tracked.tree);
+  EXPECT_NE(recipeOf(row, "1", "CC-BY-4.0", {}).all, tracked.all);
+}
+
+TEST_F(RecipeTest, WhatCannotBeReadIsAnError) {
+  EXPECT_THROW((void)digest("missing.nrrd"), Error);
+}
+
+}  // namespace lumen::convert
