@@ -86,12 +86,12 @@ private:
   /// A folder that holds cases; one without is a series of images.
   bool openFolder(Session& session) const {
     if (m_files.size() != 1 || !fs::is_directory(m_files.front())) return false;
-    std::vector<fs::path> cases = casesIn(m_files.front());
-    if (cases.empty()) return false;
+    CaseList list = casesIn(m_files.front());
+    if (list.cases.empty()) return false;
     if (!m_html.empty())
       throw Error(ErrorKind::Usage,
                   m_files.front() + ": --html shows one case, not a folder of them");
-    session.openLibrary(m_files.front(), std::move(cases));
+    session.openLibrary(std::move(list));
     return true;
   }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "converters/common/error.h"
+#include "converters/common/html.h"
 #include "converters/common/vectors.h"
 #include "formats/case/base64.h"
 #include "formats/case/binary_encode.h"
@@ -48,27 +49,6 @@ std::string inlineScript(std::string code) {
     for (std::size_t at = 0; (at = code.find(from, at)) != code.npos; at += to.size())
       code.replace(at, from.size(), to);
   return code;
-}
-
-std::string htmlSafe(std::string_view text) {
-  std::string safe;
-  for (const char c : text) switch (c) {
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '&':
-        safe += "&amp;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  return safe;
 }
 
 std::string base64Of(std::string_view bytes) {
@@ -192,7 +172,7 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
   html += "<meta http-equiv=\"Content-Security-Policy\" content=\"";
   html += kPolicy;
   html += "\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
-          htmlSafe(state["title"].get<std::string>()) + "</title>\n<style>" + style +
+          htmlText(state["title"].get<std::string>()) + "</title>\n<style>" + style +
           "</style>\n</head>\n<body>\n";
   html += "<script type=\"application/json\" id=\"lumen-embedded\">" + embedded.text(state) +
           "</script>\n<script>" + inlineScript(fileOf(page, "page.js")) +

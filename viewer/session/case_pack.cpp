@@ -95,7 +95,7 @@ std::string casePack(const formats::Case& value, bool withPoints, Progress& prog
   addOrigins(pack, value);
   if (value.points && value.models)
     pack.add("error",
-             convert::errorOfFit(value, app::fittedNeighbourhood(value.metadata), progress));
+             convert::errorOfFit(value, convert::fittedNeighbourhood(value.metadata), progress));
   if (value.points && withPoints) {
     pack.add("pointOffset", value.points->offset);
     pack.add("point", std::span(value.points->position));

@@ -9,6 +9,7 @@
 
 #include "converters/app/file_format.h"
 #include "converters/app/message_text.h"
+#include "converters/library/library_file.h"
 #include "formats/case/topology.h"
 #include "formats/container/printable.h"
 
@@ -29,10 +30,31 @@ bool isCase(const fs::directory_entry& entry) {
 
 }  // namespace
 
-std::vector<fs::path> casesIn(const fs::path& folder) {
+namespace {
+
+std::string nameOfFolder(const fs::path& folder) {
+  return formats::printable(
+      fs::absolute(folder / "").lexically_normal().parent_path().filename().string());
+}
+
+CaseList publishedCases(const fs::path& folder) {
+  const convert::LibraryFile library = convert::openLibrary(folder);
+  CaseList list{formats::printable(library.title), {}, true};
+  const fs::path beside = fs::absolute(folder / "").lexically_normal().parent_path().parent_path();
+  for (const convert::LibraryEntry& entry : library.cases)
+    list.cases.push_back({folder / convert::kPayload / entry.id / "case.lumen",
+                          formats::printable(entry.title) + " (" + entry.id + ")",
+                          beside / (entry.id + ".lumen")});
+  return list;
+}
+
+}  // namespace
+
+CaseList casesIn(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / convert::kLibraryFile, error)) return publishedCases(folder);
   std::vector<fs::path> cases;
   const auto options = fs::directory_options::skip_permission_denied;
-  std::error_code error;
   fs::recursive_directory_iterator entry(folder, options, error);
   for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
     if (isCase(*entry)) cases.push_back(entry->path());
@@ -40,14 +62,14 @@ std::vector<fs::path> casesIn(const fs::path& folder) {
       entry.disable_recursion_pending();
   }
   std::sort(cases.begin(), cases.end());
-  return cases;
+  CaseList list{nameOfFolder(folder), {}, false};
+  for (const fs::path& file : cases)
+    list.cases.push_back({file, formats::printable(file.lexically_relative(folder).string()), {}});
+  return list;
 }
 
-Library::Library(fs::path folder, std::vector<fs::path> cases, std::function<void()> told)
-    : m_folder(std::move(folder)),
-      m_cases(std::move(cases)),
-      m_told(std::move(told)),
-      m_figures(m_cases.size()) {}
+Library::Library(CaseList list, std::function<void()> told)
+    : m_list(std::move(list)), m_told(std::move(told)), m_figures(m_list.cases.size()) {}
 
 Library::~Library() {
   end();
@@ -62,17 +84,14 @@ void Library::end() {
   if (m_thread.joinable()) m_thread.join();
 }
 
-std::string Library::nameOf(std::size_t index) const {
-  return formats::printable(m_cases[index].lexically_relative(m_folder).string());
-}
-
 void Library::read() {
   using Clock = std::chrono::steady_clock;
   auto last = Clock::now();
-  for (std::size_t i = 0; i < m_cases.size() && !m_ended; ++i) {
+  for (std::size_t i = 0; i < m_list.cases.size() && !m_ended; ++i) {
     Figures figures;
     try {
-      const formats::Case value = app::inputFormat(m_cases[i], "").readCase(m_cases[i]);
+      const fs::path& file = m_list.cases[i].file;
+      const formats::Case value = app::inputFormat(file, "").readCase(file);
       figures.branches = value.tree.branches.size();
       for (const formats::Branch& branch : value.tree.branches)
         figures.length += formats::branchLength(value.tree, branch);
@@ -84,7 +103,7 @@ void Library::read() {
       m_figures[i] = std::move(figures);
     }
     ++m_read;
-    if (i + 1 < m_cases.size() && Clock::now() - last < kTelling) continue;
+    if (i + 1 < m_list.cases.size() && Clock::now() - last < kTelling) continue;
     last = Clock::now();
     m_told();
   }
@@ -93,9 +112,11 @@ void Library::read() {
 Json Library::json() const {
   Json list = Json::array();
   const std::lock_guard lock(m_mutex);
-  for (std::size_t i = 0; i < m_cases.size(); ++i) {
-    Json entry = {
-        {"name", nameOf(i)}, {"branches", nullptr}, {"length", nullptr}, {"error", nullptr}};
+  for (std::size_t i = 0; i < m_list.cases.size(); ++i) {
+    Json entry = {{"name", m_list.cases[i].name},
+                  {"branches", nullptr},
+                  {"length", nullptr},
+                  {"error", nullptr}};
     if (const auto& figures = m_figures[i]; figures && figures->error.empty()) {
       entry["branches"] = figures->branches;
       entry["length"] = app::jsonNumber(figures->length);
@@ -104,9 +125,7 @@ Json Library::json() const {
     }
     list.push_back(std::move(entry));
   }
-  return {
-      {"name", formats::printable(fs::absolute(m_folder).lexically_normal().filename().string())},
-      {"cases", std::move(list)}};
+  return {{"name", m_list.name}, {"cases", std::move(list)}};
 }
 
 }  // namespace lumen::viewer

@@ -18,17 +18,32 @@ namespace lumen::viewer {
 
 using app::Json;
 
-/// The cases (.lumen, .lumen.json) directly in a folder or one level below, sorted by name. Hidden
-/// ones and those that were not saved (NAME.unsaved.lumen) are none of it.
-std::vector<std::filesystem::path> casesIn(const std::filesystem::path& folder);
+/// A case of a folder.
+struct ListedCase {
+  std::filesystem::path file;
+  std::string name;  ///< for people
+  std::filesystem::path
+      keptAt;  ///< of a published one: where changes are kept until they are downloaded
+};
+
+/// What a folder has to show.
+struct CaseList {
+  std::string name;  ///< for people
+  std::vector<ListedCase> cases;
+  bool isPublished = false;  ///< it is a library of spec/library.md, whose cases stay as they are
+};
+
+/// The cases that a library's library.json lists, in its order. In a folder without one: all cases (.lumen, .lumen.json)
+/// directly in it or one level below, sorted by name; hidden ones and those that were not saved
+/// (NAME.unsaved.lumen) are none of it. Throws Error(InvalidInput) for a library.json that breaks its format.
+CaseList casesIn(const std::filesystem::path& folder);
 
 /// What a library holds; each case is read in the background, for its figures. All calls are
 /// thread-safe.
 class Library {
 public:
   /// `told` is called, without any lock, when more figures are there.
-  Library(std::filesystem::path folder, std::vector<std::filesystem::path> cases,
-          std::function<void()> told);
+  Library(CaseList list, std::function<void()> told);
   ~Library();
   /// Begins to read the cases.
   void start();
@@ -40,10 +55,9 @@ public:
   /// {"name", "cases": [{"name", "branches", "length", "error"}]}; figures are null until the case
   /// has been read, and stay so if it cannot be, which "error" tells.
   [[nodiscard]] Json json() const;
-  [[nodiscard]] std::size_t size() const { return m_cases.size(); }
-  [[nodiscard]] const std::filesystem::path& at(std::size_t index) const { return m_cases[index]; }
-  /// The case's path below the folder, for people.
-  [[nodiscard]] std::string nameOf(std::size_t index) const;
+  [[nodiscard]] std::size_t size() const { return m_list.cases.size(); }
+  [[nodiscard]] const ListedCase& at(std::size_t index) const { return m_list.cases[index]; }
+  [[nodiscard]] bool isPublished() const { return m_list.isPublished; }
   /// How many cases have been read.
   [[nodiscard]] std::size_t readCount() const { return m_read; }
 
@@ -55,8 +69,7 @@ private:
   };
   void read();
 
-  const std::filesystem::path m_folder;
-  const std::vector<std::filesystem::path> m_cases;
+  const CaseList m_list;
   const std::function<void()> m_told;
   mutable std::mutex m_mutex;  ///< guards the figures
   std::vector<std::optional<Figures>> m_figures;

@@ -64,6 +64,8 @@ public:
   void open(const Opening& opening, Progress& progress);
   /// `save` writes here from now on.
   void saveTo(const std::filesystem::path& file);
+  /// `save` has nowhere to write, so pages download; what is not saved is kept as if it came from `place`.
+  void saveNowhere(const std::filesystem::path& place);
   /// A place for the bytes of a file that is dropped, in a private folder that goes with this
   /// object. `name` is a label; of it, only harmless letters are used.
   std::filesystem::path placeFor(const std::string& name);
@@ -81,7 +83,7 @@ public:
 
   // session_library.cpp
   /// The page chooses among these cases. Once, before anything else is done.
-  void openLibrary(const std::filesystem::path& folder, std::vector<std::filesystem::path> cases);
+  void openLibrary(CaseList list);
   /// Its JSON. Empty `bytes` if there is none.
   [[nodiscard]] Tagged library() const;
 
@@ -162,6 +164,7 @@ private:
   int m_lastFile = 0, m_lastDropped = 0;
   bool m_jobChanges = false;  ///< the job that runs will change the document
   std::filesystem::path m_saveTo;
+  std::filesystem::path m_keepAt;  ///< where m_saveTo is empty
   FileStamp m_saveStamp;
   std::shared_ptr<const formats::Case> m_savedCase;
   std::shared_ptr<const Seeds> m_savedSeeds;

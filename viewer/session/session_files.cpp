@@ -87,6 +87,13 @@ void Session::saveTo(const fs::path& file) {
   m_saveStamp = stampOf(m_saveTo);
 }
 
+void Session::saveNowhere(const fs::path& place) {
+  const std::lock_guard lock(m_mutex);
+  m_saveTo.clear();
+  m_saveStamp = {};
+  m_keepAt = fs::absolute(place);
+}
+
 fs::path Session::placeFor(const std::string& name) {
   const std::lock_guard lock(m_mutex);
   if (!m_folder) {

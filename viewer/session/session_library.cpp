@@ -10,10 +10,9 @@
 
 namespace lumen::viewer {
 
-void Session::openLibrary(const std::filesystem::path& folder,
-                          std::vector<std::filesystem::path> cases) {
-  m_library = std::make_unique<Library>(folder, std::move(cases),
-                                        [this] { m_events.tell("state", state()); });
+void Session::openLibrary(CaseList list) {
+  m_library =
+      std::make_unique<Library>(std::move(list), [this] { m_events.tell("state", state()); });
   m_library->start();
 }
 
@@ -28,34 +27,38 @@ Json Session::openCase(const Arguments& request) {
   const std::size_t index = request.index("index", m_library->size());
   if (unsaved() && !request.flag("force"))
     throw Conflict("the open case has changes that are not saved");
-  const std::filesystem::path file = m_library->at(index);
-  const std::string name = m_library->nameOf(index);
-  return startJob("opening " + name, true, [this, file, name, index](Progress& progress) {
-    int id = 0;
-    {
-      const std::lock_guard lock(m_mutex);
-      id = ++m_lastFile;
-    }
-    // of another vessel tree nothing that was open says anything
-    Document document = withFile({}, {file, name}, id, m_options.volume, progress);
-    progress.check();
-    const auto kept = keepUnsaved();  // its name is said, as nothing is there to undo any more
-    {
-      const std::lock_guard lock(m_mutex);
-      m_savedCase = document.value;
-      m_savedSeeds = nullptr;
-      m_check = nullptr;
-      m_openCase = index;
-    }
-    m_history.begin(std::move(document));
-    saveTo(file);
-    findUnsaved();
-    return name + " is open" +
-           (kept.empty()
-                ? ""
-                : "; what was not saved before is in " +
-                      formats::printable(std::filesystem::path(kept.front()).filename().string()));
-  });
+  const auto& [file, name, keptAt] = m_library->at(index);
+  return startJob(
+      "opening " + name, true,
+      [this, file = file, name = name, keptAt = keptAt, index](Progress& progress) {
+        int id = 0;
+        {
+          const std::lock_guard lock(m_mutex);
+          id = ++m_lastFile;
+        }
+        // of another vessel tree nothing that was open says anything
+        Document document = withFile({}, {file, name}, id, m_options.volume, progress);
+        progress.check();
+        const auto kept = keepUnsaved();  // its name is said, as nothing is there to undo any more
+        {
+          const std::lock_guard lock(m_mutex);
+          m_savedCase = document.value;
+          m_savedSeeds = nullptr;
+          m_check = nullptr;
+          m_openCase = index;
+        }
+        m_history.begin(std::move(document));
+        if (m_library->isPublished())
+          saveNowhere(keptAt);
+        else
+          saveTo(file);
+        findUnsaved();
+        return name + " is open" +
+               (kept.empty() ? ""
+                             : "; what was not saved before is in " +
+                                   formats::printable(
+                                       std::filesystem::path(kept.front()).filename().string()));
+      });
 }
 
 Json Session::reload(const Arguments& request, const Moment& from) {

@@ -23,6 +23,7 @@ fs::path Session::savingPlace(const Document& document) const {
   {
     const std::lock_guard lock(m_mutex);
     if (!m_saveTo.empty()) return m_saveTo;
+    if (!m_keepAt.empty()) return m_keepAt;
   }
   const OpenFile* volume = document.fileOf(FileRole::Volume);
   return volume != nullptr && !volume->path.empty() ? volume->path : fs::path("lumen");
