@@ -19,7 +19,7 @@ packages=(
   build-essential cmake ninja-build ccache git ca-certificates
   libinsighttoolkit5-dev libgdcm-dev libgdcm-tools libniftiio-dev zlib1g-dev
   libeigen3-dev libopenmesh-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libzstd-dev libpng-dev
-  libopenvdb-dev libexpat1-dev robin-map-dev libcpp-httplib-dev
+  libopenvdb-dev libexpat1-dev robin-map-dev libcpp-httplib-dev libcsv-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libssl-dev
   clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32
   libgtest-dev libbenchmark-dev libcgal-dev libbullet-dev python3-vtk9 tetgen
@@ -99,6 +99,9 @@ run_demo() {
   $lumen convert demo/angiogram.nrrd demo/vessels.lumen --seeds demo/seeds.json
   say "From the case to a mesh"
   $lumen convert demo/vessels.lumen demo/vessels.glb
+  say "A picture of it, and a report to print"
+  $lumen picture demo/vessels.lumen demo/vessels.png --volume demo/angiogram.nrrd --view anterior
+  $lumen report demo/vessels.lumen demo/report.html --volume demo/angiogram.nrrd
   say "What the case holds, and how close it is to the truth"
   $lumen info demo/vessels.lumen >demo/info.txt
   $lumen info demo/vessels.lumen --json --quiet >demo/info.json
@@ -117,6 +120,8 @@ close_demo() {
   truth.lumen      the true tree
   vessels.lumen    the case: tree, wall points, blobby models
   vessels.glb      its wall as a mesh
+  vessels.png      a picture of it, before the volume's projection
+  report.html      pages to print: pictures, radius along each vessel, agreement with the volume
   info.txt         what the case holds, branch by branch (info.json for programs)
   compare.txt      how close it is to the truth, branch by branch (compare.json for programs)
 
@@ -130,6 +135,10 @@ close_demo() {
 == To look at it
   The volume and the vessels in the browser, to see, measure and correct:
     build/release/converters/app/lumen view demo/angiogram.nrrd demo/vessels.lumen
+  Open demo/report.html in a browser, and demo/vessels.png.
+  Ten synthetic patients as a library with a site:
+    build/release/converters/app/lumen library sample patients --jobs 2
+    build/release/converters/app/lumen library index patients    # then open patients/index.html
   Open demo/vessels.glb in any glTF viewer, such as Blender, or f3d from Debian (which cannot read --draco):
     apt install f3d && f3d demo/vessels.glb
   The command line is build/release/converters/app/lumen; --help lists what it can do.
@@ -172,6 +181,8 @@ install_test_packages() {
   have_node || packages+=(nodejs npm)
   # the JSON answers against their schemas, what judges the manual page, and what reads VTP
   packages+=(python3-jsonschema groff-base mandoc python3-vtk9)
+  # signatures of libraries
+  packages+=(minisign openssh-client)
   # the viewer's page, as a person would use it
   packages+=(chromium)
   # libblob's examples and bindings, each left out where it is missing
@@ -190,6 +201,7 @@ run_tests() {
   configure_and_build
   install_from_npm tests/gltf "The glTF validator"
   install_from_npm tests/mujoco "MuJoCo"
+  install_from_npm tests/library "The RO-Crate library"
   run_ctest
 }
 

@@ -27,8 +27,9 @@ STAGES = {"volume": [], "seeds": ["volume"], "centerline": ["seeds"], "tracking"
           "export": ["volume", "mesh", "surface", "centerline", "export/sofa", "export/mujoco", "export/cathsim"],
           "export/sofa": ["mesh", "surface", "export"], "export/mujoco": ["mesh", "surface", "export", "export/sofa"],
           "export/cathsim": ["mesh", "surface", "export", "export/mujoco"],
-          "picture": ["check", "mesh", "volume"],
-          "library": ["mesh", "surface", "export", "picture", "check", "volume"],
+          "picture": ["check", "mesh", "volume"], "report": ["check"],
+          "library": ["fitting", "mesh", "surface", "export"],
+          "library/site": ["library"],
           "inside": ["volume", "centerline", "mesh", "surface"], "editing": ["fitting"]}
 for stage, below in STAGES.items():
     MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]

@@ -129,6 +129,7 @@ def describe(folder, volume):
     folder.run("validate", "validate", "case.lumen", "tracked.lumen", "--privacy", "--json")
     folder.run("check", "check", volume, "case.lumen", "--mask", "labels.nrrd", "--overlay", "overlay.png")
     folder.run("check-json", "check", volume, "case.lumen", "--json")
+    folder.run("picture", "picture", "case.lumen", "case.png", "--volume", volume, "--colour", "radius", "--size", "400x320")
 
 
 def convert_case(folder):

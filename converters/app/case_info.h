@@ -8,14 +8,11 @@
 
 #include "converters/app/reachable.h"
 #include "converters/common/progress.h"
+#include "converters/common/tree_figures.h"
 #include "converters/fitting/error_of_fit.h"
 #include "formats/case/case.h"
 
 namespace lumen::app {
-
-struct RadiusRange {
-  float min = 0, mean = 0, max = 0;  ///< mm
-};
 
 struct BranchInfo {
   std::string label;
@@ -40,10 +37,6 @@ struct CaseInfo {
   std::vector<BranchInfo> branches;
   formats::Metadata metadata;
 };
-
-/// The neighbourhood that the models were fitted over, from the newest "fit" step; 2 if it is not
-/// recorded.
-int fittedNeighbourhood(const formats::Metadata& metadata);
 
 CaseInfo describeCase(const formats::Case& value, Progress& progress);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/app/check_report.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "converters/common/text.h"
 #include "converters/common/vectors.h"
 
 namespace lumen::app {
@@ -17,6 +19,50 @@ const Eigen::Vector3d& middleOf(const convert::MissingVessel& vessel) {
 
 double share(double part, double whole) {
   return whole > 0 ? part / whole : NAN;
+}
+
+std::string percentText(double share) {
+  return std::isfinite(share) ? fixed(100 * share, 1) + " %" : "-";
+}
+
+std::string placeText(const Eigen::Vector3d& p) {
+  return std::string("(") + fixed(p.x(), 1) + ", " + fixed(p.y(), 1) + ", " + fixed(p.z(), 1) + ")";
+}
+
+std::vector<convert::OpenEnd> endsThatStopShort(const convert::CheckReport& report) {
+  std::vector<convert::OpenEnd> onward;
+  for (const convert::OpenEnd& end : report.ends)
+    if (end.goesOn > 0) onward.push_back(end);
+  std::stable_sort(onward.begin(), onward.end(),
+                   [](const auto& a, const auto& b) { return a.goesOn > b.goesOn; });
+  return onward;
+}
+
+std::string SourceRelation::word() const {
+  if (!isKnown) return "unknown";
+  return difference ? "other " + difference->what : "same";
+}
+
+std::optional<std::string> SourceRelation::warning(const std::string& volumeName) const {
+  if (!difference) return std::nullopt;
+  return "was made from another volume: " +
+         (difference->what == "voxels"
+              ? volumeName + " has its size and place, but other voxels"
+              : "its " + difference->what + " was " + difference->expected + ", that of " +
+                    volumeName + " is " + difference->found);
+}
+
+SourceRelation sourceRelation(const formats::SourceVolume& volume,
+                              const formats::Metadata& metadata) {
+  if (!metadata.source) return {};
+  return {true, convert::sourceDifference(volume, *metadata.source)};
+}
+
+std::optional<std::string> outsideWarning(const convert::CheckReport& report,
+                                          const std::string& volumeName) {
+  if (report.nodesOutside == 0) return std::nullopt;
+  return std::to_string(report.nodesOutside) + " of its " +
+         counted(report.nodes.size(), "node lies", "nodes lie") + " outside of " + volumeName;
 }
 
 namespace {

@@ -23,10 +23,6 @@ using formats::printable;
 
 constexpr std::size_t kPlacesShown = 10;  // of each kind; --json has all
 
-std::string percent(double value) {
-  return std::isfinite(value) ? fixed(100 * value, 1) + " %" : "-";
-}
-
 std::vector<std::string> offsetsRow(const std::string& label, const convert::Offsets& o,
                                     double voxel) {
   return {label,
@@ -35,14 +31,10 @@ std::vector<std::string> offsetsRow(const std::string& label, const convert::Off
           fixed(o.median / voxel, 2),
           fixed(o.absoluteMedian / voxel, 2),
           fixed(o.absoluteP90 / voxel, 2),
-          percent(o.beyondVoxel),
-          percent(o.noEdge),
-          percent(o.wrongPolarity),
+          percentText(o.beyondVoxel),
+          percentText(o.noEdge),
+          percentText(o.wrongPolarity),
           std::to_string(o.beside)};
-}
-
-std::string at(const Eigen::Vector3d& p) {
-  return "(" + fixed(p.x(), 1) + ", " + fixed(p.y(), 1) + ", " + fixed(p.z(), 1) + ")";
 }
 
 /// The lines of the first kPlacesShown of `list`, and how many more there are.
@@ -63,28 +55,25 @@ std::string volumeText(double mm3) {
 }
 
 std::string darkText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
-  return percent(share(report.dark.volume, report.lumenVolume)) +
+  return percentText(share(report.dark.volume, report.lumenVolume)) +
          " of the lumen's volume is dark and farther than a voxel from its wall\n" +
          firstLines(report.dark.regions, "smaller dark place", "smaller dark places",
                     [&](const convert::Region& region) {
                       return "the lumen of " + printable(labelOf(tree, region.node)) + " at " +
-                             at(region.position) + " is dark over " + volumeText(region.volume);
+                             placeText(region.position) + " is dark over " +
+                             volumeText(region.volume);
                     });
 }
 
 std::string endsText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
-  std::vector<convert::OpenEnd> onward;
-  for (const convert::OpenEnd& end : report.ends)
-    if (end.goesOn > 0) onward.push_back(end);
-  std::stable_sort(onward.begin(), onward.end(),
-                   [](const auto& a, const auto& b) { return a.goesOn > b.goesOn; });
+  const std::vector<convert::OpenEnd> onward = endsThatStopShort(report);
   return counted(report.ends.size() - onward.size(), "open end", "open ends") + " of " +
          std::to_string(report.ends.size()) + " reach as far as the volume shows their vessel\n" +
          firstLines(onward, "more end stops short", "more ends stop short",
                     [&](const convert::OpenEnd& end) {
                       return printable(labelOf(tree, end.node)) +
                              (end.first ? " begins at " : " ends at ") +
-                             at(toEigen(tree.centre[end.node])) +
+                             placeText(toEigen(tree.centre[end.node])) +
                              ", and the vessel goes on for about " + fixed(end.goesOn, 0) + " mm";
                     });
 }
@@ -92,20 +81,20 @@ std::string endsText(const convert::CheckReport& report, const formats::Centerli
 std::string missingText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
   const double missing = report.missingLength(), whole = report.shownLength + missing;
   return "the case has " + fixed(report.shownLength, 1) + " of " + fixed(whole, 1) + " mm (" +
-         percent(share(report.shownLength, whole)) +
+         percentText(share(report.shownLength, whole)) +
          ") of the vessels that hang together with it in the volume\n" +
          firstLines(report.missing.vessels, "shorter vessel is not in the case",
                     "shorter vessels are not in the case",
                     [&](const convert::MissingVessel& vessel) {
                       return "a vessel of " + fixed(vessel.length, 1) + " mm and radius " +
-                             fixed(vessel.radius, 1) + " mm at " + at(middleOf(vessel)) +
+                             fixed(vessel.radius, 1) + " mm at " + placeText(middleOf(vessel)) +
                              ", beside " + printable(labelOf(tree, vessel.way.front().node)) +
                              ", is not in the case";
                     }) +
          firstLines(report.missing.wide.regions, "smaller wide region", "smaller wide regions",
                     [&](const convert::Region& region) {
                       return "a bright region of " + volumeText(region.volume) + " at " +
-                             at(region.position) + ", beside " +
+                             placeText(region.position) + ", beside " +
                              printable(labelOf(tree, region.node)) +
                              ", is wider than every vessel of the case";
                     });
@@ -171,22 +160,21 @@ public:
           ": has no models, so it has no wall to check; lumen fit makes them of wall points, "
           "lumen convert of the volume and its seeds");
     const convert::Volume volume = loadVolume(m_input, from, m_volume, context.progress);
-    const std::string source = checkSource(volume, value, context);
+    const SourceRelation source = sourceRelation(convert::describeSource(volume), value.metadata);
+    if (const auto text = source.warning(m_input)) context.progress.warn(m_case + ": " + *text);
 
     convert::EdgeOptions options = convert::recordedEdgeOptions(value);
     if (m_pointSpread) options.pointSpread = *m_pointSpread;
     const convert::CheckResult result = checked(volume, value, options, context);
-    if (const std::size_t outside = result.report.nodesOutside; outside > 0)
-      context.progress.warn(m_case + ": " + std::to_string(outside) + " of its " +
-                            counted(value.tree.nodeCount(), "node lies", "nodes lie") +
-                            " outside of " + m_input);
+    if (const auto text = outsideWarning(result.report, m_input))
+      context.progress.warn(m_case + ": " + *text);
     if (mask != nullptr)
       mask->writeVolume(convert::labelVolume(volume.geometry, value.tree, result.lumen), m_mask);
     if (!m_overlay.empty())
       writeText(convert::encodePng(convert::drawOverlay(volume, value.tree, result.report)),
                 m_overlay);
     if (context.common.json)
-      answerJson(checkJson(result.report, value.tree, source));
+      answerJson(checkJson(result.report, value.tree, source.word()));
     else
       answer(checkText(result.report, value.tree));
     return 0;
@@ -209,21 +197,6 @@ private:
       requireWritable(output, kind);
       context.interrupts.watchOutput(output);
     }
-  }
-
-  /// "same", "unknown", or what of the volume differs from the case's source.
-  std::string checkSource(const convert::Volume& volume, const formats::Case& value,
-                          const Context& context) const {
-    if (!value.metadata.source) return "unknown";
-    const auto difference =
-        convert::sourceDifference(convert::describeSource(volume), *value.metadata.source);
-    if (!difference) return "same";
-    context.progress.warn(m_case + ": was made from another volume: " +
-                          (difference->what == "voxels"
-                               ? m_input + " has its size and place, but other voxels"
-                               : "its " + difference->what + " was " + difference->expected +
-                                     ", that of " + m_input + " is " + difference->found));
-    return "other " + difference->what;
   }
 
   convert::CheckResult checked(const convert::Volume& volume, const formats::Case& value,

@@ -12,7 +12,6 @@
 #include "converters/app/file_access.h"
 #include "converters/app/reachable.h"
 #include "converters/app/report.h"
-#include "converters/app/suggestion.h"
 #include "converters/app/surface_report.h"
 #include "converters/app/value_checks.h"
 #include "converters/common/error.h"
@@ -32,21 +31,6 @@ std::string joined(const std::vector<std::string_view>& words) {
   std::string text;
   for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + std::string(word);
   return text;
-}
-
-std::vector<std::string> targetNames() {
-  std::vector<std::string> names;
-  for (const ExportTarget& target : exportTargets()) names.emplace_back(target.name);
-  return names;
-}
-
-/// The target of that name. Throws Error(Unsupported), with the targets that there are.
-const ExportTarget& exportTarget(const std::string& name) {
-  for (const ExportTarget& target : exportTargets())
-    if (target.name == name) return target;
-  const std::vector<std::string> names = targetNames();
-  throw unsupported(formats::printable(name) + ": lumen does not export to this; it exports to " +
-                    alternatives(names) + didYouMean(name, names));
 }
 
 template <class Value>
@@ -125,24 +109,12 @@ private:
   [[nodiscard]] ExportResult made(const ExportTarget& target, const formats::Case& value,
                                   const Context& context) const {
     try {
-      return convert::exportCase(target, value, m_options, optionTexts(target), context.progress);
+      return convert::exportCase(target, value, m_options, exportOptionTexts(*m_app, target),
+                                 context.progress);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::InvalidInput) throw;
       throw invalidInput(m_input + ": " + error.what());
     }
-  }
-
-  /// What the target's options are, given or not: lumen-export.json records them.
-  [[nodiscard]] convert::OptionTexts optionTexts(const ExportTarget& target) const {
-    convert::OptionTexts texts;
-    for (const std::string_view name : target.options) {
-      const CLI::Option* const option = m_app->get_option(std::string(name));
-      std::string text;
-      for (const std::string& word : option->results()) text += (text.empty() ? "" : " ") + word;
-      if (option->count() == 0) text = option->get_default_str();
-      if (!text.empty()) texts[std::string(name)] = text;
-    }
-    return texts;
   }
 
   void warnOf(const ExportResult& result, Progress& progress) const {
@@ -166,7 +138,7 @@ private:
 
   static std::string joinedNames() {
     std::string text;
-    for (const std::string& name : targetNames()) text += (text.empty() ? "" : ", ") + name;
+    for (const std::string& name : exportTargetNames()) text += (text.empty() ? "" : ", ") + name;
     return text;
   }
 

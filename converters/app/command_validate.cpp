@@ -4,9 +4,7 @@
 #include <utility>
 
 #include "converters/app/command.h"
-#include "converters/app/file_content.h"
-#include "converters/app/privacy.h"
-#include "converters/app/reachable.h"
+#include "converters/app/examination.h"
 #include "converters/app/report.h"
 #include "converters/app/value_checks.h"
 #include "formats/case/case_file.h"
@@ -15,107 +13,7 @@ namespace lumen::app {
 
 namespace {
 
-using formats::ErrorCode;
-using formats::Issue;
-using formats::ValidationReport;
-
 constexpr int kInvalid = 3;
-constexpr int kClosedEdge = 651;  // no rule of the format: see spec/errors.md
-
-/// A broken rule, or a finding of this command, as both outputs have it.
-struct Remark {
-  std::string code;
-  int number = 0;
-  std::string severity;
-  std::optional<std::uint64_t> offset;
-  std::optional<std::string> pointer;
-  std::vector<formats::Argument> arguments;
-  std::string message;
-  std::string text;  ///< "CODE at PLACE: message"
-};
-
-Remark remarkOf(const Issue& issue) {
-  return {formats::errorName(issue.code),
-          static_cast<int>(issue.code),
-          formats::severityName(formats::severityOf(issue.code)),
-          issue.offset,
-          issue.pointer,
-          issue.arguments,
-          issue.message,
-          issue.text()};
-}
-
-Remark remarkOf(const PrivacyFinding& finding) {
-  const std::string code(finding.code);
-  return {code,
-          finding.number,
-          formats::severityName(formats::Severity::Warning),
-          std::nullopt,
-          finding.pointer,
-          {{"found", finding.found}},
-          finding.message,
-          code + " at " + finding.pointer + ": " + finding.message};
-}
-
-Remark remarkOf(const ClosedWay& way) {
-  const std::string code = "CLOSED_EDGE", pointer = "/tree/parent/" + std::to_string(way.node);
-  const std::string message = closedText(way) + "; lumen fit may open it";
-  return {code,
-          kClosedEdge,
-          formats::severityName(formats::Severity::Warning),
-          std::nullopt,
-          pointer,
-          {{"found", fixed(way.beyond, 1)}},
-          message,
-          code + " at " + pointer + ": " + message};
-}
-
-struct FileReport {
-  bool valid = true;
-  bool refusedByStrict = false;  ///< valid, but for a warning and --strict
-  bool personal = false;         ///< the privacy check found something, which is a warning
-  formats::IssueCounts counts;   ///< of all that was found, listed or not
-  std::vector<Remark> remarks;   ///< what is listed, errors first
-  [[nodiscard]] std::size_t unlisted() const { return counts.total() - remarks.size(); }
-};
-
-/// What is no case may be known as something else.
-Issue named(Issue issue, const std::string& file) {
-  const std::string other = notA(ContentKind::Case, file);
-  if (!other.empty()) issue.message = other;
-  return issue;
-}
-
-/// Everything counts for the verdict; at most `maxIssues` remarks are listed.
-FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy,
-                   const Progress& progress) {
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) {
-    FileReport unread{false, false, false, {1, 0, 0}, {}};
-    if (maxIssues > 0) unread.remarks.push_back(remarkOf(bytes.error()));
-    return unread;
-  }
-  const ValidationReport report = formats::validateBytes(*bytes, maxIssues);
-  FileReport result{report.valid(), false, false, report.counts, {}};
-  for (const Issue& issue : report.issues)
-    result.remarks.push_back(
-        remarkOf(issue.code == ErrorCode::NotLumen ? named(issue, file) : issue));
-  const auto warn = [&](const auto& finding) {
-    ++result.counts.warnings;
-    if (result.remarks.size() < maxIssues) result.remarks.push_back(remarkOf(finding));
-  };
-  if (result.valid) {
-    if (const auto value = formats::decodeCase(*bytes))
-      if (const auto reach = reachOf(*value, progress))
-        for (const ClosedWay& way : reach->closed) warn(way);
-  }
-  if (!privacy) return result;
-  for (const PrivacyFinding& finding : scanPrivacy(*bytes)) {
-    result.personal = true;
-    warn(finding);
-  }
-  return result;
-}
 
 Json remarkJson(const Remark& remark) {
   Json arguments = Json::object();

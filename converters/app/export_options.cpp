@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "converters/app/option_group.h"
+#include "converters/app/suggestion.h"
 #include "converters/app/value_checks.h"
+#include "converters/common/error.h"
 #include "converters/surface/length.h"
+#include "formats/container/printable.h"
 
 namespace lumen::app {
 
@@ -148,6 +151,33 @@ void addExportOptions(CLI::App& app, convert::ExportOptions& options) {
   addSurfaceOptions(app, options.surface);
   addGridOptions(app, options.grid);
   addSofaOptions(app, options.sofa);
+}
+
+convert::OptionTexts exportOptionTexts(const CLI::App& app, const convert::ExportTarget& target) {
+  convert::OptionTexts texts;
+  for (const std::string_view name : target.options) {
+    const CLI::Option* const option = app.get_option(std::string(name));
+    std::string text;
+    for (const std::string& word : option->results()) text += (text.empty() ? "" : " ") + word;
+    if (option->count() == 0) text = option->get_default_str();
+    if (!text.empty()) texts[std::string(name)] = text;
+  }
+  return texts;
+}
+
+std::vector<std::string> exportTargetNames() {
+  std::vector<std::string> names;
+  for (const convert::ExportTarget& target : convert::exportTargets())
+    names.emplace_back(target.name);
+  return names;
+}
+
+const convert::ExportTarget& exportTarget(const std::string& name) {
+  for (const convert::ExportTarget& target : convert::exportTargets())
+    if (target.name == name) return target;
+  const std::vector<std::string> names = exportTargetNames();
+  throw unsupported(formats::printable(name) + ": lumen does not export to this; it exports to " +
+                    alternatives(names) + didYouMean(name, names));
 }
 
 }  // namespace lumen::app

@@ -31,8 +31,15 @@ std::string errorText(const fs::path& file, formats::Issue error) {
   return prefix + error.message + (isLimit ? " (ulimit -f tells the shell's limit)" : "");
 }
 
-/// The whole of a case file, and the case in it.
-std::pair<std::vector<std::byte>, formats::Case> readBoth(const fs::path& file) {
+/// Files that somebody made or measured are not replaced by files of another kind.
+bool isPrecious(ContentKind kind) {
+  return kind == ContentKind::Volume || kind == ContentKind::Seeds || kind == ContentKind::Case ||
+         kind == ContentKind::Centerline;
+}
+
+}  // namespace
+
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const fs::path& file) {
   requireInput(file, "case file");
   auto bytes = formats::readFileBytes(file);
   if (!bytes) throw invalidInput(errorText(file, bytes.error()));
@@ -44,20 +51,12 @@ std::pair<std::vector<std::byte>, formats::Case> readBoth(const fs::path& file) 
   throw invalidInput(errorText(file, value.error()));
 }
 
-/// Files that somebody made or measured are not replaced by files of another kind.
-bool isPrecious(ContentKind kind) {
-  return kind == ContentKind::Volume || kind == ContentKind::Seeds || kind == ContentKind::Case ||
-         kind == ContentKind::Centerline;
-}
-
-}  // namespace
-
 formats::Case readCase(const fs::path& file) {
-  return readBoth(file).second;
+  return readCaseAndBytes(file).second;
 }
 
 formats::Case readParentCase(const fs::path& file) {
-  auto [bytes, value] = readBoth(file);
+  auto [bytes, value] = readCaseAndBytes(file);
   value.metadata.parentSha256 = sha256(bytes);
   formats::dropDependentChunks(value);
   return std::move(value);
@@ -67,6 +66,13 @@ void writeCase(const formats::Case& value, const fs::path& file, formats::CaseEn
                const formats::EncodeOptions& options) {
   const auto written = formats::writeCaseFile(value, file, encoding, options);
   if (!written) throw failed(errorText(file, written.error()));
+}
+
+std::string readText(const fs::path& file, std::string_view what) {
+  requireInput(file, what);
+  const auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
+  return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
 }
 
 void writeText(std::string_view text, const fs::path& file) {

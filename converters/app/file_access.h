@@ -2,8 +2,12 @@
 // What a command reads and writes by name, and what it refuses before any work.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "converters/app/file_content.h"
 #include "formats/case/case_file.h"
@@ -13,6 +17,13 @@ namespace lumen::app {
 /// A case in either encoding, by its content. Throws Error(InvalidInput) with the file's name and
 /// what is wrong in it.
 formats::Case readCase(const std::filesystem::path& file);
+/// The same, with the whole of the file.
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(
+    const std::filesystem::path& file);
+
+/// The same, and the bytes of the file.
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(
+    const std::filesystem::path& file);
 
 /// The case, to be changed and written as another: it states the digest of `file`, and has no chunk
 /// of others that a change would make wrong.
@@ -21,6 +32,9 @@ formats::Case readParentCase(const std::filesystem::path& file);
 /// Validates and writes atomically; throws Error(Failed) with the file's name.
 void writeCase(const formats::Case& value, const std::filesystem::path& file,
                formats::CaseEncoding encoding, const formats::EncodeOptions& options);
+
+/// The whole of a file that is neither a folder nor a pipe. Throws Error(InvalidInput); `what` names its role.
+std::string readText(const std::filesystem::path& file, std::string_view what);
 
 /// Writes atomically; throws Error(Failed) with the file's name.
 void writeText(std::string_view text, const std::filesystem::path& file);

@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "converters/common/error.h"
-#include "formats/case/topology.h"
 #include "formats/container/printable.h"
 
 namespace lumen::app {
@@ -44,12 +43,6 @@ Json jsonNumber(float value) {
 Json jsonNumber(double value) {
   if (!std::isfinite(value)) return nullptr;
   return value;
-}
-
-double totalLength(const formats::CenterlineTree& tree) {
-  double length = 0;
-  for (const auto& branch : tree.branches) length += formats::branchLength(tree, branch);
-  return length;
 }
 
 Json caseSummary(const formats::Case& value) {

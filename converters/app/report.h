@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/common/text.h"
+#include "converters/common/tree_figures.h"
 #include "formats/case/case.h"
 
 namespace lumen::app {
@@ -26,8 +27,6 @@ Json caseSummary(const formats::Case& value);
 
 /// One line for a person: "out.lumen: 3 branches, 210 nodes, 1830 points, 902 blobs, 123.4 mm".
 std::string caseLine(const std::string& file, const formats::Case& value);
-
-double totalLength(const formats::CenterlineTree& tree);
 
 /// Fixed-point text; "-" for nothing or a value that is not finite.
 std::string fixed(std::optional<double> value, int digits);

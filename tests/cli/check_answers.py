@@ -7,11 +7,13 @@ check_answers.py LUMEN
 Runs each command with --json on good and bad input, and validates what it prints. Then it breaks each answer in
 every place (a key more, a key less, a value of another type), which the schema must refuse, and tells which key of
 a schema no answer had. Exit status: 0 all held, 1 something did not."""
-import copy, json, pathlib, subprocess, sys, tempfile, warnings
+import copy, json, pathlib, shutil, subprocess, sys, tempfile, warnings
 
 import jsonschema
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "tests/library"))
+from made import Maker, ssh_key
 ANSWERS = ROOT / "spec/answers"
 CONFORMANCE = ROOT / "spec/conformance"
 HOSTILE = ROOT.parent / "shared/hostile"  # not in the repository
@@ -126,7 +128,21 @@ def make_cases(lumen, folder):
     go("convert.schema.json", "convert", "fork.nrrd", "trunk.lumen", "--seeds", "fork.json")
     go("check.schema.json", "check", "fork.nrrd", "trunk.lumen")
     for case in ("fitted.lumen", "vessel.lumen"): go("check.schema.json", "check", "a.nrrd", case)
+    go("picture.schema.json", "picture", "fitted.lumen", "fitted.png", "--size", "200x160")
+    go("picture.schema.json", "picture", "fitted.lumen", "turn.png", "--size", "64x64", "--turntable", "3")
+    go("report.schema.json", "report", "fitted.lumen", "page.html", "--volume", "a.nrrd")
+    go("report.schema.json", "report", "truth.lumen", "bare.html")
+    go("library.schema.json", "library", "init", "lib", "--title", "A library", "--licence", "MIT")
+    go("library-add.schema.json", "library", "add", "lib", "fitted.lumen", "--synthetic", "--export", "svzerod", "--id", "one")
+    go("library-add.schema.json", "library", "add", "lib", "truth.lumen", "--synthetic", "--id", "two")
+    go("library-list.schema.json", "library", "list", "lib")
+    go("library.schema.json", "library", "remove", "lib", "two")
     go("completion.schema.json", "completion", "bash")
+    (folder / "library").mkdir()
+    (folder / "library/library.json").write_text(json.dumps(dict(
+        format="lumen-library", formatVersion=1, id="0b8f2ac0-58a8-4d3c-93c9-3f3f39f1f2a4", revision=1, previous=None, title="Cases", description="",
+        publisher="", licence="CC0-1.0", date="2026-11-22", generator="lumen 0.1.0", cases=[])))
+    go("library-index.schema.json", "library", "index", "library")
     for volume in ("a.nrrd", "a.nii.gz"):
         for voxels in ((), ("--voxels",)): go("info-volume.schema.json", "info", volume, *voxels)
     for mesh in ("mesh.ply", *sorted(map(str, (ROOT / "tests/data/mesh").glob("*")))): go("info-mesh.schema.json", "info", mesh)
@@ -150,6 +166,24 @@ def make_cases(lumen, folder):
     go("validate.schema.json", "validate", "fitted.lumen", "secret.lumen.json", "--privacy", codes=(3,))
 
 
+def libraries(lumen, folder):
+    go = lambda name, *arguments, **more: hold(f"library-{name}.schema.json", run(lumen, folder, "library", name, *arguments),
+                                               " ".join(("library", name, *arguments)), **more)
+    maker = Maker(lumen, folder)
+    maker.init(folder / "tubes", "Tubes")
+    maker.add(folder / "tubes", "a", maker.case("a"))
+    go("check", "tubes", "--resume", "checked")
+    if shutil.which("ssh-keygen"):
+        key = ssh_key(folder, "publisher")
+        go("sign", "tubes", "--key", key.name)
+        for _ in range(2): go("verify", "tubes", "--key", f"{key.name}.pub", "--state", "state")
+        (folder / "tubes/data/a/surface.glb").write_bytes(b"")
+        for _ in range(2): go("sign", "tubes", "--key", key.name, codes=(3,))
+    go("check", "tubes", "--max-faults", "0", codes=(3,) if shutil.which("ssh-keygen") else (0,))
+    (folder / "tubes/library.json").write_text("{}")
+    go("check", "tubes", codes=(3,))
+
+
 def bad_input(lumen, folder):
     for name, content in BAD.items():
         if content is not None: (folder / name).write_bytes(content)
@@ -159,8 +193,13 @@ def bad_input(lumen, folder):
         say("fit.schema.json", "fit", name, "out.lumen")
         say("compare.schema.json", "compare", name, name)
         say("check.schema.json", "check", "a.nrrd", name)
+        say("picture.schema.json", "picture", name, "out.png")
         say("export.schema.json", "export", "sofa", name, "out-sofa")
         say("check.schema.json", "check", name, "fitted.lumen")
+        say("library-add.schema.json", "library", "add", "lib", name, "--synthetic", "--id", "bad")
+        say("library-list.schema.json", "library", "list", name)
+        say("report.schema.json", "report", name, "out.html")
+        say("report.schema.json", "report", "fitted.lumen", "out.html", "--volume", name)
         say("convert.schema.json", "convert", name, "out.glb", "--seeds", "astray.json")
         say("track.schema.json", "track", name, "out.lumen", "--seeds", "astray.json")
     hold("validate.schema.json", run(lumen, folder, "validate", *BAD), "validate of what is no case", (3,))
@@ -224,6 +263,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="lumen-answers-") as name:
         folder = pathlib.Path(name)
         make_cases(lumen, folder)
+        libraries(lumen, folder)
         bad_input(lumen, folder)
         conformance_set(lumen, folder)
         hostile_files(lumen, folder)

@@ -37,13 +37,14 @@ std::vector<Argument> everyArgument() {
 }
 
 bool isNumber(const Argument& argument) {
-  static const std::set<std::string> kWords = {"FILE",  "F",    "ID",   "NAME", "UNIT",
-                                               "FRAME", "PATH", "LIST", "LABEL"};
+  static const std::set<std::string> kWords = {"FILE",  "F",    "ID",   "NAME",  "UNIT",
+                                               "FRAME", "PATH", "LIST", "LABEL", "TEXT",
+                                               "SPDX",  "DAY",  "UUID", "CODE",  "DOI"};
   return !argument.positional && !kWords.contains(argument.type);
 }
 
 bool isFile(const Argument& argument) {
-  static const std::set<std::string> kWords = {"NAME", "SHELL", "TARGET"};
+  static const std::set<std::string> kWords = {"NAME", "SHELL", "TARGET", "ID"};
   return argument.positional ? !kWords.contains(argument.name)
                              : argument.type == "FILE" || argument.type == "PATH";
 }

@@ -1,6 +1,7 @@
 # The executable, from outside.
+find_package(PNG REQUIRED)
 lumen_test(cli_test
-  LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen::blob_static nlohmann_json::nlohmann_json
+  LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen_privacy lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp
@@ -16,9 +17,11 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_info_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/picture_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/pushed_tool.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/reachable_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/run_lumen.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/surfaces_in_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/terminal_progress_test.cpp

@@ -21,7 +21,7 @@ find_program(NODE node)
 if(NODE)
   add_executable(ask_blob ${PROJECT_SOURCE_DIR}/viewer/page/people/ask_blob.c)
   target_link_libraries(ask_blob PRIVATE blob)
-  foreach(story correct draw_and_save from_disk keys missing mistakes touching)
+  foreach(story correct draw_and_save from_disk gallery hostile_library keys missing mistakes touching)
     add_test(NAME ViewerPage.People.${story} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/viewer/page/people/run.mjs ${story})
     set_tests_properties(ViewerPage.People.${story} PROPERTIES
       SKIP_RETURN_CODE 77 RUN_SERIAL ON TIMEOUT 1800

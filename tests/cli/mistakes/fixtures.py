@@ -10,7 +10,7 @@ A recipe is a function that is handed a Store and returns the bytes of the file,
 Recipes for one page are in the file of its name, those that several pages use in shared.py."""
 import importlib, pathlib, re, shutil, subprocess, threading
 
-MODULES = ("shared", "volumes", "surfaces", "medical", "seeds", "tracking", "cases", "meshes", "viewer", "commands")
+MODULES = ("shared", "libraries", "volumes", "surfaces", "medical", "seeds", "tracking", "cases", "meshes", "pictures", "viewer", "commands", "trust")
 RECIPES = {}  # by the name of a file that they make
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A library's cases, files that are read again, and work that is not saved.
 #include "converters/common/error.h"
+#include "converters/library/library_file.h"
 #include "served.h"
 
 namespace lumen::test {
@@ -32,7 +33,7 @@ protected:
     writeCase("deep/deeper/c.lumen", named("too deep"));
     writeCase(".hidden/d.lumen", named("hidden"));
     session = std::make_unique<viewer::Session>(viewer::SessionOptions{});
-    session->openLibrary(folder, viewer::casesIn(folder));
+    session->openLibrary(viewer::casesIn(folder));
     serveSession();
   }
   [[nodiscard]] Json libraryRead() const {
@@ -64,6 +65,49 @@ TEST_F(OpenLibraryTest, OpensTheCaseOfANumberAndSavesIntoItsFile) {
   ASSERT_EQ(perform({{"op", "save"}}).status, 200);
   EXPECT_EQ(formats::readCaseFile(path("deep/b.lumen"))->tree.branches[1].label, "mine");
   EXPECT_EQ(formats::readCaseFile(path("a.lumen"))->tree.branches[1].label, "right");
+}
+
+class PublishedLibraryTest : public ServedTest {
+protected:
+  void SetUp() override {
+    fs::create_directories(path("lib/data/fork-1"));
+    writeCase("lib/data/fork-1/case.lumen", twoVessels());
+    writeCase("lib/data/unlisted.lumen", twoVessels());
+    convert::LibraryFile library;
+    library.id = "0b8f2ac0-58a8-4d3c-93c9-3f3f39f1f2a4";
+    library.title = "Forks";
+    library.date = "2026-11-22";
+    library.generator = "lumen 0.1.0";
+    convert::LibraryEntry entry;
+    entry.id = "fork-1";
+    entry.title = "A fork";
+    entry.recordSha256 = std::string(64, '0');
+    library.cases = {entry};
+    write("lib/library.json", convert::libraryText(library));
+    session = std::make_unique<viewer::Session>(viewer::SessionOptions{});
+    session->openLibrary(viewer::casesIn(path("lib")));
+    serveSession();
+    performAll({{"op", "openCase"}, {"index", 0}});
+  }
+};
+
+TEST_F(PublishedLibraryTest, HasTheCasesThatItListsUnderTheirTitles) {
+  const Json library = Json::parse(get("library").body);
+  EXPECT_EQ(library["name"], "Forks");
+  ASSERT_EQ(library["cases"].size(), 1U);
+  EXPECT_EQ(library["cases"][0]["name"], "A fork (fork-1)");
+}
+
+TEST_F(PublishedLibraryTest, IsNeverWrittenInto) {
+  EXPECT_EQ(state()["saveAs"], nullptr);
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  EXPECT_EQ(perform({{"op", "save"}}).status, 400);
+  const std::vector<std::string> kept = session->keepUnsaved();
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept.front(), path("fork-1.unsaved.lumen").string());
+  EXPECT_EQ(formats::readCaseFile(path("lib/data/fork-1/case.lumen"))->tree.branches[1].label,
+            "right");
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("lib/data/fork-1")), {}), 1);
 }
 
 TEST_F(OpenLibraryTest, NoPathOpensAFileNorANumberBeyondTheList) {
