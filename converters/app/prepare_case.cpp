@@ -101,11 +101,7 @@ void warnOfPersons(std::span<const std::byte> bytes, const std::string& file,
                               " (" + std::string(finding.code) + "); look before giving it away"));
   };
   warn(file, scanPrivacy(bytes));
-  // licence, attribution, DOI and origin are meant to name people and places
-  for (const auto& [pointer, text] :
-       {std::pair("/title", &about.title), std::pair("/description", &about.description),
-        std::pair("/anatomy/text", &about.anatomy), std::pair("/consent", &about.consent),
-        std::pair("/deidentification", &about.deidentification)})
+  for (const auto& [pointer, text] : convert::textsToLookAt(about))
     warn("what is told of the case", scanText(*text, pointer));
 }
 

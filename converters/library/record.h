@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -87,6 +88,10 @@ public:
 /// what a schema cannot say it sees to the files alone: exactly one case, sorted paths that all file systems tell
 /// apart.
 CaseRecord readRecord(const std::string& text, const std::filesystem::path& file);
+
+/// The texts that may tell whose case it is, with their places in the record. Whom to name, licence, DOI and origin are
+/// meant to name people and places.
+std::vector<std::pair<const char*, const std::string*>> textsToLookAt(const CaseAbout& about);
 
 /// What can be told of a case by such a record but not shared under the format's rules: no licence, or no consent or
 /// de-identification of a patient. One sentence, or nothing.

@@ -111,11 +111,7 @@ void checkRecord(const CaseRecord& record, const LibraryEntry& entry, const std:
     if (text->empty() && !about.synthetic)
       faults.add({FaultCode::LibraryConsent, entry.id, path, std::string("no statement of ") + what,
                   "one, as the case is not synthetic"});
-  // whom to name, licence, DOI and origin are meant to name people and places
-  for (const auto& [text, pointer] :
-       {std::pair(&about.title, "/title"), std::pair(&about.description, "/description"),
-        std::pair(&about.anatomy, "/anatomy/text"), std::pair(&about.consent, "/consent"),
-        std::pair(&about.deidentification, "/deidentification")})
+  for (const auto& [pointer, text] : textsToLookAt(about))
     checkPrivacy(*text, pointer, entry.id, path, faults);
 }
 

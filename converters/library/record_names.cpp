@@ -69,4 +69,12 @@ std::string missingStatement(const CaseAbout& about) {
          " gives one, --synthetic says that no patient is behind the case";
 }
 
+std::vector<std::pair<const char*, const std::string*>> textsToLookAt(const CaseAbout& about) {
+  return {{"/title", &about.title},
+          {"/description", &about.description},
+          {"/anatomy/text", &about.anatomy},
+          {"/consent", &about.consent},
+          {"/deidentification", &about.deidentification}};
+}
+
 }  // namespace lumen::convert

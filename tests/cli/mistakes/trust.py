@@ -16,8 +16,8 @@ def library(store, name):
     return store.folder / name
 
 
-@fixture("tubes/")
-def tubes(store): library(store, "tubes")
+@fixture("shared/")
+def shared(store): library(store, "shared")
 
 
 @fixture("edited/")
