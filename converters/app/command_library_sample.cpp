@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "converters/app/command.h"
@@ -12,7 +11,7 @@
 #include "converters/app/library_build.h"
 #include "converters/app/run_lumen.h"
 #include "converters/app/value_checks.h"
-#include "converters/common/error.h"
+#include "converters/library/build.h"
 #include "converters/library/library_file.h"
 
 namespace lumen::app {
@@ -73,9 +72,7 @@ private:
   /// The volumes and the list of them, in the folder for work.
   [[nodiscard]] fs::path makeList(const Context& context) const {
     const fs::path work = fs::absolute(m_options.work);
-    std::error_code error;
-    fs::create_directories(work, error);
-    if (error) throw failed(work.string() + ": " + error.message());
+    convert::claimWorkFolder(work);
     std::string text = "input,seeds,id,targets,title,description,anatomy,modality,synthetic\n";
     context.progress.begin("drawing patients", static_cast<std::size_t>(m_patients));
     for (int k = 1; k <= m_patients; ++k) {

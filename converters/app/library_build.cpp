@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <system_error>
 
 #include "converters/app/about_options.h"
 #include "converters/app/file_access.h"
@@ -182,8 +181,7 @@ int buildAndReport(const std::vector<BuildRow>& rows, const std::string& list,
   options.strict = context.common.strict;
   options.day = revisionDay("");
   const auto results = convert::buildLibrary(rows, folder.parent_path(), options, context.progress);
-  std::error_code ignored;
-  if (countOf(results, RowEnd::Failed) == 0) fs::remove_all(options.work, ignored);
+  if (countOf(results, RowEnd::Failed) == 0) convert::removeWorkFolder(options.work);
   report(results, library, context);
   return exitCodeOf(results);
 }

@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -29,6 +30,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kWorkMark = "lumen-library-build.txt";
 constexpr double kPatience =
     20;  // a batch waits for as many times as long as the last one took to put in
 
@@ -183,8 +185,27 @@ private:
 
 }  // namespace
 
+void claimWorkFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const bool isEmpty = !error && fs::is_empty(folder, error);
+  if (!error && isEmpty) {
+    std::ofstream mark(folder / kWorkMark);
+    mark << "lumen library build works here, and removes this folder when all is made.\n";
+    mark.close();
+    if (!mark) error = std::make_error_code(std::errc::io_error);
+  }
+  if (error) throw failed(formats::printable(folder.string()) + ": " + error.message());
+}
+
+void removeWorkFolder(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::is_regular_file(folder / kWorkMark, ignored)) fs::remove_all(folder, ignored);
+}
+
 std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows, const fs::path& library,
                                     const BuildOptions& options, Progress& progress) {
+  claimWorkFolder(options.work);
   return Building(rows, library, options, progress).run();
 }
 

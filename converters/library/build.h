@@ -37,6 +37,12 @@ struct RowResult {
   std::filesystem::path log;  ///< what the row's commands wrote to standard error, where it failed
 };
 
+/// Makes the folder for work, and marks one that it made, or found empty, as lumen's own. Throws Error(Failed).
+void claimWorkFolder(const std::filesystem::path& folder);
+
+/// Removes a folder for work that is marked, with all that is in it. Any other stays: it is somebody's.
+void removeWorkFolder(const std::filesystem::path& folder);
+
 /// Makes every row whose recipe is not that of the case in the library, and puts it there; cases are put into the
 /// library in batches, each atomic. A row that fails is passed over. Results are in the order of the list. Throws
 /// Error(Cancelled): what is made by then is used by the next run; Error(Failed) where neither the library nor the

@@ -71,6 +71,17 @@ def one_bad_row(lumen, folder):
     check(lumen, folder / "lib")
 
 
+def a_folder_of_somebody_stays(lumen, folder):
+    """Stands on one_bad_row()."""
+    mine = folder / "mine"
+    mine.mkdir()
+    (mine / "thesis.txt").write_text("years of work")
+    centerline(folder / "0.swc", 5)
+    done, rows = built(lumen, folder, "--work", mine)
+    must(done.returncode == 0 and rows["tree-0"]["end"] == "made", f"{rows} {done.stderr}")
+    must((mine / "thesis.txt").read_text() == "years of work", "a folder that was there before went with its files")
+
+
 def what_changed_is_made_again(lumen, folder):
     """Stands on one_bad_row()."""
     before = contents(folder / "lib")
@@ -138,7 +149,7 @@ def main():
     parser.add_argument("--kills", type=int, default=12)
     options = parser.parse_args()
     lumen = pathlib.Path(options.lumen).resolve()
-    for steps in ((one_bad_row, what_changed_is_made_again), (refused,), (lambda l, f: killed_again_and_again(l, f, options.kills),)):
+    for steps in ((one_bad_row, a_folder_of_somebody_stays, what_changed_is_made_again), (refused,), (lambda l, f: killed_again_and_again(l, f, options.kills),)):
         with tempfile.TemporaryDirectory() as folder:
             for step in steps: step(lumen, pathlib.Path(folder))
 
