@@ -149,7 +149,7 @@ def main():
     parser.add_argument("--kills", type=int, default=12)
     options = parser.parse_args()
     lumen = pathlib.Path(options.lumen).resolve()
-    for steps in ((one_bad_row, a_folder_of_somebody_stays, what_changed_is_made_again), (refused,), (lambda l, f: killed_again_and_again(l, f, options.kills),)):
+    for steps in ((one_bad_row, what_changed_is_made_again, a_folder_of_somebody_stays), (refused,), (lambda l, f: killed_again_and_again(l, f, options.kills),)):
         with tempfile.TemporaryDirectory() as folder:
             for step in steps: step(lumen, pathlib.Path(folder))
 
