@@ -91,7 +91,7 @@ run_demo() {
   install_packages "${packages[@]}"
   build_page || say "The viewer's page could not be built; all else goes on without it"
   configure_and_build lumen
-  local lumen=build/release/converters/app/lumen
+  local lumen=build/release/converters/cli/lumen
   mkdir -p demo
   say "A synthetic angiogram, its truth, and the seeds that a user would click"
   $lumen phantom patient demo/angiogram.nrrd --truth demo/truth.lumen --seeds demo/seeds.json
@@ -134,14 +134,14 @@ close_demo() {
 
 == To look at it
   The volume and the vessels in the browser, to see, measure and correct:
-    build/release/converters/app/lumen view demo/angiogram.nrrd demo/vessels.lumen
+    build/release/converters/cli/lumen view demo/angiogram.nrrd demo/vessels.lumen
   Open demo/report.html in a browser, and demo/vessels.png.
   Ten synthetic patients as a library with a site:
-    build/release/converters/app/lumen library sample patients --jobs 2
-    build/release/converters/app/lumen library index patients    # then open patients/index.html
+    build/release/converters/cli/lumen library sample patients --jobs 2
+    build/release/converters/cli/lumen library index patients    # then open patients/index.html
   Open demo/vessels.glb in any glTF viewer, such as Blender, or f3d from Debian (which cannot read --draco):
     apt install f3d && f3d demo/vessels.glb
-  The command line is build/release/converters/app/lumen; --help lists what it can do.
+  The command line is build/release/converters/cli/lumen; --help lists what it can do.
 TEXT
 }
 

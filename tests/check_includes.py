@@ -21,29 +21,39 @@ MAY_INCLUDE = {
     "libblob/src/simd": ["libblob/include", "libblob/src", "formats/field"],
 }
 FORMATS = ["formats/container", "formats/field", "formats/view", "formats/case"]
-MAY_INCLUDE["converters/common"] = FORMATS
-STAGES = {"volume": [], "seeds": ["volume"], "centerline": ["seeds"], "tracking": ["seeds", "volume"], "fitting": [], "mesh": [], "surface": ["mesh"], "compare": [],
-          "check": ["volume"], "phantom": ["seeds", "volume", "centerline"],
-          "export": ["volume", "mesh", "surface", "centerline", "export/sofa", "export/mujoco", "export/cathsim"],
-          "export/sofa": ["mesh", "surface", "export"], "export/mujoco": ["mesh", "surface", "export", "export/sofa"],
-          "export/cathsim": ["mesh", "surface", "export", "export/mujoco"],
-          "picture": ["check", "mesh", "volume"], "report": ["check"],
-          "library": ["fitting", "mesh", "surface", "export"],
-          "library/site": ["library"],
-          "inside": ["volume", "centerline", "mesh", "surface"], "editing": ["fitting"]}
-for stage, below in STAGES.items():
-    MAY_INCLUDE["converters/" + stage] = FORMATS + ["converters/common"] + ["converters/" + b for b in below]
-MAY_INCLUDE["converters/export"] += ["libblob/include"]  # its grids hold what libblob answers
-MAY_INCLUDE["converters/export/cathsim"] += ["libblob/include"]  # which outer corners of its prisms lie in a lumen
-MAY_INCLUDE["converters/picture"] += ["libblob/include"]  # it draws what libblob answers
-MAY_INCLUDE["converters/app"] = FORMATS + ["converters/common"] + ["converters/" + s for s in STAGES]
-MAY_INCLUDE["converters/export/sofa/plugin/src/LumenSofa"] = ["libblob/include", "formats/container", "formats/view"]
-MAY_INCLUDE["converters/export/sofa/plugin/tests"] = []
 
-# The viewer does what commands do; `app` has nothing of it but the name of a function that makes a command.
-VIEWER = MAY_INCLUDE["converters/app"] + ["converters/app"]
-MAY_INCLUDE["viewer/session"] = VIEWER
-MAY_INCLUDE["viewer/server"] = VIEWER + ["viewer/session"]
+# The rooms of the converters from the bottom up. A folder may include the formats, libblob's header, all folders of the
+# rooms before its own, and in its own room those that are named beside it.
+ROOMS = [
+    {"base": []},
+    {"geometry": []},
+    {"voxels": []},
+    {"io/vtk": [], "io/volume": [], "io/mesh": ["io/vtk"], "io/seeds": ["io/volume"],
+     "io/centerline": ["io/seeds", "io/vtk", "io/volume"]},
+    {"stages/tracking": [], "stages/fitting": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
+     "stages/surface/patches": [], "stages/surface": ["stages/surface/patches"],
+     "stages/trees_from_surfaces": ["stages/repair", "stages/surface"], "stages/phantom": []},
+    {"judge/compare": [], "judge/check": []},
+    {"draw/overlay": [], "draw/picture": ["draw/overlay"], "draw/report": []},
+    {"export/shared": []},
+    {"export/targets/" + name: [] for name in ("cathsim", "engines", "grid", "isaac", "mujoco", "oned", "openfoam", "print",
+                                               "simvascular", "slicer", "sofa", "steve", "svzerod")},
+    {"export": []},
+    {"library": [], "library/site": ["library"]},
+    {"engine": []},
+]
+CONVERTERS = []
+for room in ROOMS:
+    for name, beside in room.items():
+        MAY_INCLUDE["converters/" + name] = FORMATS + ["libblob/include"] + CONVERTERS + ["converters/" + b for b in beside]
+    CONVERTERS = CONVERTERS + ["converters/" + name for name in room]
+MAY_INCLUDE["converters/export/sofa_plugin/src/LumenSofa"] = ["libblob/include", "formats/container", "formats/view"]
+MAY_INCLUDE["converters/export/sofa_plugin/tests"] = []
+
+# The viewer and the command line stand beside one another on the engine; only the list of commands names both.
+MAY_INCLUDE["viewer/session"] = FORMATS + ["libblob/include"] + CONVERTERS
+MAY_INCLUDE["viewer/server"] = MAY_INCLUDE["viewer/session"] + ["viewer/session"]
+MAY_INCLUDE["converters/cli"] = MAY_INCLUDE["viewer/server"] + ["viewer/server"]
 
 
 def sources():

@@ -5,7 +5,7 @@
     tests/hash_outputs.py build/release > after.hashes
     diff before.hashes after.hashes         # what changed; nothing, if nothing is printed
 
-Runs `lumen` (found in BUILD/converters/app) and libblob.so (in BUILD/libblob): every phantom with its
+Runs `lumen` (found in BUILD/converters/cli) and libblob.so (in BUILD/libblob): every phantom with its
 truth and seeds, tracked, fitted, converted to every format, described, checked, compared, validated and queried
 on every SIMD path that this processor has; the real angiogram of --data, where it is; and the
 files of spec/conformance. A failed run is an output too: its exit status is part of what is hashed.
@@ -252,7 +252,7 @@ def arguments():
 
 def hash_all(options, work):
     listing = Listing(options.only, options.raw)
-    lumen = (options.build / "converters/app/lumen").resolve(strict=True)
+    lumen = (options.build / "converters/cli/lumen").resolve(strict=True)
     blob = hash_queries.load(options.build / "libblob/libblob.so")
     runs = {name: lambda folder, name=name: phantom(folder, blob, name)
             for name in SMALL + ([] if options.quick else ["patient"])}

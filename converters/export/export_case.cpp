@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "converters/common/error.h"
-#include "converters/export/folder_texts.h"
-#include "converters/export/target.h"
+#include "converters/base/error.h"
+#include "converters/export/shared/folder_texts.h"
+#include "converters/export/shared/target.h"
 
 namespace lumen::convert {
 

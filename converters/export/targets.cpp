@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of targets: all that the command line knows of one is its row.
-#include "converters/export/cathsim/export_cathsim.h"
-#include "converters/export/engines.h"
-#include "converters/export/grid.h"
-#include "converters/export/isaac.h"
-#include "converters/export/mujoco/export_mujoco.h"
-#include "converters/export/oned.h"
-#include "converters/export/openfoam.h"
-#include "converters/export/print.h"
-#include "converters/export/simvascular.h"
-#include "converters/export/slicer.h"
-#include "converters/export/sofa/export_sofa.h"
-#include "converters/export/steve.h"
-#include "converters/export/svzerod.h"
-#include "converters/export/target.h"
+#include "converters/export/shared/target.h"
+#include "converters/export/targets/cathsim/export_cathsim.h"
+#include "converters/export/targets/engines/engines.h"
+#include "converters/export/targets/grid/grid.h"
+#include "converters/export/targets/isaac/isaac.h"
+#include "converters/export/targets/mujoco/export_mujoco.h"
+#include "converters/export/targets/oned/oned.h"
+#include "converters/export/targets/openfoam/openfoam.h"
+#include "converters/export/targets/print/print.h"
+#include "converters/export/targets/simvascular/simvascular.h"
+#include "converters/export/targets/slicer/slicer.h"
+#include "converters/export/targets/sofa/export_sofa.h"
+#include "converters/export/targets/steve/steve.h"
+#include "converters/export/targets/svzerod/svzerod.h"
 
 namespace lumen::convert {
 

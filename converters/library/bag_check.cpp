@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "converters/common/sha256.h"
+#include "converters/base/sha256.h"
 #include "converters/library/derived.h"
 #include "converters/library/line_comparison.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/check_case.h"
 #include "converters/library/library_fault.h"
 #include "converters/library/library_file.h"

@@ -15,7 +15,7 @@
 #include <thread>
 #include <utility>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "converters/library/build_row.h"
 #include "converters/library/change.h"
 #include "converters/library/library_file.h"

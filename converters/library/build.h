@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/build_list.h"
 
 namespace lumen::convert {

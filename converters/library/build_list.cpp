@@ -11,9 +11,9 @@
 #include <csv.h>
 #include <nlohmann/json.hpp>
 
-#include "converters/common/error.h"
-#include "converters/common/shown_text.h"
-#include "converters/common/text.h"
+#include "converters/base/error.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/text.h"
 #include "converters/library/record.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"

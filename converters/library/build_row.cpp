@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "converters/common/error.h"
-#include "converters/common/run_program.h"
+#include "converters/base/error.h"
+#include "converters/base/run_program.h"
 #include "formats/case/atomic_file.h"
 
 namespace lumen::convert {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/build.h"
 #include "converters/library/library_file.h"
 #include "converters/library/recipe.h"

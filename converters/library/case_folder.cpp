@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "converters/common/sha256.h"
+#include "converters/base/sha256.h"
 
 namespace lumen::convert {
 

@@ -17,8 +17,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "converters/common/sha256.h"
-#include "converters/common/shown_text.h"
+#include "converters/base/sha256.h"
+#include "converters/base/shown_text.h"
 #include "converters/library/derived.h"
 #include "converters/library/spdx.h"
 #include "formats/case/atomic_file.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <utility>
 
-#include "converters/common/privacy.h"
-#include "converters/common/sha256.h"
-#include "converters/common/text.h"
+#include "converters/base/privacy.h"
+#include "converters/base/sha256.h"
+#include "converters/base/text.h"
 #include "converters/library/case_folder.h"
 #include "converters/library/derived.h"
 #include "converters/library/figure_faults.h"

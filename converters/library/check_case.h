@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/check_journal.h"
 #include "converters/library/library_fault.h"
 #include "converters/library/library_file.h"

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::convert {
 

@@ -11,8 +11,8 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include "converters/common/shown_text.h"
-#include "converters/common/text.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/text.h"
 #include "converters/library/bag_check.h"
 #include "converters/library/case_folder.h"
 #include "converters/library/check_case.h"

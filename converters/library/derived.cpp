@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "converters/common/sha256.h"
+#include "converters/base/sha256.h"
 #include "converters/library/crate.h"
 
 namespace lumen::convert {

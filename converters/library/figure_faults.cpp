@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "converters/common/error.h"
-#include "converters/common/shown_text.h"
+#include "converters/base/error.h"
+#include "converters/base/shown_text.h"
 #include "converters/library/record_of_case.h"
 
 namespace lumen::convert {

@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/common/sha256.h"
-#include "converters/common/shown_text.h"
-#include "converters/common/text.h"
+#include "converters/base/sha256.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/text.h"
 
 namespace lumen::convert {
 

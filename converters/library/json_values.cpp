@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "converters/library/record.h"
 #include "formats/case/json_number.h"
 #include "formats/view/text_rules.h"

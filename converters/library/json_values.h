@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "converters/common/json_place.h"
+#include "converters/base/json_place.h"
 
 namespace lumen::convert {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "converters/library/json_values.h"
 #include "formats/case/case_file.h"
 #include "formats/container/printable.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "converters/common/shown_text.h"
+#include "converters/base/shown_text.h"
 
 namespace lumen::convert {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/plain_folder.h"
 
 namespace lumen::convert {

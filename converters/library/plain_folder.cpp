@@ -13,8 +13,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "converters/common/error.h"
-#include "converters/common/sha256.h"
+#include "converters/base/error.h"
+#include "converters/base/sha256.h"
 
 namespace lumen::convert {
 

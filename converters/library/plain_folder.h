@@ -12,7 +12,7 @@
 
 #include <sys/stat.h>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 
 namespace lumen::convert {
 

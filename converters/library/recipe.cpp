@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/common/error.h"
-#include "converters/common/sha256.h"
-#include "converters/common/text.h"
+#include "converters/base/error.h"
+#include "converters/base/sha256.h"
+#include "converters/base/text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

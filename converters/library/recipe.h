@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/build_list.h"
 
 namespace lumen::convert {

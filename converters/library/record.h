@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::convert {
 

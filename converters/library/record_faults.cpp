@@ -5,10 +5,10 @@
 #include <set>
 #include <utility>
 
-#include "converters/common/json_place.h"
-#include "converters/common/privacy.h"
-#include "converters/common/shown_text.h"
-#include "converters/common/text.h"
+#include "converters/base/json_place.h"
+#include "converters/base/privacy.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/text.h"
 #include "converters/library/spdx.h"
 
 namespace lumen::convert {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <variant>
 
-#include "converters/common/error.h"
-#include "converters/common/tree_figures.h"
-#include "converters/export/insertion.h"
-#include "converters/export/named_end.h"
-#include "converters/fitting/error_of_fit.h"
+#include "converters/base/error.h"
+#include "converters/base/tree_figures.h"
+#include "converters/export/shared/insertion.h"
+#include "converters/export/shared/named_end.h"
+#include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
 #include "formats/view/text_rules.h"

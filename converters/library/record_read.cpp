@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "converters/common/text.h"
+#include "converters/base/text.h"
 #include "converters/library/json_values.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"

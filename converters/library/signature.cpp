@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "converters/common/error.h"
-#include "converters/common/run_program.h"
-#include "converters/common/text.h"
+#include "converters/base/error.h"
+#include "converters/base/run_program.h"
+#include "converters/base/text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/library_file.h"
 #include "converters/library/signature_key.h"
 

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "converters/common/error.h"
-#include "converters/common/text.h"
+#include "converters/base/error.h"
+#include "converters/base/text.h"
 #include "formats/case/base64.h"
 
 namespace lumen::convert {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "converters/common/shown_text.h"
-#include "converters/common/text.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/text.h"
 #include "converters/library/spdx_ids.h"
 
 namespace lumen::convert {

@@ -10,7 +10,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "converters/library/json_values.h"
 #include "formats/case/atomic_file.h"
 #include "formats/case/case_file.h"

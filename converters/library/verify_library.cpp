@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "converters/common/sha256.h"
-#include "converters/common/text.h"
+#include "converters/base/sha256.h"
+#include "converters/base/text.h"
 #include "converters/library/verified_revisions.h"
 
 namespace lumen::convert {

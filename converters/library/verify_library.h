@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "converters/library/check_library.h"
 #include "converters/library/plain_folder.h"
 #include "converters/library/signature.h"

@@ -8,8 +8,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "converters/common/random.h"
-#include "converters/volume/bspline.h"
+#include "converters/base/random.h"
+#include "converters/voxels/bspline.h"
 
 namespace {
 

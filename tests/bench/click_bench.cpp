@@ -9,12 +9,12 @@
 #include <ctime>
 #include <string>
 
-#include "converters/common/vectors.h"
-#include "converters/editing/edit.h"
-#include "converters/fitting/refit.h"
-#include "converters/tracking/snap.h"
-#include "converters/tracking/track_further.h"
-#include "converters/volume/read_volume.h"
+#include "converters/base/vectors.h"
+#include "converters/io/volume/read_volume.h"
+#include "converters/stages/editing/edit.h"
+#include "converters/stages/fitting/refit.h"
+#include "converters/stages/tracking/snap.h"
+#include "converters/stages/tracking/track_further.h"
 #include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
 #include "formats/case/reachability.h"

@@ -9,5 +9,5 @@ target_compile_definitions(lumen_convert_bench PRIVATE ITK_USE_SYSTEM_EIGEN)
 target_include_directories(lumen_convert_bench SYSTEM PRIVATE ${ITK_INCLUDE_DIRS})
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
   target_compile_options(lumen_convert_bench PRIVATE
-    -include ${PROJECT_SOURCE_DIR}/converters/volume/itk_for_clang.h)
+    -include ${PROJECT_SOURCE_DIR}/converters/io/volume/itk_for_clang.h)
 endif()

@@ -19,12 +19,12 @@
 #include <tbb/global_control.h>
 
 #include "convert_itk.h"
-#include "converters/fitting/fit.h"
-#include "converters/phantom/phantom.h"
-#include "converters/seeds/seeds.h"
-#include "converters/tracking/tracker.h"
-#include "converters/volume/read_volume.h"
-#include "converters/volume/write_volume.h"
+#include "converters/io/seeds/seeds.h"
+#include "converters/io/volume/read_volume.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/stages/fitting/fit.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/tracking/tracker.h"
 #include "formats/case/case_file.h"
 #include "tests/reproduce/report.h"
 

@@ -2,7 +2,7 @@
 // What a user would begin with instead: vesselness at several scales.
 #pragma once
 
-#include "converters/volume/volume.h"
+#include "converters/voxels/volume.h"
 
 namespace lumen::bench {
 

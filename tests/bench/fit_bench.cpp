@@ -5,9 +5,9 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
-#include "converters/fitting/error_of_fit.h"
-#include "converters/fitting/fit.h"
-#include "converters/fitting/levenberg_marquardt.h"
+#include "converters/stages/fitting/error_of_fit.h"
+#include "converters/stages/fitting/fit.h"
+#include "converters/stages/fitting/levenberg_marquardt.h"
 #include "shapes.h"
 
 namespace {

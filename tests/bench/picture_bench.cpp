@@ -15,8 +15,8 @@
 
 #include <tbb/global_control.h>
 
-#include "converters/app/file_access.h"
-#include "converters/picture/draw_case.h"
+#include "converters/draw/picture/draw_case.h"
+#include "converters/engine/file_access.h"
 
 namespace lumen::bench {
 namespace {

@@ -17,9 +17,9 @@
 
 #include <embree3/rtcore.h>
 
-#include "converters/common/icosphere.h"
-#include "converters/mesh/mesh_file.h"
-#include "converters/mesh/triangle_tree.h"
+#include "converters/geometry/icosphere.h"
+#include "converters/geometry/triangle_tree.h"
+#include "converters/io/mesh/mesh_file.h"
 
 namespace lumen::bench {
 namespace {

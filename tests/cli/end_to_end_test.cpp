@@ -2,7 +2,7 @@
 // From a synthetic tube to a case, a mesh and a score.
 #include <nlohmann/json.hpp>
 
-#include "converters/app/file_format.h"
+#include "converters/engine/file_format.h"
 #include "formats/case/case_file.h"
 #include "tests/cli/run_lumen.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a file is by its content, and that outputs spare what cannot be made again.
-#include "converters/app/file_content.h"
+#include "converters/engine/file_content.h"
 
 #include "tests/cli/run_lumen.h"
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of formats.
-#include "converters/app/file_format.h"
+#include "converters/engine/file_format.h"
 
 #include <filesystem>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "converters/app/file_access.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/engine/file_access.h"
 
 namespace lumen::app {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ctrl-C in the middle of the work.
-#include "converters/app/interrupt.h"
+#include "converters/cli/interrupt.h"
 
 #include <chrono>
 #include <thread>

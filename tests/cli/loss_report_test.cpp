@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/app/loss_report.h"
+#include "converters/engine/loss_report.h"
 
 #include <gtest/gtest.h>
 

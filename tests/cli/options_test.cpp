@@ -2,7 +2,7 @@
 // What holds for every option of every command, found by asking the parsers for their options.
 #include <set>
 
-#include "converters/app/command_line.h"
+#include "converters/cli/command_line.h"
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {

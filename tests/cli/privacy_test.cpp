@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lumen validate --privacy takes for personal.
-#include "converters/common/privacy.h"
+#include "converters/base/privacy.h"
 
 #include <set>
 

@@ -6,7 +6,7 @@
 
 #include "formats/case/case_file.h"
 #include "tests/cli/run_lumen.h"
-#include "tests/unit/inside/tube_mesh.h"
+#include "tests/unit/trees_from_surfaces/tube_mesh.h"
 
 namespace lumen::test {
 

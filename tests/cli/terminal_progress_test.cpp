@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/app/terminal_progress.h"
+#include "converters/cli/terminal_progress.h"
 
 #include <cstdio>
 #include <string>

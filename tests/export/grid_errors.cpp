@@ -19,10 +19,10 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
-#include "converters/common/error.h"
-#include "converters/export/cdf.h"
-#include "converters/export/vdb.h"
-#include "converters/surface/closed_surface.h"
+#include "converters/base/error.h"
+#include "converters/export/shared/cdf.h"
+#include "converters/export/shared/vdb.h"
+#include "converters/stages/surface/closed_surface.h"
 #include "formats/case/case_file.h"
 #include "tests/unit/export/kissing.h"
 

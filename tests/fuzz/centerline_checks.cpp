@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "converters/centerline/case_of_centerline.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/io/centerline/case_of_centerline.h"
 #include "formats/case/validate.h"
 #include "fuzz/fuzz_support.h"
 

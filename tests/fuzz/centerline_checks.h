@@ -2,7 +2,7 @@
 // What holds of every centerline that a reader accepts.
 #pragma once
 
-#include "converters/centerline/centerline_file.h"
+#include "converters/io/centerline/centerline_file.h"
 
 namespace lumen::fuzz {
 

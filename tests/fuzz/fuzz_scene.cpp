@@ -2,8 +2,8 @@
 // Scenes of SOFA: which meshes they load, and where they put them.
 #include <string_view>
 
-#include "converters/common/error.h"
-#include "converters/mesh/sofa_scene.h"
+#include "converters/base/error.h"
+#include "converters/io/mesh/sofa_scene.h"
 #include "formats/container/printable.h"
 #include "fuzz/fuzz_support.h"
 

@@ -2,8 +2,8 @@
 // Centerlines as SWC, the chains that they are made of, and their cases.
 #include <string_view>
 
-#include "converters/centerline/read_swc.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/io/centerline/read_swc.h"
 #include "formats/container/printable.h"
 #include "fuzz/centerline_checks.h"
 #include "fuzz/fuzz_support.h"

@@ -2,8 +2,8 @@
 // Centerlines as tubes of TubeTK.
 #include <string_view>
 
-#include "converters/centerline/read_tre.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/io/centerline/read_tre.h"
 #include "formats/container/printable.h"
 #include "fuzz/centerline_checks.h"
 #include "fuzz/fuzz_support.h"

@@ -2,8 +2,8 @@
 // Centerlines as lines of VTK.
 #include <string_view>
 
-#include "converters/centerline/read_vtp.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/io/centerline/read_vtp.h"
 #include "formats/container/printable.h"
 #include "fuzz/centerline_checks.h"
 #include "fuzz/fuzz_support.h"

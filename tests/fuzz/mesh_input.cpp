@@ -4,10 +4,10 @@
 #include <span>
 #include <string_view>
 
-#include "converters/common/error.h"
-#include "converters/mesh/mesh_edges.h"
-#include "converters/mesh/mesh_report.h"
-#include "converters/mesh/repair.h"
+#include "converters/base/error.h"
+#include "converters/geometry/mesh_edges.h"
+#include "converters/stages/repair/mesh_report.h"
+#include "converters/stages/repair/repair.h"
 #include "formats/container/printable.h"
 #include "fuzz/fuzz_support.h"
 

@@ -8,9 +8,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "converters/common/error.h"
-#include "converters/seeds/place_seeds.h"
-#include "converters/seeds/seeds.h"
+#include "converters/base/error.h"
+#include "converters/io/seeds/place_seeds.h"
+#include "converters/io/seeds/seeds.h"
 #include "formats/container/printable.h"
 #include "fuzz/fuzz_support.h"
 

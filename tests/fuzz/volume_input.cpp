@@ -9,8 +9,8 @@
 
 #include <unistd.h>
 
-#include "converters/common/error.h"
-#include "converters/volume/read_volume.h"
+#include "converters/base/error.h"
+#include "converters/io/volume/read_volume.h"
 #include "fuzz/fuzz_support.h"
 
 namespace lumen::fuzz {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "converters/volume/read_volume_options.h"
+#include "converters/io/volume/read_volume_options.h"
 
 namespace lumen::fuzz {
 

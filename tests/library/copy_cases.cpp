@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "converters/common/sha256.h"
+#include "converters/base/sha256.h"
 #include "converters/library/change.h"
 #include "converters/library/derived.h"
 

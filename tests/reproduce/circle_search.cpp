@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "converters/tracking/circles.h"
+#include "converters/stages/tracking/circles.h"
 
 namespace lumen::reproduce {
 

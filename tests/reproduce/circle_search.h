@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 #include "disc_image.h"
 
 namespace lumen::reproduce {

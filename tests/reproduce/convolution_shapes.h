@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 #include "formats/case/case.h"
 #include "implicit_surface.h"
 

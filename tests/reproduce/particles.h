@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 #include "implicit_surface.h"
 
 namespace lumen::reproduce {

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "converters/app/terminal_progress.h"
-#include "converters/fitting/error_of_fit.h"
-#include "converters/fitting/fit.h"
-#include "converters/phantom/phantom.h"
-#include "converters/surface/polygonise.h"
-#include "converters/tracking/tracker.h"
+#include "converters/cli/terminal_progress.h"
+#include "converters/stages/fitting/error_of_fit.h"
+#include "converters/stages/fitting/fit.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/surface/patches/polygonise.h"
+#include "converters/stages/tracking/tracker.h"
 #include "formats/case/case_file.h"
 #include "report.h"
 #include "seams.h"

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/app/terminal_progress.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/cli/terminal_progress.h"
 
 namespace lumen::reproduce {
 namespace {

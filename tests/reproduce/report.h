@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 
 namespace lumen::reproduce {
 

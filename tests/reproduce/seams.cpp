@@ -9,7 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/common/vectors.h"
+#include "converters/base/vectors.h"
 #include "formats/case/topology.h"
 #include "implicit_surface.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "formats/case/case.h"
 
 namespace lumen::reproduce {

@@ -7,9 +7,9 @@
 #include <exception>
 #include <string>
 
-#include "converters/app/terminal_progress.h"
-#include "converters/fitting/error_of_fit.h"
-#include "converters/fitting/fit.h"
+#include "converters/cli/terminal_progress.h"
+#include "converters/stages/fitting/error_of_fit.h"
+#include "converters/stages/fitting/fit.h"
 #include "formats/case/case_file.h"
 #include "report.h"
 #include "seams.h"

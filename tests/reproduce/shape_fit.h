@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "converters/fitting/local_model.h"
+#include "converters/stages/fitting/local_model.h"
 #include "convolution_shapes.h"
 
 namespace lumen::reproduce {

@@ -17,10 +17,10 @@
 #include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
 
-#include "converters/common/disjoint_sets.h"
-#include "converters/common/error.h"
-#include "converters/common/vtk_xml.h"
-#include "converters/mesh/triangle_tree.h"
+#include "converters/base/error.h"
+#include "converters/geometry/disjoint_sets.h"
+#include "converters/geometry/triangle_tree.h"
+#include "converters/io/vtk/vtk_xml.h"
 
 namespace lumen::reproduce {
 namespace {

@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
-#include "converters/mesh/triangle_mesh.h"
-#include "converters/surface/sheet_field.h"
+#include "converters/geometry/triangle_mesh.h"
+#include "converters/stages/surface/sheet_field.h"
 #include "formats/case/case.h"
 
 namespace lumen::reproduce {

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
 #include "tests/reproduce/surface_facts.h"

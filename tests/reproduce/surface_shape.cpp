@@ -14,8 +14,8 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
-#include "converters/mesh/self_intersections.h"
-#include "converters/surface/triangle_quality.h"
+#include "converters/geometry/self_intersections.h"
+#include "converters/geometry/triangle_quality.h"
 #include "tests/reproduce/surface_facts.h"
 
 namespace lumen::reproduce {

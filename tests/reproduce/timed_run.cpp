@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::reproduce {
 namespace {

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <variant>
 
-#include "converters/common/random.h"
-#include "converters/common/vectors.h"
-#include "converters/compare/sampled_path.h"
+#include "converters/base/random.h"
+#include "converters/base/vectors.h"
+#include "converters/judge/compare/sampled_path.h"
 #include "formats/case/topology.h"
 
 namespace lumen::reproduce {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "converters/compare/compare.h"
-#include "converters/phantom/phantom.h"
-#include "converters/tracking/tracker.h"
+#include "converters/judge/compare/compare.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/tracking/tracker.h"
 
 namespace lumen::reproduce {
 

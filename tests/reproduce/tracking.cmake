@@ -16,7 +16,7 @@ add_executable(lumen_vessels
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/vessel_score.cpp
   ${CMAKE_CURRENT_SOURCE_DIR}/reproduce/vessels.cpp)
 target_link_libraries(lumen_vessels PRIVATE
-  lumen_reproduce lumen_compare lumen_seeds lumen_tube_tree lumen_terminal nlohmann_json::nlohmann_json)
+  lumen_reproduce lumen_compare lumen_seeds lumen_geometry lumen_terminal nlohmann_json::nlohmann_json)
 
 if(LUMEN_BUILD_BENCHMARKS)
   include(${CMAKE_CURRENT_SOURCE_DIR}/bench/convert.cmake)

@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-#include "converters/app/terminal_progress.h"
+#include "converters/cli/terminal_progress.h"
 #include "plot.h"
 #include "report.h"
 #include "seams.h"

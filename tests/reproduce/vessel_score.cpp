@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "converters/common/tube_tree_distance.h"
-#include "converters/common/vectors.h"
-#include "converters/compare/compare.h"
-#include "converters/compare/sampled_path.h"
+#include "converters/base/vectors.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/compare/compare.h"
+#include "converters/judge/compare/sampled_path.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
 

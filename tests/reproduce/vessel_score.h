@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "formats/case/case.h"
 
 namespace lumen::reproduce {

@@ -18,11 +18,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/app/terminal_progress.h"
-#include "converters/common/error.h"
-#include "converters/common/random.h"
-#include "converters/common/vectors.h"
-#include "converters/seeds/seeds.h"
+#include "converters/base/error.h"
+#include "converters/base/random.h"
+#include "converters/base/vectors.h"
+#include "converters/cli/terminal_progress.h"
+#include "converters/io/seeds/seeds.h"
 #include "formats/case/case_file.h"
 #include "report.h"
 #include "timed_run.h"

@@ -17,7 +17,7 @@ def find_sofa(given=None):
 def usable(sofa, folder):
     """`sofa` itself, or, if it was copied without its symbolic links, a tree of links to it in `folder`."""
     if os.access(sofa / "bin/runSofa", os.X_OK): return sofa
-    subprocess.run([ROOT / "converters/export/sofa/plugin/link_sofa.sh", sofa, folder], check=True)
+    subprocess.run([ROOT / "converters/export/sofa_plugin/link_sofa.sh", sofa, folder], check=True)
     return pathlib.Path(folder)
 
 

@@ -1,6 +1,6 @@
 lumen_test(check_test
   LABELS threads
-  LIBS lumen_check lumen_fitting lumen_phantom lumen_surface_projection lumen_tracking lumen_tube_tree
+  LIBS lumen_check lumen_overlay lumen_fitting lumen_phantom lumen_geometry lumen_tracking lumen_geometry
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/check/ideal_edge_test.cpp

@@ -1,7 +1,7 @@
 # The executable, from outside.
 find_package(PNG REQUIRED)
 lumen_test(cli_test
-  LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen_privacy lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
+  LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen_base lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_test.cpp

@@ -1,6 +1,6 @@
 lumen_test(compare_test
   LABELS threads
-  LIBS lumen_compare lumen_tube_tree
+  LIBS lumen_compare lumen_geometry
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/matching_test.cpp

@@ -1,6 +1,6 @@
 lumen_test(editing_test
   LABELS memory
-  LIBS lumen_editing lumen_edit_steps lumen_centerline lumen_fitting lumen_phantom
+  LIBS lumen_editing lumen_base lumen_centerline lumen_fitting lumen_phantom
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/edit_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/random_edits_test.cpp

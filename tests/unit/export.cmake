@@ -37,7 +37,7 @@ lumen_test(grid_files_test
 target_compile_definitions(grid_files_test PRIVATE ITK_USE_SYSTEM_EIGEN)
 target_include_directories(grid_files_test SYSTEM PRIVATE ${ITK_INCLUDE_DIRS})
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  target_compile_options(grid_files_test PRIVATE -include ${PROJECT_SOURCE_DIR}/converters/volume/itk_for_clang.h)
+  target_compile_options(grid_files_test PRIVATE -include ${PROJECT_SOURCE_DIR}/converters/io/volume/itk_for_clang.h)
 endif()
 
 lumen_test(export_test

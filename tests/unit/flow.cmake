@@ -1,5 +1,5 @@
 lumen_test(flow_test
-  LIBS lumen_export lumen_run_program
+  LIBS lumen_export lumen_base
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/network_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/oned_network_test.cpp

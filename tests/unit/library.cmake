@@ -12,7 +12,7 @@ lumen_test(library_test
 # Whether a library is what it says, by its parts, and from outside with the programs that sign.
 lumen_test(library_trust_test
   LABELS memory
-  LIBS lumen_library_trust lumen_run_program
+  LIBS lumen_library_trust lumen_base
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/plain_folder_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/remembered_test.cpp

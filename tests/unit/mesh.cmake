@@ -4,7 +4,7 @@ find_package(meshoptimizer REQUIRED)
 find_package(TinyGLTF REQUIRED)
 lumen_test(mesh_test
   LABELS threads
-  LIBS lumen_mesh lumen_surface OpenMeshCore draco::draco meshoptimizer::meshoptimizer TinyGLTF::TinyGLTF
+  LIBS lumen_repair lumen_surface OpenMeshCore draco::draco meshoptimizer::meshoptimizer TinyGLTF::TinyGLTF
     nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_parts_test.cpp
@@ -18,7 +18,7 @@ lumen_test(mesh_test
 # OpenMesh's from what follows.
 lumen_test(self_intersections_test
   LABELS threads
-  LIBS lumen_mesh gmp mpfr
+  LIBS lumen_repair gmp mpfr
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/self_intersections_test.cpp)
 target_compile_options(self_intersections_test PRIVATE -frounding-math)
@@ -52,7 +52,7 @@ endif()
 
 lumen_test(read_mesh_test
   LABELS memory
-  LIBS lumen_mesh
+  LIBS lumen_repair
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_test.cpp

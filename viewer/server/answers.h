@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "viewer/session/session.h"
 
 // after Eigen, which the macros of <resolv.h> break

@@ -8,12 +8,12 @@
 #include <thread>
 #include <vector>
 
-#include "converters/app/command.h"
-#include "converters/app/file_access.h"
-#include "converters/app/options.h"
-#include "converters/app/report.h"
-#include "converters/app/value_checks.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/cli/command.h"
+#include "converters/cli/options.h"
+#include "converters/cli/value_checks.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/report.h"
 #include "formats/container/printable.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/html_page.h"

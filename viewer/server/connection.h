@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 
 namespace lumen::viewer {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "converters/common/error.h"
-#include "converters/common/html.h"
-#include "converters/common/vectors.h"
+#include "converters/base/error.h"
+#include "converters/base/html.h"
+#include "converters/base/vectors.h"
 #include "formats/case/base64.h"
 #include "formats/case/binary_encode.h"
 #include "viewer/session/case_pack.h"

@@ -9,7 +9,7 @@
 #include <httplib.h>
 #include <sys/socket.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "viewer/server/answers.h"
 #include "viewer/server/connection.h"
 #include "viewer/server/html_page.h"

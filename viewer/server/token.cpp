@@ -7,7 +7,7 @@
 
 #include <sys/random.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::viewer {
 

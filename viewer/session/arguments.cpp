@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::viewer {
 

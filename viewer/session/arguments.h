@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include "converters/app/report.h"
-#include "converters/seeds/seeds.h"
+#include "converters/engine/report.h"
+#include "converters/io/seeds/seeds.h"
 
 namespace lumen::viewer {
 

@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "converters/app/case_info.h"
-#include "converters/app/reachable.h"
-#include "converters/fitting/error_of_fit.h"
+#include "converters/engine/case_info.h"
+#include "converters/engine/reachable.h"
+#include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"

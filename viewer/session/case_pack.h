@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "formats/case/case.h"
 
 namespace lumen::viewer {

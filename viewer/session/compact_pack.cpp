@@ -13,7 +13,7 @@
 #include <meshoptimizer.h>
 #include <zlib.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "viewer/session/pack.h"
 
 namespace lumen::viewer {

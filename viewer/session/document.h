@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "converters/mesh/mesh_file.h"
-#include "converters/seeds/seeds.h"
-#include "converters/volume/volume.h"
+#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/seeds/seeds.h"
+#include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::viewer {

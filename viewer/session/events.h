@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/app/report.h"
+#include "converters/engine/report.h"
 
 namespace lumen::viewer {
 

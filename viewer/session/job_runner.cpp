@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::viewer {
 

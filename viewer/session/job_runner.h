@@ -10,7 +10,7 @@
 #include <string_view>
 #include <thread>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 #include "viewer/session/events.h"
 
 namespace lumen::viewer {

@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/app/file_format.h"
-#include "converters/app/message_text.h"
+#include "converters/cli/message_text.h"
+#include "converters/engine/file_format.h"
 #include "converters/library/library_file.h"
 #include "formats/case/topology.h"
 #include "formats/container/printable.h"

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "converters/app/centerline_input.h"
-#include "converters/app/file_access.h"
-#include "converters/app/file_content.h"
-#include "converters/app/file_format.h"
-#include "converters/app/stages.h"
-#include "converters/centerline/case_of_centerline.h"
-#include "converters/common/error.h"
-#include "converters/fitting/fit.h"
-#include "converters/seeds/place_seeds.h"
+#include "converters/base/error.h"
+#include "converters/engine/centerline_input.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/file_content.h"
+#include "converters/engine/file_format.h"
+#include "converters/engine/stages.h"
+#include "converters/io/centerline/case_of_centerline.h"
+#include "converters/io/seeds/place_seeds.h"
+#include "converters/stages/fitting/fit.h"
 #include "viewer/session/surface_pack.h"
 
 namespace lumen::viewer {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "converters/app/options.h"
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
+#include "converters/cli/options.h"
 #include "viewer/session/document.h"
 
 namespace lumen::viewer {

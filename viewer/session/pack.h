@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "converters/app/report.h"
+#include "converters/engine/report.h"
 #include "formats/case/case.h"
 
 namespace lumen::viewer {

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "converters/app/options.h"
-#include "converters/common/progress.h"
-#include "converters/tracking/tracking_volume.h"
+#include "converters/base/progress.h"
+#include "converters/cli/options.h"
+#include "converters/stages/tracking/tracking_volume.h"
 #include "formats/case/atomic_file.h"
 #include "viewer/session/arguments.h"
 #include "viewer/session/document.h"

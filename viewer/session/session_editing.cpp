@@ -4,9 +4,9 @@
 #include <set>
 #include <utility>
 
-#include "converters/common/error.h"
-#include "converters/editing/edit.h"
-#include "converters/fitting/refit.h"
+#include "converters/base/error.h"
+#include "converters/stages/editing/edit.h"
+#include "converters/stages/fitting/refit.h"
 #include "formats/case/enum_names.h"
 #include "viewer/session/session.h"
 

@@ -5,9 +5,9 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/app/file_access.h"
-#include "converters/app/message_text.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/cli/message_text.h"
+#include "converters/engine/file_access.h"
 #include "formats/container/printable.h"
 #include "viewer/session/session.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "converters/app/file_format.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
+#include "converters/engine/file_format.h"
 #include "formats/container/printable.h"
 #include "viewer/session/session.h"
 

@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/common/tube_tree_distance.h"
+#include "converters/geometry/tube_tree_distance.h"
 #include "formats/case/binary_encode.h"
 #include "viewer/session/case_pack.h"
 #include "viewer/session/pack.h"

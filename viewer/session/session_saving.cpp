@@ -4,11 +4,11 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/app/file_access.h"
-#include "converters/app/file_format.h"
-#include "converters/app/mesh_options.h"
-#include "converters/common/error.h"
-#include "converters/fitting/fit.h"
+#include "converters/base/error.h"
+#include "converters/cli/mesh_options.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/file_format.h"
+#include "converters/stages/fitting/fit.h"
 #include "viewer/session/session.h"
 
 namespace lumen::viewer {

@@ -4,10 +4,10 @@
 #include <set>
 #include <utility>
 
-#include "converters/app/centerline_input.h"
-#include "converters/app/stages.h"
-#include "converters/common/error.h"
-#include "converters/fitting/fit.h"
+#include "converters/base/error.h"
+#include "converters/engine/centerline_input.h"
+#include "converters/engine/stages.h"
+#include "converters/stages/fitting/fit.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/utf8.h"
 #include "viewer/session/session.h"

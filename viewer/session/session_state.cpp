@@ -2,7 +2,7 @@
 // Session: the state, as pages are told it.
 #include <string_view>
 
-#include "converters/app/file_format.h"
+#include "converters/engine/file_format.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
 #include "viewer/session/session.h"

@@ -5,15 +5,15 @@
 #include <set>
 #include <utility>
 
-#include "converters/app/centerline_input.h"
-#include "converters/app/stages.h"
-#include "converters/common/edit_steps.h"
-#include "converters/common/error.h"
-#include "converters/common/text.h"
-#include "converters/fitting/fit.h"
-#include "converters/fitting/refit.h"
-#include "converters/tracking/snap.h"
-#include "converters/tracking/track_further.h"
+#include "converters/base/edit_steps.h"
+#include "converters/base/error.h"
+#include "converters/base/text.h"
+#include "converters/engine/centerline_input.h"
+#include "converters/engine/stages.h"
+#include "converters/stages/fitting/fit.h"
+#include "converters/stages/fitting/refit.h"
+#include "converters/stages/tracking/snap.h"
+#include "converters/stages/tracking/track_further.h"
 #include "formats/container/printable.h"
 #include "viewer/session/session.h"
 

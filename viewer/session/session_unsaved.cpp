@@ -3,7 +3,7 @@
 #include <system_error>
 #include <utility>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "formats/container/printable.h"
 #include "viewer/session/session.h"
 

@@ -3,15 +3,15 @@
 #include <tuple>
 #include <utility>
 
-#include "converters/app/centerline_input.h"
-#include "converters/app/check_report.h"
-#include "converters/app/comparison_report.h"
-#include "converters/app/stages.h"
-#include "converters/common/error.h"
-#include "converters/common/text.h"
-#include "converters/compare/compare.h"
-#include "converters/fitting/fit.h"
-#include "converters/volume/write_volume.h"
+#include "converters/base/error.h"
+#include "converters/base/text.h"
+#include "converters/engine/centerline_input.h"
+#include "converters/engine/check_report.h"
+#include "converters/engine/comparison_report.h"
+#include "converters/engine/stages.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/judge/compare/compare.h"
+#include "converters/stages/fitting/fit.h"
 #include "viewer/session/session.h"
 
 namespace lumen::viewer {

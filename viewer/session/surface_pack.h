@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "converters/mesh/mesh_file.h"
-#include "converters/mesh/surface_mesh.h"
-#include "converters/surface/closed_surface.h"
+#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/surface_mesh.h"
+#include "converters/stages/surface/closed_surface.h"
 
 namespace lumen::viewer {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
-#include "converters/common/progress.h"
-#include "converters/surface/closed_surface.h"
+#include "converters/base/progress.h"
+#include "converters/stages/surface/closed_surface.h"
 #include "formats/case/case.h"
 
 namespace lumen::viewer {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <system_error>
 
-#include "converters/app/file_access.h"
-#include "converters/seeds/seeds.h"
+#include "converters/engine/file_access.h"
+#include "converters/io/seeds/seeds.h"
 
 namespace lumen::viewer {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "converters/volume/read_volume_options.h"
-#include "converters/volume/volume.h"
+#include "converters/io/volume/read_volume_options.h"
+#include "converters/voxels/volume.h"
 
 namespace lumen::viewer {
 

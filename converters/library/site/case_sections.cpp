@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "converters/common/html.h"
-#include "converters/common/text.h"
+#include "converters/base/html.h"
+#include "converters/base/text.h"
 #include "converters/library/site/case_page.h"
 #include "converters/library/site/case_texts.h"
 #include "converters/library/site/markup.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "converters/common/text.h"
+#include "converters/base/text.h"
 #include "converters/library/library_file.h"
 #include "converters/library/site/markup.h"
 

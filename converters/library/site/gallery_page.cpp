@@ -5,8 +5,8 @@
 #include <numeric>
 #include <string_view>
 
-#include "converters/common/html.h"
-#include "converters/common/text.h"
+#include "converters/base/html.h"
+#include "converters/base/text.h"
 #include "converters/library/site/case_texts.h"
 #include "converters/library/site/markup.h"
 #include "converters/library/site/notes.h"

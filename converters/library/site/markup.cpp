@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "converters/common/html.h"
+#include "converters/base/html.h"
 
 namespace lumen::convert {
 

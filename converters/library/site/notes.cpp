@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/library/site/notes.h"
 
-#include "converters/common/html.h"
+#include "converters/base/html.h"
 #include "converters/library/site/markup.h"
 
 namespace lumen::convert {

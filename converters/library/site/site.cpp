@@ -10,8 +10,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "converters/common/error.h"
-#include "converters/common/sha256.h"
+#include "converters/base/error.h"
+#include "converters/base/sha256.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"
 #include "converters/library/site/case_page.h"

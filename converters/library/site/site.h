@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "converters/common/progress.h"
+#include "converters/base/progress.h"
 
 namespace lumen::convert {
 

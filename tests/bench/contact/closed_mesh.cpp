@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "closed_mesh.h"
 
-#include "converters/surface/closed_surface.h"
+#include "converters/stages/surface/closed_surface.h"
 
 namespace lumen::bench {
 

@@ -8,7 +8,7 @@
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
-#include "converters/surface/polygonise.h"
+#include "converters/stages/surface/patches/polygonise.h"
 #include "tests/unit/mesh/open_mesh.h"
 #include "tubes.h"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/centerline/case_of_centerline.h"
+#include "converters/io/centerline/case_of_centerline.h"
 
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
-#include "converters/centerline/read_curves.h"
-#include "converters/centerline/read_swc.h"
-#include "converters/centerline/read_vtp.h"
-#include "converters/common/error.h"
-#include "converters/common/vectors.h"
+#include "converters/base/error.h"
+#include "converters/base/vectors.h"
+#include "converters/io/centerline/read_curves.h"
+#include "converters/io/centerline/read_swc.h"
+#include "converters/io/centerline/read_vtp.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 

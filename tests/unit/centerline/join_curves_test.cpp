@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/centerline/join_curves.h"
+#include "converters/io/centerline/join_curves.h"
 
 #include <array>
 

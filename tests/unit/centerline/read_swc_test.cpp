@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/centerline/read_swc.h"
+#include "converters/io/centerline/read_swc.h"
 
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::convert {
 namespace {

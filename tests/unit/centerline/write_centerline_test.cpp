@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is written reads back as the same tree, whatever the order of its nodes.
-#include "converters/centerline/write_centerline.h"
+#include "converters/io/centerline/write_centerline.h"
 
 #include <cmath>
 #include <fstream>
@@ -9,12 +9,12 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/centerline/case_of_centerline.h"
-#include "converters/centerline/read_curves.h"
-#include "converters/centerline/read_swc.h"
-#include "converters/centerline/read_tre.h"
-#include "converters/centerline/read_vtp.h"
-#include "converters/common/vtk_xml.h"
+#include "converters/io/centerline/case_of_centerline.h"
+#include "converters/io/centerline/read_curves.h"
+#include "converters/io/centerline/read_swc.h"
+#include "converters/io/centerline/read_tre.h"
+#include "converters/io/centerline/read_vtp.h"
+#include "converters/io/vtk/vtk_xml.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tube phantom with models of known radius, and trees that leave something out.
-#include "converters/check/check.h"
+#include "converters/judge/check/check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/check/overlay.h"
-#include "converters/common/error.h"
-#include "converters/common/tube_tree_distance.h"
-#include "converters/phantom/phantom.h"
+#include "converters/base/error.h"
+#include "converters/draw/overlay/overlay.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "converters/stages/phantom/phantom.h"
 #include "straight_models.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/check/ideal_edge.h"
+#include "converters/judge/check/ideal_edge.h"
 
 #include <gtest/gtest.h>
 

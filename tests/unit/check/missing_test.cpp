@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/check/check.h"
-#include "converters/check/overlay.h"
-#include "converters/phantom/phantom.h"
+#include "converters/draw/overlay/overlay.h"
+#include "converters/judge/check/check.h"
+#include "converters/stages/phantom/phantom.h"
 #include "straight_models.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/check/picture.h"
+#include "converters/draw/overlay/picture.h"
 
 #include <cmath>
 

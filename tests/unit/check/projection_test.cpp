@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/check/projection.h"
+#include "converters/draw/overlay/projection.h"
 
 #include <algorithm>
 #include <vector>

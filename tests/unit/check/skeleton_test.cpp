@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Voxels that a person can count.
-#include "converters/check/skeleton.h"
+#include "converters/judge/check/skeleton.h"
 
 #include <algorithm>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "converters/common/vectors.h"
+#include "converters/base/vectors.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case.h"
 

@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/check/check.h"
-#include "converters/check/wall_samples.h"
-#include "converters/common/statistics.h"
-#include "converters/common/tube_tree_distance.h"
-#include "converters/fitting/fit.h"
-#include "converters/phantom/phantom.h"
-#include "converters/tracking/tracker.h"
+#include "converters/base/statistics.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "converters/judge/check/check.h"
+#include "converters/judge/check/wall_samples.h"
+#include "converters/stages/fitting/fit.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/tracking/tracker.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/common/html.h"
+#include "converters/base/html.h"
 
 #include <string>
 

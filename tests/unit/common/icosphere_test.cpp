@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/common/icosphere.h"
+#include "converters/geometry/icosphere.h"
 
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/common/sha256.h"
+#include "converters/base/sha256.h"
 
 #include <filesystem>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::test {
 

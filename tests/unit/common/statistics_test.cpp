@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/common/statistics.h"
+#include "converters/base/statistics.h"
 
 #include <vector>
 

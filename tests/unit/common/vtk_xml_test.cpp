@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files in tests/data/vtk are of VTK 9.1, one set of data in each encoding.
-#include "converters/common/vtk_xml.h"
+#include "converters/io/vtk/vtk_xml.h"
 
 #include <array>
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace {
 

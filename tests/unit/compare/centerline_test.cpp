@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/common/error.h"
-#include "converters/compare/compare.h"
+#include "converters/base/error.h"
+#include "converters/judge/compare/compare.h"
 #include "lines.h"
 
 namespace lumen::convert {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/compare/compare.h"
+#include "converters/judge/compare/compare.h"
 #include "lines.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/compare/sampled_path.h"
+#include "converters/judge/compare/sampled_path.h"
 
 #include <utility>
 

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
-#include "converters/compare/compare.h"
+#include "converters/base/error.h"
+#include "converters/judge/compare/compare.h"
 #include "formats/case/blobby.h"
 #include "lines.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each edit on a case of beads: "a" along x with a node at every half millimetre, and two that hang on it.
-#include "converters/editing/edit.h"
+#include "converters/stages/editing/edit.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "converters/common/edit_steps.h"
-#include "converters/common/error.h"
+#include "converters/base/edit_steps.h"
+#include "converters/base/error.h"
 #include "formats/case/case_file.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/topology.h"

@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/centerline/case_of_centerline.h"
-#include "converters/centerline/read_swc.h"
-#include "converters/common/error.h"
-#include "converters/common/random.h"
-#include "converters/common/vectors.h"
-#include "converters/editing/edit.h"
-#include "converters/phantom/phantom.h"
+#include "converters/base/error.h"
+#include "converters/base/random.h"
+#include "converters/base/vectors.h"
+#include "converters/io/centerline/case_of_centerline.h"
+#include "converters/io/centerline/read_swc.h"
+#include "converters/stages/editing/edit.h"
+#include "converters/stages/phantom/phantom.h"
 #include "formats/case/case_file.h"
 #include "formats/case/topology.h"
 #include "formats/case/validate.h"

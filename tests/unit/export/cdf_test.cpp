@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of Discregrid, read by Bullet.
-#include "converters/export/cdf.h"
+#include "converters/export/shared/cdf.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/distance_grid.h"
+#include "converters/export/shared/distance_grid.h"
 
 #include <algorithm>
 #include <numbers>
@@ -8,7 +8,7 @@
 #include <tbb/global_control.h>
 
 #include "../surface/closed_cases.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "kissing.h"
 
 namespace lumen::test {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "converters/common/error.h"
-#include "converters/common/progress.h"
-#include "converters/export/target.h"
+#include "converters/base/error.h"
+#include "converters/base/progress.h"
+#include "converters/export/shared/target.h"
 
 namespace lumen::convert {
 

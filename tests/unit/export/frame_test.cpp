@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/frame.h"
+#include "converters/export/shared/frame.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -16,8 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../surface/closed_cases.h"
-#include "converters/common/error.h"
-#include "converters/export/grid.h"
+#include "converters/base/error.h"
+#include "converters/export/targets/grid/grid.h"
 #include "kissing.h"
 
 namespace lumen::test {

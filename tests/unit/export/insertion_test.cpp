@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/insertion.h"
+#include "converters/export/shared/insertion.h"
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "tests/unit/export/made_tree.h"
 
 namespace lumen::convert {

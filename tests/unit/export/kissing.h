@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "../mesh/synthetic.h"
-#include "converters/export/distance_grid.h"
+#include "converters/export/shared/distance_grid.h"
 
 namespace lumen::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/named_end.h"
+#include "converters/export/shared/named_end.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/network.h"
+#include "converters/export/shared/network.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
-#include "converters/export/blood.h"
+#include "converters/base/error.h"
+#include "converters/export/shared/blood.h"
 #include "tests/unit/export/made_tree.h"
 
 namespace lumen::convert {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Level sets, read by OpenVDB.
-#include "converters/export/vdb.h"
+#include "converters/export/shared/vdb.h"
 
 #include <cmath>
 #include <sstream>

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "converters/fitting/energy.h"
+#include "converters/stages/fitting/energy.h"
 
 namespace lumen::test {
 

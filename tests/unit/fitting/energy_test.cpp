@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/energy.h"
+#include "converters/stages/fitting/energy.h"
 
 #include <cmath>
 #include <string>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 #include "shapes.h"
 
 namespace lumen::convert::fitting {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/error_of_fit.h"
+#include "converters/stages/fitting/error_of_fit.h"
 
 #include <cmath>
 #include <limits>

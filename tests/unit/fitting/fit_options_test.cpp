@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/fitting/fit.h"
+#include "converters/stages/fitting/fit.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/fit.h"
+#include "converters/stages/fitting/fit.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/fitting/error_of_fit.h"
+#include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/blobby.h"
 #include "formats/case/topology.h"
 #include "shapes.h"

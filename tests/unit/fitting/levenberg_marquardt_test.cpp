@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/levenberg_marquardt.h"
+#include "converters/stages/fitting/levenberg_marquardt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "conjugate_gradients.h"
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 
 namespace lumen::convert::fitting {
 namespace {

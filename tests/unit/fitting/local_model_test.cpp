@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/local_model.h"
+#include "converters/stages/fitting/local_model.h"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "converters/common/random.h"
-#include "converters/fitting/subdivision.h"
+#include "converters/base/random.h"
+#include "converters/stages/fitting/subdivision.h"
 
 namespace lumen::convert::fitting {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/open_edges.h"
+#include "converters/stages/fitting/open_edges.h"
 
 #include <cmath>
 

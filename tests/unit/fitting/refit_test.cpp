@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/refit.h"
+#include "converters/stages/fitting/refit.h"
 
 #include <cmath>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/fitting/fit.h"
+#include "converters/stages/fitting/fit.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"

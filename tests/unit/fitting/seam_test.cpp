@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/seam.h"
+#include "converters/stages/fitting/seam.h"
 
 #include <cmath>
 #include <vector>

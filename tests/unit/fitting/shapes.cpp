@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 
 namespace lumen::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/fitting/unmeasured.h"
+#include "converters/stages/fitting/unmeasured.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 #include "formats/container/bytes.h"
 #include "formats/view/case_view.h"
 #include "unit/formats/allocation_meter.h"

@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 #include "formats/case/atomic_file.h"
 #include "unit/formats/sample_case.h"
 

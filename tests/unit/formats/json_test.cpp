@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 #include "unit/formats/sample_case.h"
 
 namespace lumen::formats {

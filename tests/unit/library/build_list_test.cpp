@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "converters/library/record.h"
 
 namespace lumen::convert {

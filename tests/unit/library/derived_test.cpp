@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/sha256.h"
+#include "converters/base/sha256.h"
 #include "tests/unit/library/made_library.h"
 
 namespace lumen::convert {

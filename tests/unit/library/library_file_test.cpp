@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "tests/unit/library/made_library.h"
 
 namespace lumen::convert {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "converters/library/case_folder.h"
 #include "converters/library/line_comparison.h"
 #include "tests/unit/library/temporary_folder.h"

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
-#include "converters/common/sha256.h"
+#include "converters/base/error.h"
+#include "converters/base/sha256.h"
 
 namespace lumen::convert {
 

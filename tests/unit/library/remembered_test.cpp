@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "converters/library/check_journal.h"
 #include "converters/library/verified_revisions.h"
 #include "tests/unit/library/made_library.h"

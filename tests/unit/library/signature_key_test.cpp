@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "tests/unit/library/temporary_folder.h"
 
 namespace lumen::convert {

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "converters/common/error.h"
-#include "converters/common/sha256.h"
+#include "converters/base/error.h"
+#include "converters/base/sha256.h"
 #include "converters/library/site/case_texts.h"
 #include "converters/library/site/citation.h"
 #include "converters/library/site/gallery_page.h"

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "converters/common/run_program.h"
+#include "converters/base/run_program.h"
 
 namespace lumen::convert {
 

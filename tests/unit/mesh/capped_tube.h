@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/mesh/surface_mesh.h"
+#include "converters/io/mesh/surface_mesh.h"
 
 namespace lumen::test {
 

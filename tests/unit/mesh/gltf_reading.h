@@ -16,8 +16,8 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
-#include "converters/mesh/surface_mesh.h"
-#include "converters/mesh/write_gltf.h"
+#include "converters/io/mesh/surface_mesh.h"
+#include "converters/io/mesh/write_gltf.h"
 
 namespace lumen::test {
 

@@ -11,8 +11,8 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/mesh/surface_mesh.h"
-#include "converters/surface/patch.h"
+#include "converters/io/mesh/surface_mesh.h"
+#include "converters/stages/surface/patches/patch.h"
 
 namespace lumen::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/mesh_parts.h"
+#include "converters/io/mesh/mesh_parts.h"
 
 #include <set>
 

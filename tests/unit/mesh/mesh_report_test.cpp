@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/mesh_report.h"
+#include "converters/stages/repair/mesh_report.h"
 
 #include <numbers>
 

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "capped_tube.h"
-#include "converters/mesh/write_gltf.h"
-#include "converters/mesh/write_plain.h"
-#include "converters/mesh/write_vtp.h"
-#include "converters/surface/polygonise.h"
+#include "converters/io/mesh/write_gltf.h"
+#include "converters/io/mesh/write_plain.h"
+#include "converters/io/mesh/write_vtp.h"
+#include "converters/stages/surface/patches/polygonise.h"
 #include "synthetic.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "converters/mesh/triangle_mesh.h"
+#include "converters/geometry/triangle_mesh.h"
 
 namespace lumen::test {
 

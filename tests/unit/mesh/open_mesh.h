@@ -4,7 +4,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include "converters/mesh/surface_mesh.h"
+#include "converters/io/mesh/surface_mesh.h"
 
 namespace lumen::test {
 

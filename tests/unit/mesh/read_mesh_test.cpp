@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
-#include "converters/mesh/mesh_file.h"
+#include "converters/base/error.h"
+#include "converters/io/mesh/mesh_file.h"
 #include "mesh_shapes.h"
 
 namespace lumen::test {

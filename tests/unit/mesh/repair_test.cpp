@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/repair.h"
+#include "converters/stages/repair/repair.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
-#include "converters/mesh/mesh_edges.h"
-#include "converters/mesh/mesh_file.h"
-#include "converters/mesh/mesh_report.h"
+#include "converters/base/error.h"
+#include "converters/geometry/mesh_edges.h"
+#include "converters/io/mesh/mesh_file.h"
+#include "converters/stages/repair/mesh_report.h"
 #include "mesh_shapes.h"
 
 namespace lumen::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/self_intersections.h"
+#include "converters/geometry/self_intersections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/mesh/exact_predicates.h"
+#include "converters/geometry/exact_predicates.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/sofa_scene.h"
+#include "converters/io/mesh/sofa_scene.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::convert {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/surface/node_field.h"
+#include "converters/stages/surface/patches/node_field.h"
 #include "formats/case/case.h"
 #include "formats/case/topology.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/vertex_color.h"
+#include "converters/io/mesh/vertex_color.h"
 
 #include <set>
 

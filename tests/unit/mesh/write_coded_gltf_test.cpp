@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capped_tube.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "gltf_reading.h"
 
 namespace lumen::convert {

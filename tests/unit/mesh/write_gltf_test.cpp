@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/mesh/write_gltf.h"
+#include "converters/io/mesh/write_gltf.h"
 
 #include "capped_tube.h"
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "gltf_reading.h"
 
 namespace lumen::convert {

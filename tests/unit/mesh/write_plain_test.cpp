@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // OBJ, STL and PLY. That VTK reads them, and VTP, as they were is tests/vtk/compare_meshes.py.
-#include "converters/mesh/write_plain.h"
+#include "converters/io/mesh/write_plain.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "capped_tube.h"
-#include "converters/mesh/plain_names.h"
-#include "converters/mesh/write_vtp.h"
+#include "converters/io/mesh/plain_names.h"
+#include "converters/io/mesh/write_vtp.h"
 #include "open_mesh.h"
 
 namespace lumen::convert {

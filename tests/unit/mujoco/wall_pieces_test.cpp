@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A surface in pieces for MuJoCo's distance fields, and as prisms for CathSim.
-#include "converters/export/mujoco/wall_pieces.h"
+#include "converters/export/targets/mujoco/wall_pieces.h"
 
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "converters/export/cathsim/wall_prisms.h"
+#include "converters/export/targets/cathsim/wall_prisms.h"
 
 namespace lumen::convert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/mujoco/wire_reach.h"
+#include "converters/export/targets/mujoco/wire_reach.h"
 
 #include <utility>
 

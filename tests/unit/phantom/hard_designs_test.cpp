@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
-#include "converters/common/tube_tree_distance.h"
-#include "converters/phantom/design.h"
-#include "converters/phantom/phantom.h"
-#include "converters/phantom/render.h"
+#include "converters/base/error.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "converters/stages/phantom/design.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/phantom/render.h"
 
 namespace lumen::convert {
 namespace {

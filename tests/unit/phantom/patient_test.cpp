@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "converters/common/tube_tree_distance.h"
-#include "converters/phantom/design.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "converters/stages/phantom/design.h"
 
 namespace lumen::convert {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/tube_tree_distance.h"
-#include "converters/phantom/design.h"
-#include "converters/phantom/phantom.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "converters/stages/phantom/design.h"
+#include "converters/stages/phantom/phantom.h"
 
 namespace lumen::convert {
 namespace {

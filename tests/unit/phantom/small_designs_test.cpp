@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
-#include "converters/common/tube_tree_distance.h"
-#include "converters/phantom/design.h"
-#include "converters/phantom/phantom.h"
+#include "converters/base/error.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "converters/stages/phantom/design.h"
+#include "converters/stages/phantom/phantom.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::convert {

@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/centerline/read_swc.h"
-#include "converters/common/error.h"
-#include "converters/common/tube_tree_distance.h"
-#include "converters/phantom/phantom.h"
-#include "converters/phantom/render.h"
-#include "converters/phantom/smooth_chain.h"
+#include "converters/base/error.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "converters/io/centerline/read_swc.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/phantom/render.h"
+#include "converters/stages/phantom/smooth_chain.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::convert {

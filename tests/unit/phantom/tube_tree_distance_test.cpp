@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/common/tube_tree_distance.h"
+#include "converters/geometry/tube_tree_distance.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 
 namespace lumen {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/picture/camera.h"
+#include "converters/draw/picture/camera.h"
 
 #include <cmath>
 #include <numbers>

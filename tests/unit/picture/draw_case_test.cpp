@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/picture/draw_case.h"
+#include "converters/draw/picture/draw_case.h"
 
 #include <set>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/picture/marks.h"
+#include "converters/draw/picture/marks.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/common/vectors.h"
+#include "converters/base/vectors.h"
 #include "formats/case/case.h"
 #include "straight_models.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/picture/trace.h"
+#include "converters/draw/picture/trace.h"
 
 #include <cmath>
 #include <cstring>

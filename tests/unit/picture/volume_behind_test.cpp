@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/picture/volume_behind.h"
+#include "converters/draw/picture/volume_behind.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/report/axis.h"
+#include "converters/draw/report/axis.h"
 
 #include <cmath>
 #include <limits>

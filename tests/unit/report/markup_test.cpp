@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/report/markup.h"
+#include "converters/draw/report/markup.h"
 
 #include <string>
 

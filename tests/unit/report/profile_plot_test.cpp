@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/report/profile_plot.h"
+#include "converters/draw/report/profile_plot.h"
 
 #include <algorithm>
 #include <regex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/report/tree_profiles.h"
+#include "converters/draw/report/tree_profiles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // The fiducials of 3D Slicer before version 5.
 #include <gtest/gtest.h>
 
-#include "converters/seeds/seeds.h"
+#include "converters/io/seeds/seeds.h"
 #include "fixtures.h"
 
 namespace lumen::convert {

@@ -2,7 +2,7 @@
 // 3D Slicer Markups as seeds.
 #include <gtest/gtest.h>
 
-#include "converters/seeds/seeds.h"
+#include "converters/io/seeds/seeds.h"
 #include "fixtures.h"
 
 namespace lumen::convert {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Seeds in a volume.
-#include "converters/seeds/place_seeds.h"
+#include "converters/io/seeds/place_seeds.h"
 
 #include <functional>
 

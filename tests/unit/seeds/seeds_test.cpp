@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen's own seeds format.
-#include "converters/seeds/seeds.h"
+#include "converters/io/seeds/seeds.h"
 
 #include <gtest/gtest.h>
 

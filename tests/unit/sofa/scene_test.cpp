@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/sofa/scene.h"
+#include "converters/export/targets/sofa/scene.h"
 
 #include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
 
-#include "converters/export/sofa/dialect.h"
+#include "converters/export/targets/sofa/dialect.h"
 
 namespace lumen::convert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/bare_stretches.h"
+#include "converters/stages/surface/bare_stretches.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
-#include "converters/surface/cut_ends.h"
-#include "converters/surface/extract.h"
+#include "converters/stages/surface/cut_ends.h"
+#include "converters/stages/surface/extract.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::test {

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "converters/common/random.h"
-#include "converters/surface/case_surface.h"
-#include "converters/surface/marching_cubes.h"
-#include "converters/surface/patch.h"
-#include "converters/surface/sheet_field.h"
+#include "converters/base/random.h"
+#include "converters/stages/surface/case_surface.h"
+#include "converters/stages/surface/patches/marching_cubes.h"
+#include "converters/stages/surface/patches/patch.h"
+#include "converters/stages/surface/sheet_field.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::test {

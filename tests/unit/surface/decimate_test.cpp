@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/decimate.h"
+#include "converters/stages/surface/decimate.h"
 
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
 #include "closed_surface.h"
-#include "converters/surface/remesh.h"
+#include "converters/stages/surface/remesh.h"
 
 namespace lumen::convert {
 namespace {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "closed_cases.h"
-#include "converters/mesh/self_intersections.h"
-#include "converters/surface/cut_ends.h"
+#include "converters/geometry/self_intersections.h"
+#include "converters/stages/surface/cut_ends.h"
 
 namespace lumen::convert {
 namespace {

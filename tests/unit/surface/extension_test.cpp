@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "closed_cases.h"
-#include "converters/common/error.h"
-#include "converters/mesh/self_intersections.h"
-#include "converters/surface/flow_extension.h"
+#include "converters/base/error.h"
+#include "converters/geometry/self_intersections.h"
+#include "converters/stages/surface/flow_extension.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The closed surface of a case: what it must be whatever the case.
-#include "converters/surface/extract.h"
+#include "converters/stages/surface/extract.h"
 
 #include <cmath>
 #include <map>
@@ -10,9 +10,9 @@
 
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
-#include "converters/common/disjoint_sets.h"
-#include "converters/surface/closed_surface.h"
-#include "converters/surface/marching_tetrahedra.h"
+#include "converters/geometry/disjoint_sets.h"
+#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/marching_tetrahedra.h"
 #include "formats/case/case_field.h"
 
 namespace lumen {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/flat_region.h"
+#include "converters/stages/surface/flat_region.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
-#include "converters/surface/length.h"
+#include "converters/base/error.h"
+#include "converters/stages/surface/length.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/marching_cubes.h"
+#include "converters/stages/surface/patches/marching_cubes.h"
 
 #include <algorithm>
 #include <set>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "../mesh/mesh_facts.h"
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/node_field.h"
+#include "converters/stages/surface/patches/node_field.h"
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/random.h"
+#include "converters/base/random.h"
 #include "formats/case/blobby.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/patch.h"
+#include "converters/stages/surface/patches/patch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/polygonise.h"
+#include "converters/stages/surface/patches/polygonise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
-#include "converters/mesh/write_gltf.h"
-#include "converters/surface/cell_size.h"
+#include "converters/io/mesh/write_gltf.h"
+#include "converters/stages/surface/patches/cell_size.h"
 #include "formats/case/blobby.h"
 #include "formats/case/case_field.h"
 

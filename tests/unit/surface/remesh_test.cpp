@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/remesh.h"
+#include "converters/stages/surface/remesh.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 #include "../mesh/mesh_facts.h"
 #include "../mesh/synthetic.h"
 #include "closed_surface.h"
-#include "converters/surface/triangle_quality.h"
+#include "converters/geometry/triangle_quality.h"
 
 namespace lumen::convert {
 namespace {

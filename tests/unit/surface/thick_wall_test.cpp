@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/thick_wall.h"
+#include "converters/stages/surface/thick_wall.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "closed_cases.h"
-#include "converters/common/error.h"
-#include "converters/mesh/self_intersections.h"
-#include "converters/mesh/triangle_tree.h"
-#include "converters/surface/closed_surface.h"
-#include "converters/surface/flow_extension.h"
-#include "converters/surface/offset_field.h"
+#include "converters/base/error.h"
+#include "converters/geometry/self_intersections.h"
+#include "converters/geometry/triangle_tree.h"
+#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/flow_extension.h"
+#include "converters/stages/surface/offset_field.h"
 #include "formats/case/case_file.h"
 
 namespace lumen::convert {

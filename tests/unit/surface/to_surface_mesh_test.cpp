@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/surface/to_surface_mesh.h"
+#include "converters/stages/surface/to_surface_mesh.h"
 
 #include <cmath>
 #include <numbers>

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/vectors.h"
-#include "converters/fitting/fit.h"
+#include "converters/base/vectors.h"
+#include "converters/stages/fitting/fit.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
 #include "seeded_tubes.h"

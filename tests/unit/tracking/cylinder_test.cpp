@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/tracking/cylinder.h"
+#include "converters/stages/tracking/cylinder.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "converters/common/random.h"
-#include "converters/tracking/circles.h"
+#include "converters/base/random.h"
+#include "converters/stages/tracking/circles.h"
 
 namespace lumen::convert {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/common/vectors.h"
-#include "converters/tracking/way.h"
+#include "converters/base/vectors.h"
+#include "converters/stages/tracking/way.h"
 #include "formats/case/node_origin.h"
 #include "seeded_tubes.h"
 

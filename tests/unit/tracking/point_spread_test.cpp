@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/tracking/point_spread.h"
+#include "converters/stages/tracking/point_spread.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/tracking/tracker.h"
+#include "converters/stages/tracking/tracker.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/tracking/rays.h"
+#include "converters/stages/tracking/rays.h"
 
 #include <gtest/gtest.h>
 
-#include "converters/common/icosphere.h"
+#include "converters/geometry/icosphere.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/tracking/tracked_branch.h"
-#include "converters/tracking/tracker.h"
-#include "converters/volume/read_volume.h"
+#include "converters/io/volume/read_volume.h"
+#include "converters/stages/tracking/tracked_branch.h"
+#include "converters/stages/tracking/tracker.h"
 
 namespace lumen::convert {
 namespace {

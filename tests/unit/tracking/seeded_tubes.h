@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "converters/common/random.h"
-#include "converters/tracking/tracker.h"
+#include "converters/base/random.h"
+#include "converters/stages/tracking/tracker.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/tracking/smoothing.h"
+#include "converters/stages/tracking/smoothing.h"
 
 #include <gtest/gtest.h>
 

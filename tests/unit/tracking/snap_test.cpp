@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/tracking/snap.h"
+#include "converters/stages/tracking/snap.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // New clicks in a case that is tracked, on drawn tubes.
-#include "converters/tracking/track_further.h"
+#include "converters/stages/tracking/track_further.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/common/vectors.h"
-#include "converters/phantom/phantom.h"
-#include "converters/tracking/tracked_branch.h"
+#include "converters/base/vectors.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/tracking/tracked_branch.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
 #include "seeded_tubes.h"

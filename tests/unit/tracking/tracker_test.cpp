@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/tracking/tracker.h"
+#include "converters/stages/tracking/tracker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "converters/common/vectors.h"
+#include "converters/base/vectors.h"
 #include "seeded_tubes.h"
 
 namespace lumen::convert {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "converters/volume/volume.h"
+#include "converters/voxels/volume.h"
 
 namespace lumen::convert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/tracking/volume_doubt.h"
+#include "converters/stages/tracking/volume_doubt.h"
 
 #include <gtest/gtest.h>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walls that the volume supports, and those that it does not.
-#include "converters/tracking/wall_support.h"
+#include "converters/stages/tracking/wall_support.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/tracking/node_fit.h"
-#include "converters/tracking/wall_review.h"
+#include "converters/stages/tracking/node_fit.h"
+#include "converters/stages/tracking/wall_review.h"
 #include "seeded_tubes.h"
 
 namespace lumen::convert {

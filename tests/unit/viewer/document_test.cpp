@@ -2,7 +2,7 @@
 // History, jobs, events and packs, without a server.
 #include <condition_variable>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "served.h"
 #include "viewer/session/history.h"
 #include "viewer/session/job_runner.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A library's cases, files that are read again, and work that is not saved.
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "converters/library/library_file.h"
 #include "served.h"
 

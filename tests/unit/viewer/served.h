@@ -16,7 +16,7 @@
 
 #include "../mesh/synthetic.h"
 #include "../tracking/tube_volume.h"
-#include "converters/volume/write_volume.h"
+#include "converters/io/volume/write_volume.h"
 #include "formats/case/case_file.h"
 #include "viewer/server/html_page.h"
 #include "viewer/server/server.h"

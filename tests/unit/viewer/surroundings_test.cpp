@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "converters/common/error.h"
+#include "converters/base/error.h"
 #include "served.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/connection.h"

@@ -14,9 +14,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "converters/common/error.h"
-#include "converters/volume/read_volume.h"
-#include "converters/volume/write_volume.h"
+#include "converters/base/error.h"
+#include "converters/io/volume/read_volume.h"
+#include "converters/io/volume/write_volume.h"
 
 namespace lumen::convert {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/volume/write_volume.h"
+#include "converters/io/volume/write_volume.h"
 #include "fixtures.h"
 #include "nifti_fixture.h"
 

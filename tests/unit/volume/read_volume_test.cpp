@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/volume/read_volume.h"
+#include "converters/io/volume/read_volume.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "converters/app/command_line.h"
-
-int main(int argc, char** argv) {
-  return lumen::app::runCommandLine(argc, argv);
-}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen library add: a case, with what is made from it, into a library.
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/base/error.h"
+#include "converters/cli/about_options.h"
+#include "converters/cli/command.h"
+#include "converters/cli/option_group.h"
+#include "converters/cli/value_checks.h"
+#include "converters/engine/library_report.h"
+#include "converters/engine/prepare_case.h"
+#include "converters/library/change.h"
+#include "formats/container/printable.h"
+
+namespace lumen::app {
+
+namespace {
+
+constexpr int kMostTurns = 360;
+
+/// Whether it is a SHA-256.
+bool isDigest(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+class LibraryAddCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "library add"; }
+  [[nodiscard]] std::string summary() const override { return "Add a case to a library"; }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen library add siphons head.lumen --title \"Left carotid siphon\" --laterality "
+           "left "
+           "--modality XA \\\n"
+           "      --consent \"Written consent\" --deidentification \"Only the case is given away\" "
+           "--export sofa\n"
+           "  lumen library add siphons better.lumen --id siphon-01 --replace --about siphon.json\n"
+           "  lumen library add phantoms tube.lumen --synthetic --turntable 36";
+  }
+
+  void bind(CLI::App& app) override {
+    addFile(app, "LIBRARY", m_library, "Library, as lumen library init makes it");
+    addFile(app, "CASE", m_case, "Case to add");
+    app.add_option(
+           "--id", m_wishes.id,
+           "The case's id, which tells nothing of a patient [case- and a part of its digest]")
+        ->type_name("NAME")
+        ->check(caseIdText());
+    app.add_flag("--replace", m_wishes.replace, "Put it in place of the case of this id");
+    addDayOption(app, m_day);
+    addAboutOptions(app, m_about);
+    bindFiles(app);
+  }
+
+  int run(Context& context) override {
+    const convert::LibraryFile before = convert::openLibrary(m_library);
+    const std::string day = revisionDay(m_day);
+    if (!m_wishes.id.empty() && !m_wishes.replace) convert::requireNewId(before, m_wishes.id);
+    const std::filesystem::path library = std::filesystem::canonical(m_library);
+    context.interrupts.watchOutput(library);
+    m_wishes.surface = !m_noSurface;
+    if (m_views.empty()) m_views = {"anterior"};
+    if (m_views != std::vector<std::string>{"none"}) m_wishes.views = m_views;
+    const convert::IncomingCase incoming =
+        prepareCase(m_case, aboutOf(m_about, before.licence), m_wishes, library, context.progress);
+    const convert::LibraryFile after = put(incoming, library, day, context);
+    report(incoming.record, after, context);
+    return 0;
+  }
+
+private:
+  void bindFiles(CLI::App& app) {
+    constexpr const char* kGroup = "What comes along";
+    app.add_flag("--no-surface", m_noSurface, "Leave out the closed surface, surface.glb")
+        ->group(kGroup);
+    std::vector<std::string> views = pictureViews();
+    views.emplace_back("none");
+    app.add_option("--picture", m_views,
+                   "A picture from this side, or none; may be repeated: " + alternatives(views))
+        ->type_name("WORD")
+        ->group(kGroup)
+        ->allow_extra_args(false)
+        ->default_str("anterior")
+        ->check(oneOf(views));
+    OptionGroup(app, kGroup)
+        .add("--turntable", m_wishes.turntable, "N", "Pictures around the case; 0: none")
+        ->check(wholeIn(0, kMostTurns));
+    app.add_option("--export", m_wishes.targets,
+                   "The folder of a target of lumen export; may be repeated")
+        ->type_name("NAME")
+        ->group(kGroup)
+        ->allow_extra_args(false);
+    app.add_flag("--report", m_wishes.report, "The page of lumen report, report.html")
+        ->group(kGroup);
+    app.add_flag("--viewer", m_wishes.viewer,
+                 "The page of lumen view as one file, view.html: about 1 MB and the case")
+        ->group(kGroup);
+    app.add_option("--file", m_wishes.files, "A file that comes along; may be repeated")
+        ->type_name("FILE")
+        ->group(kGroup)
+        ->allow_extra_args(false)
+        ->check(fileName());
+    app.add_option("--recipe", m_wishes.recipe,
+                   "Digest of all that the case was made from, which the record keeps")
+        ->type_name("ID")
+        ->group(kGroup)
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+              return isDigest(text) ? std::string()
+                                    : "found " + formats::printable(text) +
+                                          ", expected a SHA-256 of 64 hexadecimal digits";
+            },
+            ""));
+  }
+
+  convert::LibraryFile put(const convert::IncomingCase& incoming,
+                           const std::filesystem::path& library, const std::string& day,
+                           const Context& context) const {
+    convert::LibraryChange change(library, context.progress);
+    if (!m_wishes.replace) convert::requireNewId(change.library(), incoming.record.id);
+    change.put(incoming.record, incoming.folder());
+    change.commit(day);
+    return change.library();
+  }
+
+  void report(const convert::CaseRecord& record, const convert::LibraryFile& library,
+              const Context& context) const {
+    const convert::LibraryEntry& entry = *convert::findCase(library, record.id);
+    if (context.common.json) {
+      Json json = {{"id", entry.id},
+                   {"version", entry.version},
+                   {"title", entry.title},
+                   {"revision", library.revision},
+                   {"bytes", entry.bytes}};
+      json["files"] = Json::array();
+      for (const convert::RecordedFile& file : record.files)
+        json["files"].push_back({{"path", file.path}, {"role", file.role}, {"bytes", file.bytes}});
+      answerJson(json);
+    } else if (!context.common.quiet) {
+      answer(formats::printable(m_library) + ": " + entry.id + ", version " +
+             std::to_string(entry.version) + ": " + counted(entry.files, "file", "files") + ", " +
+             bytesText(entry.bytes) + "\n");
+    }
+  }
+
+  std::string m_library, m_case, m_day;
+  AboutArguments m_about;
+  CaseWishes m_wishes;
+  std::vector<std::string> m_views;
+  bool m_noSurface = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeLibraryAddCommand() {
+  return std::make_unique<LibraryAddCommand>();
+}
+
+}  // namespace lumen::app

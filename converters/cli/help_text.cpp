@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/cli/help_text.h"
+
+namespace lumen::app {
+
+std::string HelpFormatter::make_option_name(const CLI::Option* option, bool positional) const {
+  std::string name = CLI::Formatter::make_option_name(option, positional);
+  for (std::size_t at = name.find('{'); at != std::string::npos; at = name.find('{', at))
+    name.erase(at, name.find('}', at) - at + 1);
+  return name;
+}
+
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  if (option->get_positional()) return " ";
+  const std::string text = CLI::Formatter::make_option_opts(option);
+  return text.substr(0, text.find(" " + get_label("Excludes") + ":"));
+}
+
+std::string HelpFormatter::make_group(std::string group, bool positional,
+                                      std::vector<const CLI::Option*> options) const {
+  // a blank line already ends the group before
+  const bool first = positional || group == get_label("Options");
+  std::string text = CLI::Formatter::make_group(std::move(group), positional, std::move(options));
+  if (!first && text.starts_with('\n')) text.erase(0, 1);
+  return text;
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/cli/interrupt.h"
+
+#include <cstdio>
+#include <ctime>
+#include <system_error>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include "formats/case/atomic_file.h"
+
+namespace lumen {
+
+namespace {
+
+constexpr timespec kGrace{0, 800'000'000};
+
+sigset_t interruptSignals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+
+// SIGUSR1 tells the waiting thread that the guard is going away.
+sigset_t awaitedSignals() {
+  sigset_t set = interruptSignals();
+  sigaddset(&set, SIGUSR1);
+  return set;
+}
+
+}  // namespace
+
+void reportFileSizeLimit() {
+  signal(SIGXFSZ, SIG_IGN);
+}
+
+InterruptGuard::InterruptGuard(Progress& progress) : m_progress(progress) {
+  // a shell starts background jobs with SIGINT ignored, and an ignored signal never becomes pending
+  signal(SIGINT, SIG_DFL);
+  const sigset_t blocked = awaitedSignals();
+  pthread_sigmask(SIG_BLOCK, &blocked, nullptr);
+  m_thread = std::thread([this] { wait(); });
+}
+
+InterruptGuard::~InterruptGuard() {
+  pthread_kill(m_thread.native_handle(), SIGUSR1);
+  m_thread.join();
+}
+
+void InterruptGuard::watchOutput(const std::filesystem::path& file) {
+  // the temporary file lies where a symbolic link leads
+  const auto absolute = std::filesystem::absolute(file);
+  std::error_code error;
+  const auto target = std::filesystem::weakly_canonical(absolute, error);
+  const std::lock_guard lock(m_mutex);
+  m_folders.push_back((error ? absolute : target).parent_path());
+}
+
+void InterruptGuard::wait() {
+  const sigset_t awaited = awaitedSignals();
+  int received = 0;
+  while (sigwait(&awaited, &received) != 0) {
+  }
+  if (received == SIGUSR1) return;
+  m_progress.cancel();
+  received = sigtimedwait(&awaited, nullptr, &kGrace);
+  if (received != SIGUSR1) exitNow();
+}
+
+void InterruptGuard::exitNow() {
+  {
+    const std::lock_guard lock(m_mutex);
+    for (const auto& folder : m_folders)
+      formats::removeTemporaries(folder, formats::Temporaries::AbandonedAndOwn);
+  }
+  std::fputs("\nlumen: interrupted\n", stderr);
+  _exit(static_cast<int>(ErrorKind::Cancelled));
+}
+
+}  // namespace lumen

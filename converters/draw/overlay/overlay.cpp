@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/draw/overlay/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
+#include "converters/draw/overlay/projection.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kGap = 8, kLineHeight = 22, kTextScale = 2;  // pixels
+constexpr int kLegendWidth = 560, kLegendHeight = 250;     // pixels, at least
+constexpr std::size_t kManyBranches = 12;                  // more have smaller names
+constexpr std::size_t kNumbered = 9;                       // missing vessels with a number
+constexpr Rgb kBackdrop{24, 24, 32}, kInk{230, 230, 230}, kMissing = kMissingColour,
+                                                          kLabel{150, 220, 255};
+
+struct Shade {
+  Agreement agreement;
+  Rgb colour;
+  std::string_view meaning;
+};
+
+/// In the order in which they are drawn: what disagrees hides what does not.
+constexpr std::array<Shade, 4> kShades{{
+    {Agreement::NotJudged, {110, 140, 255}, "not judged"},
+    {Agreement::Good, {60, 220, 90}, "wall within half a voxel"},
+    {Agreement::Fair, {250, 200, 40}, "within one voxel"},
+    {Agreement::Poor, {255, 60, 60}, "farther, or no edge"},
+}};
+
+/// Text where no other text is, on a dark ground.
+class Labels {
+public:
+  explicit Labels(Picture& picture) : m_picture(picture) {}
+
+  /// Gives false, and draws nothing, where it would hide another or leave `panel`.
+  bool put(const Panel& panel, double x, double y, std::string_view text, const Rgb& colour,
+           int scale) {
+    const int width =
+        (5 * static_cast<int>(text.size()) + static_cast<int>(text.size()) + 1) * scale;
+    const Box box{static_cast<int>(x), static_cast<int>(y), static_cast<int>(x) + width,
+                  static_cast<int>(y) + 9 * scale};
+    if (box.left < panel.x || box.top < panel.y || box.right > panel.x + panel.width ||
+        box.bottom > panel.y + panel.height)
+      return false;
+    for (const Box& other : m_boxes)
+      if (box.left < other.right && other.left < box.right && box.top < other.bottom &&
+          other.top < box.bottom)
+        return false;
+    m_boxes.push_back(box);
+    for (int j = box.top; j < box.bottom; ++j)
+      for (int i = box.left; i < box.right; ++i) m_picture.set(i, j, {0, 0, 0});
+    m_picture.text(box.left + scale, box.top + scale, scale, text, colour);
+    return true;
+  }
+
+private:
+  struct Box {
+    int left, top, right, bottom;
+  };
+  Picture& m_picture;
+  std::vector<Box> m_boxes;
+};
+
+void drawProjection(Picture& picture, const Projection& image, const Panel& panel) {
+  constexpr double kDarkest = 0.01, kBrightest = 0.995;  // quantiles: single voxels set no scale
+  constexpr float kGrey = 200;                           // leaves the lines the brightest
+  std::vector<float> sorted = image.values;
+  const float low = lowerQuantile(sorted, kDarkest), high = lowerQuantile(sorted, kBrightest);
+  for (int y = 0; y < panel.height; ++y)
+    for (int x = 0; x < panel.width; ++x) {
+      const float value = image.at((x + 0.5) / panel.right, (y + 0.5) / panel.below);
+      const float share = high > low ? std::clamp((value - low) / (high - low), 0.0F, 1.0F) : 0.0F;
+      const auto grey = static_cast<std::uint8_t>(kGrey * share);
+      picture.set(panel.x + x, panel.y + y, {grey, grey, grey});
+    }
+}
+
+void drawTree(Picture& picture, const formats::CenterlineTree& tree, const CheckReport& report,
+              const VolumeGeometry& geometry, const Panel& panel) {
+  for (const Shade& shade : kShades)
+    for (std::size_t n = 0; n < tree.nodeCount(); ++n) {
+      if (report.nodes[n] != shade.agreement) continue;
+      const auto from = tree.parent[n] < 0 ? n : static_cast<std::size_t>(tree.parent[n]);
+      const auto a = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[from])));
+      const auto b = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[n])));
+      picture.thickLine(a[0], a[1], b[0], b[1], shade.colour);
+    }
+}
+
+void drawMissing(Picture& picture, const CheckReport& report, const VolumeGeometry& geometry,
+                 const Panel& panel) {
+  for (const MissingVessel& vessel : report.missing.vessels)
+    for (std::size_t i = 0; i + 1 < vessel.way.size(); ++i) {
+      const auto a = panel.pixel(geometry.indexFromWorld(vessel.way[i].position));
+      const auto b = panel.pixel(geometry.indexFromWorld(vessel.way[i + 1].position));
+      picture.line(a[0], a[1], b[0], b[1], kMissing);
+    }
+}
+
+/// Numbers of the longest missing vessels, then the names of branches at their last nodes; letters of `least` times
+/// their smallest size and more.
+void drawLabels(Labels& labels, const formats::CenterlineTree& tree, const CheckReport& report,
+                const VolumeGeometry& geometry, const Panel& panel, int least) {
+  const auto& vessels = report.missing.vessels;
+  for (std::size_t i = 0; i < std::min(kNumbered, vessels.size()); ++i) {
+    const auto& way = vessels[i].way;
+    const auto at = panel.pixel(geometry.indexFromWorld(way[way.size() / 2].position));
+    labels.put(panel, at[0] + 4, at[1] - 9, std::to_string(i + 1), kMissing, least + 1);
+  }
+  // large ones to the right, else small ones on any side: those that reach far look like another's
+  const bool few = tree.branches.size() <= kManyBranches;
+  for (const formats::Branch& branch : tree.branches) {
+    const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
+    const auto at = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[last])));
+    const double wide = (6.0 * static_cast<double>(branch.label.size()) + 1) * least;
+    if (few && labels.put(panel, at[0] + 4, at[1] - 9, branch.label, kLabel, least + 1)) continue;
+    for (const auto& [x, y] :
+         {std::pair{4.0, -4.0}, std::pair{-4.0 - wide, -4.0}, std::pair{-0.5 * wide, 4.0},
+          std::pair{-0.5 * wide, -4.0 - 9.0 * least}})
+      if (labels.put(panel, at[0] + x, at[1] + y, branch.label, kLabel, least)) break;
+  }
+}
+
+std::string rounded(double value) {
+  return std::to_string(std::lround(value));
+}
+
+void drawLegend(Picture& picture, int left, int top, const CheckReport& report) {
+  constexpr int kSwatch = 20;
+  int y = top;
+  const auto line = [&](const Rgb* swatch, const std::string& text) {
+    if (y + kLineHeight > picture.height) return;
+    for (int i = 0; swatch != nullptr && i < kSwatch; ++i)
+      for (int j = 0; j < 4; ++j) picture.set(left + i, y + 6 + j, *swatch);
+    picture.text(left + (swatch != nullptr ? kSwatch + kGap : 0), y, kTextScale, text, kInk);
+    y += kLineHeight;
+  };
+  for (const Shade& shade : kShades) line(&shade.colour, std::string(shade.meaning));
+  line(&kMissing, "not in the case, longest first");
+  const auto& vessels = report.missing.vessels;
+  for (std::size_t i = 0; i < std::min(kNumbered, vessels.size()); ++i) {
+    const Vector3d& at = vessels[i].way[vessels[i].way.size() / 2].position;
+    line(nullptr, std::to_string(i + 1) + ": " + rounded(vessels[i].length) + " mm at (" +
+                      rounded(at.x()) + ", " + rounded(at.y()) + ", " + rounded(at.z()) + ")");
+  }
+  if (vessels.size() > kNumbered)
+    line(nullptr, "and " + std::to_string(vessels.size() - kNumbered) + " shorter");
+}
+
+void drawPanel(Picture& picture, const Volume& volume, const formats::CenterlineTree& tree,
+               const CheckReport& report, const Panel& panel) {
+  drawProjection(picture, project(volume, panel, report.options.dark ? -1.0F : 1.0F), panel);
+  drawMissing(picture, report, volume.geometry, panel);
+  drawTree(picture, tree, report, volume.geometry, panel);
+}
+
+}  // namespace
+
+Rgb colourOf(Agreement agreement) {
+  for (const Shade& shade : kShades)
+    if (shade.agreement == agreement) return shade.colour;
+  return kInk;
+}
+
+std::vector<OverlayPanel> drawOverlayPanels(const Volume& volume,
+                                            const formats::CenterlineTree& tree,
+                                            const CheckReport& report) {
+  constexpr int kLeastText = 2;  // on paper a panel is half as large as on a screen
+  std::vector<OverlayPanel> panels;
+  for (Panel panel : layOut(volume.geometry, 0, 0, 0).panels) {
+    panel.x = panel.y = 0;
+    Picture picture(panel.width, panel.height, kBackdrop);
+    drawPanel(picture, volume, tree, report, panel);
+    Labels labels(picture);
+    drawLabels(labels, tree, report, volume.geometry, panel, kLeastText);
+    panels.push_back({panel.title, std::move(picture)});
+  }
+  return panels;
+}
+
+Picture drawOverlay(const Volume& volume, const formats::CenterlineTree& tree,
+                    const CheckReport& report) {
+  const Layout layout = layOut(volume.geometry, kGap, kLegendWidth, kLegendHeight);
+  Picture picture(layout.width, layout.height, kBackdrop);
+  for (const Panel& panel : layout.panels) {
+    drawPanel(picture, volume, tree, report, panel);
+    Labels labels(picture);
+    labels.put(panel, panel.x + 2, panel.y + 2, panel.title, kInk, kTextScale);
+    drawLabels(labels, tree, report, volume.geometry, panel, 1);
+  }
+  drawLegend(picture, layout.legendX, layout.legendY, report);
+  return picture;
+}
+
+}  // namespace lumen::convert

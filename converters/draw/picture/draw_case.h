@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture of a case, without a display.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "converters/base/progress.h"
+#include "converters/draw/overlay/picture.h"
+#include "converters/draw/picture/camera.h"
+#include "converters/draw/picture/trace.h"
+#include "converters/draw/picture/volume_behind.h"
+#include "converters/voxels/volume.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+enum class ColourBy : std::uint8_t { Vessel, Branch, Radius, Confidence };
+
+struct PictureOptions {
+  View view = View::Best;
+  ColourBy colour = ColourBy::Vessel;
+  int width = 1000, height = 800;  ///< pixels, each 16 or more
+  double turn = 0;        ///< radians about the picture's upright axis: from in front to the left
+  bool allTurns = false;  ///< scale and centre are those that hold the vessels at any turn
+  /// The bar of the scale, the sides of the patient at the edges, and what colours mean, where the picture is at least
+  /// 160 pixels wide and high.
+  bool marks = true;
+};
+
+/// Pictures of one case, of which all parts that do not depend on the view are made once.
+class CasePainter {
+public:
+  /// `source` must stay. Throws Error(InvalidInput) for a case without models or a node.
+  explicit CasePainter(const formats::Case& source);
+
+  /// Of a volume, which must stay, the greatest value along each ray is drawn behind the vessels from now on; the grey of a
+  /// value is the same at all turns. Throws Error(InvalidInput) if no node lies in it; Error(Cancelled).
+  void setVolume(const Volume& volume, Progress& progress);
+
+  /// The blended surface, shaded. The same bytes on any number of threads. Throws Error(InvalidInput) for a case that does
+  /// not have what is to be the colour; Error(Cancelled).
+  [[nodiscard]] Picture draw(const PictureOptions& options, Progress& progress) const;
+
+private:
+  [[nodiscard]] Picture background(const PictureOptions& options, const Camera& camera,
+                                   Progress& progress) const;
+
+  const formats::Case& m_source;
+  SurfaceTracer m_tracer;
+  std::optional<Projector> m_projector;
+};
+
+/// One picture of a case, with a volume behind it if there is one, as CasePainter makes it, and throwing what it throws.
+Picture drawCase(const formats::Case& source, const PictureOptions& options, const Volume* volume,
+                 Progress& progress);
+
+}  // namespace lumen::convert

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/draw/picture/trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include <tbb/parallel_for.h>
+
+#include "blob.h"
+#include "converters/base/error.h"
+#include "converters/base/vectors.h"
+#include "formats/case/binary_encode.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr double kBall = 2;  // radii: a model's wall in its own cell does not reach beyond
+constexpr double kInset =
+    1e-4;  // radii: rays stay off the sides of cells, where a cursor would step across
+constexpr int kMostSteps = 64;   // of a ray in one cell
+constexpr double kShare = 0.9;   // of the distance: it is right to first order only
+constexpr double kNear = 0.002;  // radii: on the surface
+constexpr int kRowsOfTile = 16;
+
+/// Where the power of a node is at most that of a neighbour: across . X <= level, X from the node's centre in the
+/// camera's axes, mm.
+struct Side {
+  Eigen::Vector3d across;
+  double level;
+};
+
+/// A node's ball as the camera sees it, and the sides of its power cell.
+struct Ball {
+  std::uint32_t node;
+  double x, y, depth;  ///< pixels, pixels, mm towards the viewer
+  double radius;       ///< mm
+  std::size_t firstSide, sides;
+};
+
+/// The balls that hold the lumen, from the front to the back.
+struct Balls {
+  std::vector<Ball> all;
+  std::vector<Side> sides;
+};
+
+/// The rays of a camera.
+class Rays {
+public:
+  Rays(const formats::CenterlineTree& tree, const blob_model* model, const Camera& camera,
+       const Balls& balls, TracedSurface& surface)
+      : m_tree(tree),
+        m_model(model),
+        m_camera(camera),
+        m_towards(camera.axes.row(2)),
+        m_balls(balls),
+        m_surface(surface) {}
+
+  /// Those of rows `first` to `last` - 1 that meet a ball.
+  void meet(const Ball& ball, int first, int last) const {
+    const double reach = m_camera.scale * ball.radius;
+    const int y0 = std::max(first, static_cast<int>(std::ceil(ball.y - reach - 0.5)));
+    const int y1 = std::min(last, static_cast<int>(std::floor(ball.y + reach - 0.5)) + 1);
+    for (int y = y0; y < y1; ++y) {
+      const double dy = y + 0.5 - ball.y;
+      const double half = std::sqrt(std::max(0.0, reach * reach - dy * dy));
+      const int x0 = std::max(0, static_cast<int>(std::ceil(ball.x - half - 0.5)));
+      const int x1 =
+          std::min(m_surface.width, static_cast<int>(std::floor(ball.x + half - 0.5)) + 1);
+      for (int x = x0; x < x1; ++x) ray(ball, x, y);
+    }
+  }
+
+private:
+  void ray(const Ball& ball, int x, int y) const {
+    const std::size_t pixel = m_surface.at(x, y);
+    const double met = double{m_surface.depth[pixel]};
+    if (ball.depth + ball.radius <= met) return;
+    const double u = (x + 0.5 - ball.x) / m_camera.scale, v = (ball.y - y - 0.5) / m_camera.scale;
+    double near = std::sqrt(std::max(0.0, ball.radius * ball.radius - u * u - v * v)),
+           far = std::max(-near, met - ball.depth);
+    for (std::size_t s = ball.firstSide; s < ball.firstSide + ball.sides; ++s) {
+      const Side& side = m_balls.sides[s];
+      const double rest = side.level - side.across.x() * u - side.across.y() * v;
+      const double c = side.across.z();
+      if (c > 0)
+        near = std::min(near, rest / c);
+      else if (c < 0)
+        far = std::max(far, rest / c);
+      else if (rest < 0)
+        return;
+      if (near <= far) return;
+    }
+    march(ball.node, pixel, m_camera.place(x + 0.5, y + 0.5, ball.depth), near, far);
+  }
+
+  /// Along a ray, from `near` to `far` mm towards the viewer from `origin`, with the cursor at a node.
+  void march(std::uint32_t node, std::size_t pixel, const Eigen::Vector3d& origin, double near,
+             double far) const {
+    std::uint32_t cursor = node;
+    blob_sample sample{};
+    double along = near;
+    bool isOutwards = false, isAtEnd = false;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Eigen::Vector3d p = origin + along * m_towards;
+      blob_query(m_model, BLOB_BLENDED, p.data(), &cursor, &sample);
+      if (!std::isfinite(sample.distance)) return;
+      if (std::abs(sample.distance) < kNear * double{m_tree.radius[cursor]})
+        return keep(pixel, p, sample);
+      // in the lumen already: its wall lies towards the viewer
+      if (step == 0) isOutwards = sample.distance < 0;
+      if (isAtEnd && sample.distance > 0) return;
+      along -= kShare * sample.distance;
+      isAtEnd = !isOutwards && along < far;
+      if (isAtEnd) along = far;
+    }
+  }
+
+  void keep(std::size_t pixel, const Eigen::Vector3d& p, const blob_sample& sample) const {
+    const auto depth = static_cast<float>(m_towards.dot(p - m_camera.centre));
+    if (depth <= m_surface.depth[pixel]) return;
+    m_surface.depth[pixel] = depth;
+    const Eigen::Vector3d n(sample.normal[0], sample.normal[1], sample.normal[2]);
+    m_surface.normal[pixel] = (m_camera.axes * n).cast<float>();
+    m_surface.node[pixel] = sample.node;
+  }
+
+  const formats::CenterlineTree& m_tree;
+  const blob_model* m_model;
+  const Camera& m_camera;
+  Eigen::Vector3d m_towards;
+  const Balls& m_balls;
+  TracedSurface& m_surface;
+};
+
+void addSides(Balls& balls, const formats::CenterlineTree& tree, const blob_model* model,
+              const Camera& camera) {
+  Ball& ball = balls.all.back();
+  const Eigen::Vector3d centre = toEigen(tree.centre[ball.node]);
+  const double radius = double{tree.radius[ball.node]};
+  std::vector<std::uint32_t> neighbours(blob_model_neighbours(model, ball.node, nullptr, 0));
+  blob_model_neighbours(model, ball.node, neighbours.data(), neighbours.size());
+  ball.firstSide = balls.sides.size();
+  for (const std::uint32_t other : neighbours) {
+    const Eigen::Vector3d across = toEigen(tree.centre[other]) - centre;
+    const double r = double{tree.radius[other]};
+    const double level = 0.5 * (across.squaredNorm() - r * r + radius * radius);
+    balls.sides.push_back({camera.axes * across, level - kInset * radius * across.norm()});
+  }
+  ball.sides = neighbours.size();
+}
+
+}  // namespace
+
+SurfaceTracer::SurfaceTracer(const formats::Case& source) : m_tree(source.tree) {
+  const std::vector<std::byte> file = formats::encodeBinary(source);
+  blob_model* opened = nullptr;
+  const blob_status status = blob_model_open_bytes(file.data(), file.size(), nullptr, &opened);
+  if (status != BLOB_OK)
+    throw failed(std::string("the case's models: ") + blob_status_text(status));
+  m_model = std::shared_ptr<const blob_model>(
+      opened, [](const blob_model* model) { blob_model_close(const_cast<blob_model*>(model)); });
+}
+
+TracedSurface SurfaceTracer::trace(const Camera& camera, Progress& progress) const {
+  TracedSurface surface;
+  surface.width = camera.width;
+  surface.height = camera.height;
+  const std::size_t pixels = surface.at(0, camera.height);
+  surface.depth.assign(pixels, TracedSurface::kNothing);
+  surface.normal.assign(pixels, Eigen::Vector3f::Zero());
+  surface.node.assign(pixels, 0);
+  Balls balls;
+  for (std::uint32_t n = 0; n < m_tree.nodeCount(); ++n) {
+    const Eigen::Vector3d p = camera.project(toEigen(m_tree.centre[n]));
+    balls.all.push_back({n, p.x(), p.y(), p.z(), kBall * double{m_tree.radius[n]}, 0, 0});
+    addSides(balls, m_tree, m_model.get(), camera);
+  }
+  std::stable_sort(balls.all.begin(), balls.all.end(), [](const Ball& a, const Ball& b) {
+    return a.depth + a.radius > b.depth + b.radius;
+  });
+  const Rays rays(m_tree, m_model.get(), camera, balls, surface);
+  const int tiles = (camera.height + kRowsOfTile - 1) / kRowsOfTile;
+  tbb::parallel_for(0, tiles, [&](int tile) {
+    const int first = tile * kRowsOfTile, last = std::min(camera.height, first + kRowsOfTile);
+    for (const Ball& ball : balls.all) {
+      if (progress.cancelled()) return;
+      rays.meet(ball, first, last);
+    }
+  });
+  progress.check();
+  return surface;
+}
+
+}  // namespace lumen::convert

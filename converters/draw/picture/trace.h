@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The blended surface of a case as rays meet it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/base/progress.h"
+#include "converters/draw/picture/camera.h"
+#include "formats/case/case.h"
+
+struct blob_model;
+
+namespace lumen::convert {
+
+/// What each pixel of a camera shows; rows from the top.
+struct TracedSurface {
+  static constexpr float kNothing = -std::numeric_limits<float>::infinity();
+  int width = 0, height = 0;
+  std::vector<float> depth;             ///< mm towards the viewer; kNothing where no vessel is
+  std::vector<Eigen::Vector3f> normal;  ///< unit, out of the lumen, in the camera's axes
+  std::vector<std::uint32_t> node;      ///< at which a cursor on the surface is
+
+  [[nodiscard]] std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+  [[nodiscard]] bool isHit(std::size_t pixel) const { return depth[pixel] > kNothing; }
+};
+
+/// Where rays meet the wall, as section 4.6 of docs/method.md says: sphere tracing (J. C. Hart, 1996) of libblob's distance, of
+/// each node in its own power cell, so vessels that touch stay apart.
+class SurfaceTracer {
+public:
+  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob does not take it.
+  explicit SurfaceTracer(const formats::Case& source);
+
+  /// On all cores; the same bits on any number of them. Throws Error(Cancelled).
+  [[nodiscard]] TracedSurface trace(const Camera& camera, Progress& progress) const;
+
+private:
+  const formats::CenterlineTree& m_tree;
+  std::shared_ptr<const blob_model> m_model;
+};
+
+}  // namespace lumen::convert

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The projection of a volume as a camera sees it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/draw/overlay/picture.h"
+#include "converters/draw/picture/camera.h"
+#include "converters/voxels/volume.h"
+
+namespace lumen::convert {
+
+/// The greatest value along each ray of a volume, which must stay; trilinear between voxels, at steps of the least spacing.
+class Projector {
+public:
+  /// Reads the volume once. Throws Error(Cancelled).
+  Projector(const Volume& volume, Progress& progress);
+
+  /// For each pixel; rows from the top; minus infinity beside the volume. The same bits on any number of threads, and those of
+  /// taking every sample: whole bricks are passed over that hold nothing greater than what was met. Throws Error(Cancelled).
+  [[nodiscard]] std::vector<float> greatest(const Camera& camera, Progress& progress) const;
+
+private:
+  const Volume& m_volume;
+  std::array<int, 3> m_bricks{};
+  std::vector<float> m_most;  ///< of what lies in a brick or is interpolated with it
+};
+
+/// Values that are black and white.
+struct GreyWindow {
+  float black = 0, white = 1;
+};
+
+/// From the median of a projection to its highest thousandth.
+GreyWindow windowOf(std::vector<float> projection);
+
+/// A projection as a picture; black beside the volume.
+Picture greysOf(const std::vector<float>& projection, int width, int height,
+                const GreyWindow& window);
+
+}  // namespace lumen::convert

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page of `lumen report` shows.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converters/engine/case_info.h"
+#include "converters/engine/check_report.h"
+#include "converters/engine/examination.h"
+#include "converters/judge/check/check.h"
+#include "formats/case/case.h"
+
+namespace lumen::app {
+
+/// A picture in the PNG format.
+struct DrawnView {
+  std::string title;
+  std::string png;
+  int width = 0, height = 0;  ///< pixels
+};
+
+/// The volume that the case is held against.
+struct ReportVolume {
+  std::string name;  ///< of its file
+  formats::SourceVolume geometry;
+  SourceRelation source;
+  std::optional<convert::CheckReport> check;  ///< none of a case without models
+  std::vector<DrawnView> projections;         ///< with the tree, all of one scale
+};
+
+struct ReportFacts {
+  std::string title;
+  std::string caseName;   ///< of its file
+  std::size_t bytes = 0;  ///< of the file
+  std::string sha256;     ///< of the file
+  formats::Case value;
+  CaseInfo info;
+  FileReport examination;
+  std::vector<std::string>
+      otherWarnings;             ///< of reading the volume, how the case lies in it, names of files
+  std::vector<DrawnView> sides;  ///< none of a case without models
+  std::optional<DrawnView> confidence;  ///< none if a case without models or inlier rates
+  std::optional<ReportVolume> volume;   ///< none without --volume
+
+  /// Without what is only worth a note.
+  [[nodiscard]] std::size_t warnings() const {
+    return examination.counts.warnings + otherWarnings.size();
+  }
+};
+
+}  // namespace lumen::app

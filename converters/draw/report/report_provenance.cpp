@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a case comes from, in a report: steps with their parameters, source, digests.
+#include <array>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "converters/draw/report/report_page.h"
+#include "converters/engine/report.h"
+#include "formats/case/enum_names.h"
+
+namespace lumen::app {
+
+namespace {
+
+using convert::Facts, convert::Markup, convert::text;
+
+constexpr std::size_t kMostOfAText = 400;   // bytes of a parameter on paper
+constexpr std::size_t kMostOfANote = 4000;  // bytes
+constexpr const char* kTool = "lumen " LUMEN_VERSION;
+
+/// As many digits as a stream writes, or a text of a case.
+Markup valueText(const formats::ParameterValue& value) {
+  if (const auto* words = std::get_if<std::string>(&value))
+    return convert::shortened(*words, kMostOfAText);
+  std::ostringstream out;
+  std::visit([&](const auto& v) { out << std::boolalpha << v; }, value);
+  return text(out.str());
+}
+
+template <class Numbers>
+std::string spaced(const Numbers& numbers, const char* between) {
+  std::ostringstream out;
+  const char* separator = "";
+  for (const auto& number : numbers) {
+    out << separator << number;
+    separator = between;
+  }
+  return out.str();
+}
+
+Markup digest(const std::string& sha256) {
+  return convert::element("code", text(sha256));
+}
+
+void addGeometry(const std::string& whose, const formats::SourceVolume& volume, Facts& facts) {
+  facts.emplace_back(whose + ", voxels", text(spaced(volume.size, " × ")));
+  facts.emplace_back(whose + ", spacing", text(spaced(volume.spacing, " × ") + " mm"));
+  facts.emplace_back(whose + ", origin",
+                     text(std::string("(") + spaced(volume.origin, ", ") + ") mm, LPS"));
+  facts.emplace_back(whose + ", direction", text(spaced(volume.direction, " ") + " (row by row)"));
+  facts.emplace_back(whose + ", SHA-256 of its voxels", digest(volume.sha256));
+}
+
+std::string relationText(const SourceRelation& source) {
+  if (!source.isKnown) return "not known: the case names no source";
+  if (!source.difference) return "yes: geometry and voxels are the same";
+  return "no: " + source.difference->what + " differs";
+}
+
+void addVolume(const ReportFacts& facts, Facts& list) {
+  if (!facts.volume) {
+    list.emplace_back("Volume of this report", text("none was given (--volume)"));
+    return;
+  }
+  list.emplace_back("Volume of this report", convert::name(facts.volume->name));
+  list.emplace_back("It is the source", text(relationText(facts.volume->source)));
+  if (!facts.volume->source.isKnown || facts.volume->source.difference)
+    addGeometry("This volume", facts.volume->geometry, list);
+}
+
+Markup models(const formats::Case& value) {
+  if (!value.models) return text("none");
+  std::ostringstream out;
+  out << formats::enumName(formats::kKernelNames, value.models->kernel) << ", parameter "
+      << value.models->kernelParameter << ", iso-level " << value.models->isoLevel << " mm, "
+      << value.models->centre.size() << " blobs";
+  return text(out.str());
+}
+
+}  // namespace
+
+Markup parameterSection(const ReportFacts& facts) {
+  constexpr const char* kTitle = "Parameters";
+  const std::vector<formats::Step>& steps = facts.value.metadata.steps;
+  if (steps.empty())
+    return convert::section(
+        "parameters", kTitle,
+        convert::paragraph("This case records no step, so how it was made is not known."));
+  Markup content = convert::paragraph("Every recorded step, the oldest first; lengths in mm.");
+  std::size_t number = 1;
+  for (const formats::Step& step : steps) {
+    Markup heading = text(std::to_string(number++) + ". ");
+    heading += convert::name(step.name);
+    heading.html += " (";
+    heading += convert::name(step.tool);
+    heading.html += ")";
+    content += convert::element("h3", heading);
+    Markup list;
+    for (const auto& [key, value] : step.parameters) {
+      Markup pair = convert::name(key);
+      pair.html += " ";
+      pair += convert::element("b", valueText(value));
+      list += convert::element("li", pair);
+      list.html += "\n";
+    }
+    content += step.parameters.empty() ? convert::paragraph("No parameters.")
+                                       : convert::element("ul", list, "class=\"parameters\"");
+  }
+  return convert::section("parameters", kTitle, content);
+}
+
+Markup provenanceSection(const ReportFacts& facts) {
+  const formats::Metadata& metadata = facts.value.metadata;
+  Facts list;
+  list.emplace_back("Case", convert::name(facts.caseName));
+  list.emplace_back("Size", text(std::to_string(facts.bytes) + " bytes"));
+  list.emplace_back("SHA-256 of the case", digest(facts.sha256));
+  list.emplace_back(
+      "SHA-256 of the case that it was made from",
+      metadata.parentSha256.empty() ? text("none is recorded") : digest(metadata.parentSha256));
+  if (metadata.source)
+    addGeometry("Source volume", *metadata.source, list);
+  else
+    list.emplace_back("Source volume", text("none is recorded"));
+  addVolume(facts, list);
+  list.emplace_back("Models", models(facts.value));
+  if (const auto& rounded = metadata.pointQuantisation)
+    list.emplace_back("Wall points", text("rounded to " + std::to_string(rounded->bits) +
+                                          " bits, steps of " + fixed(rounded->step, 6) + " mm"));
+  for (const std::string& array : facts.info.nodeArrays)
+    list.emplace_back("Node array", convert::name(array));
+  for (const std::string& extension : metadata.extensionsUsed)
+    list.emplace_back("Extension", convert::name(extension));
+  list.emplace_back("This report", text(kTool));
+  if (!metadata.note.empty())
+    list.emplace_back("Note", convert::shortened(metadata.note, kMostOfANote));
+  return convert::section("provenance", "Provenance", convert::factList(list));
+}
+
+}  // namespace lumen::app

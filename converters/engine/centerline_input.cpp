@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/centerline_input.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "converters/cli/value_checks.h"
+#include "formats/container/printable.h"
+
+namespace lumen::app {
+
+namespace {
+
+/// The fit is made for vessels of a few voxels in radius; so many the middle one of a tree gets.
+constexpr double kVoxelsOfRadius = 5;
+/// Of that radius: radii that are given have no noise to stop at. With twice this the volume of a narrowing is 1 % short.
+constexpr double kAccuracyOfRadius = 0.005;
+
+std::string unitText(double unit) {
+  if (unit == 1) return "mm";
+  if (unit == 10) return "cm";
+  if (unit == 1000) return "m";
+  return unit == 1e-3 ? "um" : fixed(unit, 6) + " mm";
+}
+
+std::size_t branchCount(const convert::CenterlineFile& file) {
+  return convert::chainsOf(file).size();
+}
+
+std::size_t rootCount(const convert::CenterlineFile& file) {
+  return static_cast<std::size_t>(
+      std::count_if(file.points.begin(), file.points.end(),
+                    [](const auto& point) { return point.parent == convert::kNoPoint; }));
+}
+
+}  // namespace
+
+void addCenterlineOptions(CLI::App& app, CenterlineArguments& centerline) {
+  app.add_option("--frame", centerline.frame,
+                 "Axes of a centerline's coordinates, whatever its file says: lps, or ras [lps "
+                 "where the file does not say]")
+      ->type_name("FRAME")
+      ->group("Centerline")
+      ->check(oneOf(std::vector<std::string>{"lps", "ras"}));
+}
+
+LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFormat& format,
+                                const VolumeArguments& volume,
+                                const CenterlineArguments& centerline, Progress& progress) {
+  LoadedCenterline loaded;
+  loaded.file = format.readCenterline(file);
+  convert::CenterlineReading reading;
+  reading.unit = volume.options().unit;
+  if (centerline.frame == "ras") reading.axes = convert::CenterlineAxes::Ras;
+  if (centerline.frame == "lps") reading.axes = convert::CenterlineAxes::Lps;
+  loaded.unit = convert::toPatientSpace(loaded.file, reading);
+  for (const std::string& remark : loaded.file.remarks)
+    progress.warn(formats::printable(file.string()) + ": " + remark);
+  return loaded;
+}
+
+convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::FitOptions& options) {
+  if (value.metadata.voxelSize || value.tree.nodeCount() == 0) return options;
+  std::vector<float> radii = value.tree.radius;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  convert::FitOptions scaled = options;
+  if (!scaled.accuracy) scaled.accuracy = kAccuracyOfRadius * double{*middle};
+  // Cohesion is for blobs that noise would scatter. Here it would draw the wall inwards, by .35 % of the radius.
+  if (scaled.cohesionWeight == convert::FitOptions{}.cohesionWeight) scaled.cohesionWeight = 0;
+  return scaled.resolved(double{*middle} / kVoxelsOfRadius);
+}
+
+std::string centerlineInfoText(const LoadedCenterline& centerline) {
+  const convert::CenterlineFile& file = centerline.file;
+  const convert::CenterlineExtent extent = convert::extentOf(file);
+  std::ostringstream text;
+  text << "points      " << file.points.size() << "\n"
+       << "branches    " << branchCount(file) << " of " << counted(rootCount(file), "tree", "trees")
+       << ", " << counted(file.links.size(), "loop", "loops") << "\n"
+       << "length      " << fixed(extent.length, 1) << " mm, within " << fixed(extent.diagonal, 1)
+       << " mm\n"
+       << "radius      "
+       << (extent.most > 0 ? fixed(extent.median, 3) + " mm (" + fixed(extent.least, 3) + " to " +
+                                 fixed(extent.most, 3) + ")"
+                           : std::string("none"))
+       << "\n"
+       << "unit        " << unitText(centerline.unit) << "\n";
+  return text.str();
+}
+
+Json centerlineInfoJson(const LoadedCenterline& centerline) {
+  const convert::CenterlineFile& file = centerline.file;
+  const convert::CenterlineExtent extent = convert::extentOf(file);
+  Json json;
+  json["points"] = file.points.size();
+  json["branches"] = branchCount(file);
+  json["trees"] = rootCount(file);
+  json["links"] = file.links.size();
+  json["length_mm"] = jsonNumber(extent.length);
+  json["diagonal_mm"] = jsonNumber(extent.diagonal);
+  json["radius_mm"] = Json(nullptr);
+  if (extent.most > 0)
+    json["radius_mm"] = {{"median", jsonNumber(extent.median)},
+                         {"min", jsonNumber(extent.least)},
+                         {"max", jsonNumber(extent.most)}};
+  json["unit_mm"] = jsonNumber(centerline.unit);
+  return json;
+}
+
+}  // namespace lumen::app

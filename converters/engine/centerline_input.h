@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Centerlines of other programs on the command line: reading, what is said of one, and its case.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "converters/cli/options.h"
+#include "converters/engine/file_format.h"
+#include "converters/engine/report.h"
+#include "converters/io/centerline/case_of_centerline.h"
+#include "converters/stages/fitting/fit_options.h"
+
+namespace lumen::app {
+
+struct CenterlineArguments {
+  std::string frame;  ///< empty, lps or ras
+};
+
+void addCenterlineOptions(CLI::App& app, CenterlineArguments& centerline);
+
+struct LoadedCenterline {
+  convert::CenterlineFile file;  ///< in mm and LPS
+  double unit = 1;               ///< mm; what its lengths were
+};
+
+/// The centerline in `file`. What was assumed becomes warnings. Throws Error(InvalidInput).
+LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFormat& format,
+                                const VolumeArguments& volume,
+                                const CenterlineArguments& centerline, Progress& progress);
+
+/// Options for a case that has no voxels: what scales with them scales with a fifth of the tree's
+/// median radius, but for the accuracy, which is a hundredth of it.
+convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::FitOptions& options);
+
+/// The facts of `lumen info`.
+std::string centerlineInfoText(const LoadedCenterline& centerline);
+Json centerlineInfoJson(const LoadedCenterline& centerline);
+
+}  // namespace lumen::app

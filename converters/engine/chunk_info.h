@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The chunk table of a binary case, for `lumen info --chunks`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "converters/engine/report.h"
+#include "formats/container/container.h"
+
+namespace lumen::app {
+
+struct ChunkInfo {
+  formats::Chunk chunk;  ///< without its bytes
+  std::uint64_t storedSize = 0;
+  bool known = false;
+  bool intact = false;  ///< its checksum is right
+};
+
+struct FileInfo {
+  formats::FormatVersion version;
+  std::uint64_t length = 0;
+  std::vector<ChunkInfo> chunks;
+};
+
+/// Needs a whole container, but not a valid case. Throws Error(InvalidInput), and
+/// Error(Unsupported) for JSON.
+FileInfo describeChunks(const std::filesystem::path& file);
+
+Json chunkInfoJson(const FileInfo& info);
+std::string chunkInfoText(const FileInfo& info);
+
+}  // namespace lumen::app

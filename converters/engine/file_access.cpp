@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/file_access.h"
+
+#include <cerrno>
+#include <cstring>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <unistd.h>
+
+#include "converters/base/error.h"
+#include "converters/base/sha256.h"
+#include "formats/case/atomic_file.h"
+
+namespace lumen::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The file's name first and once, whether or not the message begins with it.
+std::string errorText(const fs::path& file, formats::Issue error) {
+  const std::string prefix = file.string() + ": ";
+  if (error.message.starts_with(prefix)) error.message.erase(0, prefix.size());
+  // nothing of a file that cannot be read or written has a place
+  if (error.offset || error.pointer) return prefix + error.text();
+  const bool isLimit = error.message.ends_with(std::generic_category().message(EFBIG));
+  return prefix + error.message + (isLimit ? " (ulimit -f tells the shell's limit)" : "");
+}
+
+/// Files that somebody made or measured are not replaced by files of another kind.
+bool isPrecious(ContentKind kind) {
+  return kind == ContentKind::Volume || kind == ContentKind::Seeds || kind == ContentKind::Case ||
+         kind == ContentKind::Centerline;
+}
+
+}  // namespace
+
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const fs::path& file) {
+  requireInput(file, "case file");
+  auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
+  auto value = formats::decodeCase(*bytes);
+  if (value) return {std::move(*bytes), std::move(*value)};
+  const std::string other = notA(ContentKind::Case, file);
+  if (value.error().code == formats::ErrorCode::NotLumen && !other.empty())
+    throw invalidInput(file.string() + ": " + other);
+  throw invalidInput(errorText(file, value.error()));
+}
+
+formats::Case readCase(const fs::path& file) {
+  return readCaseAndBytes(file).second;
+}
+
+formats::Case readParentCase(const fs::path& file) {
+  auto [bytes, value] = readCaseAndBytes(file);
+  value.metadata.parentSha256 = sha256(bytes);
+  formats::dropDependentChunks(value);
+  return std::move(value);
+}
+
+void writeCase(const formats::Case& value, const fs::path& file, formats::CaseEncoding encoding,
+               const formats::EncodeOptions& options) {
+  const auto written = formats::writeCaseFile(value, file, encoding, options);
+  if (!written) throw failed(errorText(file, written.error()));
+}
+
+std::string readText(const fs::path& file, std::string_view what) {
+  requireInput(file, what);
+  const auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
+  return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
+}
+
+void writeText(std::string_view text, const fs::path& file) {
+  const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
+  if (!written) throw failed(errorText(file, written.error()));
+}
+
+void requireInput(const fs::path& path, std::string_view what) {
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw invalidInput(path.string() + ": there is no such " + std::string(what));
+  if (access(path.c_str(), R_OK) != 0)
+    throw invalidInput(path.string() + ": this " + std::string(what) +
+                       " may not be read: " + std::strerror(errno));
+}
+
+void requireOrder(const fs::path& input, const fs::path& output) {
+  const FileContent content = contentOf(output);
+  const std::string swapped = "; are the two swapped?";
+  std::error_code ignored;
+  if (!fs::exists(input, ignored) && isPrecious(content.kind))
+    throw invalidInput(input.string() + ": there is no such input, and the output is there (" +
+                       output.string() + ": " + content.sentence() + ")" + swapped);
+  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Seeds)
+    throw Error(ErrorKind::Usage, output.string() + ": " + content.sentence() +
+                                      ", but given as the output" + swapped);
+}
+
+void requireWritable(const fs::path& path, ContentKind written) {
+  std::error_code ignored;
+  const FileContent content = contentOf(path);
+  if (isPrecious(content.kind) && content.kind != written)
+    throw Error(ErrorKind::Usage, path.string() + ": " + content.sentence() +
+                                      ", which would be lost; another name, please");
+  if (path.filename().empty() || fs::is_directory(path, ignored))
+    throw failed(path.string() + ": this is a folder, but the output must be a file");
+  if (fs::exists(path, ignored)) {
+    if (!fs::is_regular_file(path, ignored))
+      throw failed(path.string() + ": this is not a regular file, but the output must be one");
+    if (access(path.c_str(), W_OK) != 0)
+      throw failed(path.string() + ": this file may not be overwritten: " + std::strerror(errno));
+  }
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, ignored))
+    throw failed(path.string() + ": the output's folder " + folder.string() + " does not exist");
+  // permission bits do not tell (read-only mounts, privileged users), so a file is begun and dropped
+  const auto begun = formats::PendingFile::beside(path);
+  if (!begun) throw failed(errorText(path, begun.error()));
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a command reads and writes by name, and what it refuses before any work.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "converters/engine/file_content.h"
+#include "formats/case/case_file.h"
+
+namespace lumen::app {
+
+/// A case in either encoding, by its content. Throws Error(InvalidInput) with the file's name and
+/// what is wrong in it.
+formats::Case readCase(const std::filesystem::path& file);
+/// The same, with the whole of the file.
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(
+    const std::filesystem::path& file);
+
+/// The same, and the bytes of the file.
+std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(
+    const std::filesystem::path& file);
+
+/// The case, to be changed and written as another: it states the digest of `file`, and has no chunk
+/// of others that a change would make wrong.
+formats::Case readParentCase(const std::filesystem::path& file);
+
+/// Validates and writes atomically; throws Error(Failed) with the file's name.
+void writeCase(const formats::Case& value, const std::filesystem::path& file,
+               formats::CaseEncoding encoding, const formats::EncodeOptions& options);
+
+/// The whole of a file that is neither a folder nor a pipe. Throws Error(InvalidInput); `what` names its role.
+std::string readText(const std::filesystem::path& file, std::string_view what);
+
+/// Writes atomically; throws Error(Failed) with the file's name.
+void writeText(std::string_view text, const std::filesystem::path& file);
+
+/// Throws Error(InvalidInput) if `path` is missing or may not be read; `what` names its role, such as "seeds file".
+void requireInput(const std::filesystem::path& path, std::string_view what);
+
+/// Throws Error(Usage) if `output` is what only an input can be, a volume or seeds, and
+/// Error(InvalidInput) if `input` is missing while `output` could be one: they look swapped.
+void requireOrder(const std::filesystem::path& input, const std::filesystem::path& output);
+
+/// Throws Error(Failed) unless `path` can be created: its folder must exist and take new files, and
+/// it must not itself be a folder. Leaves nothing behind. Throws Error(Usage) if `path` is a volume,
+/// seeds or a case, and something else is going to be written.
+void requireWritable(const std::filesystem::path& path, ContentKind written);
+
+}  // namespace lumen::app

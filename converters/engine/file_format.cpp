@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/file_format.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "converters/base/error.h"
+#include "converters/base/suggestion.h"
+#include "converters/base/text.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/loss_report.h"
+#include "converters/engine/mesh_of_case.h"
+#include "converters/io/centerline/read_curves.h"
+#include "converters/io/centerline/read_swc.h"
+#include "converters/io/centerline/read_tre.h"
+#include "converters/io/centerline/read_vtp.h"
+#include "converters/io/centerline/write_centerline.h"
+#include "converters/io/mesh/write_gltf.h"
+#include "converters/io/mesh/write_plain.h"
+#include "converters/io/mesh/write_vtp.h"
+#include "converters/io/volume/write_volume.h"
+
+namespace lumen::app {
+
+namespace fs = std::filesystem;
+using convert::MeshFormat;
+using convert::VolumeFormat;
+
+namespace {
+
+template <VolumeFormat format>
+convert::Volume readVolumeAs(const fs::path& file, const convert::ReadVolumeOptions& options,
+                             const Progress& progress) {
+  return convert::readVolume(file, format, options, progress);
+}
+
+template <VolumeFormat format>
+convert::VolumeHeader readHeaderAs(const fs::path& file, const convert::ReadVolumeOptions& options,
+                                   const Progress& progress) {
+  return convert::readVolumeHeader(file, format, options, progress);
+}
+
+template <VolumeFormat format, bool compressed>
+void writeVolumeAs(const convert::Volume& volume, const fs::path& file) {
+  convert::writeVolume(volume, file, format, compressed);
+}
+
+template <convert::MeshFormat format>
+convert::MeshFile readMeshAs(const fs::path& file) {
+  return convert::readMesh(file, format);
+}
+
+convert::MeshFile readVesselsOfScene(const fs::path& file) {
+  return readSceneMesh(file, {});
+}
+
+template <formats::CaseEncoding encoding>
+std::optional<convert::SurfaceReport> writeCaseAs(const formats::Case& value, const fs::path& file,
+                                                  const OutputOptions& options, Progress&) {
+  writeCase(value, file, encoding, options.encoding);
+  return std::nullopt;
+}
+
+using Levels = std::vector<convert::SurfaceMesh>;
+
+template <bool binary>
+std::string encodeGltf(const Levels& levels, const convert::WriteMeshOptions& options) {
+  return convert::encodeGltf(levels, binary, options);
+}
+std::string encodeStl(const Levels& levels, const convert::WriteMeshOptions& options) {
+  return convert::encodeStl(levels.front(), options.stlSolids);
+}
+template <std::string (*encode)(const convert::SurfaceMesh&)>
+std::string encodePlain(const Levels& levels, const convert::WriteMeshOptions&) {
+  return encode(levels.front());
+}
+
+/// The writer of a mesh format: the case's surface as triangles, encoded. `hasLevels`: it takes
+/// coarser levels of detail too.
+template <std::string (*encode)(const Levels&, const convert::WriteMeshOptions&),
+          bool hasLevels = false>
+std::optional<convert::SurfaceReport> writeMeshAs(const formats::Case& value, const fs::path& file,
+                                                  const OutputOptions& options,
+                                                  Progress& progress) {
+  CaseMesh mesh = meshOfCase(value, file, options, hasLevels, progress);
+  writeText(encode(mesh.levels, options.mesh), file);
+  return std::move(mesh.report);
+}
+
+constexpr auto kGlb = writeMeshAs<encodeGltf<true>, true>;
+constexpr auto kGltf = writeMeshAs<encodeGltf<false>, true>;
+constexpr auto kVtp = writeMeshAs<encodePlain<convert::encodeVtp>>;
+/// The writer of a centerline format: the case's tree, encoded.
+template <std::string (*encode)(const formats::CenterlineTree&)>
+std::optional<convert::SurfaceReport> writeTreeAs(const formats::Case& value, const fs::path& file,
+                                                  const OutputOptions&, Progress& progress) {
+  reportTreeLosses(value, file.string(), progress);
+  writeText(encode(value.tree), file);
+  return std::nullopt;
+}
+
+constexpr auto kObj = writeMeshAs<encodePlain<convert::encodeObj>>;
+constexpr auto kStl = writeMeshAs<encodeStl>;
+constexpr auto kPly = writeMeshAs<encodePlain<convert::encodePly>>;
+
+// clang-format off
+std::vector<FileFormat> makeTable() {
+  using enum FormatKind;
+  return {
+      // cases
+      {.name = "lumen", .title = "a case", .kind = Case, .endings = {".lumen"},
+       .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Binary>},
+      {.name = "lumen.json", .title = "a case", .kind = Case, .endings = {".lumen.json", ".json"},
+       .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
+      // meshes
+      {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kGlb},
+      {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kGltf},
+      {.name = "vtp", .title = "VTK", .kind = Mesh, .endings = {".vtp"},
+       .readMesh = readMeshAs<MeshFormat::Vtp>, .writeCase = kVtp},
+      {.name = "vtk", .title = "VTK", .kind = Mesh, .endings = {".vtk"}, .readMesh = readMeshAs<MeshFormat::Vtk>},
+      {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"},
+       .readMesh = readMeshAs<MeshFormat::Obj>, .writeCase = kObj},
+      {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"},
+       .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kStl},
+      {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"},
+       .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kPly},
+      {.name = "scn", .title = "a scene of SOFA", .kind = Mesh, .endings = {".scn"},
+       .readMesh = readVesselsOfScene, .readScene = readSceneMesh},
+      // centerlines
+      {.name = "swc", .title = "SWC", .kind = Centerline, .endings = {".swc"}, .readCenterline = convert::readSwc,
+       .writeCase = writeTreeAs<convert::encodeSwc>},
+      {.name = "tre", .title = "TubeTK", .kind = Centerline, .endings = {".tre"}, .readCenterline = convert::readTre,
+       .writeCase = writeTreeAs<convert::encodeTre>},
+      {.name = "centerline.vtp", .title = "VTK lines", .kind = Centerline, .endings = {".centerline.vtp"},
+       .readCenterline = convert::readVtpCenterline, .writeCase = writeTreeAs<convert::encodeVtpCenterline>},
+      {.name = "mrk.json", .title = "Slicer curves", .kind = Centerline, .endings = {".mrk.json"},
+       .readCenterline = convert::readCurves, .writeCase = writeTreeAs<convert::encodeCurves>},
+      // volumes
+      {.name = "nrrd", .title = "NRRD", .kind = Volume, .endings = {".nrrd"},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nrrd, true>},
+      {.name = "nhdr", .title = "NRRD", .kind = Volume, .endings = {".nhdr"},
+       .readVolume = readVolumeAs<VolumeFormat::Nrrd>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nrrd>},
+      {.name = "nii", .title = "NIfTI", .kind = Volume, .endings = {".nii"},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, false>},
+      {.name = "nii.gz", .title = "NIfTI", .kind = Volume, .endings = {".nii.gz"},
+       .readVolume = readVolumeAs<VolumeFormat::Nifti>, .readVolumeHeader = readHeaderAs<VolumeFormat::Nifti>,
+       .writeVolume = writeVolumeAs<VolumeFormat::Nifti, true>},
+      {.name = "mha", .title = "MetaImage", .kind = Volume, .endings = {".mha"},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>,
+       .writeVolume = writeVolumeAs<VolumeFormat::MetaImage, true>},
+      {.name = "mhd", .title = "MetaImage", .kind = Volume, .endings = {".mhd"},
+       .readVolume = readVolumeAs<VolumeFormat::MetaImage>, .readVolumeHeader = readHeaderAs<VolumeFormat::MetaImage>},
+      {.name = "dicom", .title = "a folder of DICOM", .kind = Volume,
+       .readVolume = readVolumeAs<VolumeFormat::Dicom>, .readVolumeHeader = readHeaderAs<VolumeFormat::Dicom>},
+  };
+}
+// clang-format on
+
+const FileFormat* findByName(std::string_view name) {
+  for (const FileFormat& format : fileFormats())
+    if (format.name == name) return &format;
+  return nullptr;
+}
+
+/// The format that a folder is read as.
+const FileFormat* findFolder(const fs::path& folder) {
+  if (convert::hasCurves(folder)) return findByName("mrk.json");
+  for (const FileFormat& format : fileFormats())
+    if (format.endings.empty()) return &format;
+  return nullptr;
+}
+
+/// The format of a file whose name may stand for several kinds.
+const FileFormat* findByContent(const fs::path& path) {
+  const FileContent content = contentOf(path);
+  const bool isVtk = lowerCase(path.extension().string()) == ".vtp";
+  return isVtk && content.kind == ContentKind::Centerline ? findByName("centerline.vtp") : nullptr;
+}
+
+const FileFormat* findByEnding(const fs::path& path) {
+  const std::string file = lowerCase(path.filename().string());
+  const FileFormat* best = nullptr;
+  std::size_t longest = 0;
+  for (const FileFormat& format : fileFormats())
+    for (const std::string_view ending : format.endings)
+      if (ending.size() > longest && file.size() > ending.size() && file.ends_with(ending)) {
+        best = &format;
+        longest = ending.size();
+      }
+  return best;
+}
+
+/// `text(format)` of each format that passes `test`, each text once.
+template <class Text>
+std::vector<std::string> listed(FormatTest test, Text text) {
+  std::vector<std::string> words;
+  for (const FileFormat& format : fileFormats()) {
+    if (!test(format)) continue;
+    const std::string word(text(format));
+    if (!word.empty() && std::find(words.begin(), words.end(), word) == words.end())
+      words.push_back(word);
+  }
+  return words;
+}
+
+std::vector<std::string> namesOf(FormatTest test) {
+  return listed(test, [](const FileFormat& format) { return format.name; });
+}
+
+std::vector<std::string> endingsOf(FormatTest test) {
+  return listed(test, [](const FileFormat& format) {
+    return format.endings.empty() ? std::string_view() : format.endings.front();
+  });
+}
+
+/// `format` if it is not null and passes `test`.
+const FileFormat& require(const FileFormat* format, const fs::path& path, std::string_view override,
+                          FormatTest test, const std::string& verb, const std::string& option) {
+  if (format != nullptr && test(*format)) return *format;
+  const std::string known = "; lumen " + verb + "s " + formatNames(test);
+  if (!override.empty())
+    throw unsupported(option + " " + std::string(override) + ": lumen cannot " + verb +
+                      " this format" + known + didYouMean(override, namesOf(test)));
+  if (format != nullptr)
+    throw unsupported(path.string() + ": lumen cannot " + verb + " the format " +
+                      std::string(format->name) + known);
+  throw unsupported(path.string() + ": the name's ending is not that of a format that lumen " +
+                    verb + "s" + known + " (" + option + " chooses one whatever the name)" +
+                    didYouMean(path.extension().string(), endingsOf(test)));
+}
+
+/// An input whose name does not tell its format, but whose content does.
+void refuseByContent(const fs::path& path) {
+  const FileContent content = contentOf(path);
+  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case ||
+      content.kind == ContentKind::Mesh || content.kind == ContentKind::Centerline)
+    throw unsupported(path.string() + ": " + content.sentence() +
+                      ", but its name does not say so; --from says it, which takes " +
+                      formatNames(canRead));
+  if (content.kind != ContentKind::Unknown)
+    throw unsupported(path.string() + ": " + notA(ContentKind::Volume, path));
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? last : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+const std::vector<FileFormat>& fileFormats() {
+  static const std::vector<FileFormat> table = makeTable();
+  return table;
+}
+
+ContentKind contentKind(const FileFormat& format) {
+  switch (format.kind) {
+    case FormatKind::Volume:
+      return ContentKind::Volume;
+    case FormatKind::Mesh:
+      return ContentKind::Mesh;
+    case FormatKind::Centerline:
+      return ContentKind::Centerline;
+    case FormatKind::Case:
+      break;
+  }
+  return ContentKind::Case;
+}
+
+bool canRead(const FileFormat& format) {
+  return format.readCase != nullptr || format.readVolume != nullptr || canReadMesh(format) ||
+         canReadCenterline(format);
+}
+
+bool canReadVolume(const FileFormat& format) {
+  return format.readVolume != nullptr;
+}
+
+bool canReadMesh(const FileFormat& format) {
+  return format.readMesh != nullptr;
+}
+
+bool canReadCenterline(const FileFormat& format) {
+  return format.readCenterline != nullptr;
+}
+
+bool canWriteCenterline(const FileFormat& format) {
+  return format.kind == FormatKind::Centerline && canWrite(format);
+}
+
+bool canWrite(const FileFormat& format) {
+  return format.writeCase != nullptr;
+}
+
+bool canWriteCase(const FileFormat& format) {
+  return format.kind == FormatKind::Case && canWrite(format);
+}
+
+bool canWriteMesh(const FileFormat& format) {
+  return format.kind == FormatKind::Mesh && canWrite(format);
+}
+
+bool canWriteVolume(const FileFormat& format) {
+  return format.writeVolume != nullptr;
+}
+
+std::string formatNames(FormatTest test) {
+  return joined(namesOf(test), ", ");
+}
+
+std::string formatEndings(FormatTest test) {
+  return joined(endingsOf(test), " or ");
+}
+
+std::string formatTitles(FormatTest test) {
+  return joined(listed(test, [](const FileFormat& format) { return format.title; }), " or ");
+}
+
+const FileFormat& inputFormat(const fs::path& path, std::string_view override) {
+  std::error_code ignored;
+  const FileFormat* format = !override.empty()                 ? findByName(override)
+                             : fs::is_directory(path, ignored) ? findFolder(path)
+                                                               : findByContent(path);
+  if (format == nullptr && override.empty()) format = findByEnding(path);
+  if (override.empty() && (format == nullptr || !canRead(*format))) refuseByContent(path);
+  return require(format, path, override, canRead, "read", "--from");
+}
+
+const FileFormat& outputFormat(const fs::path& path, std::string_view override) {
+  if (std::error_code ignored; fs::is_directory(path, ignored))
+    throw failed(path.string() + ": this is a folder, but the output must be a file");
+  const FileFormat* format = override.empty() ? findByEnding(path) : findByName(override);
+  return require(format, path, override, canWrite, "write", "--to");
+}
+
+const FileFormat& caseOutputFormat(const fs::path& path, std::string_view override,
+                                   const std::string& what) {
+  const FileFormat& format = outputFormat(path, override);
+  if (canWriteCase(format)) return format;
+  throw unsupported(path.string() + ": " + what + " is written as a case, " +
+                    formatEndings(canWriteCase));
+}
+
+const FileFormat& volumeOutputFormat(const fs::path& path, const std::string& what) {
+  const FileFormat* format = findByEnding(path);
+  if (format != nullptr && canWriteVolume(*format)) return *format;
+  throw unsupported(path.string() + ": " + what + " is written as " +
+                    formatEndings(canWriteVolume));
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of formats: all that the command line knows of one is its row. Help, errors, the loss
+// report and shell completion are made from the table.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/engine/file_content.h"
+#include "converters/engine/scene_input.h"
+#include "converters/io/centerline/centerline_file.h"
+#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/write_options.h"
+#include "converters/io/volume/read_volume.h"
+#include "converters/stages/surface/closed_surface.h"
+#include "converters/stages/surface/patches/polygonise.h"
+#include "formats/case/case.h"
+#include "formats/case/case_file.h"
+
+namespace lumen::app {
+
+enum class FormatKind { Volume, Case, Mesh, Centerline };
+
+/// How a case is written; each format takes what concerns it.
+struct OutputOptions {
+  formats::EncodeOptions encoding;
+  convert::PolygoniseOptions polygonise;  ///< of patches
+  convert::ClosedSurfaceOptions surface;  ///< of the closed surface
+  convert::WriteMeshOptions mesh;
+  bool patches = false;  ///< the surface in pieces
+};
+
+/// One row. A function that is null says what the format cannot do; each throws lumen::Error with
+/// the file's name.
+struct FileFormat {
+  using CaseReader = formats::Case (*)(const std::filesystem::path&);
+  using VolumeReader = convert::Volume (*)(const std::filesystem::path&,
+                                           const convert::ReadVolumeOptions&, const Progress&);
+  using VolumeHeaderReader = convert::VolumeHeader (*)(const std::filesystem::path&,
+                                                       const convert::ReadVolumeOptions&,
+                                                       const Progress&);
+  using CenterlineReader = convert::CenterlineFile (*)(const std::filesystem::path&);
+  using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
+  using SceneReader = convert::MeshFile (*)(const std::filesystem::path&, const SceneArguments&);
+  /// What it returns is null unless a closed surface was made.
+  using CaseWriter = std::optional<convert::SurfaceReport> (*)(const formats::Case&,
+                                                               const std::filesystem::path&,
+                                                               const OutputOptions&, Progress&);
+  using VolumeWriter = void (*)(const convert::Volume&, const std::filesystem::path&);
+
+  std::string_view name;   ///< as --from and --to take it
+  std::string_view title;  ///< as a help text calls it; rows of one title are listed once
+  FormatKind kind;
+  std::vector<std::string_view> endings{};  ///< of a name, lower case; empty: a folder
+  CaseReader readCase = nullptr;
+  VolumeReader readVolume = nullptr;
+  VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
+  MeshReader readMesh = nullptr;
+  CenterlineReader readCenterline = nullptr;
+  SceneReader readScene = nullptr;     ///< where a file may have several meshes, or names others
+  CaseWriter writeCase = nullptr;      ///< atomically
+  VolumeWriter writeVolume = nullptr;  ///< atomically
+};
+
+const std::vector<FileFormat>& fileFormats();
+
+/// What a file of this format is.
+ContentKind contentKind(const FileFormat& format);
+
+/// What a list of formats is about.
+using FormatTest = bool (*)(const FileFormat&);
+bool canRead(const FileFormat& format);
+bool canReadVolume(const FileFormat& format);
+bool canReadMesh(const FileFormat& format);
+bool canReadCenterline(const FileFormat& format);
+bool canWrite(const FileFormat& format);  ///< a case, in whatever form
+bool canWriteCase(const FileFormat& format);
+bool canWriteMesh(const FileFormat& format);
+bool canWriteCenterline(const FileFormat& format);
+bool canWriteVolume(const FileFormat& format);
+
+/// The formats that pass `test`, for a sentence: names "lumen, lumen.json, obj", endings ".lumen,
+/// .lumen.json or .obj", titles "NRRD, NIfTI or a folder of DICOM".
+std::string formatNames(FormatTest test);
+std::string formatEndings(FormatTest test);
+std::string formatTitles(FormatTest test);
+
+/// The format that `override` names if it is not empty, otherwise that of the path's name. Throws
+/// Error(Unsupported) if there is none that can be read (or written as a case, or as a volume); the
+/// message lists those that can. `what` is the subject of a sentence, such as "the truth".
+const FileFormat& inputFormat(const std::filesystem::path& path, std::string_view override);
+const FileFormat& outputFormat(const std::filesystem::path& path, std::string_view override);
+const FileFormat& caseOutputFormat(const std::filesystem::path& path, std::string_view override,
+                                   const std::string& what);
+const FileFormat& volumeOutputFormat(const std::filesystem::path& path, const std::string& what);
+
+}  // namespace lumen::app

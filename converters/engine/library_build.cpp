@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/library_build.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "converters/base/error.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/suggestion.h"
+#include "converters/cli/about_options.h"
+#include "converters/cli/value_checks.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/report.h"
+#include "converters/export/shared/target.h"
+#include "converters/library/build.h"
+#include "converters/library/library_file.h"
+#include "converters/library/record.h"
+#include "formats/case/case_file.h"
+#include "formats/container/printable.h"
+
+namespace lumen::app {
+
+std::unique_ptr<Command> makeConvertCommand();
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using convert::BuildRow, convert::RowEnd, convert::RowResult;
+
+constexpr int kMostJobs = 256;
+
+void requireTargets(const BuildRow& row) {
+  std::vector<std::string> names;
+  for (const convert::ExportTarget& target : convert::exportTargets())
+    names.emplace_back(target.name);
+  for (const std::string& target : row.targets)
+    if (std::find(names.begin(), names.end(), target) == names.end())
+      throw invalidInput("targets: found " + convert::quotedText(target) + ", expected some of " +
+                         alternatives(names));
+}
+
+/// Options of lumen convert but those that every command has.
+void requireOptions(const BuildRow& row, const CLI::App& convertOptions) {
+  for (const auto& [name, value] : row.options)
+    if (convertOptions.get_option_no_throw(name) == nullptr)
+      throw invalidInput(formats::printable(name) + ": lumen convert has no such option");
+}
+
+void requireAbout(const BuildRow& row, const convert::LibraryFile& library) {
+  convert::CaseAbout about = convert::readAbout(row.about, "what is told of it");
+  if (about.licence.empty()) about.licence = library.licence;
+  if (about.title.empty()) throw invalidInput("title: is empty");
+  if (const std::string missing = convert::missingStatement(about); !missing.empty())
+    throw invalidInput(missing);
+}
+
+/// Refuses, all at once, what would only fail after work.
+void requireRows(const std::vector<BuildRow>& rows, const convert::LibraryFile& library,
+                 const std::string& list) {
+  CLI::App convertOptions;
+  const std::unique_ptr<Command> command = makeConvertCommand();
+  command->bind(convertOptions);
+  std::string faults;
+  for (const BuildRow& row : rows) {
+    try {
+      requireTargets(row);
+      requireOptions(row, convertOptions);
+      requireAbout(row, library);
+    } catch (const Error& error) {
+      faults += (faults.empty() ? "" : "\n") + formats::printable(list) + ": row " +
+                std::to_string(row.number) + ": " + error.what();
+    }
+  }
+  if (!faults.empty()) throw invalidInput(faults);
+}
+
+const char* endName(RowEnd end) {
+  switch (end) {
+    case RowEnd::Made:
+      return "made";
+    case RowEnd::Kept:
+      return "kept";
+    case RowEnd::Failed:
+      return "failed";
+  }
+  return "";
+}
+
+std::size_t countOf(const std::vector<RowResult>& results, RowEnd end) {
+  return static_cast<std::size_t>(std::count_if(
+      results.begin(), results.end(), [end](const RowResult& r) { return r.end == end; }));
+}
+
+Json resultJson(const RowResult& result) {
+  Json json{{"row", result.row},           {"id", result.id},
+            {"end", endName(result.end)},  {"seconds", jsonNumber(result.seconds)},
+            {"warnings", result.warnings}, {"why", nullptr}};
+  if (result.end == RowEnd::Failed) {
+    json["why"] = result.why;
+    json["code"] = result.code;
+  }
+  return json;
+}
+
+std::string resultTable(const std::vector<RowResult>& results) {
+  std::vector<std::vector<std::string>> rows{{"case", "row", "seconds", "warnings", ""}};
+  for (const RowResult& result : results)
+    rows.push_back({result.id, std::to_string(result.row), fixed(result.seconds, 1),
+                    std::to_string(result.warnings), endName(result.end)});
+  std::string text = alignColumns(std::move(rows));
+  for (const RowResult& result : results)
+    if (result.end == RowEnd::Failed)
+      text += Lines()
+                  .add("row " + std::to_string(result.row) + " (" + result.id + "): " + result.why)
+                  .text() +
+              (result.log.empty() ? "" : Lines().add("  see " + result.log.string()).text());
+  return text;
+}
+
+void report(const std::vector<RowResult>& results, const std::string& library,
+            const Context& context) {
+  const std::size_t made = countOf(results, RowEnd::Made), kept = countOf(results, RowEnd::Kept),
+                    missing = countOf(results, RowEnd::Failed);
+  if (context.common.json) {
+    Json rows = Json::array();
+    for (const RowResult& result : results) rows.push_back(resultJson(result));
+    answerJson(Json{{"made", made}, {"kept", kept}, {"failed", missing}, {"rows", rows}});
+  } else if (!context.common.quiet || missing > 0) {
+    answer(resultTable(results) + formats::printable(library) + ": " +
+           counted(results.size(), "row", "rows") + ": " + std::to_string(made) + " made, " +
+           std::to_string(kept) + " kept, " + std::to_string(missing) + " failed\n");
+  }
+}
+
+int exitCodeOf(const std::vector<RowResult>& results) {
+  bool isInputAlone = true, isFailed = false;
+  for (const RowResult& result : results) {
+    if (result.end != RowEnd::Failed) continue;
+    isFailed = true;
+    isInputAlone = isInputAlone && result.code == static_cast<int>(ErrorKind::InvalidInput);
+  }
+  if (!isFailed) return 0;
+  return static_cast<int>(isInputAlone ? ErrorKind::InvalidInput : ErrorKind::Failed);
+}
+
+}  // namespace
+
+void addBuildOptions(CLI::App& app, BuildArguments& arguments) {
+  app.add_option("--jobs", arguments.jobs, "Rows at once; --threads are shared between them")
+      ->type_name("N")
+      ->check(wholeIn(1, kMostJobs))
+      ->capture_default_str();
+  addFile(
+      app, "--work", arguments.work,
+      "Folder for what is being made, which a run that was interrupted goes on with; by default "
+      "LIBRARY.build")
+      ->required(false)
+      ->type_name("PATH");
+}
+
+std::vector<BuildRow> loadBuildList(const std::string& file) {
+  requireInput(file, "list");
+  const auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(formats::printable(file) + ": " + bytes.error().message);
+  return convert::readBuildList({reinterpret_cast<const char*>(bytes->data()), bytes->size()},
+                                file);
+}
+
+int buildAndReport(const std::vector<BuildRow>& rows, const std::string& list,
+                   const std::string& library, const BuildArguments& arguments, Context& context) {
+  requireRows(rows, convert::openLibrary(library), list);
+  convert::BuildOptions options;
+  options.program = fs::read_symlink("/proc/self/exe");
+  options.version = LUMEN_VERSION;
+  const fs::path folder = fs::absolute(library) / "";
+  options.work = arguments.work.empty() ? folder.parent_path().string() + ".build" : arguments.work;
+  options.jobs = arguments.jobs;
+  options.threads = context.common.threads;
+  options.strict = context.common.strict;
+  options.day = revisionDay("");
+  const auto results = convert::buildLibrary(rows, folder.parent_path(), options, context.progress);
+  if (countOf(results, RowEnd::Failed) == 0) convert::removeWorkFolder(options.work);
+  report(results, library, context);
+  return exitCodeOf(results);
+}
+
+}  // namespace lumen::app

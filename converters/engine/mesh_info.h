@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The facts that `lumen info` gives of a mesh.
+#pragma once
+
+#include <string>
+
+#include "converters/base/progress.h"
+#include "converters/engine/report.h"
+#include "converters/io/mesh/mesh_file.h"
+#include "converters/stages/repair/mesh_report.h"
+
+namespace lumen::app {
+
+struct MeshInfo {
+  convert::MeshFile file;
+  convert::MeshReport report;  ///< in the file's unit
+  std::string unit;            ///< mm, cm, m or um
+  double millimetres = 1;      ///< in one unit of the file
+  std::string unitFrom;        ///< "option", "file" or "guess"
+};
+
+/// `unit` is what the user says, or empty. Warns where the unit is a guess that is not mm.
+MeshInfo describeMesh(convert::MeshFile file, const std::string& name, const std::string& unit,
+                      Progress& progress);
+
+Json meshInfoJson(const MeshInfo& info);
+std::string meshInfoText(const MeshInfo& info);
+
+}  // namespace lumen::app

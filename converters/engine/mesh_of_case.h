@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one place where a case becomes the surface that mesh formats write.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/engine/file_format.h"
+#include "converters/io/mesh/surface_mesh.h"
+#include "converters/stages/surface/closed_surface.h"
+#include "formats/case/case.h"
+
+namespace lumen::app {
+
+struct CaseMesh {
+  /// The surface, and coarser ones behind it, all with the same groups and labels.
+  std::vector<convert::SurfaceMesh> levels;
+  std::optional<convert::SurfaceReport> report;  ///< of a closed surface
+};
+
+/// The surface as the options say; one level unless `hasLevels`. Warns of what the mesh in `file`
+/// lacks.
+CaseMesh meshOfCase(const formats::Case& value, const std::filesystem::path& file,
+                    const OutputOptions& options, bool hasLevels, Progress& progress);
+
+}  // namespace lumen::app

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/prepare_case.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <set>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "converters/base/error.h"
+#include "converters/base/privacy.h"
+#include "converters/base/run_program.h"
+#include "converters/base/sha256.h"
+#include "converters/cli/export_options.h"
+#include "converters/cli/run_lumen.h"
+#include "converters/draw/overlay/picture.h"
+#include "converters/draw/picture/draw_case.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/reachable.h"
+#include "converters/engine/surface_report.h"
+#include "converters/export/shared/target.h"
+#include "converters/io/mesh/write_gltf.h"
+#include "converters/library/change.h"
+#include "converters/library/record_of_case.h"
+#include "converters/stages/surface/closed_surface.h"
+#include "formats/case/case_file.h"
+#include "formats/container/container.h"
+#include "formats/container/printable.h"
+
+namespace lumen::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using convert::IncomingCase, convert::View;
+using formats::printable;
+
+constexpr std::size_t kShortDigest = 12;
+constexpr std::array<int, 2> kThumbnail = {400, 320}, kPicture = {1000, 800}, kFrame = {500, 400};
+
+const std::map<std::string, View>& viewsByName() {
+  static const std::map<std::string, View> views = {
+      {"best", View::Best},        {"anterior", View::Anterior}, {"posterior", View::Posterior},
+      {"left", View::Left},        {"right", View::Right},       {"superior", View::Superior},
+      {"inferior", View::Inferior}};
+  return views;
+}
+
+std::string_view textOf(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// As a name below files/.
+std::string pathOfFile(const std::string& file) {
+  return "files/" + fs::path(file).filename().string();
+}
+
+/// Refuses wishes that do not depend on the case.
+void checkWishes(const CaseWishes& wishes) {
+  std::set<std::string> targets;
+  for (const std::string& target : wishes.targets) {
+    exportTarget(target);
+    if (!targets.insert(target).second)
+      throw Error(ErrorKind::Usage, "--export " + target + ": is given twice");
+  }
+  for (const std::string& file : wishes.files) {
+    requireInput(file, "file");
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+      throw invalidInput(printable(file) + ": is no regular file, and only such come along");
+    if (!convert::isRecordedPath(pathOfFile(file)))
+      throw invalidInput(printable(file) +
+                         ": a library cannot have a file of this name; expected " +
+                         "A to Z, a to z, 0 to 9, ., _, + and -, not beginning with a dot");
+  }
+}
+
+/// What needs models, of a case without.
+void requireModels(const CaseWishes& wishes, const std::string& file) {
+  const auto refuse = [&](const std::string& option) {
+    throw invalidInput(printable(file) + ": this case has no models, so there is nothing for " +
+                       option + "; lumen fit makes them");
+  };
+  for (const std::string& target : wishes.targets)
+    if (exportTarget(target).needsModels) refuse("--export " + target);
+  if (wishes.turntable > 0) refuse("--turntable");
+  if (wishes.viewer) refuse("--viewer");
+}
+
+void warnOfPersons(std::span<const std::byte> bytes, const std::string& file,
+                   const convert::CaseAbout& about, Progress& progress) {
+  const auto warn = [&](const std::string& where, const std::vector<PrivacyFinding>& findings) {
+    for (const PrivacyFinding& finding : findings)
+      progress.warn(printable(where + ": at \"" + finding.pointer + "\": " + finding.message +
+                              " (" + std::string(finding.code) + "); look before giving it away"));
+  };
+  warn(file, scanPrivacy(bytes));
+  for (const auto& [pointer, text] : convert::textsToLookAt(about))
+    warn("what is told of the case", scanText(*text, pointer));
+}
+
+void addPicture(const formats::Case& value, View view, std::optional<double> turn,
+                std::array<int, 2> size, const std::string& path, IncomingCase& incoming,
+                Progress& progress) {
+  convert::PictureOptions options;
+  options.view = view;
+  options.turn = turn.value_or(0);
+  options.allTurns = turn.has_value();
+  options.width = size[0];
+  options.height = size[1];
+  incoming.add(path, "picture",
+               convert::encodePng(convert::drawCase(value, options, nullptr, progress)));
+}
+
+void addPictures(const formats::Case& value, const CaseWishes& wishes, IncomingCase& incoming,
+                 Progress& progress) {
+  if (!wishes.views.empty())
+    addPicture(value, View::Best, {}, kThumbnail, "thumbnail.png", incoming, progress);
+  for (const std::string& view : std::set(wishes.views.begin(), wishes.views.end()))
+    addPicture(value, viewsByName().at(view), {}, kPicture, "picture-" + view + ".png", incoming,
+               progress);
+  for (int frame = 0; frame < wishes.turntable; ++frame) {
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "turntable/%03d.png", frame);
+    addPicture(value, View::Anterior, 2 * std::numbers::pi * frame / wishes.turntable, kFrame,
+               name.data(), incoming, progress);
+  }
+}
+
+void addSurface(const formats::Case& value, IncomingCase& incoming, Progress& progress) {
+  const convert::ClosedSurface made = convert::closedSurface(value, {}, progress);
+  warnOfSurface(made.report, "surface.glb", progress);
+  incoming.add("surface.glb", "surface", convert::encodeGltf(made.levels, true, {}));
+}
+
+void addExport(const std::string& name, const formats::Case& value, const std::string& file,
+               IncomingCase& incoming, Progress& progress) {
+  const convert::ExportTarget& target = exportTarget(name);
+  convert::ExportOptions options;
+  CLI::App defaults;
+  addExportOptions(defaults, options);
+  try {
+    const convert::ExportResult result =
+        convert::exportCase(target, value, options, exportOptionTexts(defaults, target), progress);
+    for (const std::string& loss : result.losses) progress.warn("exports/" + name + ": " + loss);
+    for (const convert::ExportFile& one : result.files)
+      incoming.add("exports/" + name + "/" + one.name, "export", one.bytes, name);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::InvalidInput) throw;
+    throw invalidInput(printable(file) + ": --export " + name + ": " + error.what());
+  }
+}
+
+/// Pages that other commands make of the case, under its id: the name of a file may tell whose it is.
+void addPages(std::string_view caseBytes, const CaseWishes& wishes, IncomingCase& incoming,
+              Progress& progress) {
+  if (!wishes.report && !wishes.viewer) return;
+  const convert::PrivateFolder folder;
+  const fs::path file = folder.path() / (incoming.record.id + ".lumen");
+  writeText(caseBytes, file);
+  if (wishes.report) {
+    const fs::path page = folder.path() / "report.html";
+    runLumen({"report", file.string(), page.string(), "--title", incoming.record.about.title},
+             progress);
+    incoming.addFile("report.html", "report", page);
+  }
+  if (wishes.viewer) {
+    const fs::path page = folder.path() / "view.html";
+    runLumen({"view", file.string(), "--html", page.string()}, progress);
+    incoming.addFile("view.html", "other", page);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& pictureViews() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, view] : viewsByName()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
+                         const CaseWishes& wishes, const fs::path& library, Progress& progress) {
+  const std::string file = caseFile.string();
+  checkWishes(wishes);
+  if (const std::string fault = convert::missingStatement(about); !fault.empty())
+    throw invalidInput(printable(file) + ": " + fault);
+  auto [bytes, value] = readCaseAndBytes(caseFile);
+  if (!formats::hasContainerMagic(bytes)) bytes = formats::encodeBinary(value);
+  const std::string digest = sha256(bytes);
+  const std::string id = wishes.id.empty() ? "case-" + digest.substr(0, kShortDigest) : wishes.id;
+  if (!wishes.replace) convert::requireNewId(convert::openLibrary(library), id);
+  if (!value.models) requireModels(wishes, file);
+  if (about.title.empty()) about.title = about.anatomy.empty() ? "Case " + id : about.anatomy;
+  warnOfPersons(bytes, file, about, progress);
+
+  IncomingCase incoming(library);
+  incoming.record.id = id;
+  incoming.record.about = std::move(about);
+  incoming.add(convert::kCaseFile, "case", textOf(bytes));
+  try {
+    convert::describe(value, digest, incoming.record, progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::InvalidInput) throw;
+    throw invalidInput(printable(file) + ": " + error.what());
+  }
+  if (!wishes.recipe.empty()) incoming.record.provenance["recipe_sha256"] = wishes.recipe;
+  for (const std::string& one : wishes.files) incoming.addFile(pathOfFile(one), "other", one);
+  warnOfClosed(reachOf(value, progress), progress);
+  if (value.models && wishes.surface) addSurface(value, incoming, progress);
+  if (value.models) addPictures(value, wishes, incoming, progress);
+  for (const std::string& target : wishes.targets)
+    addExport(target, value, file, incoming, progress);
+  addPages(textOf(bytes), wishes, incoming, progress);
+  return incoming;
+}
+
+}  // namespace lumen::app

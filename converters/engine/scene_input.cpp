@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/scene_input.h"
+
+#include <fstream>
+#include <system_error>
+
+#include "converters/base/error.h"
+#include "converters/base/text.h"
+#include "converters/io/mesh/sofa_scene.h"
+#include "converters/io/volume/detached_data.h"
+#include "formats/container/printable.h"
+
+namespace lumen::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string wholeText(const fs::path& file, const std::string& name) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  std::string text(error ? 0 : static_cast<std::size_t>(size), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  if (error || !stream.read(text.data(), static_cast<std::streamsize>(text.size())))
+    throw invalidInput(name + ": cannot be read");
+  return text;
+}
+
+}  // namespace
+
+convert::MeshFile readSceneMesh(const fs::path& file, const SceneArguments& arguments) {
+  const std::string name = formats::printable(file.string());
+  const std::vector<convert::SofaLoader> loaders =
+      convert::sofaLoaders(wholeText(file, name), name);
+  const convert::SofaLoader& loader = convert::vesselLoader(loaders, arguments.mesh, name);
+  const fs::path mesh =
+      convert::detachedFiles(file, convert::namesOfList({loader.filename}),
+                             {arguments.allowDetached.begin(), arguments.allowDetached.end()},
+                             "the vessels' mesh is")
+          .front();
+  const bool isObj = lowerCase(loader.component) == "meshobjloader";
+  convert::MeshFile read =
+      convert::readMesh(mesh, isObj ? convert::MeshFormat::Obj : convert::MeshFormat::Stl);
+  for (Eigen::Vector3d& p : read.mesh.position) {
+    p = loader.toScene * p;
+    if (!(p.cwiseAbs().maxCoeff() < 1e12))
+      throw invalidInput(name + ": line " + std::to_string(loader.line) +
+                         ": places the mesh farther away than 1e12");
+  }
+  read.notes.push_back(
+      "the vessels are " + formats::printable(loader.filename) + ", loaded by " +
+      formats::printable(loader.name) + " in " + formats::printable(loader.node) +
+      (loader.isMovedTwice ? ", placed by it and by the MechanicalObject there" : ""));
+  return read;
+}
+
+}  // namespace lumen::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vessels' mesh of a scene of SOFA.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "converters/io/mesh/mesh_file.h"
+
+namespace lumen::app {
+
+/// What a user says of a scene.
+struct SceneArguments {
+  std::string mesh;                        ///< --mesh; empty: the one that the scene shows it is
+  std::vector<std::string> allowDetached;  ///< files and folders besides the scene's own
+};
+
+/// The mesh that `file` loads as its vessels, where the scene places it; its axes are taken as LPS.
+/// Throws Error(InvalidInput) and Error(Unsupported) for what is no scene, does not say which mesh
+/// the vessels are, or takes it from elsewhere than it may; and what the mesh's reader throws.
+convert::MeshFile readSceneMesh(const std::filesystem::path& file, const SceneArguments& arguments);
+
+}  // namespace lumen::app

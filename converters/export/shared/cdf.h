@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of Discregrid (.cdf): distances as cubic polynomials on cells, which Bullet's btSdfCollisionShape loads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "converters/base/progress.h"
+#include "converters/export/shared/distance_grid.h"
+
+namespace lumen::convert {
+
+/// A cell has a node at each corner, and two on each edge, at a third and two thirds. Nodes are in the file's order:
+/// corners, then those of edges along x, y and z, in which x, y and z run fastest, in turn.
+class CdfNodes {
+public:
+  explicit CdfNodes(const std::array<std::size_t, 3>& cells) : m_cells(cells) {}
+  /// Rows of nodes along an axis: 0 the corners, along x; 1, 2 and 3 the edges along x, y and z.
+  struct Family {
+    std::size_t rows = 0, length = 0;
+  };
+  [[nodiscard]] Family family(std::size_t which) const;
+  /// In cells from the first corner.
+  [[nodiscard]] Place place(std::size_t which, std::size_t row, std::size_t index) const;
+  /// The 32 nodes of a cell, in the order of Discregrid's shape functions.
+  [[nodiscard]] std::array<std::uint32_t, 32> ofCell(std::size_t i, std::size_t j,
+                                                     std::size_t k) const;
+
+private:
+  std::array<std::size_t, 3> m_cells;
+};
+
+/// Cells between the lattice's samples; distances positive in the lumen, where Bullet lets bodies move. With a band,
+/// cells without a node in it are left out, and a query there has no answer. `unit`: lengths of the file in
+/// mm, 1 or 1000. Throws Error(Usage) for a lattice whose file Bullet could not load (2^31 bytes), Error(Cancelled).
+std::string encodeCdf(const GridSource& source, const Lattice& lattice, double unit,
+                      Progress& progress);
+
+}  // namespace lumen::convert

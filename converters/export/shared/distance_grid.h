@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The signed distance of a case on regular grids.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/export/shared/vessel_distance.h"
+
+namespace lumen::convert {
+
+/// Where the samples of a grid are, mm, LPS; axes are x, y, z.
+struct Lattice {
+  std::array<int, 3> size{};  ///< samples along x, y, z
+  Place first{};              ///< of the first sample
+  double spacing = 0;         ///< along each axis
+
+  [[nodiscard]] Place last() const;
+  [[nodiscard]] Place at(std::size_t i, std::size_t j, std::size_t k) const;
+  [[nodiscard]] std::size_t count() const;
+};
+
+/// A grid that is held whole has at most as many samples: 256 MB.
+inline constexpr std::size_t kMostGridSamples = std::size_t{1} << 25;
+
+/// A box, mm.
+struct PlaceBox {
+  Place low{}, high{};
+};
+
+/// The spacing that is asked for, mm; for 0 a quarter of the tree's least radius, but at most eight million samples over
+/// the box and `margin`.
+double gridSpacing(double asked, const PlaceBox& box, double margin,
+                   const formats::CenterlineTree& tree);
+
+/// Sentences about vessels that a grid passes over: those with less than two samples across.
+std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTree& tree);
+
+/// Over the box and a margin on each side. Throws Error(Usage) for more than 2^31 samples along an axis.
+Lattice latticeOver(const PlaceBox& box, double margin, double spacing);
+
+/// Those of `whole` that lie in the box with its margin; at least two along each axis.
+Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin);
+
+/// Who answers on a grid, and how far from the wall.
+struct GridSource {
+  const VesselDistance& vessels;
+  const TreeRegion* region = nullptr;  ///< none: all vessels
+  /// Distances are clamped to plus and minus this, mm, and not looked for beyond it.
+  double band = std::numeric_limits<double>::infinity();
+};
+
+/// Place of a sample.
+using RowPlaces = std::function<Place(std::size_t row, std::size_t index)>;
+
+/// `rows` rows of `length` samples near each other, answers[row * length + index], in parallel; the same numbers on any
+/// number of threads. Throws Error(Cancelled).
+std::vector<WallDistance> sampleRows(const GridSource& source, std::size_t rows, std::size_t length,
+                                     const RowPlaces& places, Progress& progress);
+
+/// x fastest.
+struct DistanceGrid {
+  Lattice lattice;
+  std::vector<WallDistance> values;
+};
+
+/// Throws Error(Usage) for more than kMostGridSamples, Error(Cancelled).
+DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progress& progress);
+
+/// The same in layers of constant z, `layers` at a time, each handed to `take` with the index of its first layer.
+using TakeLayers = std::function<void(const DistanceGrid& part, int firstLayer)>;
+void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
+                  const TakeLayers& take, Progress& progress);
+
+/// Says which option makes too much of what.
+[[noreturn]] void refuseSpacing(double spacing, const std::string& what);
+
+}  // namespace lumen::convert

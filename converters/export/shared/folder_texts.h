@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two files that every exported folder has: README.md for people and lumen-export.json for programs.
+#pragma once
+
+#include <string>
+
+#include "converters/export/shared/target.h"
+
+namespace lumen::convert {
+
+/// README.md: title, how to start, files, units and frame, named ends.
+std::string readmeOf(const ExportTarget& target, const ExportFrame& frame,
+                     const ExportResult& result);
+
+/// lumen-export.json, spec/export.md: of all files of `result`. Equal folders give equal bytes.
+std::string manifestOf(const ExportTarget& target, const ExportFrame& frame,
+                       const formats::Case& source, const OptionTexts& options,
+                       const ExportResult& result);
+
+}  // namespace lumen::convert

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// In place of vdb.cpp where lumen is built without OpenVDB.
+#include "converters/base/error.h"
+#include "converters/export/shared/vdb.h"
+
+namespace lumen::convert {
+
+void requireVdb() {
+  throw unsupported(
+      "--format vdb: this lumen was built without OpenVDB (on Debian libopenvdb-dev); it writes "
+      "the other formats");
+}
+
+std::string encodeVdb(const GridSource&, const Lattice&, const VdbOptions&, Progress&) {
+  requireVdb();
+  return {};
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/shared/surface.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "converters/base/error.h"
+
+namespace lumen::convert {
+
+namespace {
+
+ExportedSurface surfaceWith(const ExportInput& input, const ClosedSurfaceOptions& options) {
+  ClosedSurface made = closedSurface(input.source, options, input.progress);
+  ExportedSurface result;
+  result.ends = endsOf(made.levels.front());
+  result.mesh = input.frame.of(std::move(made.levels.front()));
+  for (std::size_t level = 1; level < made.levels.size(); ++level)
+    result.coarser.push_back(input.frame.of(std::move(made.levels[level])));
+  result.report = std::move(made.report);
+  return result;
+}
+
+}  // namespace
+
+ExportedSurface lumenSurface(const ExportInput& input) {
+  ClosedSurfaceOptions options = input.options.surface;
+  options.thickness.reset();
+  return surfaceWith(input, options);
+}
+
+ExportedSurface wallSurface(const ExportInput& input, const Length& usual) {
+  ClosedSurfaceOptions options = input.options.surface;
+  if (!options.thickness) options.thickness = usual;
+  return surfaceWith(input, options);
+}
+
+WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen) {
+  if (input.options.surface.thickness) return {wallSurface(input, usual), ""};
+  // it takes minutes to find that the walls of many touching vessels meet
+  if (!lumen.overlaps.empty())
+    return {std::nullopt, "vessels overlap, so walls around them would meet"};
+  try {
+    return {wallSurface(input, usual), ""};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Failed) throw;
+    return {std::nullopt, error.what()};
+  }
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface of a case as targets put it into their files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converters/export/shared/target.h"
+#include "converters/io/mesh/surface_mesh.h"
+
+namespace lumen::convert {
+
+struct ExportedSurface {
+  SurfaceMesh mesh;                  ///< in the target's frame, closed
+  std::vector<SurfaceMesh> coarser;  ///< levels of detail behind it, where the options ask for some
+  std::vector<NamedEnd> ends;        ///< mm, LPS
+  SurfaceReport report;
+};
+
+/// The lumen's surface, with the options of the input. Throws as closedSurface().
+ExportedSurface lumenSurface(const ExportInput& input);
+
+/// A wall around it as a solid, of the thickness in the options, or, without one, of `usual`. Throws as
+/// closedSurface(): Error(Failed) where it would meet itself.
+ExportedSurface wallSurface(const ExportInput& input, const Length& usual);
+
+struct WallAttempt {
+  std::optional<ExportedSurface> wall;
+  std::string whyNot;  ///< a sentence, if there is none
+};
+
+/// wallSurface(), unless it cannot be made: where vessels overlap, as the report on the lumen's surface says, their
+/// walls meet. With a thickness in the options it throws as wallSurface() instead.
+WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen);
+
+}  // namespace lumen::convert

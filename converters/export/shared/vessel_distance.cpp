@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/shared/vessel_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "blob.h"
+#include "converters/base/error.h"
+#include "formats/case/binary_encode.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+/// A wall lies within the doubled ball of its node: beyond it, a branch is left to the nearest node's answer.
+constexpr double kReach = 2;
+/// As far, in radii, as libblob lets nodes blend along the tree.
+constexpr double kNeighbourhood = 4;
+
+Place centreOf(const formats::CenterlineTree& tree, std::uint32_t node) {
+  const formats::Vec3f& c = tree.centre[node];
+  return {c.x, c.y, c.z};
+}
+
+/// Squared distance from `p` to the box, and to its farthest corner.
+std::pair<double, double> squaredRange(const Place& low, const Place& high, const Place& p) {
+  double near = 0, far = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double below = low[a] - p[a], above = p[a] - high[a];
+    const double out = std::max({below, above, 0.0}), across = std::max(-below, -above);
+    near += out * out;
+    far += across * across;
+  }
+  return {near, far};
+}
+
+std::unique_ptr<blob_model, void (*)(blob_model*)> openModels(const formats::Case& source) {
+  const std::vector<std::byte> file = formats::encodeBinary(source);
+  blob_model* model = nullptr;
+  const blob_status status = blob_model_open_bytes(file.data(), file.size(), nullptr, &model);
+  if (status != BLOB_OK)
+    throw invalidInput(std::string("libblob refuses the models of this case: ") +
+                       blob_status_text(status));
+  return {model, &blob_model_close};
+}
+
+/// Edges of each node: parents, children and links.
+std::vector<std::vector<std::uint32_t>> edgesOf(const formats::CenterlineTree& tree) {
+  std::vector<std::vector<std::uint32_t>> edges(tree.nodeCount());
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    edges[a].push_back(b);
+    edges[b].push_back(a);
+  };
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+    if (tree.parent[n] >= 0) join(n, static_cast<std::uint32_t>(tree.parent[n]));
+  for (const auto& link : tree.links) join(link[0], link[1]);
+  return edges;
+}
+
+}  // namespace
+
+TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch) {
+  const auto edges = edgesOf(tree);
+  std::vector<double> left(tree.nodeCount(), -1);  // of the way that a node may go on, mm
+  std::deque<std::uint32_t> next;
+  const formats::Branch& own = tree.branches[branch];
+  for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
+    left[n] = kNeighbourhood * static_cast<double>(tree.radius[n]);
+    next.push_back(n);
+  }
+  for (; !next.empty(); next.pop_front()) {
+    const std::uint32_t at = next.front();
+    for (const std::uint32_t to : edges[at]) {
+      const Place a = centreOf(tree, at), b = centreOf(tree, to);
+      const double rest = left[at] - std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      if (rest <= left[to] || rest < 0) continue;
+      left[to] = rest;
+      next.push_back(to);
+    }
+  }
+  TreeRegion region;
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+    if (left[n] >= 0) region.push_back(n);
+  return region;
+}
+
+VesselDistance::VesselDistance(const formats::Case& source, bool exact)
+    : m_tree(source.tree),
+      m_model(openModels(source)),
+      m_flags(exact ? BLOB_BLENDED | BLOB_DISTANCE_EXACT : BLOB_BLENDED) {
+  for (const formats::Branch& branch : m_tree.branches) {
+    Box box{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
+    for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n) {
+      const Place c = centreOf(m_tree, n);
+      for (std::size_t a = 0; a < 3; ++a) {
+        box.low[a] = std::min(box.low[a], c[a] - kReach * static_cast<double>(m_tree.radius[n]));
+        box.high[a] = std::max(box.high[a], c[a] + kReach * static_cast<double>(m_tree.radius[n]));
+      }
+    }
+    m_reach.push_back(box);
+  }
+}
+
+double VesselDistance::power(std::uint32_t node, const Place& p) const {
+  const Place c = centreOf(m_tree, node);
+  const double x = p[0] - c[0], y = p[1] - c[1], z = p[2] - c[2];
+  const auto r = static_cast<double>(m_tree.radius[node]);
+  return x * x + y * y + z * z - r * r;
+}
+
+bool VesselDistance::hasNodeNear(std::uint32_t branch, const Box& box, double band) const {
+  const formats::Branch& own = m_tree.branches[branch];
+  for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
+    const double reach = kReach * static_cast<double>(m_tree.radius[n]) + band;
+    if (squaredRange(box.low, box.high, centreOf(m_tree, n)).first <= reach * reach) return true;
+  }
+  return false;
+}
+
+void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors,
+                           WallDistance* answers) const {
+  std::vector<blob_sample> samples(points.size());
+  blob_query_many(m_model.get(), m_flags, points.size(),
+                  reinterpret_cast<const double(*)[3]>(points.data()), cursors, samples.data());
+  std::vector<std::size_t> outside;
+  std::vector<Place> places;
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const blob_sample& sample = samples[i];
+    answers[i] = {static_cast<float>(sample.distance), m_tree.branch[sample.node]};
+    if (sample.distance <= 0 || (m_flags & BLOB_DISTANCE_EXACT)) continue;
+    outside.push_back(i);
+    places.push_back(points[i]);
+    nodes.push_back(sample.node);
+  }
+  samples.resize(outside.size());
+  blob_query_many(m_model.get(), BLOB_BLENDED | BLOB_DISTANCE_EXACT, places.size(),
+                  reinterpret_cast<const double(*)[3]>(places.data()), nodes.data(),
+                  samples.data());
+  for (std::size_t k = 0; k < outside.size(); ++k)
+    answers[outside[k]].distance = static_cast<float>(samples[k].distance);
+}
+
+void VesselDistance::takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
+                              std::vector<std::uint32_t>& cursors,
+                              std::span<WallDistance> answers) const {
+  if (chosen.empty()) return;
+  std::vector<Place> places;
+  for (const std::size_t i : chosen) places.push_back(points[i]);
+  std::vector<WallDistance> found(places.size());
+  query(places, cursors.data(), found.data());
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    if (found[k].distance < answers[chosen[k]].distance) answers[chosen[k]] = found[k];
+}
+
+void VesselDistance::askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box,
+                               std::span<WallDistance> answers) const {
+  TreeRegion near;
+  const formats::Branch& own = m_tree.branches[branch];
+  for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
+    const double reach = kReach * static_cast<double>(m_tree.radius[n]);
+    if (squaredRange(box.low, box.high, centreOf(m_tree, n)).first < reach * reach)
+      near.push_back(n);
+  }
+  std::vector<std::size_t> chosen;
+  std::vector<std::uint32_t> cursors;
+  for (std::size_t i = 0; !near.empty() && i < points.size(); ++i) {
+    if (answers[i].branch == branch) continue;
+    const std::uint32_t node =
+        *std::min_element(near.begin(), near.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return power(a, points[i]) < power(b, points[i]);
+        });
+    const auto r = static_cast<double>(m_tree.radius[node]);
+    if (power(node, points[i]) >= (kReach * kReach - 1) * r * r) continue;
+    chosen.push_back(i);
+    cursors.push_back(node);
+  }
+  takeLess(points, chosen, cursors, answers);
+}
+
+namespace {
+
+template <class Box>
+Box boxOf(std::span<const Place> points) {
+  Box box{points.front(), points.front()};
+  for (const Place& p : points)
+    for (std::size_t a = 0; a < 3; ++a) {
+      box.low[a] = std::min(box.low[a], p[a]);
+      box.high[a] = std::max(box.high[a], p[a]);
+    }
+  return box;
+}
+
+}  // namespace
+
+void VesselDistance::ofAll(std::span<const Place> points, double band,
+                           std::span<WallDistance> answers) const {
+  if (points.empty()) return;
+  const Box box = boxOf<Box>(points);
+  bool isNear = false;
+  std::vector<std::uint32_t> branches;
+  for (std::uint32_t b = 0; b < m_reach.size(); ++b) {
+    double gap = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      gap = std::max({gap, m_reach[b].low[a] - box.high[a], box.low[a] - m_reach[b].high[a]});
+    isNear = isNear || (gap <= band && hasNodeNear(b, box, band));
+    if (gap <= 0) branches.push_back(b);
+  }
+  if (!isNear) {
+    std::fill(answers.begin(), answers.end(), WallDistance{static_cast<float>(band), 0});
+    return;
+  }
+  query(points, nullptr, answers.data());
+  for (const std::uint32_t b : branches) askBranch(b, points, box, answers);
+}
+
+void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Place> points, double band,
+                              std::span<WallDistance> answers) const {
+  if (points.empty()) return;
+  const Box box = boxOf<Box>(points);
+  bool isNear = false;
+  double least = kInfinite;  // no node of least power has more, anywhere in the box
+  std::vector<double> lowest;
+  for (const std::uint32_t n : region) {
+    const auto [near, far] = squaredRange(box.low, box.high, centreOf(m_tree, n));
+    const auto r = static_cast<double>(m_tree.radius[n]);
+    isNear = isNear || std::sqrt(near) <= kReach * r + band;
+    least = std::min(least, far - r * r);
+    lowest.push_back(near - r * r);
+  }
+  if (!isNear) {
+    std::fill(answers.begin(), answers.end(), WallDistance{static_cast<float>(band), 0});
+    return;
+  }
+  TreeRegion candidates;
+  for (std::size_t k = 0; k < region.size(); ++k)
+    if (lowest[k] <= least) candidates.push_back(region[k]);
+  std::vector<std::uint32_t> cursors;
+  for (const Place& p : points)
+    cursors.push_back(*std::min_element(
+        candidates.begin(), candidates.end(),
+        [&](std::uint32_t a, std::uint32_t b) { return power(a, p) < power(b, p); }));
+  query(points, cursors.data(), answers.data());
+}
+
+}  // namespace lumen::convert

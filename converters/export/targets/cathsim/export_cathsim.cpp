@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/targets/cathsim/export_cathsim.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "blob.h"
+#include "converters/base/error.h"
+#include "converters/export/shared/surface.h"
+#include "converters/export/shared/tree_losses.h"
+#include "converters/export/targets/cathsim/wall_prisms.h"
+#include "converters/export/targets/mujoco/mujoco_text.h"
+#include "formats/case/binary_encode.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr const char* kFolder = "phantom_assets/meshes/vessel/";
+
+/// The surface with so few triangles that each can be a geom: off by a twentieth of the middle one of the radii.
+ExportedSurface coarseSurface(const ExportInput& input) {
+  constexpr double kShare = 0.05;
+  std::vector<float> radii = input.source.tree.radius;
+  std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
+                   radii.end());
+  ExportOptions options = input.options;
+  if (options.surface.maxError == 0) options.surface.maxError = kShare * radii[radii.size() / 2];
+  return lumenSurface({input.source, options, input.frame, input.progress});
+}
+
+/// Each triangle becomes a file and a geom: more than this no one loads.
+void requireFew(const SurfaceMesh& coarse) {
+  constexpr std::size_t kMostHulls = 20000;
+  if (coarse.triangle.size() > kMostHulls)
+    throw invalidInput("the wall would be " + std::to_string(coarse.triangle.size()) +
+                       " convex pieces, expected are at most " + std::to_string(kMostHulls) +
+                       "; a greater --max-error makes fewer");
+}
+
+struct CloseModel {
+  void operator()(blob_model* model) const { blob_model_close(model); }
+};
+
+std::vector<SurfaceMesh> hullsOf(const ExportInput& input, const SurfaceMesh& mesh) {
+  constexpr double kHeight = 0.5;         // radii: a wire sinks in by much less
+  constexpr double kLeastVolume = 2e-15;  // m^3: MuJoCo refuses meshes of less than half of it
+  const auto bytes = formats::encodeBinary(input.source);
+  blob_model* opened = nullptr;
+  const blob_status status = blob_model_open_bytes(bytes.data(), bytes.size(), nullptr, &opened);
+  if (status != BLOB_OK)
+    throw invalidInput(std::string("libblob cannot take the models of this case: ") +
+                       blob_status_text(status));
+  const std::unique_ptr<blob_model, CloseModel> model(opened);
+  const Eigen::Matrix3d back = input.frame.rotation().transpose() / input.frame.scale();
+  return wallPrisms(mesh, kHeight, kLeastVolume, [&](const Float3& point) {
+    const Eigen::Vector3d lps = back * Eigen::Vector3d(point[0], point[1], point[2]);
+    std::uint32_t cursor = BLOB_NOWHERE;
+    blob_sample sample;
+    blob_query(model.get(), BLOB_BLENDED, lps.data(), &cursor, &sample);
+    return (sample.state & BLOB_INSIDE) != 0;
+  });
+}
+
+std::string phantomText(const ExportFrame& frame, std::size_t hulls,
+                        const std::vector<NamedEnd>& ends) {
+  std::string text =
+      "<!-- Vessels of a case as a phantom of CathSim; metres; LPS. Made by lumen " LUMEN_VERSION
+      ". -->\n<mujoco model=\"phantom\">\n  <compiler meshdir=\"meshes\"/>\n  <asset>\n"
+      "    <mesh name=\"visual\" file=\"vessel/visual.stl\"/>\n";
+  const auto nameOf = [](std::size_t k) { return "hull_" + std::to_string(k); };
+  for (std::size_t k = 0; k < hulls; ++k)
+    text += "    <mesh name=\"" + nameOf(k) + "\" file=\"vessel/" + nameOf(k) + ".stl\"/>\n";
+  text +=
+      "  </asset>\n  <worldbody>\n    <body name=\"phantom\">\n"
+      "      <geom name=\"visual\" type=\"mesh\" mesh=\"visual\" contype=\"0\" "
+      "conaffinity=\"0\"/>\n";
+  for (std::size_t k = 0; k < hulls; ++k)
+    text += "      <geom name=\"" + nameOf(k) + "\" type=\"mesh\" mesh=\"" + nameOf(k) + "\"/>\n";
+  for (const NamedEnd& end : ends) text += "      " + endSite(frame, end);
+  return text + "    </body>\n  </worldbody>\n</mujoco>\n";
+}
+
+std::string startOf(std::size_t hulls) {
+  return "Copy what is in `phantom_assets` into CathSim's folder `phantom_assets` and ask for the "
+         "phantom by\n"
+         "`phantom_xml=\"vessel.xml\"`. To give it another name, rename `vessel.xml` and "
+         "`meshes/vessel`, and the\n"
+         "files' names in the former. Lengths are in metres: the scale of the phantom in CathSim's "
+         "configuration is 1.\n\n"
+         "The wall is " +
+         std::to_string(hulls) +
+         " convex pieces: a prism outwards from each triangle of\n"
+         "`simplified.stl` but its flat ends, which stay open. Neighbours share their sides, and "
+         "none reaches into a\n"
+         "lumen. There is a target site at each end.\n";
+}
+
+}  // namespace
+
+ExportResult exportCathsim(const ExportInput& input) {
+  ExportedSurface coarse = coarseSurface(input);
+  requireFew(coarse.mesh);
+  const ExportedSurface fine = lumenSurface(input);
+  const std::vector<SurfaceMesh> hulls = hullsOf(input, coarse.mesh);
+  ExportResult result;
+  result.ends = plainlyNamed(std::move(coarse.ends));
+  result.files = {{"phantom_assets/vessel.xml", phantomText(input.frame, hulls.size(), result.ends),
+                   "the phantom: one body, the geom `visual` without contacts, hulls, sites", ""},
+                  {std::string(kFolder) + "visual.stl", stlInMetres(fine.mesh), "the surface", ""},
+                  {std::string(kFolder) + "simplified.stl", stlInMetres(coarse.mesh),
+                   "with fewer triangles", ""}};
+  for (std::size_t k = 0; k < hulls.size(); ++k)
+    result.files.push_back(
+        {kFolder + ("hull_" + std::to_string(k)) + ".stl", stlInMetres(hulls[k]), "", ""});
+  result.others.push_back({std::string(kFolder) + "hull_*.stl", "the wall's convex pieces"});
+  result.start = startOf(hulls.size());
+  result.losses = treeLosses(input.source.tree);
+  result.surface = std::move(coarse.report);
+  return result;
+}
+
+}  // namespace lumen::convert

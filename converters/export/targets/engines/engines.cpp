@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conventions: Godot 3 and 4, "Node type customization using name suffixes"; Unity, "Importing LOD meshes"; glTF's
+// extension MSFT_lod; Unreal, "Simple versus complex collision".
+#include "converters/export/targets/engines/engines.h"
+
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/export/shared/surface.h"
+#include "converters/io/mesh/write_gltf.h"
+
+namespace lumen::convert {
+
+namespace {
+
+// twice what an artery has: the thinner a wall, the finer its triangles must be
+constexpr Length kWall = {0, 0.4};  // radii
+constexpr int kLevels = 3;          // of detail, each with a quarter of the triangles
+
+struct Convention {
+  std::vector<std::string> nodes;  ///< of the levels of detail
+  bool lod = false;                ///< by MSFT_lod
+  std::string start;               ///< README.md: how to load it
+};
+
+std::array<double, 3> tripleOf(const Eigen::Vector3d& v) {
+  return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};
+}
+
+ExportResult exportScene(const ExportInput& input, const Convention& convention) {
+  ExportOptions options = input.options;
+  options.surface.levels = static_cast<int>(convention.nodes.size());
+  const ExportInput leveled{input.source, options, input.frame, input.progress};
+  ExportedSurface surface = lumenSurface(leveled);
+  WallAttempt attempt = tryWall(leveled, kWall, surface.report);
+  if (attempt.wall) surface = std::move(*attempt.wall);
+  std::vector<SurfaceMesh> levels = {std::move(surface.mesh)};
+  std::move(surface.coarser.begin(), surface.coarser.end(), std::back_inserter(levels));
+  GltfScene scene{convention.nodes, convention.lod, {}};
+  for (const NamedEnd& end : surface.ends)
+    scene.places.push_back({end.name, tripleOf(input.frame.position(end.position)),
+                            tripleOf(input.frame.direction(end.direction))});
+  ExportResult result;
+  result.files.push_back(
+      {"vessels.glb", encodeGlbScene(levels, scene),
+       attempt.wall ? "the wall of the vessels as a solid; a node at each end, its z axis out of it"
+                    : "the surface of the lumen; a node at each end, its z axis out of it",
+       ""});
+  if (!attempt.wall)
+    result.losses.push_back("the surface of the lumen takes the place of a wall: " +
+                            attempt.whyNot);
+  result.start = convention.start;
+  result.ends = std::move(surface.ends);
+  result.surface = std::move(surface.report);
+  return result;
+}
+
+std::vector<std::string> levelNames() {
+  std::vector<std::string> names;
+  for (int level = 0; level < kLevels; ++level)
+    names.push_back("vessel_LOD" + std::to_string(level));
+  return names;
+}
+
+}  // namespace
+
+ExportResult exportGodot(const ExportInput& input) {
+  return exportScene(input, {{"vessel-col"},
+                             false,
+                             "Copy `vessels.glb` into a project: its importer reads the suffix "
+                             "`-col` and makes a `StaticBody` with a "
+                             "collider\nof the triangles below `vessel`. Godot 4 makes levels of "
+                             "detail by itself; vessels of 1 mm "
+                             "want a physics scale of their own.\n"});
+}
+
+ExportResult exportUnity(const ExportInput& input) {
+  return exportScene(input, {levelNames(), true,
+                             "Copy `vessels.glb` into `Assets` of a project that has a glTF "
+                             "package: UnityGLTF reads `MSFT_lod`; with "
+                             "others, put\n`vessel_LOD0` to `_LOD2` under a LOD Group. Add a Mesh "
+                             "Collider to `vessel_LOD0`, not "
+                             "convex, which would close the lumen.\n"});
+}
+
+ExportResult exportUnreal(const ExportInput& input) {
+  return exportScene(
+      input,
+      {levelNames(), true,
+       "Import `vessels.glb` by Interchange, which makes centimetres of glTF's metres by itself "
+       "(for an importer "
+       "that does not,\nexport again with `--unit cm`). In the static mesh set Collision "
+       "Complexity to Use "
+       "Complex Collision As Simple: `UCX_` hulls\nare convex and would close the lumen.\n"});
+}
+
+ExportResult exportBlender(const ExportInput& input) {
+  return exportScene(
+      input,
+      {{"vessel"},
+       false,
+       "File, Import, glTF 2.0: `vessels.glb`. The importer turns it to z up, and 1 unit is 1 m: "
+       "the ends become empties\nwith their names. For sculpting set the scene's unit scale to "
+       "0.001.\n"});
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/targets/grid/grid.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "converters/base/error.h"
+#include "converters/export/shared/cdf.h"
+#include "converters/export/shared/distance_grid.h"
+#include "converters/export/shared/meta_image.h"
+#include "converters/export/shared/paths.h"
+#include "converters/export/shared/vdb.h"
+#include "converters/io/mesh/plain_names.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/stages/surface/closed_surface.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kBorder = 1,
+                 kBorderSamples = 3;  // mm, and samples, that a grid goes on behind the wall
+constexpr double kVdbBand = 3;        // samples, as OpenVDB's own level sets have
+constexpr std::size_t kMostBranches = 65535;  // that numbers of 16 bits tell apart
+
+const char* const kDistances = "distances to the wall, negative in the lumen";
+const char* const kBranches = "in which branch's lumen a sample is: the numbers of branches.json";
+
+/// One of the grids of a folder.
+struct GridPlan {
+  std::string stem;   ///< of its files: empty, or "NAME."
+  TreeRegion region;  ///< empty: all vessels
+  Lattice lattice;
+};
+
+bool wants(const GridOptions& options, GridFormat format) {
+  return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
+}
+
+void requireSound(const ExportInput& input) {
+  const GridOptions& options = input.options.grid;
+  const bool isOfMm = wants(options, GridFormat::Nrrd) || wants(options, GridFormat::Nifti) ||
+                      wants(options, GridFormat::Mhd);
+  if (input.frame.unit != LengthUnit::Millimetre && isOfMm)
+    throw Error(ErrorKind::Usage,
+                "--unit m: readers of nrrd, nifti and mhd take their lengths for mm; --format vdb "
+                "or cdf can be in m");
+  if (options.half && !wants(options, GridFormat::Vdb))
+    throw Error(ErrorKind::Usage, "--half: only --format vdb holds distances of 16 bits");
+  if (input.source.tree.branches.size() > kMostBranches)
+    throw unsupported("a grid tells 65535 branches apart, and this case has " +
+                      std::to_string(input.source.tree.branches.size()));
+  if (wants(options, GridFormat::Vdb)) requireVdb();
+}
+
+void extend(PlaceBox& box, const Float3& p) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    box.low[a] = std::min(box.low[a], static_cast<double>(p[a]));
+    box.high[a] = std::max(box.high[a], static_cast<double>(p[a]));
+  }
+}
+
+PlaceBox emptyBox() {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  return {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
+}
+
+/// Around the walls of the vessels of a region.
+PlaceBox boxOfRegion(const SurfaceMesh& wall, const TreeRegion& region) {
+  PlaceBox box = emptyBox();
+  for (std::size_t v = 0; v < wall.position.size(); ++v)
+    if (std::binary_search(region.begin(), region.end(), wall.node[v]))
+      extend(box, wall.position[v]);
+  return box;
+}
+
+PlaceBox boxOf(const SurfaceMesh& wall) {
+  PlaceBox box = emptyBox();
+  for (const Float3& p : wall.position) extend(box, p);
+  return box;
+}
+
+std::vector<GridPlan> plansOf(const ExportInput& input) {
+  const GridOptions& options = input.options.grid;
+  const formats::CenterlineTree& tree = input.source.tree;
+  const SurfaceMesh wall = quickSurface(input.source, input.progress);
+  if (wall.position.empty())
+    throw invalidInput("the models of this case have no wall, so there is no distance to it");
+  const PlaceBox box = boxOf(wall);
+  const double spacing = gridSpacing(options.spacing, box, kBorder, tree);
+  const double border = (options.band ? *options.band : kBorder) + kBorderSamples * spacing;
+  const Lattice whole = latticeOver(box, border, spacing);
+  if (!options.perBranch) return {{"", {}, whole}};
+  std::vector<std::string> labels;
+  for (const formats::Branch& branch : tree.branches) labels.push_back(branch.label);
+  const std::vector<std::string> words = distinct(labels, fileWord);
+  std::vector<GridPlan> plans;
+  for (std::uint32_t b = 0; b < tree.branches.size(); ++b) {
+    TreeRegion region = regionOfBranch(tree, b);
+    const PlaceBox own = boxOfRegion(wall, region);
+    if (own.low[0] > own.high[0]) continue;  // it has no wall of its own
+    plans.push_back({words[b] + ".", std::move(region), partOf(whole, own, border)});
+  }
+  return plans;
+}
+
+/// Which number of a branch grid is which branch.
+VolumeNotes notesOf(const formats::CenterlineTree& tree) {
+  VolumeNotes notes = {{"lumen.distance", "mm, negative in the lumen"}};
+  for (std::size_t b = 0; b < tree.branches.size(); ++b)
+    notes["lumen.branch." + std::to_string(b + 1)] = formats::printable(tree.branches[b].label);
+  return notes;
+}
+
+VolumeGeometry geometryOf(const Lattice& lattice) {
+  VolumeGeometry geometry;
+  geometry.size = lattice.size;
+  geometry.spacing.setConstant(lattice.spacing);
+  geometry.origin = {lattice.first[0], lattice.first[1], lattice.first[2]};
+  return geometry;
+}
+
+std::vector<std::uint16_t> branchesOf(const DistanceGrid& grid) {
+  std::vector<std::uint16_t> branches;
+  branches.reserve(grid.values.size());
+  for (const WallDistance& value : grid.values)
+    branches.push_back(static_cast<std::uint16_t>(value.distance < 0 ? value.branch + 1 : 0));
+  return branches;
+}
+
+/// The files of one grid.
+class GridFiles {
+public:
+  GridFiles(const ExportInput& input, const VesselDistance& vessels, const GridPlan& plan)
+      : m_input(input), m_options(input.options.grid), m_plan(plan), m_source{vessels} {
+    if (!plan.region.empty()) m_source.region = &plan.region;
+    if (m_options.band) m_source.band = *m_options.band;
+  }
+
+  std::vector<ExportFile> make() {
+    addVolumes();
+    const double unit = 1 / m_input.frame.scale();
+    if (wants(m_options, GridFormat::Vdb)) {
+      GridSource source = m_source;
+      if (!m_options.band) source.band = kVdbBand * m_plan.lattice.spacing;
+      add("distance.vdb",
+          encodeVdb(source, m_plan.lattice, {.unit = unit, .half = m_options.half},
+                    m_input.progress),
+          "a level set \"distance\", and numbers \"branch\"");
+    }
+    if (wants(m_options, GridFormat::Cdf))
+      add("distance.cdf", encodeCdf(m_source, m_plan.lattice, unit, m_input.progress),
+          "distances, positive in the lumen, for Bullet's btSdfCollisionShape");
+    return std::move(m_files);
+  }
+
+private:
+  void add(const std::string& name, std::string bytes, const std::string& about) {
+    m_files.push_back({m_plan.stem + name, std::move(bytes), m_plan.stem.empty() ? about : "", ""});
+  }
+
+  void addVolumes() {
+    const bool asNrrd = wants(m_options, GridFormat::Nrrd),
+               asNifti = wants(m_options, GridFormat::Nifti),
+               asMhd = wants(m_options, GridFormat::Mhd);
+    if (!asNrrd && !asNifti && !asMhd) return;
+    const DistanceGrid grid = sampleGrid(m_source, m_plan.lattice, m_input.progress);
+    if (asMhd) addMhd(grid);
+    Volume volume{geometryOf(grid.lattice), std::vector<float>()};
+    auto& distances = std::get<std::vector<float>>(volume.voxels);
+    for (const WallDistance& value : grid.values) distances.push_back(value.distance);
+    addVolume(volume, "distance", kDistances);
+    volume.voxels = branchesOf(grid);
+    addVolume(volume, "branch", kBranches);
+  }
+
+  void addVolume(const Volume& volume, const std::string& name, const std::string& about) {
+    if (wants(m_options, GridFormat::Nrrd))
+      add(name + ".nrrd",
+          encodeVolume(volume, VolumeFormat::Nrrd, true, notesOf(m_input.source.tree)), about);
+    if (wants(m_options, GridFormat::Nifti))
+      add(name + ".nii.gz", encodeVolume(volume, VolumeFormat::Nifti, true), about);
+  }
+
+  void addMhd(const DistanceGrid& grid) {
+    const auto addPair = [&](const std::string& name, const std::string& type, std::string bytes,
+                             const std::string& about) {
+      const std::string raw = m_plan.stem + name + ".raw";
+      add(name + ".mhd", metaImageHeader(grid.lattice, type, raw), about + "; in `" + raw + "`");
+      add(name + ".raw", std::move(bytes), "");
+    };
+    const std::vector<std::uint16_t> branches = branchesOf(grid);
+    addPair("distance", "MET_FLOAT", distancesOf<float>(grid, 1), kDistances);
+    addPair("branch", "MET_USHORT",
+            {reinterpret_cast<const char*>(branches.data()), 2 * branches.size()}, kBranches);
+  }
+
+  const ExportInput& m_input;
+  const GridOptions& m_options;
+  const GridPlan& m_plan;
+  GridSource m_source;
+  std::vector<ExportFile> m_files;
+};
+
+std::string branchTable(const formats::CenterlineTree& tree) {
+  Json list = Json::array();
+  for (std::size_t b = 0; b < tree.branches.size(); ++b)
+    list.push_back(
+        {{"value", b + 1},
+         {"label", tree.branches[b].label},
+         {"kind", tree.branches[b].kind == formats::BranchKind::Aneurysm ? "aneurysm" : "vessel"}});
+  return Json{{"branches", std::move(list)}}.dump(2, ' ', false, Json::error_handler_t::replace) +
+         "\n";
+}
+
+std::string startOf(const GridOptions& options) {
+  std::string text =
+      "Distances are in the folder's unit and **negative in the lumen**, but for `.cdf`, where "
+      "they are positive, as\nBullet wants them where bodies may move. A sample's branch is that "
+      "whose wall is the nearest.\n";
+  text += options.perBranch
+              ? "\nEach branch has a grid of its own, `NAME.distance.*`, that answers for it and "
+                "its neighbourhood along the\ntree. Other vessels are not in it, however near they "
+                "are: change the grid where a tool changes the branch.\n"
+              : "\nVessels that touch are one lumen in one grid, as it cannot know which of them a "
+                "tool is in.\n`lumen export grid --per-branch` keeps them apart.\n";
+  return text;
+}
+
+}  // namespace
+
+ExportResult exportGrid(const ExportInput& input) {
+  requireSound(input);
+  const VesselDistance vessels(input.source, input.options.grid.exact);
+  ExportResult result;
+  const std::vector<GridPlan> plans = plansOf(input);
+  for (const GridPlan& plan : plans)
+    for (ExportFile& file : GridFiles(input, vessels, plan).make())
+      result.files.push_back(std::move(file));
+  if (input.options.grid.perBranch)
+    result.others.push_back({"NAME.distance.*, NAME.branch.*",
+                             "of each branch: distances, and in which branch a sample is"});
+  result.files.push_back(
+      {"branches.json", branchTable(input.source.tree), "which number is which branch", ""});
+  result.losses = gridLosses(plans.front().lattice.spacing, input.source.tree);
+  result.ends = endsOf(input.source.tree);
+  result.start = startOf(input.options.grid);
+  return result;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case as grids of signed distances, in formats of others.
+#pragma once
+
+#include "converters/export/shared/target.h"
+
+namespace lumen::convert {
+
+/// distance.* in each format, negative in the lumen but in .cdf; branch.*, 1 and the index of the branch whose lumen a
+/// sample is in, elsewhere 0; branches.json, which number is which branch. With GridOptions::perBranch such files for
+/// each branch, as NAME.distance.*: they answer for that branch and its neighbourhood along the tree, whatever touches
+/// it; their samples are some of the one grid's. Throws Error(Usage) for too many samples and for options that do not go
+/// together, Error(Unsupported) for what a format cannot hold, Error(Cancelled).
+ExportResult exportGrid(const ExportInput& input);
+
+}  // namespace lumen::convert

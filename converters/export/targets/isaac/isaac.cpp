@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/targets/isaac/isaac.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "converters/export/shared/distance_grid.h"
+#include "converters/export/shared/npy.h"
+#include "converters/export/shared/surface.h"
+#include "converters/export/targets/isaac/usd.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kBorder = 5;  // mm of tissue around the vessels
+/// A wall as thick as arteries have it, about a tenth of their diameter.
+constexpr Length kWall{.mm = 0, .radii = 0.2};
+
+/// What the synthetic volume holds: muscle has 35 to 55 HU, arteries in CT angiography 250 HU and more.
+constexpr double kTissueHu = 40, kLumenHu = 350;
+
+/// The workflow's own map of HU to attenuation (its HuToMuMapping): linear, -1000 HU is 0, 3000 HU is 0.02 / mm.
+double attenuationOf(double hu) {
+  return 0.02 * (hu + 1000) / 4000;
+}
+
+const char* const kSource =
+    "synthetic, made by lumen from a model of the vessels: soft tissue of 40 HU, lumen of 350 HU, "
+    "mu = 0.02 / mm * (HU + 1000) / 4000";
+
+DistanceGrid gridOf(const ExportInput& input, const SurfaceMesh& wall) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  PlaceBox box{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
+  for (const Float3& p : wall.position)
+    for (std::size_t a = 0; a < 3; ++a) {
+      box.low[a] = std::min(box.low[a], static_cast<double>(p[a]));
+      box.high[a] = std::max(box.high[a], static_cast<double>(p[a]));
+    }
+  const double spacing = gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
+  const VesselDistance vessels(input.source);
+  // farther than a voxel from the wall, a voxel is all tissue or all lumen
+  return sampleGrid({vessels, nullptr, 2 * spacing}, latticeOver(box, kBorder, spacing),
+                    input.progress);
+}
+
+std::vector<std::size_t> shapeOf(const Lattice& lattice) {
+  return {static_cast<std::size_t>(lattice.size[2]), static_cast<std::size_t>(lattice.size[1]),
+          static_cast<std::size_t>(lattice.size[0])};
+}
+
+std::string metadataOf(const Lattice& lattice) {
+  const double h = lattice.spacing;
+  return Json{{"shape_zyx", shapeOf(lattice)},
+              {"spacing_zyx_mm", {h, h, h}},
+              {"origin_xyz_mm", lattice.first},
+              {"hu_range", {kTissueHu, kLumenHu}},
+              {"mu_range", {attenuationOf(kTissueHu), attenuationOf(kLumenHu)}},
+              {"source", kSource}}
+             .dump(2) +
+         "\n";
+}
+
+/// A voxel that the wall cuts has a share of both, as in an image.
+std::string attenuationsOf(const DistanceGrid& grid) {
+  std::vector<float> mu;
+  mu.reserve(grid.values.size());
+  for (const WallDistance& value : grid.values) {
+    const double depth = static_cast<double>(value.distance) / grid.lattice.spacing;
+    const double share = std::clamp(0.5 - depth, 0.0, 1.0);
+    mu.push_back(static_cast<float>(attenuationOf(kTissueHu + share * (kLumenHu - kTissueHu))));
+  }
+  return encodeNpy(mu, shapeOf(grid.lattice));
+}
+
+std::string maskOf(const DistanceGrid& grid) {
+  std::vector<std::uint8_t> mask;
+  mask.reserve(grid.values.size());
+  for (const WallDistance& value : grid.values) mask.push_back(value.distance < 0 ? 1 : 0);
+  return encodeNpy(mask, shapeOf(grid.lattice));
+}
+
+void addCache(ExportResult& result, const ExportInput& input, const DistanceGrid& grid) {
+  const formats::CenterlineTree& tree = input.source.tree;
+  const std::size_t nodes = tree.nodeCount();
+  std::vector<float> points;
+  std::vector<std::int64_t> edges;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    for (const float x : {tree.centre[n].x, tree.centre[n].y, tree.centre[n].z})
+      points.push_back(x);
+    if (tree.parent[n] >= 0) {
+      edges.push_back(tree.parent[n]);
+      edges.push_back(static_cast<std::int64_t>(n));
+    }
+  }
+  for (const auto& link : tree.links) edges.insert(edges.end(), {link[0], link[1]});
+  const auto add = [&](const char* name, std::string bytes, const char* about) {
+    result.files.push_back({name, std::move(bytes), about, "mm"});
+  };
+  add("metadata.json", metadataOf(grid.lattice), "the cache's grid, mm, LPS");
+  add("mu_volume.npy", attenuationsOf(grid),
+      "**synthetic** attenuation, 1/mm: f32, in the order z, y, x");
+  add("vessel_mask.npy", maskOf(grid), "1 in the lumen: u8, in the order z, y, x");
+  add("centerline_points_mm.npy", encodeNpy(points, {nodes, 3}),
+      "f32, x, y, z of each node, mm, LPS; the first is the root");
+  add("centerline_edges.npy", encodeNpy(edges, {edges.size() / 2, 2}),
+      "i64, nodes that are joined, from the root on");
+  add("centerline_radii_mm.npy", encodeNpy(tree.radius, {nodes}), "f32, of each node, mm");
+}
+
+/// The wall as a solid, or, where that cannot be, the lumen's surface.
+ExportedSurface wallOf(const ExportInput& input, ExportResult& result) {
+  ExportedSurface lumen = lumenSurface(input);
+  WallAttempt attempt = tryWall(input, kWall, lumen.report);
+  if (attempt.wall) return std::move(*attempt.wall);
+  result.losses.push_back("the wall in vessel.usda is the lumen's surface, without a thickness: " +
+                          attempt.whyNot);
+  return lumen;
+}
+
+const char* const kStart =
+    "Metadata and arrays are the cache that the catheter navigation of NVIDIA's "
+    "isaac-for-healthcare makes from a CT;\ngive it this folder as its CT cache. They are always "
+    "in mm and LPS. The attenuation is **synthetic**: soft tissue\nof 40 HU around a lumen of 350 "
+    "HU, by the workflow's own map of HU to attenuation; there are no bones.\n\n`vessel.usda` is a "
+    "stage for Isaac Sim and others that read USD: `/vessel/wall` is a collider (UsdPhysics,\n"
+    "approximation \"none\": its triangles as they are; PhysX may cook it as a distance field), "
+    "`/vessel/centerline` the\nbranches as curves as wide as the vessels, and `/vessel/ends` has a "
+    "frame at each end, its z axis out of the vessel.\n";
+
+}  // namespace
+
+ExportResult exportIsaac(const ExportInput& input) {
+  ExportResult result;
+  ExportedSurface wall = wallOf(input, result);
+  const SurfaceMesh shape = quickSurface(input.source, input.progress);
+  const DistanceGrid grid = gridOf(input, shape);
+  addCache(result, input, grid);
+  result.files.push_back({"vessel.usda",
+                          encodeUsda(wall.mesh, input.source.tree, wall.ends, input.frame),
+                          "USD: wall with physics schemas, centerline, ends", ""});
+  for (std::string& loss : gridLosses(grid.lattice.spacing, input.source.tree))
+    result.losses.push_back(std::move(loss));
+  result.start = kStart;
+  result.ends = std::move(wall.ends);
+  result.surface = std::move(wall.report);
+  return result;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/targets/mujoco/wall_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr std::size_t kFewest = 64;
+
+struct Corner {
+  Eigen::Vector3d position;
+  double radius = 0;
+};
+
+using Facet = std::array<Corner, 3>;
+using Facets = std::vector<Facet>;
+
+Facets facetsOf(const SurfaceMesh& mesh) {
+  Facets facets(mesh.triangle.size());
+  for (std::size_t t = 0; t < facets.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = mesh.triangle[t][c];
+      const Float3& p = mesh.position[v];
+      facets[t][c] = {{p[0], p[1], p[2]}, mesh.radius[v]};
+    }
+  return facets;
+}
+
+/// Where the plane x[axis] = at cuts the edge; the same for both orders of its ends.
+Corner cut(const Corner& a, const Corner& b, int axis, double at) {
+  const bool ordered = a.position[axis] < b.position[axis];
+  const Corner& low = ordered ? a : b;
+  const Corner& high = ordered ? b : a;
+  const double s = (at - low.position[axis]) / (high.position[axis] - low.position[axis]);
+  Corner made{low.position + s * (high.position - low.position),
+              low.radius + s * (high.radius - low.radius)};
+  made.position[axis] = at;
+  return made;
+}
+
+/// What of a facet lies on the side of the plane that `sign` says.
+void keepSide(const Facet& facet, int axis, double at, double sign, Facets& kept) {
+  std::vector<Corner> corners;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Corner& from = facet[c];
+    const Corner& to = facet[(c + 1) % 3];
+    const double a = sign * (from.position[axis] - at), b = sign * (to.position[axis] - at);
+    if (a >= 0) corners.push_back(from);
+    if ((a > 0 && b < 0) || (a < 0 && b > 0)) corners.push_back(cut(from, to, axis, at));
+  }
+  for (std::size_t c = 2; c < corners.size(); ++c) {
+    const Eigen::Vector3d& o = corners[0].position;
+    const Eigen::Vector3d area = (corners[c - 1].position - o).cross(corners[c].position - o);
+    if (area.norm() > 0) kept.push_back({corners[0], corners[c - 1], corners[c]});
+  }
+}
+
+/// How much wall runs along a plane beside it: area, times the share of its normal that is across, squared twice.
+double wallAlong(const Facets& facets, int axis, double at) {
+  double sum = 0;
+  for (const Facet& facet : facets) {
+    const Eigen::Vector3d& o = facet[0].position;
+    constexpr double kBeside = 0.5;  // of a radius
+    if (std::abs(o[axis] - at) > kBeside * facet[0].radius) continue;
+    const Eigen::Vector3d area = (facet[1].position - o).cross(facet[2].position - o);
+    if (area.norm() > 0) sum += area.norm() * std::pow(area[axis] / area.norm(), 4);
+  }
+  return sum;
+}
+
+struct Cut {
+  int axis = 0;
+  double at = 0;
+};
+
+/// Across the longest side, in its middle third.
+Cut bestCut(const Facets& facets, const Eigen::AlignedBox3d& box) {
+  Cut best;
+  box.sizes().maxCoeff(&best.axis);
+  constexpr int kTried = 17;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kTried; ++k) {
+    const double share = (1 + k / (kTried - 1.0)) / 3;
+    const double at = box.min()[best.axis] + share * box.sizes()[best.axis];
+    const double along = wallAlong(facets, best.axis, at);
+    if (along < least) {
+      least = along;
+      best.at = at;
+    }
+  }
+  return best;
+}
+
+void split(Facets facets, std::size_t cells, double share, std::vector<Facets>& pieces) {
+  Eigen::AlignedBox3d box;
+  double radius = std::numeric_limits<double>::infinity();
+  for (const Facet& facet : facets)
+    for (const Corner& corner : facet) {
+      box.extend(corner.position);
+      radius = std::min(radius, corner.radius);
+    }
+  const bool fits = box.sizes().maxCoeff() <= static_cast<double>(cells) * share * radius;
+  if (fits || facets.size() <= kFewest) {
+    if (!facets.empty()) pieces.push_back(std::move(facets));
+    return;
+  }
+  const Cut plane = bestCut(facets, box);
+  for (const double sign : {-1.0, 1.0}) {
+    Facets side;
+    for (const Facet& facet : facets) keepSide(facet, plane.axis, plane.at, sign, side);
+    split(std::move(side), cells, share, pieces);
+  }
+}
+
+SurfaceMesh meshOf(const Facets& facets) {
+  SurfaceMesh mesh;
+  mesh.groups = {{"wall", FaceKind::Wall}};
+  std::map<Float3, std::uint32_t> known;
+  for (const Facet& facet : facets) {
+    Triangle triangle{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Eigen::Vector3f p = facet[c].position.cast<float>();
+      const Float3 key = {p[0], p[1], p[2]};
+      const auto [place, isNew] =
+          known.emplace(key, static_cast<std::uint32_t>(mesh.position.size()));
+      if (isNew) {
+        mesh.position.push_back(key);
+        mesh.normal.push_back({0, 0, 0});
+        mesh.radius.push_back(static_cast<float>(facet[c].radius));
+        mesh.branch.push_back(0);
+      }
+      triangle[c] = place->second;
+    }
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+      continue;
+    mesh.triangle.push_back(triangle);
+    mesh.group.push_back(0);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<SurfaceMesh> piecesOf(const SurfaceMesh& mesh, std::size_t cells, double share) {
+  std::vector<Facets> pieces;
+  split(facetsOf(mesh), cells, share, pieces);
+  if (pieces.size() == 1) return {mesh};
+  std::vector<SurfaceMesh> meshes;
+  for (const Facets& piece : pieces) meshes.push_back(meshOf(piece));
+  return meshes;
+}
+
+}  // namespace lumen::convert

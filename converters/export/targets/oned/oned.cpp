@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/targets/oned/oned.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/base/number_text.h"
+#include "converters/export/shared/blood.h"
+#include "converters/export/targets/oned/oned_network.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kCm = 100, kCm2 = 1e4, kCm3 = 1e6;  // of SI
+constexpr double kDyn = 10;                          // dyn/cm^2 of Pa
+constexpr double kCgsResistance = 1e-5;              // dyn s/cm^5 of Pa s/m^3
+
+template <class... Words>
+std::string line(const Words&... words) {
+  std::string text;
+  ((text += (text.empty() ? "" : " ") + std::string(words)), ...);
+  return text + "\n";
+}
+
+std::string jointCards(const OneDNetwork& network) {
+  std::string text;
+  for (std::size_t node = 0; node < network.nodes.size(); ++node) {
+    std::string in, out;
+    std::size_t ins = 0, outs = 0;
+    for (std::size_t v = 0; v < network.vessels.size(); ++v) {
+      if (network.vessels[v].to == node) in += " " + std::to_string(v), ++ins;
+      if (network.vessels[v].from == node) out += " " + std::to_string(v), ++outs;
+    }
+    if (ins == 0 || outs == 0) continue;
+    const std::string n = std::to_string(node);
+    text += line("JOINT", "JOINT" + n, n, "IN" + n, "OUT" + n) + "JOINTINLET IN" + n + " " +
+            std::to_string(ins) + in + "\nJOINTOUTLET OUT" + n + " " + std::to_string(outs) + out +
+            "\n";
+  }
+  return text;
+}
+
+std::string segmentCards(const OneDNetwork& network) {
+  std::string text, tables;
+  for (std::size_t v = 0; v < network.vessels.size(); ++v) {
+    const OneDVessel& vessel = network.vessels[v];
+    const std::string id = std::to_string(v);
+    const auto area = [](double r) { return numberText(kCm2 * kPi * r * r); };
+    const bool isOutlet = vessel.resistance > 0;
+    text += line("SEGMENT", vessel.name, id, numberText(kCm * vessel.length),
+                 std::to_string(vessel.cells()), std::to_string(vessel.from),
+                 std::to_string(vessel.to), area(vessel.inRadius), area(vessel.outRadius),
+                 "0.0 MAT1 NONE 0.0 0 0", isOutlet ? "RESISTANCE R" + id : "NOBOUND NONE");
+    if (isOutlet)
+      tables += "DATATABLE R" + id + " LIST\n0.0 " +
+                numberText(kCgsResistance * vessel.resistance) + "\nENDDATATABLE\n";
+  }
+  return text + "\n" + tables;
+}
+
+/// For svOneDSolver, cgs.
+std::string inputCards(const OneDNetwork& network, const std::string& name) {
+  std::string text = "# cm, g, s, dyn; patient coordinates, LPS\nMODEL " + name + "_\n\n";
+  for (std::size_t n = 0; n < network.nodes.size(); ++n) {
+    const Eigen::Vector3d p = 0.1 * network.nodes[n];
+    text +=
+        line("NODE", std::to_string(n), numberText(p.x()), numberText(p.y()), numberText(p.z()));
+  }
+  const std::string flow = numberText(kCm3 * network.flow);
+  text += "\n" + jointCards(network) + "\n" + segmentCards(network) +
+          "DATATABLE INFLOW LIST\n0.0 " + flow + "\n1.0 " + flow + "\nENDDATATABLE\n\n";
+  // the parabola of a Poiseuille flow has the exponent 2; radii are those at the mean pressure
+  text += line("MATERIAL MAT1 OLUFSEN", numberText(blood::kDensity / 1e3),
+               numberText(10 * blood::kViscosity), numberText(kDyn * blood::kMeanPressure), "2.0",
+               numberText(kDyn * blood::kStiffness1), numberText(blood::kStiffness2 / kCm),
+               numberText(kDyn * blood::kStiffness3));
+  // steps of 1 ms for 2 s, each fiftieth kept; Gauss points, tolerance, conservative form, stabilised
+  return text + "\nSOLVEROPTIONS 0.001 50 2000 2 INFLOW FLOW 1.0e-6 1 1\n\nOUTPUT TEXT\n";
+}
+
+/// The end of a vessel of openBF: what a wave meets, the rest of the resistance, and a compliance.
+std::string windkessel(const OneDVessel& vessel, double stiffness) {
+  const double r = vessel.outRadius, area = kPi * r * r;
+  // c^2 = (A / rho) dp/dA at the mean pressure, of the wall that blood.h states
+  const double speed = std::sqrt(stiffness / (1.5 * blood::kDensity));
+  constexpr double kMostShare = 0.5;  // of the whole, should a wave meet more than that
+  const double first = std::min(blood::kDensity * speed / area, kMostShare * vessel.resistance);
+  const double second = vessel.resistance - first;
+  return "    R1: " + numberText(first) + "\n    R2: " + numberText(second) +
+         "\n    Cc: " + numberText(blood::kDecay / second) + "\n";
+}
+
+/// For openBF v2, SI.
+std::string yaml(const OneDNetwork& network, const std::string& name) {
+  std::string text =
+      "# SI units\nproject_name: " + name + "\ninlet_file: " + name +
+      "_inlet.dat\nwrite_results: [P, Q]\n\nblood:\n  rho: " + numberText(blood::kDensity) +
+      "\n  mu: " + numberText(blood::kViscosity) +
+      "\n\nsolver:\n  Ccfl: 0.9\n  cycles: 100\n  jump: 100\n  convergence_tolerance: 1.0\n\n"
+      "network:\n";
+  for (const OneDVessel& vessel : network.vessels) {
+    const double mean = vessel.meanRadius(), stiffness = blood::stiffness(mean);
+    text += "  - label: \"" + vessel.name + "\"\n    sn: " + std::to_string(vessel.from + 1) +
+            "\n    tn: " + std::to_string(vessel.to + 1) + "\n    L: " + numberText(vessel.length) +
+            "\n    M: " + std::to_string(vessel.cells()) +
+            "\n    Rp: " + numberText(vessel.inRadius) +
+            "\n    Rd: " + numberText(vessel.outRadius) +
+            "\n    h0: " + numberText(blood::kThickness * mean) +
+            "\n    E: " + numberText(stiffness / blood::kThickness) +
+            "\n    Pext: " + numberText(blood::kMeanPressure) + "\n";
+    if (vessel.resistance > 0) text += windkessel(vessel, stiffness);
+  }
+  return text;
+}
+
+const char* const kStart =
+    "    OneDSolver vessels.in                                        # svOneDSolver: cm, g, s, "
+    "dyn\n"
+    "    julia -e 'using openBF; openBF.run_simulation(\"vessels.yml\")'   # openBF v2: SI\n\n"
+    "Both have the same vessels between the same nodes: node 0 of the one is node 1 of the other. "
+    "A vessel is a cone with the "
+    "ratio\nof its ends' radii and with the resistance of all its radii. Where more than three "
+    "vessels meet, stubs of one radius lie between\n"
+    "them; a vessel shorter than its radius is as long as that.\n\n"
+    "| stated | | source |\n|---|---|---|\n"
+    "| blood | 1060 kg/m^3, 4 mPa s, Newtonian | defaults of SimVascular's solvers |\n"
+    "| E h / r | 2e7 exp(-22.53 r) + 8.65e5 dyn/cm^2, r in cm; for openBF h is 0.1 r | Olufsen, Am "
+    "J Physiol 276, 1999 |\n"
+    "| radii | are those at 100 mmHg | |\n"
+    "| inlet | a steady 20 cm/s over the section | in the range of arteries; put your own flow "
+    "here |\n"
+    "| outlets | resistances that split the flow by r^3, at 100 mmHg | Murray, PNAS 12, 1926 |\n"
+    "| openBF's outlets | R1 of a wave, R2 the rest, Cc = 1.5 s / R2 | Westerhof, Lankhaar, "
+    "Westerhof, Med Biol Eng Comput 47, "
+    "2009 |\n";
+
+void addTree(ExportResult& result, const OneDNetwork& network, const std::string& name) {
+  const std::string flow = numberText(network.flow);
+  result.files.push_back(
+      {name + ".in", inputCards(network, name), "for svOneDSolver, in cgs", "cm"});
+  result.files.push_back({name + ".yml", yaml(network, name), "for openBF v2, in SI", "m"});
+  result.files.push_back({name + "_inlet.dat", "0.0 " + flow + "\n1.0 " + flow + "\n",
+                          "the flow into it: s, m^3/s", "m"});
+}
+
+}  // namespace
+
+ExportResult exportOneD(const ExportInput& input) {
+  const FlowNetwork network = flowNetwork(input.source.tree);
+  ExportResult result;
+  result.start = kStart;
+  std::size_t stubs = 0, lengthened = 0;
+  for (std::uint32_t t = 0; t < network.trees.size(); ++t) {
+    const OneDNetwork tree = oneDNetwork(network, t);
+    stubs += tree.stubs;
+    lengthened += tree.lengthened;
+    addTree(result, tree, t == 0 ? "vessels" : "vessels" + std::to_string(t + 1));
+  }
+  result.ends = endsOf(network);
+  result.losses = network.messages;
+  if (lengthened > 0)
+    result.losses.push_back("segments that are shorter than their radius are as long as it here: " +
+                            std::to_string(lengthened));
+  result.remarks = {summaryOf(network),
+                    "stubs where more than three vessels meet: " + std::to_string(stubs)};
+  return result;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/targets/print/print.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/base/number_text.h"
+#include "converters/export/shared/surface.h"
+#include "converters/export/targets/print/three_mf.h"
+#include "converters/geometry/triangle_tree.h"
+#include "converters/io/mesh/write_plain.h"
+
+namespace lumen::convert {
+
+namespace {
+
+constexpr Length kWall = {1, 0};  // mm: what printers of resin and powder hold without support
+constexpr double kLeastPrintable =
+    .6;  // mm: below it walls of resin tear (makers' guides say 0.4 to 0.8)
+
+struct Thinnest {
+  double thickness = 0;  ///< mm
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+};
+
+/// The least distance of a vertex of the lumen's side from the outer one. The mesh is a wall of closedSurface():
+/// group 0 is the lumen's side, group 1 the outer one.
+Thinnest thinnestOf(const SurfaceMesh& mesh) {
+  TriangleMesh outer;
+  for (const Float3& p : mesh.position) outer.position.emplace_back(p[0], p[1], p[2]);
+  std::vector<char> isInner(mesh.position.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
+    if (mesh.group[t] == 1) outer.triangle.push_back(mesh.triangle[t]);
+    if (mesh.group[t] == 0)
+      for (const std::uint32_t v : mesh.triangle[t]) isInner[v] = 1;
+  }
+  const TriangleTree tree(outer);
+  Thinnest least{std::numeric_limits<double>::infinity(), {}};
+  for (std::size_t v = 0; v < isInner.size(); ++v) {
+    if (isInner[v] == 0) continue;
+    const double distance = tree.nearest(outer.position[v], least.thickness).distance;
+    if (distance < least.thickness) least = {distance, outer.position[v]};
+  }
+  return least;
+}
+
+std::string thicknessText(const Thinnest& least) {
+  return "the wall is thinnest, " + fixedText(least.thickness, 2) + " mm, at (" +
+         fixedText(least.place.x(), 2) + ", " + fixedText(least.place.y(), 2) + ", " +
+         fixedText(least.place.z(), 2) + ") mm";
+}
+
+void addSolid(ExportResult& result, const std::string& name, const SurfaceMesh& mesh,
+              const std::string& about) {
+  result.files.push_back({name + ".3mf", encode3mf(mesh, name), about, ""});
+  result.files.push_back({name + ".stl", encodeStl(mesh, false), "the same", ""});
+}
+
+const char* const kStart =
+    "Open a `.3mf` in the program of the printer; it says that it is in mm, which a `.stl` cannot. "
+    "`wall` is a tube "
+    "around the\nlumen, open at the ends; `core` is the lumen itself as a solid, for casting "
+    "around it. Nothing is "
+    "scaled or turned.\n";
+
+}  // namespace
+
+ExportResult exportPrint(const ExportInput& input) {
+  ExportResult result;
+  ExportedSurface core = lumenSurface(input);
+  addSolid(result, "core", core.mesh, "the lumen as a solid");
+  result.start = kStart;
+  result.ends = std::move(core.ends);
+  WallAttempt attempt = tryWall(input, kWall, core.report);
+  if (!attempt.wall) {
+    result.losses.push_back("there is no wall.3mf and no wall.stl: " + attempt.whyNot);
+    result.surface = std::move(core.report);
+    return result;
+  }
+  const Thinnest least = thinnestOf(attempt.wall->mesh);
+  addSolid(result, "wall", attempt.wall->mesh, "a wall around the lumen as a solid");
+  result.remarks.push_back(thicknessText(least));
+  result.start += "\nChecked: " + thicknessText(least) + ".\n";
+  if (least.thickness < kLeastPrintable)
+    result.losses.push_back(thicknessText(least) + ", less than the " +
+                            fixedText(kLeastPrintable, 2) +
+                            " mm that most printers hold; a greater --thickness may help");
+  result.surface = std::move(attempt.wall->report);
+  return result;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case as solids for 3D printers.
+#pragma once
+
+#include "converters/export/shared/target.h"
+
+namespace lumen::convert {
+
+/// wall.stl and wall.3mf, a solid wall around the lumen that is open at the ends, and core.stl and core.3mf, the lumen
+/// as a solid; mm. README.md says the least thickness of the wall and where it is. Where no wall can be made
+/// the core alone, which is a loss that is told. Throws as lumenSurface() and tryWall().
+ExportResult exportPrint(const ExportInput& input);
+
+}  // namespace lumen::convert

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/targets/sofa/export_sofa.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "converters/base/number_text.h"
+#include "converters/base/text.h"
+#include "converters/export/shared/distance_grid.h"
+#include "converters/export/shared/meta_image.h"
+#include "converters/export/shared/surface.h"
+#include "converters/io/mesh/write_plain.h"
+#include "formats/case/binary_encode.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+namespace {
+
+double insertedRadius(InstrumentKind kind) {
+  double greatest = 0;
+  for (const Instrument& one : instrumentsOf(kind, 100, 1))
+    greatest = std::max(greatest, one.radius());
+  return greatest;
+}
+
+SceneInput inputOf(const formats::Case& source, const SofaOptions& options) {
+  // a coil is as long as it is; others are pushed to the end of the way, and end behind it
+  constexpr double kBehind = 20, kLeast = 80, kCurlShare = 1.6;
+  SceneInput input;
+  input.insertion =
+      insertionOf(source.tree, options.insert, clearanceFor(insertedRadius(options.instrument)));
+  input.branch = source.tree.branches[input.insertion.branch].label;
+  input.instruments =
+      instrumentsOf(options.instrument, std::max(kLeast, input.insertion.way + kBehind),
+                    kCurlShare * input.insertion.radius);
+  if (options.instrument == InstrumentKind::Coil)
+    input.insertion.way = input.instruments.front().length();
+  // a grid is touched at the ends of beams only, and edges of the wall pass between those; a coil, whose beams are
+  // short and soft, is pressed through with shorter ones (tests/sofa/results.md)
+  constexpr double kBeamsOnGrid = 2;
+  if (options.wall == WallKind::Grid && options.instrument != InstrumentKind::Coil)
+    for (Instrument& instrument : input.instruments)
+      for (RodSection& section : instrument.sections) section.beamLength /= kBeamsOnGrid;
+  return input;
+}
+
+void setBox(SceneInput& input, const SurfaceMesh& mesh) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    input.low[a] = std::numeric_limits<double>::infinity();
+    input.high[a] = -input.low[a];
+    for (const Float3& p : mesh.position) {
+      input.low[a] = std::min<double>(input.low[a], p[a]);
+      input.high[a] = std::max<double>(input.high[a], p[a]);
+    }
+  }
+}
+
+std::string startOf(const SceneInput& input, const SofaOptions& options) {
+  const bool isImplicit = options.wall == WallKind::Implicit;
+  const std::string steps = std::to_string(stepsOf(input, options));
+  std::string text;
+  for (const std::string& line : aboutScene(input, options)) text += line + "\n";
+  text += "\nStart it without a window, where the files are:\n\n    runSofa";
+  text += isImplicit ? " -l libLumenSofa.so" : "";
+  text += " -g batch -n " + steps + " scene.scn\n\n";
+  text +=
+      "or with one by `runSofa scene.scn`, or `runSofa -l SofaPython3 scene.py`, which is the same "
+      "scene for\nSofaPython3. It needs the plugin BeamAdapter";
+  text += isImplicit ? ", and LumenSofa, which is built from converters/export/sofa_plugin of lumen"
+                     : "";
+  text += options.wall == WallKind::Grid ? ", SofaDistanceGrid and SofaImplicitField" : "";
+  text += ".\n\n";
+  text += options.dialect == SofaDialect::V23_06 ? "Written for SOFA v23.06.\n"
+                                                 : "Written for SOFA v25.06.\n";
+  return text;
+}
+
+void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
+  constexpr double kBorder = 1,
+                   kBorderSamples = 3;  // mm: contacts look for the wall so far from it
+  const PlaceBox box{scene.low, scene.high};
+  const double spacing = gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
+  const Lattice lattice = latticeOver(box, kBorder + kBorderSamples * spacing, spacing);
+  const VesselDistance vessels(input.source);
+  const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);
+  scene.grid = {lattice.size, lattice.first, lattice.last()};
+  result.losses = gridLosses(spacing, input.source.tree);
+  result.files.push_back({"wall.raw", distancesOf<double>(grid, -1),
+                          "distances to the wall, mm, positive in the lumen, doubles, x fastest",
+                          ""});
+  result.files.push_back({"distance.mhd", metaImageHeader(lattice, "MET_FLOAT", "distance.raw"),
+                          "the same in floats, in `distance.raw`, for a DiscreteGridField", ""});
+  result.files.push_back({"distance.raw", distancesOf<float>(grid, -1), "", ""});
+}
+
+void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOptions& options) {
+  const SceneItem scene = makeScene(input, options);
+  const auto about = aboutScene(input, options);
+  result.files.push_back(
+      {"scene.scn", printXml(scene, about), "the scene; data that have units say them", ""});
+  result.files.push_back({"scene.py", printPython(scene, about), "the same for SofaPython3", ""});
+  result.others.push_back(
+      {"positions.txt", "written by a run: points along the instruments, each tenth step"});
+}
+
+std::string insertedText(const SceneInput& input, const SofaOptions& options) {
+  const Eigen::Vector3d& p = input.insertion.position;
+  return "inserted in " + formats::printable(input.branch) + " at (" + fixedText(p.x(), 2) + ", " +
+         fixedText(p.y(), 2) + ", " + fixedText(p.z(), 2) + ") mm, " +
+         std::to_string(stepsOf(input, options)) + " steps";
+}
+
+}  // namespace
+
+ExportResult exportSofa(const ExportInput& input) {
+  const SofaOptions& options = input.options.sofa;
+  ExportResult result;
+  SceneInput scene = inputOf(input.source, options);
+  ExportedSurface made = lumenSurface(input);
+  setBox(scene, made.mesh);
+  const std::vector<std::byte> bytes = formats::encodeBinary(input.source);
+  if (options.wall == WallKind::Grid) addGridFiles(result, scene, input);
+  addSceneFiles(result, scene, options);
+  result.files.push_back({"vessel.obj", encodeObj(made.mesh),
+                          "the surface of the vessels, closed, normals outwards", ""});
+  result.files.push_back({"case.lumen",
+                          {reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                          "the case: its tree, radii, names and models",
+                          ""});
+  result.start = startOf(scene, options);
+  result.remarks.push_back(insertedText(scene, options));
+  result.ends = std::move(made.ends);
+  result.surface = std::move(made.report);
+  return result;
+}
+
+}  // namespace lumen::convert

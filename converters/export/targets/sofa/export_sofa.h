@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case as a folder that SOFA runs: scene.scn, scene.py, vessel.obj, case.lumen.
+#pragma once
+
+#include "converters/export/shared/target.h"
+
+namespace lumen::convert {
+
+/// The files, in mm and LPS. Throws as insertionOf() and lumenSurface().
+ExportResult exportSofa(const ExportInput& input);
+
+}  // namespace lumen::convert

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene of SOFA: instruments of BeamAdapter that are pushed into the vessels of a case.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "converters/export/shared/insertion.h"
+#include "converters/export/targets/sofa/instrument.h"
+#include "converters/export/targets/sofa/scene_tree.h"
+
+namespace lumen::convert {
+
+enum class WallKind {
+  Mesh,      ///< triangles, stock SOFA
+  Implicit,  ///< the case itself, by the plugin LumenSofa
+  Grid       ///< distances on a grid, by the plugins SofaDistanceGrid and SofaImplicitField
+};
+enum class SofaDialect { Current, V23_06 };
+
+struct SofaOptions {
+  InstrumentKind instrument = InstrumentKind::Guidewire;
+  WallKind wall = WallKind::Mesh;
+  SofaDialect dialect = SofaDialect::Current;
+  double step = 0.1;     ///< mm that an instrument advances in a time step
+  std::string insert{};  ///< label of a branch; empty: the root
+};
+
+/// A grid of samples that a scene refers to.
+struct SceneGrid {
+  std::array<int, 3> size{};
+  std::array<double, 3> first{}, last{};  ///< mm, LPS: the positions of its corner samples
+};
+
+/// What a scene is made for.
+struct SceneInput {
+  Insertion insertion;
+  std::string branch;  ///< its label
+  std::vector<Instrument> instruments;
+  std::array<double, 3> low{}, high{};  ///< corners of a box around the vessels, mm, LPS
+  SceneGrid grid;                       ///< of WallKind::Grid
+};
+
+/// Distance from the wall, mm, that the insertion of instruments of such a radius needs.
+double clearanceFor(double radius);
+
+/// How many time steps the insertion takes.
+int stepsOf(const SceneInput& input, const SofaOptions& options);
+
+SceneItem makeScene(const SceneInput& input, const SofaOptions& options);
+
+/// What stands at the head of each file of the scene: frame, units, how to start.
+std::vector<std::string> aboutScene(const SceneInput& input, const SofaOptions& options);
+
+}  // namespace lumen::convert

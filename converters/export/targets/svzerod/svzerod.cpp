@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/export/targets/svzerod/svzerod.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "converters/export/shared/blood.h"
+#include "converters/export/shared/network.h"
+#include "converters/io/mesh/plain_names.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMetres = 1e-3, kCentimetres = 0.1;  // of a millimetre
+constexpr double kCgsFlow = 1e6;                      // cm^3/s of m^3/s
+constexpr double kCgsResistance = 1e-5;               // dyn s/cm^5 of Pa s/m^3
+constexpr double kCgsInertance = 1e-5;                // dyn s^2/cm^5 of Pa s^2/m^3
+constexpr double kCgsCompliance = 1e5;                // cm^5/dyn of m^3/Pa
+
+// Seconds until what walls take up is settled; the last one is answered.
+constexpr int kCycles = 10;
+
+/// Where an end lies, cm, LPS: the solver passes over names that begin with "_".
+Json placeJson(const FlowNetwork& network, std::uint32_t joint) {
+  const Eigen::Vector3d p = kCentimetres * network.joints[joint].place;
+  return Json::array({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0});
+}
+
+/// "branch2_seg0", by which SimVascular's tools find a vessel's parts again.
+std::vector<std::string> vesselNames(const FlowNetwork& network) {
+  std::map<std::uint32_t, int> parts;
+  std::vector<std::string> names;
+  for (const FlowSegment& segment : network.segments)
+    names.push_back("branch" + std::to_string(segment.branch) + "_seg" +
+                    std::to_string(parts[segment.branch]++));
+  return names;
+}
+
+/// Names of joints, of ends as OpenFOAM takes them.
+std::vector<std::string> jointNames(const FlowNetwork& network) {
+  std::vector<std::string> names;
+  for (const FlowJoint& joint : network.joints) names.push_back(joint.name);
+  return distinct(names, openFoamWord);
+}
+
+Json vesselJson(const FlowNetwork& network, std::size_t s, const std::string& name,
+                const std::vector<std::string>& joints) {
+  const FlowSegment& segment = network.segments[s];
+  const Lumped values = lumped(segment);
+  Json vessel = {{"vessel_id", s},
+                 {"vessel_name", name},
+                 {"vessel_length", kCentimetres * segment.length()},
+                 {"zero_d_element_type", "BloodVessel"},
+                 {"zero_d_element_values",
+                  {{"R_poiseuille", kCgsResistance * values.resistance},
+                   {"C", kCgsCompliance * values.compliance},
+                   {"L", kCgsInertance * values.inertance},
+                   {"stenosis_coefficient", 0.0}}},
+                 {"_label", segment.name}};
+  Json ends = Json::object();
+  if (network.joints[segment.from].kind == JointKind::Inlet) ends["inlet"] = joints[segment.from];
+  if (network.joints[segment.to].kind == JointKind::Outlet) ends["outlet"] = joints[segment.to];
+  if (!ends.empty()) vessel["boundary_conditions"] = std::move(ends);
+  return vessel;
+}
+
+Json conditionsJson(const FlowNetwork& network, const std::vector<std::string>& names) {
+  Json list = Json::array();
+  for (const FlowTree& tree : network.trees) {
+    for (const std::uint32_t inlet : tree.inlets) {
+      const double flow = kCgsFlow * blood::meanFlow(kMetres * endRadius(network, inlet));
+      list.push_back({{"bc_name", names[inlet]},
+                      {"bc_type", "FLOW"},
+                      {"bc_values", {{"Q", {flow, flow}}, {"t", {0.0, 1.0}}}},
+                      {"_place", placeJson(network, inlet)}});
+    }
+    const std::vector<double> resistances = outletResistances(network, tree);
+    for (std::size_t k = 0; k < resistances.size(); ++k)
+      list.push_back({{"bc_name", names[tree.outlets[k]]},
+                      {"bc_type", "RESISTANCE"},
+                      {"bc_values", {{"R", kCgsResistance * resistances[k]}, {"Pd", 0.0}}},
+                      {"_place", placeJson(network, tree.outlets[k])}});
+  }
+  return list;
+}
+
+Json modelOf(const FlowNetwork& network) {
+  const std::vector<std::string> joints = jointNames(network), vessels = vesselNames(network);
+  Json junctions = Json::array(), list = Json::array();
+  for (std::size_t j = 0; j < network.joints.size(); ++j) {
+    const FlowJoint& joint = network.joints[j];
+    if (joint.kind != JointKind::Junction) continue;
+    junctions.push_back({{"junction_name", joints[j]},
+                         {"junction_type", "NORMAL_JUNCTION"},
+                         {"inlet_vessels", joint.in},
+                         {"outlet_vessels", joint.out}});
+  }
+  for (std::size_t s = 0; s < network.segments.size(); ++s)
+    list.push_back(vesselJson(network, s, vessels[s], joints));
+  return {{"description",
+           {{"units", "cm, g, s, dyn"},
+            {"density", 1e-3 * blood::kDensity},
+            {"viscosity", 10 * blood::kViscosity},
+            {"mean_velocity", 100 * blood::kMeanVelocity},
+            {"mean_pressure", 10 * blood::kMeanPressure}}},
+          {"simulation_parameters",
+           {{"number_of_cardiac_cycles", kCycles}, {"number_of_time_pts_per_cardiac_cycle", 101}}},
+          {"boundary_conditions", conditionsJson(network, joints)},
+          {"vessels", std::move(list)},
+          {"junctions", std::move(junctions)}};
+}
+
+const char* const kStart =
+    "    svzerodsolver model.json output.csv\n\n"
+    "`output.csv` has flow (cm^3/s) and pressure (dyn/cm^2) at both ends of each vessel. Units are "
+    "cgs: cm, g, s, dyn. "
+    "`_label`\nof a vessel is that of its branch in the case, with a number behind it from its "
+    "second part on.\n\n"
+    "| stated | | source |\n|---|---|---|\n"
+    "| blood | 1060 kg/m^3, 4 mPa s, Newtonian | defaults of SimVascular's solvers |\n"
+    "| R | 8 mu / (pi r^4), integrated along the radii | Poiseuille |\n"
+    "| L | rho / (pi r^2), likewise | Formaggia, Lamponi, Quarteroni, J Eng Math 47, 2003 |\n"
+    "| C | 3 pi r^3 / (2 E h), likewise, of a thin elastic wall | the same |\n"
+    "| E h / r | 2e7 exp(-22.53 r) + 8.65e5 dyn/cm^2, r in cm | Olufsen, Am J Physiol 276, 1999 |\n"
+    "| inlets | a steady 20 cm/s over the section | in the range of arteries; put your own flow "
+    "here |\n"
+    "| outlets | resistances that split the flow by r^3, at 100 mmHg | Murray, PNAS 12, 1926 |\n";
+
+}  // namespace
+
+ExportResult exportSvZeroD(const ExportInput& input) {
+  const FlowNetwork network = flowNetwork(input.source.tree);
+  ExportResult result;
+  result.start = kStart;
+  result.files = {{"model.json",
+                   modelOf(network).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                   "vessels, junctions, inlets and outlets", ""}};
+  result.ends = endsOf(network);
+  result.losses = network.messages;
+  result.remarks = {summaryOf(network)};
+  return result;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Questions to a triangle mesh: where a ray meets it, what is nearest to a point, what lies inside.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/geometry/triangle_mesh.h"
+
+namespace lumen::convert {
+
+/// Where a ray meets a mesh; lengths in the mesh's unit.
+struct RayHit {
+  double distance = 0;  ///< from the ray's origin
+  std::uint32_t triangle = 0;
+  bool leaves = false;  ///< it comes from behind the triangle, out of what the mesh encloses
+};
+
+struct NearestPoint {
+  double distance = std::numeric_limits<double>::infinity();
+  std::uint32_t triangle = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+/// The point of the triangle a, b, c that is nearest to `p`.
+Eigen::Vector3d nearestPointOf(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                               const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+/// A tree of boxes around the triangles of a mesh, in doubles and in one fixed order: the same bits
+/// on every machine, which single-precision kernels that follow the instruction set do not promise.
+/// Never changed after construction: any number of threads may ask.
+class TriangleTree {
+public:
+  /// `mesh` has at least one triangle and must stay.
+  explicit TriangleTree(const TriangleMesh& mesh);
+
+  /// The first triangle that the ray meets at `least` or farther; `direction` is a unit vector. Of
+  /// several in one place, that of the lowest index.
+  [[nodiscard]] std::optional<RayHit> firstHit(const Eigen::Vector3d& origin,
+                                               const Eigen::Vector3d& direction,
+                                               double least = 0) const;
+  /// Whether the straight way between two points meets no triangle.
+  [[nodiscard]] bool isFree(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  /// The nearest point of the mesh within `reach`; its distance is infinite if there is none.
+  [[nodiscard]] NearestPoint nearest(const Eigen::Vector3d& point,
+                                     double reach = std::numeric_limits<double>::infinity()) const;
+  /// Calls visit(triangle, its nearest point, squared distance) for the triangles whose boxes are
+  /// within the square root of `most`, which `visit` may lower, of the point: near ones first.
+  template <class Visit>
+  void visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit) const;
+  /// Whether a closed mesh goes round the point: as most of three rays say, each by the number of
+  /// times it leaves less that of the times it enters.
+  [[nodiscard]] bool contains(const Eigen::Vector3d& point) const;
+
+  /// The unit normal of a triangle, outward; zero if it has no area.
+  [[nodiscard]] Eigen::Vector3d normal(std::uint32_t triangle) const;
+  [[nodiscard]] const TriangleMesh& mesh() const { return m_mesh; }
+
+private:
+  // In floats that lie outside of what the box holds. A leaf holds m_order[at, at + count); without
+  // a count the children are the next box and box `at`.
+  struct Box {
+    std::array<float, 3> low, high;
+    std::uint32_t at, count;
+  };
+  class Ray;
+  std::uint32_t build(std::uint32_t first, std::uint32_t last,
+                      const std::vector<Eigen::Vector3d>& centre);
+  static constexpr std::size_t kDeepest = 64;  // of a tree that is split in halves
+  [[nodiscard]] static double squaredDistance(const Box& box, const Eigen::Vector3d& point);
+  [[nodiscard]] int winding(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+  [[nodiscard]] Eigen::Vector3d corner(std::uint32_t triangle, std::size_t i) const {
+    return m_mesh.position[m_mesh.triangle[triangle][i]];
+  }
+  template <class Visit>
+  void eachOnRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double least,
+                 const double& most, Visit&& visit) const;
+
+  const TriangleMesh& m_mesh;
+  std::vector<Box> m_boxes;
+  std::vector<std::uint32_t> m_order;
+  std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // of m_order, as leaves ask for them
+};
+
+template <class Visit>
+void TriangleTree::visitNear(const Eigen::Vector3d& point, const double& most,
+                             Visit&& visit) const {
+  std::array<std::uint32_t, kDeepest> stack{};
+  std::size_t depth = 1;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const Box& box = m_boxes[i];
+    if (squaredDistance(box, point) > most) continue;
+    if (box.count > 0) {
+      for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
+        const auto& [a, b, c] = m_corner[k];
+        const Eigen::Vector3d at = nearestPointOf(point, a, b, c);
+        const double squared = (at - point).squaredNorm();
+        if (squared <= most) visit(m_order[k], at, squared);
+      }
+      continue;
+    }
+    const bool oneFirst =
+        squaredDistance(m_boxes[i + 1], point) <= squaredDistance(m_boxes[box.at], point);
+    stack[depth++] = oneFirst ? box.at : i + 1;
+    stack[depth++] = oneFirst ? i + 1 : box.at;
+  }
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/centerline/join_curves.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using Index = std::int32_t;
+
+constexpr double kSameCourse = 0.1;  // radii
+// a curve that ends beside another one's axis has met it if it is this near, in radii
+constexpr double kMet = 1.0;
+constexpr double kStated = -1;             // in place of a distance: a file says so
+constexpr double kAsNear = 0.25;           // radii: of two contacts neither is the better one
+constexpr std::size_t kMostContacts = 16;  // more begin together only where any will do
+constexpr double kSamePlace = 1e-3;        // of a curve's step
+
+// A place on the axis of a curve.
+struct Contact {
+  Index curve = -1;
+  std::size_t sample = 0;  // the nearer end of the nearest segment
+  double distance = std::numeric_limits<double>::infinity();  // in radii
+};
+
+double distanceTo(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const Vector3d along = b - a;
+  const double length = along.squaredNorm();
+  const double t = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).norm();
+}
+
+struct Box {
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+};
+
+class Joiner {
+public:
+  explicit Joiner(const std::vector<CenterlineCurve>& curves)
+      : m_curves(curves), m_reach(curves.size()), m_point(curves.size()), m_box(curves.size()) {
+    for (std::size_t c = 0; c < curves.size(); ++c) measure(c);
+  }
+
+  CenterlineFile join() {
+    for (const CenterlineCurve& curve : m_curves) m_file.vessels.push_back(curve.name);
+    const std::size_t count = m_curves.size();
+    m_first.resize(count);
+    m_last.resize(count);
+    for (std::size_t c = 0; c < count; ++c) findContacts(static_cast<Index>(c));
+    for (const Index root : roots()) grow(root);
+    for (const Index root : byWidth()) grow(root);  // rings, of which none is a root
+    return std::move(m_file);
+  }
+
+private:
+  // How far from its axis a curve's lumen reaches at most, and where it lies.
+  void measure(std::size_t c) {
+    double step = 0, widest = 0;
+    const auto& points = m_curves[c].points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      widest = std::max(widest, points[i].radius);
+      if (i > 0) step = std::max(step, (points[i].position - points[i - 1].position).norm());
+      m_box[c].low = m_box[c].low.cwiseMin(points[i].position);
+      m_box[c].high = m_box[c].high.cwiseMax(points[i].position);
+    }
+    m_reach[c] = std::max(kMet * widest, kSamePlace * step);
+  }
+
+  [[nodiscard]] const std::vector<CurvePoint>& points(Index curve) const {
+    return m_curves[std::size_t(curve)].points;
+  }
+
+  // All curves, but `self`, in whose lumen the point lies, the nearest axis first.
+  [[nodiscard]] std::vector<Contact> contacts(Index self, const CurvePoint& point) const {
+    std::vector<Contact> found;
+    for (Index c = 0; c < static_cast<Index>(m_curves.size()); ++c) {
+      if (c == self || isBeyond(c, point.position)) continue;
+      const Contact contact = nearestOn(c, point.position);
+      if (contact.distance < kMet) found.push_back(contact);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Contact& a, const Contact& b) { return a.distance < b.distance; });
+    if (found.size() > kMostContacts) found.resize(kMostContacts);
+    return found;
+  }
+
+  [[nodiscard]] bool isBeyond(Index curve, const Vector3d& p) const {
+    const Box& box = m_box[std::size_t(curve)];
+    const double reach = m_reach[std::size_t(curve)];
+    return ((box.low - p).array() > reach).any() || ((p - box.high).array() > reach).any();
+  }
+
+  [[nodiscard]] Contact nearestOn(Index curve, const Vector3d& p) const {
+    const auto& on = points(curve);
+    Contact best{curve, 0, std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < on.size(); ++i) {
+      const std::size_t next = std::min(i + 1, on.size() - 1);
+      const double step = (on[next].position - on[i].position).norm();
+      const double radius =
+          std::max({on[i].radius, on[next].radius, kSamePlace * step, 1e-12 * p.norm(), 1e-300});
+      const double distance = distanceTo(p, on[i].position, on[next].position) / radius;
+      if (distance >= best.distance) continue;
+      const bool isNextNearer =
+          (on[next].position - p).squaredNorm() < (on[i].position - p).squaredNorm();
+      best = {curve, isNextNearer ? next : i, distance};
+    }
+    return best;
+  }
+
+  void findContacts(Index c) {
+    if (points(c).empty()) return;
+    m_first[std::size_t(c)] = contacts(c, points(c).front());
+    m_last[std::size_t(c)] = contacts(c, points(c).back());
+    // what a file says goes before what lies near
+    const Index parent = m_curves[std::size_t(c)].parent;
+    if (parent < 0 || points(parent).empty()) return;
+    m_first[std::size_t(c)] = {nearestOn(parent, points(c).front().position)};
+    m_first[std::size_t(c)][0].distance = 0;
+    const std::int64_t point = m_curves[std::size_t(c)].parentPoint;
+    if (point >= 0 && point < static_cast<std::int64_t>(points(parent).size()))
+      m_first[std::size_t(c)][0] = {parent, static_cast<std::size_t>(point), kStated};
+  }
+
+  // Curves that begin in no other one; of several that begin together, the one that goes first.
+  [[nodiscard]] std::vector<Index> roots() const {
+    std::vector<Index> found;
+    for (const Index c : byWidth())
+      if (m_first[std::size_t(c)].empty()) found.push_back(c);
+    return found;
+  }
+
+  [[nodiscard]] std::vector<Index> byWidth() const {
+    std::vector<Index> order;
+    for (Index c = 0; c < static_cast<Index>(m_curves.size()); ++c)
+      if (!points(c).empty()) order.push_back(c);
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return points(a).front().radius > points(b).front().radius;
+    });
+    return order;
+  }
+
+  [[nodiscard]] bool isPlaced(Index curve) const { return !m_point[std::size_t(curve)].empty(); }
+
+  // The curve and all that hangs on it, in breadth.
+  void grow(Index root) {
+    if (isPlaced(root)) return;
+    place(root, std::nullopt, false);
+    std::vector<Index> open{root};
+    for (std::size_t at = 0; at < open.size(); ++at) {
+      for (Index c = 0; c < static_cast<Index>(m_curves.size()); ++c) {
+        if (isPlaced(c) || points(c).empty()) continue;
+        const auto first = contactWith(m_first[std::size_t(c)], open[at]);
+        // a root that ends here is turned round; one that begins in a curve still to come waits
+        const bool isRoot = m_first[std::size_t(c)].empty();
+        const auto last = isRoot ? contactWith(m_last[std::size_t(c)], open[at]) : std::nullopt;
+        if (!first && !last) continue;
+        place(c, first ? first : last, !first);
+        open.push_back(c);
+      }
+    }
+  }
+
+  static std::optional<Contact> contactWith(const std::vector<Contact>& contacts, Index curve) {
+    for (const Contact& contact : contacts)
+      if (contact.curve == curve && contact.distance <= contacts.front().distance + kAsNear)
+        return contact;
+    return std::nullopt;
+  }
+
+  // Adds the points of a curve that are not there yet.
+  void place(Index curve, const std::optional<Contact>& on, bool turned) {
+    std::vector<CurvePoint> way = points(curve);
+    if (turned) std::reverse(way.begin(), way.end());
+    std::vector<Index>& mine = m_point[std::size_t(curve)];
+    Index at = kNoPoint;
+    if (on) {
+      at = m_point[std::size_t(on->curve)][on->sample];
+      if (on->distance != kStated) mine = follow(way, at);
+      if (!mine.empty()) at = mine.back();
+    }
+    const std::size_t shared = mine.size();
+    for (std::size_t i = shared; i < way.size(); ++i) {
+      at = add(way[i], at, curve);
+      mine.push_back(at);
+    }
+    if (on && !turned && shared < way.size()) close(curve, way.size() - shared);
+    if (turned) std::reverse(mine.begin(), mine.end());
+  }
+
+  Index add(const CurvePoint& point, Index parent, Index vessel) {
+    const auto index = static_cast<Index>(m_file.points.size());
+    m_file.points.push_back({point.position, point.radius, parent, 0, vessel});
+    m_children.emplace_back();
+    if (parent != kNoPoint) m_children[std::size_t(parent)].push_back(index);
+    return index;
+  }
+
+  // The points of the tree that the beginning of the way runs along, from `at` on.
+  [[nodiscard]] std::vector<Index> follow(const std::vector<CurvePoint>& way, Index at) const {
+    std::vector<Index> same;
+    for (const CurvePoint& point : way) {
+      at = descend(point.position, at);
+      if (offCourse(point.position, at)) break;
+      same.push_back(at);
+    }
+    return same;
+  }
+
+  // From a point of the tree to children while these are nearer.
+  [[nodiscard]] Index descend(const Vector3d& p, Index at) const {
+    for (;;) {
+      Index best = at;
+      for (const Index child : m_children[std::size_t(at)])
+        if (distance(p, child) < distance(p, best)) best = child;
+      if (best == at) return at;
+      at = best;
+    }
+  }
+  [[nodiscard]] double distance(const Vector3d& p, Index point) const {
+    return (m_file.points[std::size_t(point)].position - p).norm();
+  }
+
+  [[nodiscard]] bool offCourse(const Vector3d& p, Index at) const {
+    const CenterlinePoint& here = m_file.points[std::size_t(at)];
+    double best = distance(p, at);
+    const auto look = [&](Index other) {
+      best =
+          std::min(best, distanceTo(p, here.position, m_file.points[std::size_t(other)].position));
+    };
+    if (here.parent != kNoPoint) look(here.parent);
+    for (const Index child : m_children[std::size_t(at)]) look(child);
+    return best > kSameCourse * here.radius + 1e-9 * p.norm();
+  }
+
+  // A link from the last of the curve's own points, where it ends in a curve that is placed, but
+  // beside its own course. The last point goes if that place is the same.
+  void close(Index curve, std::size_t own) {
+    std::vector<Index>& mine = m_point[std::size_t(curve)];
+    Index last = mine.back();
+    for (const Contact& end : m_last[std::size_t(curve)]) {
+      if (!isPlaced(end.curve)) continue;
+      const Index other = m_point[std::size_t(end.curve)][end.sample];
+      if (isNear(other, last)) continue;
+      const CenterlinePoint& tip = m_file.points[std::size_t(last)];
+      if (own > 1 && distance(tip.position, other) <= kSameCourse * tip.radius) {
+        const Index before = tip.parent;
+        m_children[std::size_t(before)].pop_back();
+        m_children.pop_back();
+        m_file.points.pop_back();
+        mine.back() = other;
+        last = before;
+      }
+      m_file.links.push_back({std::min(other, last), std::max(other, last)});
+      return;
+    }
+  }
+
+  // Whether the way along the tree is short: the curve has not left it for another place.
+  [[nodiscard]] bool isNear(Index ancestor, Index point) const {
+    const CenterlinePoint& end = m_file.points[std::size_t(point)];
+    double way = 0;
+    const double far = 4 * std::max(end.radius, m_file.points[std::size_t(ancestor)].radius);
+    for (Index at = point; at != ancestor;) {
+      const Index parent = m_file.points[std::size_t(at)].parent;
+      if (parent == kNoPoint || way > far) return false;
+      way += distance(m_file.points[std::size_t(at)].position, parent);
+      at = parent;
+    }
+    return true;
+  }
+
+  const std::vector<CenterlineCurve>& m_curves;
+  std::vector<double> m_reach;
+  std::vector<std::vector<Index>> m_point;  // of the file, for each point of each placed curve
+  std::vector<Box> m_box;
+  std::vector<std::vector<Contact>> m_first, m_last;
+  std::vector<std::vector<Index>> m_children;  // of the file's points
+  CenterlineFile m_file;
+};
+
+}  // namespace
+
+CenterlineFile joinCurves(const std::vector<CenterlineCurve>& curves) {
+  return Joiner(curves).join();
+}
+
+}  // namespace lumen::convert

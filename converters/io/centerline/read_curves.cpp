@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/centerline/read_curves.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "converters/base/error.h"
+#include "converters/base/text.h"
+#include "converters/io/centerline/fill_radii.h"
+#include "converters/io/centerline/join_curves.h"
+#include "converters/io/seeds/seeds.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isMarkups(const fs::path& file) {
+  std::error_code ignored;
+  return lowerCase(file.filename().string()).ends_with(".mrk.json") &&
+         fs::is_regular_file(file, ignored);
+}
+
+// In the order of names, with numbers as people count: (2) before (10) takes more than this.
+std::vector<fs::path> filesOf(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return {path};
+  std::vector<fs::path> files;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+       entry.increment(error))
+    if (isMarkups(entry->path())) files.push_back(entry->path());
+  if (error)
+    throw invalidInput(formats::printable(path.string()) + ": cannot be read (" + error.message() +
+                       ")");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+bool hasCurves(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (isMarkups(entry->path())) return true;
+  return false;
+}
+
+CenterlineFile readCurves(const fs::path& fileOrFolder) {
+  const std::string name = formats::printable(fileOrFolder.string());
+  std::vector<CenterlineCurve> curves;
+  std::size_t without = 0, short_ = 0;
+  for (const fs::path& file : filesOf(fileOrFolder)) {
+    for (const SeedBranch& branch : readSeeds(file)) {
+      CenterlineCurve curve{branch.label, {}, -1, -1};
+      bool hasRadii = false;
+      for (const SeedPoint& point : branch.points) {
+        curve.points.push_back({point.position, point.radius.value_or(0)});
+        hasRadii = hasRadii || point.radius.has_value();
+      }
+      if (curve.points.size() < 2)
+        ++short_;
+      else if (!hasRadii)
+        ++without;
+      else
+        curves.push_back(std::move(curve));
+    }
+  }
+  if (curves.empty())
+    throw invalidInput(name + ": has no curve with radii (" + std::to_string(short_) +
+                       " single points, " + std::to_string(without) +
+                       " curves without the measurement \"Radius\"); expected curves as Slicer's "
+                       "Extract Centerline makes them; points clicked in a volume go to --seeds");
+  CenterlineFile result = joinCurves(curves);
+  result.unit = 1;
+  result.axes = CenterlineAxes::Lps;
+  if (short_ > 0)
+    result.remarks.push_back(std::to_string(short_) + " markups of a single point are left out");
+  if (without > 0)
+    result.remarks.push_back(std::to_string(without) +
+                             " curves without the measurement \"Radius\" are left out");
+  fillRadii(result, name, "the measurement \"Radius\" of a curve");
+  return result;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// SWC: points of trees as text (Cannon, Turner, Pyapali and Wheal, "An on-line archive of
+// reconstructed hippocampal neurons", 1998).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "converters/io/centerline/centerline_file.h"
+
+namespace lumen::convert {
+
+/// Reads an SWC file of at most 64 MiB. A line is a point: id, type, x, y, z, radius, and the id of
+/// its parent or -1, with blanks or tabs in between; lines end with LF, CR LF or CR. What follows #,
+/// and columns beyond the seventh (as Vaa3D's), are passed over. Ids may have gaps, any order and
+/// any start, and may be written as 1.0; a parent may follow its children; there may be several
+/// roots. Points are in the file's order as far as parents come first. Radii of 0 or less
+/// are placeholders, and filled in (fill_radii.h); NeuroMorpho's files are in micrometres, and their
+/// soma of three points is one; comments of lumen's own files name vessels. Throws Error(InvalidInput)
+/// with the line, what was found and what was expected: of numbers that are none or not finite, of
+/// trees without any radius, of ids that occur twice, of parents that are missing, and of
+/// cycles.
+CenterlineFile readSwc(const std::filesystem::path& file);
+
+/// The same from a text; `name` is that of the file, for messages.
+CenterlineFile parseSwc(std::string_view text, const std::string& name);
+
+}  // namespace lumen::convert

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Centerlines of VMTK and others as lines of VTK (`.vtp`), in.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "converters/io/centerline/centerline_file.h"
+
+namespace lumen::convert {
+
+/// The lines of a file as one tree (join_curves.h): lines from a root to every tip share their
+/// trunk, by their points or their course; what vmtkbranchextractor has cut (CenterlineIds, TractIds) is put together first. Radii
+/// are those of MaximumInscribedSphereRadius, or Radius; without either all are 0. The file says
+/// neither unit nor axes, but in a comment of lumen's own files. Throws Error(InvalidInput) with `name`, what was found and what was
+/// expected.
+CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name);
+
+/// The same of a file of at most 64 MiB.
+CenterlineFile readVtpCenterline(const std::filesystem::path& file);
+
+}  // namespace lumen::convert

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/mesh/gltf_content.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/io/mesh/mesh_builder.h"
+#include "converters/io/mesh/mesh_bytes.h"
+#include "formats/case/base64.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDeepest = 64;  // levels of JSON; extras and extensions of tools need a dozen
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr std::string_view kBase64 = ";base64,";
+
+std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
+  return loadNumber<std::uint32_t>(bytes.data() + at, Endian::Little);
+}
+
+int hexDigit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+/// RFC 3986: %20 is a space.
+std::string percentDecoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool coded = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 &&
+                       hexDigit(uri[i + 2]) >= 0;
+    text += coded ? static_cast<char>(16 * hexDigit(uri[i + 1]) + hexDigit(uri[i + 2])) : uri[i];
+    if (coded) i += 2;
+  }
+  return text;
+}
+
+}  // namespace
+
+GltfContent::GltfContent(std::string_view bytes, const fs::path& file)
+    : m_file(file), m_name(formats::printable(file.string())), m_totalBytes(bytes.size()) {
+  if (bytes.starts_with("glTF"))
+    readChunks(bytes);
+  else
+    parseJson(bytes);
+  if (!m_root.is_object()) refuse("is no JSON object; expected glTF");
+  const auto asset = m_root.find("asset");
+  const std::string version =
+      asset != m_root.end() && asset->is_object() ? text(*asset, "version") : "";
+  if (!version.starts_with("2."))
+    throw unsupported(m_name + ": /asset/version is " + quotedText(version) +
+                      "; lumen reads glTF 2.0");
+  readBuffers();
+}
+
+void GltfContent::readChunks(std::string_view bytes) {
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  if (bytes.size() < kHeader + kChunkHeader)
+    refuse("has " + std::to_string(bytes.size()) + " bytes; expected at least 20 of a GLB");
+  if (wordAt(bytes, 4) != 2)
+    throw unsupported(m_name + ": byte 4: the version is " + std::to_string(wordAt(bytes, 4)) +
+                      "; lumen reads GLB of version 2");
+  bool isFirst = true;
+  for (std::size_t at = kHeader; bytes.size() - at >= kChunkHeader;) {
+    const std::uint32_t size = wordAt(bytes, at), type = wordAt(bytes, at + 4);
+    const std::size_t left = bytes.size() - at - kChunkHeader;
+    if (size > left)
+      refuse("byte " + std::to_string(at) + ": a chunk has " + std::to_string(size) +
+             " bytes; expected at most " + std::to_string(left) + ", which follow");
+    const std::string_view chunk = bytes.substr(at + kChunkHeader, size);
+    if (isFirst != (type == kJsonChunk))
+      refuse("byte " + std::to_string(at + 4) +
+             ": expected the first chunk, and no other, to be "
+             "JSON");
+    if (isFirst) parseJson(chunk);
+    if (type == kBinaryChunk && m_binary.data() == nullptr) m_binary = chunk;
+    isFirst = false;
+    at += kChunkHeader + size;
+  }
+}
+
+void GltfContent::parseJson(std::string_view text) {
+  const auto limit = [this](int depth, Json::parse_event_t, Json&) {
+    if (depth > kDeepest) refuse("its JSON is more than 64 levels deep; expected fewer");
+    return true;
+  };
+  try {
+    m_root = Json::parse(text.begin(), text.end(), limit);
+  } catch (const Json::exception& fault) {
+    const std::string what = fault.what();
+    const std::size_t from = what.find("parse error");
+    refuse("is no JSON: " + formats::printable(from == what.npos ? what : what.substr(from)));
+  }
+}
+
+void GltfContent::readBuffers() {
+  for (std::uint64_t b = 0; b < size("buffers"); ++b) {
+    const Json& buffer = item("buffers", b);
+    const std::uint64_t bytes = whole(buffer, "byteLength", 0);
+    if (b == 0 && m_binary.data() != nullptr && !buffer.contains("uri")) {
+      if (bytes > m_binary.size())
+        refuse("/buffers/0/byteLength is " + std::to_string(bytes) + "; expected at most " +
+               std::to_string(m_binary.size()) + ", the size of the binary chunk");
+      m_buffers.push_back(m_binary.substr(0, static_cast<std::size_t>(bytes)));
+      continue;
+    }
+    m_held.push_back(buffer.contains("uri") ? bufferOf(buffer, bytes) : std::string());
+    m_totalBytes += m_held.back().size();
+    m_buffers.push_back(m_held.back());
+  }
+}
+
+std::string GltfContent::bufferOf(const Json& buffer, std::uint64_t size) {
+  const std::string uri = text(buffer, "uri");
+  std::string bytes;
+  if (uri.starts_with("data:")) {
+    const std::size_t from = uri.find(kBase64);
+    const auto decoded =
+        from == uri.npos ? std::nullopt
+                         : formats::fromBase64(std::string_view(uri).substr(from + kBase64.size()));
+    if (!decoded) refuse("/buffers: a data URI is no base64; expected \"data:...;base64,\"");
+    bytes.assign(reinterpret_cast<const char*>(decoded->data()), decoded->size());
+  } else {
+    bytes = detached(uri, size);
+  }
+  if (bytes.size() < size)
+    refuse("/buffers: byteLength is " + std::to_string(size) + "; expected at most " +
+           std::to_string(bytes.size()) + ", which are there");
+  return bytes;
+}
+
+std::string GltfContent::detached(const std::string& uri, std::uint64_t size) const {
+  const fs::path stated = m_file.parent_path() / fs::path(percentDecoded(uri));
+  std::error_code error;
+  const fs::path folder =
+      fs::canonical(m_file.has_parent_path() ? m_file.parent_path() : fs::path("."), error);
+  const bool isName = !uri.empty() && uri.find("://") == uri.npos &&
+                      percentDecoded(uri).find('\0') == std::string::npos;
+  const fs::path file = isName && !error ? fs::canonical(stated, error) : fs::path();
+  const bool within =
+      !error && !file.empty() &&
+      std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  if (!within || !fs::is_regular_file(file, error))
+    refuse("its data are in " + quotedText(uri) +
+           ", which is no file of the same folder; expected one");
+  const std::uintmax_t there = fs::file_size(file, error);
+  if (error || there < size)
+    refuse("its data are in " + quotedText(uri) + ", which has " +
+           std::to_string(error ? 0 : there) + " bytes; expected " + std::to_string(size));
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (!std::ifstream(file, std::ios::binary)
+           .read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    refuse("its data are in " + quotedText(uri) + ", which cannot be read");
+  return bytes;
+}
+
+std::uint64_t GltfContent::size(const char* list) const {
+  const auto found = m_root.find(list);
+  if (found == m_root.end()) return 0;
+  if (!found->is_array()) refuse(std::string("/") + list + " is no array; expected one");
+  return found->size();
+}
+
+const GltfContent::Json& GltfContent::item(const char* list, std::uint64_t index) const {
+  if (index >= size(list))
+    refuse(std::string("/") + list + " has " + std::to_string(size(list)) +
+           " items; found the number " + std::to_string(index));
+  const Json& found = m_root.at(list).at(static_cast<std::size_t>(index));
+  if (!found.is_object())
+    refuse(std::string("/") + list + "/" + std::to_string(index) + " is no object; expected one");
+  return found;
+}
+
+std::uint64_t GltfContent::whole(const Json& object, const char* key,
+                                 std::uint64_t otherwise) const {
+  const auto found = object.find(key);
+  if (found == object.end()) return otherwise;
+  if (!found->is_number_unsigned())
+    refuse(std::string(key) + " is " +
+           quotedText(found->dump(-1, ' ', true, Json::error_handler_t::replace)) +
+           "; expected a whole number from 0 on");
+  return found->get<std::uint64_t>();
+}
+
+std::string GltfContent::text(const Json& object, const char* key) {
+  if (!object.is_object()) return {};
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::string_view GltfContent::view(std::uint64_t index) const {
+  const Json& json = item("bufferViews", index);
+  const auto extensions = json.find("extensions");
+  if (extensions != json.end() && extensions->is_object() &&
+      extensions->contains("EXT_meshopt_compression"))
+    throw unsupported(m_name +
+                      ": it is packed by EXT_meshopt_compression, which lumen does not read; "
+                      "unpack it, such as by gltf-transform copy");
+  const std::uint64_t buffer = whole(json, "buffer", std::numeric_limits<std::uint64_t>::max());
+  (void)item("buffers", buffer);
+  const std::string_view bytes = m_buffers[static_cast<std::size_t>(buffer)];
+  const std::uint64_t offset = whole(json, "byteOffset", 0), length = whole(json, "byteLength", 0);
+  if (offset > bytes.size() || length > bytes.size() - offset)
+    refuse("/bufferViews/" + std::to_string(index) + " has " + std::to_string(length) +
+           " bytes from " + std::to_string(offset) + " on; expected an end within the " +
+           std::to_string(bytes.size()) + " bytes of its buffer");
+  return bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
+}
+
+void GltfContent::refuse(const std::string& what) const {
+  throw invalidInput(m_name + ": " + what);
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A glTF 2.0 document while it is being made: its JSON, and its buffer.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/vertex_streams.h"
+
+namespace lumen::convert {
+
+/// Arrays and objects are added to `content`; buffers are added by write(). Functions that add bytes
+/// throw Error(Unsupported) beyond 2 GiB.
+class GltfDocument {
+public:
+  explicit GltfDocument(bool meshopt) : m_meshopt(meshopt) {}
+
+  /// The JSON without `buffers`.
+  nlohmann::json content;
+
+  /// Appends `item` to the array `content[list]`; gives its index.
+  int add(const char* list, nlohmann::json item);
+
+  /// A buffer view of vertices. With meshopt `stream` becomes what a reader will get.
+  int addVertices(VertexStream& stream);
+  /// A buffer view of triangles: 16-bit indices if `isShort`.
+  int addIndices(const std::vector<std::uint32_t>& index, std::size_t vertices, bool isShort);
+  /// A buffer view of bytes that only an extension reads.
+  int addBytes(const std::vector<char>& bytes);
+
+  /// Of an extension that the file uses; `required`: that it cannot be read without.
+  void useExtension(const char* name, bool required);
+
+  /// As a GLB, or as JSON with its buffer in a data URI.
+  std::string write(bool binary);
+
+private:
+  int addView(std::span<const unsigned char> bytes, nlohmann::json view);
+  /// A view of `size` bytes that are coded as `coded`.
+  int addCodedView(std::span<const unsigned char> coded, std::size_t size, nlohmann::json view,
+                   nlohmann::json coding);
+
+  bool m_meshopt;
+  std::vector<unsigned char> m_bytes;
+  std::size_t m_decodedSize = 0;  ///< of the buffer that meshopt's views decode to
+};
+
+}  // namespace lumen::convert

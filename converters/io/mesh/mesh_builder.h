@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readers of meshes share: checks on the way into a MeshFile.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/io/mesh/mesh_file.h"
+
+namespace lumen::convert {
+
+/// Beyond any unit that is meant, and far from where squares and cubes overflow.
+constexpr double kLargestCoordinate = 1e12;
+
+/// "name: place: what", as Error(InvalidInput).
+[[noreturn]] void refuseMesh(const std::string& name, const std::string& place,
+                             const std::string& what);
+
+/// A file's text for a message: printable, in quotes, and cut after 24 bytes.
+std::string quotedText(std::string_view text);
+
+/// A mesh as it is read. Names of groups are looked up, so few or many are the same cost.
+class MeshBuilder {
+public:
+  explicit MeshBuilder(std::string name) : m_name(std::move(name)) {}
+
+  MeshFile file;
+
+  /// The file's name, printable.
+  [[nodiscard]] const std::string& name() const { return m_name; }
+  [[nodiscard]] std::size_t points() const { return file.mesh.position.size(); }
+
+  /// Appends a point. `place` gives where it stands, such as "line 7", and is only called for a
+  /// coordinate that is no finite number below 1e12.
+  template <class Place>
+  void addPoint(const Eigen::Vector3d& point, Place place) {
+    if (!isSound(point)) refusePoint(point, place());
+    file.mesh.position.push_back(point);
+  }
+
+  /// The index of this point, appended if no equal one is there.
+  template <class Place>
+  std::uint32_t addShared(const Eigen::Vector3d& point, Place place) {
+    if (!isSound(point)) refusePoint(point, place());
+    return sharedIndex(point);
+  }
+
+  /// Appends a polygon as a fan of triangles around its first corner.
+  void addPolygon(const std::uint32_t* corner, std::size_t count);
+  void addTriangle(const Triangle& t) { addPolygon(t.data(), 3); }
+
+  /// Triangles that follow are of this group; an empty name is that of no group.
+  void beginGroup(std::string_view group);
+
+  /// The mesh, with group names if the file has any. Refuses one without triangles.
+  MeshFile finish(bool flipXy = false);
+
+private:
+  static bool isSound(const Eigen::Vector3d& point) {
+    return point.cwiseAbs().maxCoeff() <= kLargestCoordinate;  // false for NaN, too
+  }
+  [[noreturn]] void refusePoint(const Eigen::Vector3d& point, const std::string& place) const;
+  std::uint32_t sharedIndex(const Eigen::Vector3d& point);
+  void growTable();
+
+  std::string m_name;
+  std::unordered_map<std::string, std::uint32_t> m_groupIndex;
+  std::uint32_t m_current = 0;
+  std::vector<std::uint32_t> m_table;  // of shared points: index plus one, by hash; 0 is free
+};
+
+/// Takes what the comment of a file says of axes and unit: SPACE=LPS or SPACE=RAS as 3D Slicer
+/// writes it, and lumen's own words.
+struct StatedFrame {
+  bool ras = false, lps = false, millimetres = false;
+  void look(std::string_view comment);
+};
+
+/// Puts what the file states into `builder`'s file and finishes it: RAS is turned to LPS.
+MeshFile finishStated(MeshBuilder& builder, const StatedFrame& frame);
+
+}  // namespace lumen::convert

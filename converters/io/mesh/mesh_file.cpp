@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/mesh/mesh_file.h"
+
+#include <fstream>
+#include <system_error>
+
+#include "converters/base/error.h"
+#include "converters/io/mesh/read_gltf.h"
+#include "converters/io/mesh/read_obj.h"
+#include "converters/io/mesh/read_ply.h"
+#include "converters/io/mesh/read_stl.h"
+#include "converters/io/mesh/read_vtk.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+namespace fs = std::filesystem;
+
+MeshFile parseMesh(std::string_view bytes, const fs::path& file, MeshFormat format) {
+  const std::string name = formats::printable(file.string());
+  switch (format) {
+    case MeshFormat::Stl:
+      return parseStl(bytes, name);
+    case MeshFormat::Obj:
+      return parseObj(bytes, name);
+    case MeshFormat::Ply:
+      return parsePly(bytes, name);
+    case MeshFormat::Gltf:
+      return parseGltf(bytes, file);
+    case MeshFormat::Vtp:
+      return parseVtp(bytes, name);
+    case MeshFormat::Vtk:
+      return parseVtk(bytes, name);
+  }
+  throw unsupported(name + ": lumen cannot read meshes of this format");
+}
+
+MeshFile readMesh(const fs::path& file, MeshFormat format) {
+  const std::string name = formats::printable(file.string());
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) throw invalidInput(name + ": cannot be read (" + error.message() + ")");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    throw invalidInput(name + ": cannot be read");
+  return parseMesh(bytes, file, format);
+}
+
+}  // namespace lumen::convert

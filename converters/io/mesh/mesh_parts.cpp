@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/mesh/mesh_parts.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace lumen::convert {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t branchOf(const SurfaceMesh& surface, const Triangle& t) {
+  const std::uint32_t a = surface.branch[t[0]], b = surface.branch[t[1]];
+  const std::uint32_t c = surface.branch[t[2]];
+  return b == c ? b : a;
+}
+
+bool isFlat(FaceKind kind) {
+  return kind == FaceKind::Inlet || kind == FaceKind::Outlet;
+}
+
+Eigen::Vector3d at(const SurfaceMesh& surface, std::uint32_t vertex) {
+  return Eigen::Vector3f(surface.position[vertex].data()).cast<double>();
+}
+
+/// The mean of the normals of a part's faces at each of its vertices, by area; the surface's where
+/// there is none.
+void takeNormalsOfFaces(const SurfaceMesh& surface, MeshPart& part) {
+  std::vector<Eigen::Vector3d> sum(part.vertex.size(), Eigen::Vector3d::Zero());
+  for (const Triangle& t : part.triangle) {
+    const Eigen::Vector3d a = at(surface, part.vertex[t[0]]), b = at(surface, part.vertex[t[1]]);
+    const Eigen::Vector3d c = at(surface, part.vertex[t[2]]);
+    for (const std::uint32_t v : t) sum[v] += (b - a).cross(c - a);
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) {
+    const double length = sum[v].norm();
+    if (!(length > 0)) continue;
+    const Eigen::Vector3f n = (sum[v] / length).cast<float>();
+    part.normal[v] = {n.x(), n.y(), n.z()};
+  }
+}
+
+/// From vertices of the surface to a part's own. `local` is kNone for all vertices, before and
+/// after.
+void useOwnVertices(const SurfaceMesh& surface, MeshPart& part, std::vector<std::uint32_t>& local) {
+  for (Triangle& t : part.triangle)
+    for (std::uint32_t& v : t) {
+      if (local[v] == kNone) {
+        local[v] = static_cast<std::uint32_t>(part.vertex.size());
+        part.vertex.push_back(v);
+        part.normal.push_back(surface.normal[v]);
+      }
+      v = local[v];
+    }
+  for (const std::uint32_t v : part.vertex) local[v] = kNone;
+}
+
+}  // namespace
+
+std::vector<MeshPart> partsOf(const SurfaceMesh& surface, MeshPer per) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, MeshPart> parts;
+  for (std::size_t f = 0; f < surface.triangle.size(); ++f) {
+    const Triangle& t = surface.triangle[f];
+    const std::uint32_t branch = per == MeshPer::Branch ? branchOf(surface, t) : 0;
+    parts[{branch, surface.group[f]}].triangle.push_back(t);
+  }
+  std::vector<MeshPart> result;
+  std::vector<std::uint32_t> local(surface.position.size(), kNone);
+  for (auto& [key, part] : parts) {
+    part.branch = key.first;
+    part.group = key.second;
+    useOwnVertices(surface, part, local);
+    part.isFlat = isFlat(surface.groups[part.group].kind);
+    if (part.isFlat) takeNormalsOfFaces(surface, part);
+    result.push_back(std::move(part));
+  }
+  return result;
+}
+
+bool isClosed(const SurfaceMesh& surface) {
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  std::vector<Edge> forth, back;
+  forth.reserve(3 * surface.triangle.size());
+  back.reserve(3 * surface.triangle.size());
+  for (const Triangle& t : surface.triangle)
+    for (std::size_t i = 0; i < 3; ++i) {
+      forth.emplace_back(t[i], t[(i + 1) % 3]);
+      back.emplace_back(t[(i + 1) % 3], t[i]);
+    }
+  std::sort(forth.begin(), forth.end());
+  std::sort(back.begin(), back.end());
+  return forth == back;
+}
+
+void extendBox(const Float3& point, Float3& low, Float3& high) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] = std::min(low[a], point[a]);
+    high[a] = std::max(high[a], point[a]);
+  }
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A surface cut along its groups, for formats that give each group vertices of its own.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "converters/io/mesh/surface_mesh.h"
+#include "converters/io/mesh/write_options.h"
+
+namespace lumen::convert {
+
+/// The faces of one group, and of one branch if the surface is cut into branches too.
+struct MeshPart {
+  std::uint32_t branch = 0;  ///< index into the surface's labels; 0 for all if they stay together
+  std::uint32_t group = 0;   ///< index into the surface's groups
+  bool isFlat = false;       ///< an inlet or an outlet
+  std::vector<std::uint32_t> vertex;  ///< of the surface, each once
+  std::vector<Float3> normal;      ///< of each `vertex`: of a flat part its own, else the surface's
+  std::vector<Triangle> triangle;  ///< indices into `vertex`
+};
+
+/// Those that have faces, by branch and then by group. A face belongs to the branch of two of its
+/// vertices, or to that of its first.
+std::vector<MeshPart> partsOf(const SurfaceMesh& surface, MeshPer per);
+
+/// Whether every edge lies between two faces that run along it in opposite directions.
+bool isClosed(const SurfaceMesh& surface);
+
+/// Widens the box `low` .. `high` so that it holds `point`.
+void extendBox(const Float3& point, Float3& low, Float3& high);
+
+}  // namespace lumen::convert

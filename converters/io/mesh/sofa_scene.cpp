@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/mesh/sofa_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+#include <expat.h>
+
+#include "converters/base/error.h"
+#include "converters/base/text.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::Vector3d;
+
+constexpr std::size_t kDeepest = 64;  // nodes within nodes
+constexpr std::size_t kFedAtOnce = std::size_t{16} << 20;
+constexpr std::size_t kMostListed = 20;
+
+/// What SOFA makes of translation, rotation and scale: the scale first, then the turns about x, y and
+/// z in this order (MeshLoader::reinit(); Quat::createQuaterFromEuler(), whose default is ZYX), degrees.
+struct Placement {
+  Vector3d translation = Vector3d::Zero(), rotation = Vector3d::Zero(), scale = Vector3d::Ones();
+  [[nodiscard]] Affine3d transform() const {
+    const Vector3d angle = rotation * (std::numbers::pi / 180);
+    return Eigen::Translation3d(translation) * Eigen::AngleAxisd(angle.z(), Vector3d::UnitZ()) *
+           Eigen::AngleAxisd(angle.y(), Vector3d::UnitY()) *
+           Eigen::AngleAxisd(angle.x(), Vector3d::UnitX()) * Eigen::Scaling(scale);
+  }
+};
+
+/// A <Node> that is open.
+struct OpenNode {
+  std::string name;
+  std::vector<std::size_t> loaders;   // of its own
+  std::optional<Affine3d> movedOnce;  // what its MechanicalObject does
+  bool isStill = false;
+};
+
+// Calls of expat, which is C: nothing may throw through it.
+class SceneHandler {
+public:
+  SceneHandler(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
+
+  std::vector<SofaLoader> parse() {
+    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> owner(
+        XML_ParserCreate(nullptr), XML_ParserFree);
+    if (!owner) throw failed(m_name + ": no memory to parse XML");
+    m_parser = owner.get();
+    XML_SetUserData(m_parser, this);
+    XML_SetElementHandler(
+        m_parser,
+        [](void* self, const XML_Char* tag, const XML_Char** attributes) {
+          static_cast<SceneHandler*>(self)->begin(tag, attributes);
+        },
+        [](void* self, const XML_Char* tag) { static_cast<SceneHandler*>(self)->end(tag); });
+    XML_SetStartDoctypeDeclHandler(
+        m_parser, [](void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
+          static_cast<SceneHandler*>(self)->refuse("has a document type; expected none in a scene");
+        });
+    feed();
+    if (m_fault) throw *m_fault;
+    return std::move(m_loaders);
+  }
+
+private:
+  void feed() {
+    for (std::size_t at = 0;;) {
+      const std::size_t size = std::min(kFedAtOnce, m_text.size() - at);
+      const bool isLast = at + size == m_text.size();
+      if (XML_Parse(m_parser, m_text.data() + at, static_cast<int>(size), isLast) !=
+          XML_STATUS_OK) {
+        if (!m_fault)
+          refuse(std::string("is no XML (") + XML_ErrorString(XML_GetErrorCode(m_parser)) +
+                 "); lumen reads scenes in XML (.scn)");
+        return;
+      }
+      if (isLast) return;
+      at += size;
+    }
+  }
+
+  void begin(const char* tag, const char** attributes) {
+    if (m_fault) return;
+    if (std::string_view(tag) == "Node") {
+      if (m_nodes.size() == kDeepest) return refuse("has nodes more than 64 deep");
+      m_nodes.push_back({std::string(attribute(attributes, "name")), {}, {}, false});
+      return;
+    }
+    if (m_nodes.empty())
+      return refuse("begins with <" + formats::printable(std::string(tag).substr(0, 40)) +
+                    ">; expected <Node>, with which a scene of SOFA begins");
+    // <Object type="MeshOBJLoader"> is how older scenes write it
+    const bool isOld = std::string_view(tag) == "Object";
+    const std::string component(isOld ? attribute(attributes, "type") : std::string_view(tag));
+    if (component.starts_with("Mesh") && component.ends_with("Loader"))
+      addLoader(component, attributes);
+    else if (component == "MechanicalObject")
+      addObject(attributes);
+    else if (component.ends_with("CollisionModel") || component == "Triangle" ||
+             component == "TriangleModel")
+      m_nodes.back().isStill |= isFalse(attribute(attributes, "moving"));
+  }
+
+  void end(const char* tag) {
+    if (m_fault || std::string_view(tag) != "Node" || m_nodes.empty()) return;
+    const OpenNode node = std::move(m_nodes.back());
+    m_nodes.pop_back();
+    for (const std::size_t i : node.loaders) {
+      SofaLoader& loader = m_loaders[i];
+      loader.isStill = node.isStill;
+      if (!node.movedOnce || node.movedOnce->isApprox(Affine3d::Identity(), 0)) continue;
+      loader.toScene = *node.movedOnce * loader.toScene;
+      loader.isMovedTwice = true;
+    }
+    if (!m_nodes.empty()) m_nodes.back().isStill |= node.isStill;
+  }
+
+  void addLoader(const std::string& component, const char** attributes) {
+    SofaLoader loader;
+    loader.component = component;
+    loader.name = attribute(attributes, "name");
+    if (loader.name.empty()) loader.name = "loader";
+    for (const OpenNode& node : m_nodes)
+      loader.node += (loader.node.empty() ? "" : "/") + node.name;
+    loader.filename = attribute(attributes, "filename");
+    loader.line = line();
+    Placement placement;
+    read(attributes, "translation", placement.translation);
+    read(attributes, "rotation", placement.rotation);
+    read(attributes, "scale3d", placement.scale);
+    placement.scale *= readScale(attributes);
+    loader.toScene = placement.transform();
+    if (const auto matrix = numbers(attributes, "transformation", 16)) {
+      Eigen::Matrix4d rows;
+      for (int i = 0; i < 16; ++i) rows(i / 4, i % 4) = (*matrix)[static_cast<std::size_t>(i)];
+      if (rows != Eigen::Matrix4d::Identity()) loader.toScene = Affine3d(rows);
+    }
+    m_nodes.back().loaders.push_back(m_loaders.size());
+    m_loaders.push_back(std::move(loader));
+  }
+
+  /// One that states its own points does not take the mesh's; a single one is none (its default).
+  void addObject(const char** attributes) {
+    const std::string_view position = attribute(attributes, "position");
+    const bool isLink = position.starts_with('@');
+    if (!isLink && words(position).size() > 3) return;
+    Placement first, second;
+    read(attributes, "translation", first.translation);
+    read(attributes, "rotation", first.rotation);
+    read(attributes, "scale3d", first.scale);
+    if (!attribute(attributes, "scale").empty()) first.scale.setConstant(readScale(attributes));
+    readAxes(attributes, {"sx", "sy", "sz"}, 1, first.scale);
+    readAxes(attributes, {"rx", "ry", "rz"}, 0, first.rotation);
+    readAxes(attributes, {"dx", "dy", "dz"}, 0, first.translation);
+    read(attributes, "translation2", second.translation);
+    read(attributes, "rotation2", second.rotation);
+    readAxes(attributes, {"rx2", "ry2", "rz2"}, 0, second.rotation);
+    readAxes(attributes, {"dx2", "dy2", "dz2"}, 0, second.translation);
+    m_nodes.back().movedOnce = second.transform() * first.transform();
+  }
+
+  void read(const char** attributes, const char* name, Vector3d& value) {
+    if (const auto three = numbers(attributes, name, 3))
+      value = Vector3d((*three)[0], (*three)[1], (*three)[2]);
+  }
+
+  double readScale(const char** attributes) {
+    const auto one = numbers(attributes, "scale", 1);
+    return one ? (*one)[0] : 1.0;
+  }
+
+  /// If one of the three is there, the others are as `none`.
+  void readAxes(const char** attributes, const std::array<const char*, 3>& names, double none,
+                Vector3d& value) {
+    const auto isThere = [&](const char* name) { return !attribute(attributes, name).empty(); };
+    if (std::none_of(names.begin(), names.end(), isThere)) return;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto one = numbers(attributes, names[a], 1);
+      value[static_cast<Eigen::Index>(a)] = one ? (*one)[0] : none;
+    }
+  }
+
+  std::optional<std::vector<double>> numbers(const char** attributes, const char* name,
+                                             std::size_t count) {
+    const std::string_view text = attribute(attributes, name);
+    if (text.empty()) return {};
+    std::vector<double> values;
+    for (const std::string_view word : words(text)) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size() || !(std::abs(value) < 1e12))
+        break;
+      values.push_back(value);
+    }
+    if (values.size() == count && words(text).size() == count) return values;
+    refuse(std::string("has the ") + name + " \"" +
+           formats::printable(std::string(text.substr(0, 60))) + "\"; expected " +
+           (count == 1 ? "a number" : std::to_string(count) + " numbers"));
+    return {};
+  }
+
+  static std::vector<std::string_view> words(std::string_view text) {
+    std::vector<std::string_view> out;
+    for (std::size_t at = 0; (at = text.find_first_not_of(" \t\r\n", at)) != text.npos;) {
+      const std::size_t to = std::min(text.find_first_of(" \t\r\n", at), text.size());
+      out.push_back(text.substr(at, to - at));
+      at = to;
+    }
+    return out;
+  }
+
+  static std::string_view attribute(const char** attributes, std::string_view name) {
+    for (; *attributes != nullptr; attributes += 2)
+      if (name == attributes[0]) return attributes[1];
+    return {};
+  }
+  static bool isFalse(std::string_view text) {
+    return text == "0" || lowerCase(std::string(text)) == "false";
+  }
+
+  void refuse(const std::string& what) {
+    if (!m_fault) m_fault = invalidInput(m_name + ": line " + std::to_string(line()) + ": " + what);
+    XML_StopParser(m_parser, XML_FALSE);
+  }
+  [[nodiscard]] std::size_t line() const {
+    return static_cast<std::size_t>(XML_GetCurrentLineNumber(m_parser));
+  }
+
+  std::string_view m_text;
+  const std::string& m_name;
+  XML_Parser m_parser = nullptr;
+  std::vector<OpenNode> m_nodes;
+  std::vector<SofaLoader> m_loaders;
+  std::optional<Error> m_fault;
+};
+
+using Loaders = std::vector<const SofaLoader*>;
+
+template <class Test>
+Loaders those(const std::vector<SofaLoader>& loaders, Test&& test) {
+  Loaders out;
+  for (const SofaLoader& loader : loaders)
+    if (test(loader)) out.push_back(&loader);
+  return out;
+}
+
+std::string lastOf(const std::string& node) {
+  return node.substr(node.rfind('/') == node.npos ? 0 : node.rfind('/') + 1);
+}
+
+std::string listOf(const Loaders& loaders) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(loaders.size(), kMostListed); ++i) {
+    text.append(i == 0 ? "" : ", ").append(formats::printable(loaders[i]->name));
+    text.append(" in ").append(formats::printable(loaders[i]->node));
+    text.append(" (").append(formats::printable(loaders[i]->filename)).append(")");
+  }
+  return loaders.size() > kMostListed ? text + " and so on" : text;
+}
+
+Loaders chosen(const std::vector<SofaLoader>& loaders, const std::string& wanted) {
+  if (!wanted.empty()) {
+    const Loaders whole = those(loaders, [&](const SofaLoader& loader) {
+      return loader.node == wanted || loader.node + "/" + loader.name == wanted;
+    });
+    if (!whole.empty()) return whole;
+    return those(loaders, [&](const SofaLoader& loader) {
+      return loader.name == wanted || lastOf(loader.node) == wanted;
+    });
+  }
+  if (loaders.size() == 1) return {loaders.data()};
+  Loaders out = those(loaders, [](const SofaLoader& loader) {
+    return lowerCase(lastOf(loader.node)).find("vessel") != std::string::npos;
+  });
+  if (out.empty()) out = those(loaders, [](const SofaLoader& loader) { return loader.isStill; });
+  return out;
+}
+
+}  // namespace
+
+std::vector<SofaLoader> sofaLoaders(std::string_view text, const std::string& name) {
+  return SceneHandler(text, name).parse();
+}
+
+const SofaLoader& vesselLoader(const std::vector<SofaLoader>& loaders, const std::string& wanted,
+                               const std::string& name) {
+  if (loaders.empty())
+    throw invalidInput(name + ": loads no mesh; expected a MeshOBJLoader or a MeshSTLLoader");
+  const Loaders found = chosen(loaders, wanted);
+  const Loaders all = those(loaders, [](const SofaLoader&) { return true; });
+  if (found.empty() && !wanted.empty())
+    throw invalidInput(name + ": loads no mesh called \"" + formats::printable(wanted) +
+                       "\"; it loads " + listOf(all));
+  if (found.size() != 1)
+    throw invalidInput(name + ": it is not clear which of its meshes are the vessels: " +
+                       listOf(found.empty() ? all : found) +
+                       "; --mesh NAME says it, by a loader's name or its node's");
+  const SofaLoader& loader = *found.front();
+  const std::string kind = lowerCase(loader.component);
+  const std::string place = name + ": line " + std::to_string(loader.line) + ": ";
+  if (kind != "meshobjloader" && kind != "meshstlloader")
+    throw unsupported(place + "the vessels are loaded by " + formats::printable(loader.component) +
+                      "; lumen reads MeshOBJLoader and MeshSTLLoader");
+  if (loader.filename.empty() || loader.filename.starts_with('@'))
+    throw unsupported(place + "this loader names no file, but \"" +
+                      formats::printable(loader.filename) + "\"; expected a filename");
+  return loader;
+}
+
+}  // namespace lumen::convert

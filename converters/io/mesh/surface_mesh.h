@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The surface of a case as writers of meshes take it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "converters/geometry/triangle_mesh.h"
+
+namespace lumen::convert {
+
+using Float3 = std::array<float, 3>;
+
+enum class FaceKind : std::uint8_t {
+  Wall,    ///< the vessels' wall, and the sides of flow extensions
+  Inlet,   ///< a flat end before the first node of a root
+  Outlet,  ///< a flat end behind the last node of a branch
+  Cap      ///< an end that no plane could cut, closed as the field closes it
+};
+
+/// A set of faces with a name: "wall", "outer-wall", "inlet", "inlet-LABEL", "outlet-LABEL",
+/// "cap-LABEL". Its number in a file (VTP ModelFaceID, STL solid, ...) is its index plus one.
+struct FaceGroup {
+  std::string name;  ///< unique in its surface
+  FaceKind kind = FaceKind::Wall;
+  friend bool operator==(const FaceGroup&, const FaceGroup&) = default;
+};
+
+/// Triangles with what a case says of them. Arrays of vertices all have the size of `position`.
+struct SurfaceMesh {
+  std::vector<Float3> position;       ///< mm, LPS
+  std::vector<Float3> normal;         ///< unit, out of the lumen
+  std::vector<float> radius;          ///< of the vessel there, mm
+  std::vector<float> confidence;      ///< the inlier rate there, in [0, 1]; empty if unknown
+  std::vector<std::uint32_t> branch;  ///< index into `labels`
+  /// at which a cursor on the surface is there (libblob); empty if unknown
+  std::vector<std::uint32_t> node;
+
+  std::vector<Triangle> triangle;    ///< indices of vertices, counter-clockwise seen from outside
+  std::vector<std::uint32_t> group;  ///< of each triangle: index into `groups`
+  std::vector<FaceGroup> groups;
+  std::vector<std::string> labels;  ///< of the case's branches
+};
+
+}  // namespace lumen::convert

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF 2.0 with KHR_draco_mesh_compression, EXT_meshopt_compression and MSFT_lod.
+#include "converters/io/mesh/write_gltf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <vector>
+
+#include "converters/base/error.h"
+#include "converters/io/mesh/draco_mesh.h"
+#include "converters/io/mesh/face_kind.h"
+#include "converters/io/mesh/gltf_document.h"
+#include "converters/io/mesh/mesh_parts.h"
+#include "converters/io/mesh/meshopt_codec.h"
+#include "converters/io/mesh/vertex_color.h"
+#include "converters/io/mesh/vertex_streams.h"
+
+namespace lumen::convert {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kLod = "MSFT_lod";
+// Index 65535 is the primitive restart value of 16-bit indices, which glTF forbids.
+constexpr std::size_t kMaxShortVertices = 65535;
+// Each level is for half the height on the screen that the one before is for; the last for all below.
+constexpr double kLodCoverage = 0.5;
+
+// One level while it is written.
+struct Level {
+  const SurfaceMesh& surface;
+  std::vector<MeshPart> parts;
+  std::vector<VertexStream> streams;
+};
+
+json rootNode() {
+  return {
+      {"name", "LPS_mm_to_glTF_m"},
+      {"matrix", kGltfFromLps},
+      {"extras",
+       {{"frame", "LPS: +x left, +y posterior, +z superior"},
+        {"unit", "mm"},
+        {"matrix",
+         "to glTF: metres, +x left, +y superior, +z anterior; apply its inverse to come back to "
+         "LPS mm"}}}};
+}
+
+// The wall is arterial red, and the lumen that an end shows darker; white where vertices have colours.
+json materialOf(FaceKind kind, bool isOpen, bool isColored) {
+  const bool isWall = kind == FaceKind::Wall;
+  const json color = isColored ? json{1.0, 1.0, 1.0, 1.0}
+                     : isWall  ? json{0.5, 0.05, 0.05, 1.0}
+                               : json{0.2, 0.01, 0.02, 1.0};
+  json material = {{"name", isWall ? "vessel wall" : faceKindName(kind)},
+                   {"pbrMetallicRoughness",
+                    {{"baseColorFactor", color},
+                     {"metallicFactor", 0.0},
+                     {"roughnessFactor", isWall ? 0.45 : 0.7}}}};
+  if (isOpen) material["doubleSided"] = true;  // the inside of the wall shows
+  return material;
+}
+
+json meshExtras(const SurfaceMesh& surface, const std::vector<VertexStream>& streams,
+                const ColorScale& scale) {
+  const std::map<std::string, const char*> meanings = {{"POSITION", "mm, LPS"},
+                                                       {"_RADIUS", "mm"},
+                                                       {"_BRANCH", "index into branches"},
+                                                       {"_CONFIDENCE", "0 to 1"}};
+  json extras = {{"branches", surface.labels}};
+  for (const VertexStream& stream : streams)
+    if (const auto found = meanings.find(stream.name); found != meanings.end())
+      extras["attributes"][stream.name] = found->second;
+  if (scale.by == ColorBy::None) return extras;
+  json color = {{"map", colorMapName(scale.by)}};
+  if (scale.by == ColorBy::Branch) color["by"] = "branch";
+  if (scale.by == ColorBy::Radius)
+    color.update({{"by", "radius"}, {"unit", "mm"}, {"scale", "logarithmic"}});
+  if (scale.by == ColorBy::Confidence) color["by"] = "confidence";
+  if (scale.by != ColorBy::Branch) color["range"] = {scale.low, scale.high};
+  extras["color"] = std::move(color);
+  return extras;
+}
+
+json accessorOf(const VertexStream& stream, std::size_t count) {
+  json accessor = {{"componentType", stream.componentType},
+                   {"count", count},
+                   {"type", stream.components == 1   ? "SCALAR"
+                            : stream.components == 3 ? "VEC3"
+                                                     : "VEC4"}};
+  if (stream.isNormalized) accessor["normalized"] = true;
+  return accessor;
+}
+
+void setBounds(json& accessor, const Float3& low, const Float3& high) {
+  accessor["min"] = low;
+  accessor["max"] = high;
+}
+
+Float3 positionAt(const VertexStream& positions, std::size_t vertex) {
+  Float3 p;
+  std::memcpy(p.data(), positions.bytes.data() + vertex * positions.stride, sizeof p);
+  return p;
+}
+
+json indexAccessor(std::size_t count, bool isShort) {
+  return {{"componentType", isShort ? kUnsignedShort : kUnsignedInt},
+          {"count", count},
+          {"type", "SCALAR"}};
+}
+
+// Where a part's vertices and indices begin in the buffer views of its level.
+struct Place {
+  std::size_t vertex = 0, index = 0;
+};
+
+// The accessor of a part's share of a stream, which has a buffer view of its own.
+json sharedAccessor(const VertexStream& stream, const MeshPart& part, std::size_t first, int view) {
+  json accessor = accessorOf(stream, part.vertex.size());
+  accessor["bufferView"] = view;
+  accessor["byteOffset"] = first * stream.stride;
+  if (stream.name != "POSITION") return accessor;
+  Float3 low = positionAt(stream, first), high = low;
+  for (std::size_t v = 0; v < part.vertex.size(); ++v)
+    extendBox(positionAt(stream, first + v), low, high);
+  setBounds(accessor, low, high);
+  return accessor;
+}
+
+// The primitives of a level's parts, which share a buffer view for each attribute.
+std::vector<json> plainPrimitives(GltfDocument& document, Level& level) {
+  std::vector<std::uint32_t> index;
+  std::size_t most = 0;
+  for (const MeshPart& part : level.parts) {
+    for (const Triangle& t : part.triangle) index.insert(index.end(), t.begin(), t.end());
+    most = std::max(most, part.vertex.size());
+  }
+  const bool isShort = most <= kMaxShortVertices;
+  std::vector<int> views;
+  for (VertexStream& stream : level.streams) views.push_back(document.addVertices(stream));
+  const int indexView = document.addIndices(index, most, isShort);
+  std::vector<json> primitives;
+  Place place;
+  for (const MeshPart& part : level.parts) {
+    json primitive;
+    for (std::size_t s = 0; s < views.size(); ++s)
+      primitive["attributes"][level.streams[s].name] =
+          document.add("accessors", sharedAccessor(level.streams[s], part, place.vertex, views[s]));
+    json indices = indexAccessor(3 * part.triangle.size(), isShort);
+    indices["bufferView"] = indexView;
+    indices["byteOffset"] = place.index * (isShort ? 2 : 4);
+    primitive["indices"] = document.add("accessors", std::move(indices));
+    place.vertex += part.vertex.size();
+    place.index += 3 * part.triangle.size();
+    primitives.push_back(std::move(primitive));
+  }
+  return primitives;
+}
+
+// The cube around all levels.
+DracoGrid gridOf(std::span<const SurfaceMesh> levels) {
+  Float3 low = levels.front().position.empty() ? Float3{} : levels.front().position.front();
+  Float3 high = low;
+  for (const SurfaceMesh& level : levels)
+    for (const Float3& p : level.position) extendBox(p, low, high);
+  DracoGrid grid{low, 0};
+  for (std::size_t a = 0; a < 3; ++a) grid.range = std::max(grid.range, high[a] - low[a]);
+  if (!(grid.range > 0)) grid.range = 1;
+  return grid;
+}
+
+std::vector<json> dracoPrimitives(GltfDocument& document, const Level& level, const DracoGrid& grid,
+                                  const WriteMeshOptions& options) {
+  std::vector<json> primitives;
+  std::size_t first = 0;
+  for (const MeshPart& part : level.parts) {
+    const DracoMesh coded =
+        encodeDraco({level.streams, first, part.vertex.size(), part.triangle}, grid, options);
+    json primitive, extension;
+    for (std::size_t s = 0; s < level.streams.size(); ++s) {
+      const VertexStream& stream = level.streams[s];
+      json accessor = accessorOf(stream, coded.vertices);
+      if (stream.name == "POSITION") setBounds(accessor, coded.low, coded.high);
+      primitive["attributes"][stream.name] = document.add("accessors", std::move(accessor));
+      extension["attributes"][stream.name] = coded.id[s];
+    }
+    primitive["indices"] = document.add(
+        "accessors", indexAccessor(3 * coded.triangles, coded.vertices <= kMaxShortVertices));
+    extension["bufferView"] = document.addBytes(coded.bytes);
+    primitive["extensions"][kDraco] = std::move(extension);
+    primitives.push_back(std::move(primitive));
+    first += part.vertex.size();
+  }
+  if (!level.parts.empty()) document.useExtension(kDraco, true);
+  return primitives;
+}
+
+// The shortest rotation of z to the direction, as a quaternion x, y, z, w.
+json turnFromZ(const std::array<double, 3>& d) {
+  if (d[2] < -1 + 1e-12) return json::array({1.0, 0.0, 0.0, 0.0});
+  const double length = std::sqrt(d[1] * d[1] + d[0] * d[0] + (1 + d[2]) * (1 + d[2]));
+  return json::array({-d[1] / length, d[0] / length, 0.0, (1 + d[2]) / length});
+}
+
+// Writes the levels of one surface; holds what they share.
+class Scene {
+public:
+  Scene(std::span<const SurfaceMesh> levels, const WriteMeshOptions& options,
+        const GltfScene* layout = nullptr)
+      : m_document(options.meshopt),
+        m_options(options),
+        m_layout(layout),
+        m_first(levels.front()),
+        m_scale(scaleOf(m_first, options.color)),
+        m_grid(gridOf(levels)),
+        m_isOpen(!isClosed(m_first)) {
+    m_document.content["asset"] = {{"version", "2.0"}, {"generator", "lumen " LUMEN_VERSION}};
+    m_document.content["scene"] = 0;
+    m_document.add("scenes", {{"nodes", json::array({0})}});
+    m_document.add("nodes", layout ? json{{"name", "vessels"}} : rootNode());
+    for (const SurfaceMesh& level : levels) addLevel(level);
+    for (const auto& [branch, nodes] : m_nodes) link(nodes);
+    if (layout)
+      for (const GltfPlace& place : layout->places) addPlace(place);
+  }
+
+  std::string write(bool binary) { return m_document.write(binary); }
+
+private:
+  void addChild(int node) { m_document.content["nodes"][0]["children"].push_back(node); }
+
+  void addPlace(const GltfPlace& place) {
+    addChild(m_document.add("nodes", {{"name", place.name},
+                                      {"translation", place.position},
+                                      {"rotation", turnFromZ(place.direction)}}));
+  }
+
+  void addLevel(const SurfaceMesh& surface) {
+    Level level{surface, partsOf(surface, m_options.per), {}};
+    if (!m_options.draco)
+      for (MeshPart& part : level.parts) orderForDrawing(part);
+    level.streams = streamsOf(surface, level.parts, m_scale);
+    if (m_layout)
+      std::erase_if(level.streams, [](const VertexStream& stream) {
+        return stream.name != "POSITION" && stream.name != "NORMAL";
+      });
+    if (level.parts.empty()) return;
+    const std::vector<json> primitives = m_options.draco
+                                             ? dracoPrimitives(m_document, level, m_grid, m_options)
+                                             : plainPrimitives(m_document, level);
+    for (std::size_t i = 0; i < primitives.size();) {
+      const std::uint32_t branch = level.parts[i].branch;
+      const std::string name = m_layout ? m_layout->nodes[m_nodes[branch].size()] : nameOf(branch);
+      json mesh = {{"name", name}};
+      if (!m_layout) mesh["extras"] = meshExtras(surface, level.streams, m_scale);
+      for (; i < primitives.size() && level.parts[i].branch == branch; ++i)
+        mesh["primitives"].push_back(finished(primitives[i], level.parts[i].group));
+      const int node = m_document.add(
+          "nodes", {{"name", name}, {"mesh", m_document.add("meshes", std::move(mesh))}});
+      m_nodes[branch].push_back(node);
+    }
+  }
+
+  std::string nameOf(std::uint32_t branch) const {
+    return m_options.per == MeshPer::Branch ? m_first.labels[branch] : "vessels";
+  }
+
+  json finished(json primitive, std::uint32_t index) {
+    const FaceGroup& group = m_first.groups[index];
+    primitive["mode"] = 4;
+    primitive["material"] = materialFor(group.kind);
+    primitive["extras"] = {
+        {"name", group.name}, {"number", index + 1}, {"kind", faceKindName(group.kind)}};
+    return primitive;
+  }
+
+  int materialFor(FaceKind kind) {
+    const auto [found, isNew] = m_materials.try_emplace(kind, 0);
+    if (isNew)
+      found->second =
+          m_document.add("materials", materialOf(kind, m_isOpen, m_options.color != ColorBy::None));
+    return found->second;
+  }
+
+  // The nodes of one mesh in all levels.
+  void link(const std::vector<int>& nodes) {
+    addChild(nodes.front());
+    if (m_layout && !m_layout->lod) {
+      for (std::size_t i = 1; i < nodes.size(); ++i) addChild(nodes[i]);
+      return;
+    }
+    if (nodes.size() == 1) return;
+    m_document.useExtension(kLod, false);
+    json& first = m_document.content["nodes"][static_cast<std::size_t>(nodes.front())];
+    first["extensions"][kLod]["ids"] = std::vector<int>(nodes.begin() + 1, nodes.end());
+    json coverage;
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+      coverage.push_back(std::pow(kLodCoverage, static_cast<double>(i)));
+    coverage.push_back(0.0);
+    first["extras"]["MSFT_screencoverage"] = std::move(coverage);
+  }
+
+  GltfDocument m_document;
+  const WriteMeshOptions& m_options;
+  const GltfScene* m_layout;
+  const SurfaceMesh& m_first;
+  ColorScale m_scale;
+  DracoGrid m_grid;
+  bool m_isOpen;
+  std::map<FaceKind, int> m_materials;
+  std::map<std::uint32_t, std::vector<int>> m_nodes;  // of each mesh, in the order of levels
+};
+
+}  // namespace
+
+std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
+                       const WriteMeshOptions& options) {
+  if (options.draco && options.meshopt)
+    throw Error(ErrorKind::Usage, "--draco and --meshopt: found both, expected one of them");
+  return Scene(levels, options).write(binary);
+}
+
+std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene) {
+  return Scene(levels, WriteMeshOptions{}, &scene).write(true);
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes as the bytes of a glTF file. Equal meshes give equal bytes.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "converters/io/mesh/surface_mesh.h"
+#include "converters/io/mesh/write_options.h"
+
+namespace lumen::convert {
+
+/// LPS millimetres to glTF metres, column-major: x = left, y = superior (up), z = anterior. A
+/// rotation and a scale; nothing is mirrored.
+constexpr std::array<double, 16> kGltfFromLps = {0.001, 0,     0,      0,  //
+                                                 0,     0,     -0.001, 0,  //
+                                                 0,     0.001, 0,      0,  //
+                                                 0,     0,     0,      1};
+
+/// glTF 2.0: a surface, finest first where there are several levels of detail, which must have the
+/// same labels and groups. GLB if `binary`, otherwise JSON with its buffer in a data URI.
+///
+/// Below a root node whose matrix is kGltfFromLps there is one node with one mesh, in LPS
+/// millimetres, or one for each branch, named by its label. A mesh has one primitive for each group
+/// of faces, whose `extras` say its name, number and kind; its vertices are its own, so that flat
+/// ends have edges, and lie exactly where those of its neighbours do. Vertices have the attributes
+/// that streamsOf() lists; a mesh's `extras` say their units, the branches' labels, and what colours
+/// mean. Coarser levels are nodes outside of the scene that MSFT_lod names.
+///
+/// Throws Error(Unsupported) above 2 GiB of vertex data, Error(InvalidInput) if there is nothing to
+/// colour by, Error(Usage) for options that exclude one another, and Error(Failed) if Draco refuses
+/// a mesh.
+std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
+                       const WriteMeshOptions& options);
+
+/// A node without a mesh: a place with a name, and with its z axis along `direction`.
+struct GltfPlace {
+  std::string name;
+  std::array<double, 3> position{};
+  std::array<double, 3> direction{0, 0, 1};  ///< unit
+};
+
+/// A scene as programs take it that look at the names of nodes, and not at matrices.
+struct GltfScene {
+  std::vector<std::string> nodes;  ///< names of the nodes, one for each level
+  bool lod = false;  ///< coarser levels by MSFT_lod; otherwise they are nodes of the scene
+  std::vector<GltfPlace> places;
+};
+
+/// The same as GLB for vertices that are in the file's frame already: the root node has no matrix, vertices have
+/// POSITION and NORMAL only, and names are those of `scene`, which has one for each level. Throws
+/// Error(Unsupported) above 2 GiB of vertex data.
+std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene);
+
+}  // namespace lumen::convert

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/seeds/place_seeds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/shown_text.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Voxels: a point that lies so far beyond the outermost centres is still in the outermost voxel;
+/// and how far inside of them it is put, more than rounding takes back.
+constexpr double kOutermost = 0.5, kJustInside = 1e-6;
+/// Of the volume's longest side, and of its finest voxel edge: radii that a vessel in it may have.
+constexpr double kWidest = 0.5, kThinnest = 0.1;
+/// Of the points: if so many lie inside, the others are mistakes of their own.
+constexpr double kMostlyInside = 0.75;
+/// mm: a volume that is smaller may be one in metres.
+constexpr double kSmallVolume = 10.0;
+
+struct RadiusRange {
+  double least, most;  ///< mm
+  [[nodiscard]] bool has(double radius) const { return radius >= least && radius <= most; }
+};
+
+RadiusRange radiusRange(const VolumeGeometry& geometry) {
+  double longest = 0;
+  for (int a = 0; a < 3; ++a)
+    longest = std::max(longest, geometry.spacing[a] * geometry.size[static_cast<std::size_t>(a)]);
+  return {kThinnest * geometry.spacing.minCoeff(), kWidest * longest};
+}
+
+/// Indices held within the voxel centres' box, `margin` voxels from its faces.
+Vector3d heldInside(const VolumeGeometry& geometry, Vector3d index, double margin) {
+  for (int a = 0; a < 3; ++a) {
+    const double last = geometry.size[static_cast<std::size_t>(a)] - 1;
+    index[a] = last > 2 * margin ? std::clamp(index[a], margin, last - margin) : 0.5 * last;
+  }
+  return index;
+}
+
+bool isWithinVoxels(const VolumeGeometry& geometry, const Vector3d& index) {
+  return ((index - heldInside(geometry, index, 0)).cwiseAbs().array() <= kOutermost).all();
+}
+
+/// LPS mm of a position as the branch holds it.
+Vector3d worldOf(const SeedBranch& branch, const Vector3d& position,
+                 const VolumeGeometry& geometry) {
+  return branch.frame.system == SeedSystem::Voxel ? geometry.worldFromIndex(position) : position;
+}
+
+std::string outsideText(const Vector3d& world, const VolumeGeometry& geometry) {
+  const Vector3d index = geometry.indexFromWorld(world);
+  Vector3d low = geometry.origin, high = geometry.origin;
+  for (int corner = 1; corner < 8; ++corner) {
+    Vector3d at;
+    for (int a = 0; a < 3; ++a)
+      at[a] = (corner >> a & 1) != 0 ? geometry.size[static_cast<std::size_t>(a)] - 1 : 0;
+    low = low.cwiseMin(geometry.worldFromIndex(at));
+    high = high.cwiseMax(geometry.worldFromIndex(at));
+  }
+  const Vector3d nearest = geometry.worldFromIndex(heldInside(geometry, index, 0));
+  return "lies " + numberText((world - nearest).norm()) + " mm outside of the volume: it is at " +
+         vectorText(world) + " mm LPS (voxel " + vectorText(index) +
+         "), and the volume reaches from " + vectorText(low) + " to " + vectorText(high) +
+         " mm, in " + std::to_string(geometry.size[0]) + " x " + std::to_string(geometry.size[1]) +
+         " x " + std::to_string(geometry.size[2]) + " voxels";
+}
+
+std::string radiusText(double radius, const RadiusRange& range) {
+  std::string text = "has a radius of " + numberText(radius) + " mm; expected " +
+                     numberText(range.least) + " to " + numberText(range.most) +
+                     " mm in this volume (a tenth of its finest voxel edge, half of its longest "
+                     "side)";
+  if (range.has(1e-3 * radius))
+    text += "; in micrometres it would be one of " + numberText(1e-3 * radius) + " mm";
+  if (range.has(1e3 * radius))
+    text += "; in metres it would be one of " + numberText(1e3 * radius) + " mm";
+  return text;
+}
+
+/// Why a point cannot be tracked; nothing if it can.
+std::optional<std::string> faultOf(const Vector3d& world, const SeedPoint& point,
+                                   const VolumeGeometry& geometry, const RadiusRange& range) {
+  if (!isWithinVoxels(geometry, geometry.indexFromWorld(world)))
+    return outsideText(world, geometry);
+  if (point.radius && !range.has(*point.radius)) return radiusText(*point.radius, range);
+  return std::nullopt;
+}
+
+// ---- other readings ----
+
+/// Another way to read coordinates, and the options that ask for it.
+struct OtherReading {
+  SeedReading reading;
+  const char *words, *options;
+};
+
+constexpr double kMetre = 1000;
+/// Metres first: as voxels, or flipped, they may all lie in the first one.
+const std::array kOtherReadings = {
+    OtherReading{{{}, kMetre}, "as metres", "--seeds-unit m"},
+    OtherReading{{SeedSystem::Ras, kMetre},
+                 "as metres in RAS (x and y flipped)",
+                 "--seeds-frame ras --seeds-unit m"},
+    OtherReading{{SeedSystem::Lps, kMetre},
+                 "as metres in LPS (x and y flipped)",
+                 "--seeds-frame lps --seeds-unit m"},
+    OtherReading{{SeedSystem::Ras, {}}, "as RAS (x and y flipped)", "--seeds-frame ras"},
+    OtherReading{{SeedSystem::Lps, {}}, "as LPS (x and y flipped)", "--seeds-frame lps"},
+    OtherReading{{SeedSystem::Voxel, {}}, "as voxel indices", "--seeds-frame voxel"},
+    OtherReading{{{}, 1.0}, "as millimetres", "--seeds-unit mm"},
+};
+
+Vector3d asInFile(const SeedFrame& frame, const Vector3d& position) {
+  return frame.direction(position) / (frame.system == SeedSystem::Voxel ? 1.0 : frame.unit);
+}
+
+template <class WorldOf>
+std::size_t countInside(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
+                        WorldOf world) {
+  std::size_t inside = 0;
+  for (const SeedBranch& branch : seeds)
+    for (const SeedPoint& point : branch.points)
+      if (isWithinVoxels(geometry, geometry.indexFromWorld(world(branch, point.position))))
+        ++inside;
+  return inside;
+}
+
+std::string insideText(std::size_t inside, std::size_t points) {
+  if (points == 1) return "its point would lie inside; if that is what it is, add ";
+  return (inside == points ? "all " + std::to_string(points)
+                           : std::to_string(inside) + " of the " + std::to_string(points)) +
+         " points would lie inside; if that is what they are, add ";
+}
+
+/// True if all points lie within a voxel of the origin: metres that are taken for millimetres do,
+/// and that may be inside of the volume.
+bool allAtOrigin(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry) {
+  const double edge = geometry.spacing.maxCoeff();
+  return std::all_of(seeds.begin(), seeds.end(), [&](const SeedBranch& branch) {
+    return branch.frame.system != SeedSystem::Voxel &&
+           std::all_of(branch.points.begin(), branch.points.end(),
+                       [&](const SeedPoint& point) { return point.position.norm() < edge; });
+  });
+}
+
+/// The reading under which most points lie inside, if those are more than `inside`; of metres if
+/// that is all that is asked.
+std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
+                      std::size_t points, std::size_t inside, bool onlyMetres) {
+  const std::size_t asStated = inside;
+  std::string advice;
+  for (const OtherReading& other : kOtherReadings) {
+    if (onlyMetres && other.reading.unit != kMetre) continue;
+    const std::size_t count =
+        countInside(seeds, geometry, [&](const SeedBranch& branch, const Vector3d& position) {
+          SeedBranch read;
+          read.frame = {other.reading.system.value_or(branch.frame.system),
+                        other.reading.unit.value_or(branch.frame.unit)};
+          return worldOf(read, read.frame.position(asInFile(branch.frame, position)), geometry);
+        });
+    if (count <= inside) continue;
+    inside = count;
+    advice = std::string("read ") + other.words + " " + insideText(count, points) + other.options;
+  }
+  const double side = 2 * radiusRange(geometry).most;
+  if (onlyMetres || asStated > 0 || side >= kSmallVolume) return advice;
+  VolumeGeometry metres = geometry;
+  metres.spacing *= kMetre;
+  metres.origin *= kMetre;
+  const std::size_t count =
+      countInside(seeds, metres, [&](const SeedBranch& branch, const Vector3d& position) {
+        return worldOf(branch, position, metres);
+      });
+  if (count <= inside) return advice;
+  return "the volume is only " + numberText(side) + " mm long; with its header read as metres " +
+         insideText(count, points) + "--unit m";
+}
+
+// ---- placing ----
+
+class Placing {
+public:
+  Placing(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry)
+      : m_geometry(geometry), m_range(radiusRange(geometry)) {
+    std::size_t points = 0;
+    for (const SeedBranch& branch : seeds) {
+      place(branch);
+      points += branch.points.size();
+    }
+    const std::size_t inside =
+        countInside(seeds, geometry, [&](const SeedBranch& branch, const Vector3d& position) {
+          return worldOf(branch, position, geometry);
+        });
+    if (static_cast<double>(inside) < kMostlyInside * static_cast<double>(points))
+      placed.advice = adviceFor(seeds, geometry, points, inside, false);
+    else if (inside == points && allAtOrigin(seeds, geometry))
+      placed.advice = adviceFor(seeds, geometry, points, 0, true);
+  }
+
+  PlacedSeeds placed;
+  std::string firstFault;  ///< of a branch, with its label
+
+private:
+  void place(const SeedBranch& branch) {
+    if (branch.parent && m_leftOut.contains(*branch.parent))
+      return leaveOut(branch, "its parent " + quotedText(*branch.parent) + " is left out");
+    SeedBranch out = branch;
+    out.points.clear();
+    out.frame = {};
+    toMillimetres(branch, out);
+    std::vector<std::string> faults;
+    for (std::size_t i = 0; i < branch.points.size(); ++i) placePoint(branch, i, out, faults);
+    if (out.points.empty()) return leaveOut(branch, faults.front());
+    for (std::string& fault : faults) placed.leftPoints.push_back({branch.label, std::move(fault)});
+    placed.seeds.push_back(std::move(out));
+  }
+
+  /// The direction of `branch`, of voxels as those lie in the volume.
+  void toMillimetres(const SeedBranch& branch, SeedBranch& out) const {
+    if (branch.frame.system != SeedSystem::Voxel || !branch.direction) return;
+    out.direction =
+        (m_geometry.direction * m_geometry.spacing.cwiseProduct(*branch.direction)).normalized();
+  }
+
+  void placePoint(const SeedBranch& branch, std::size_t i, SeedBranch& out,
+                  std::vector<std::string>& faults) {
+    SeedPoint point = branch.points[i];
+    point.position = worldOf(branch, point.position, m_geometry);
+    if (const auto fault = faultOf(point.position, point, m_geometry, m_range)) {
+      faults.push_back("point " + std::to_string(i + 1) + " " + *fault);
+      if (firstFault.empty())
+        firstFault = "branch " + quotedText(branch.label) + ": " + faults.back();
+      return;
+    }
+    const Vector3d index = m_geometry.indexFromWorld(point.position);
+    if (!m_geometry.containsIndex(index))
+      point.position = m_geometry.worldFromIndex(heldInside(m_geometry, index, kJustInside));
+    out.points.push_back(point);
+  }
+
+  void leaveOut(const SeedBranch& branch, const std::string& reason) {
+    m_leftOut.insert(branch.label);
+    placed.leftOut.push_back({branch.label, reason});
+  }
+
+  const VolumeGeometry& m_geometry;
+  RadiusRange m_range;
+  std::unordered_set<std::string> m_leftOut;
+};
+
+}  // namespace
+
+PlacedSeeds placeSeeds(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
+                       const std::filesystem::path& file) {
+  Placing placing(seeds, geometry);
+  PlacedSeeds& placed = placing.placed;
+  const std::string advice = placed.advice.empty() ? "" : "; " + placed.advice;
+  const std::string name = formats::printable(file.string()) + ": ";
+  const std::string none = seeds.size() == 1 ? "its seed cannot be tracked: "
+                                             : "none of its " + std::to_string(seeds.size()) +
+                                                   " seeds can be tracked; the first, ";
+  if (placed.seeds.empty()) throw invalidInput(name + none + placing.firstFault + advice);
+  return std::move(placed);
+}
+
+}  // namespace lumen::convert

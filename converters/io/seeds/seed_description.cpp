@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/seeds/seed_description.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "converters/base/text.h"
+#include "converters/io/seeds/seeds_parse.h"
+
+namespace lumen::convert {
+namespace {
+
+std::optional<double> numberIn(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+void applyDescription(const std::string& text, SeedBranch& branch,
+                      const std::function<void(const std::string&)>& refuse) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    begin = end + 1;
+    const auto equals = part.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string key = trimmed(part.substr(0, equals));
+    const std::string value = trimmed(part.substr(equals + 1));
+    if (key == "parent") {
+      branch.parent = value;
+    } else if (key == "kind" && branchKind(value)) {
+      branch.kind = *branchKind(value);
+    } else if (key == "radius") {
+      const auto radius = numberIn(value);
+      if (!radius) return refuse("a number after \"radius=\"");
+      for (auto& point : branch.points)
+        if (!point.radius) point.radius = branch.frame.unit * *radius;
+    } else {
+      return refuse(
+          "\"parent=LABEL\", \"kind=vessel\", \"kind=aneurysm\" or \"radius=NUMBER\" "
+          "around each \"=\"");
+    }
+  }
+}
+
+}  // namespace lumen::convert

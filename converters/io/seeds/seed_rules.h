@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What holds for the branches of every seeds file. Private to the sources of seeds.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "converters/io/seeds/seeds.h"
+
+namespace lumen::convert {
+
+/// Branches in file order, checked, with doubled points merged and unit directions, parents first.
+/// Throws Error(InvalidInput), naming `file` and the label.
+std::vector<SeedBranch> checkedSeeds(std::vector<SeedBranch> branches,
+                                     const std::filesystem::path& file);
+
+}  // namespace lumen::convert

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/seeds/seeds.h"
+
+#include <algorithm>
+#include <fstream>
+#include <span>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/text.h"
+#include "converters/io/seeds/seed_rules.h"
+#include "converters/io/seeds/seeds_fcsv.h"
+#include "converters/io/seeds/seeds_json.h"
+#include "converters/io/seeds/seeds_markups.h"
+#include "converters/io/seeds/seeds_parse.h"
+#include "formats/case/atomic_file.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+using formats::printable;
+
+constexpr std::uintmax_t kMaxBytes = 64u << 20;
+
+std::string readText(const fs::path& file) {
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  if (error)
+    throw invalidInput(printable(file.string()) + ": cannot be read (" + error.message() + ")");
+  if (size > kMaxBytes)
+    throw invalidInput(printable(file.string()) + ": has " + std::to_string(size) +
+                       " bytes; expected at most 64 MiB of seeds");
+  std::string text(static_cast<std::size_t>(size), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.read(text.data(), static_cast<std::streamsize>(size)))
+    throw invalidInput(printable(file.string()) + ": cannot be read");
+  return text;
+}
+
+/// The name of `file` without ".mrk.json" or its extension.
+std::string stemOf(const fs::path& file) {
+  const fs::path stem = file.stem();
+  return (stem.extension() == ".mrk" ? stem.stem() : stem).string();
+}
+
+/// The first character that is no white space; 0 if there is none.
+char firstOf(const std::string& text) {
+  const auto at = text.find_first_not_of(" \t\r\n");
+  return at == std::string::npos ? '\0' : text[at];
+}
+
+/// The first line, for a message.
+std::string firstLine(const std::string& text) {
+  return quotedText(trimmed(text.substr(0, std::min(text.find('\n'), text.size()))));
+}
+
+std::vector<SeedBranch> parseText(const std::string& text, const fs::path& file,
+                                  const SeedReading& reading) {
+  const char first = firstOf(text);
+  const bool named = lowerCase(file.extension().string()) == ".fcsv";
+  if (first == '#' || (named && first != '{')) return parseFcsv(text, file, stemOf(file), reading);
+  if (first != '{' && first != '[')
+    throw invalidInput(
+        printable(file.string()) + ": is not JSON: found " +
+        (first == '\0' ? std::string("nothing") : firstLine(text)) +
+        "; expected lumen's seeds (spec/seeds.md), or points that 3D Slicer saved as "
+        ".mrk.json or .fcsv");
+  const JsonFile json{parseJson(text, file), file.string()};
+  const JsonPlace root(json);
+  return root.has("markups") ? parseMarkups(root, stemOf(file), reading)
+                             : parseSeeds(root, reading);
+}
+
+}  // namespace
+
+std::vector<SeedBranch> readSeeds(const fs::path& file, const SeedReading& reading) {
+  return checkedSeeds(parseText(readText(file), file, reading), file);
+}
+
+void writeSeeds(const std::vector<SeedBranch>& seeds, const fs::path& file) {
+  const std::string text = seedsText(seeds);
+  const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
+  if (!written) throw failed(printable(file.string()) + ": " + written.error().text());
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/seeds/seeds_json.h"
+
+#include <algorithm>
+
+#include "converters/base/shown_text.h"
+
+namespace lumen::convert {
+namespace {
+
+using nlohmann::json;
+
+/// What the file states, where `reading` does not say otherwise.
+SeedFrame parseFrame(const JsonPlace& root, const SeedReading& reading) {
+  const JsonPlace system = root.at("coordinateSystem"), units = root.at("units");
+  SeedFrame frame;
+  if (reading.system)
+    frame.system = *reading.system;
+  else if (system.text() == "RAS")
+    frame.system = SeedSystem::Ras;
+  else if (system.text() != "LPS")
+    system.refuse("\"LPS\" or \"RAS\"; --seeds-frame states another");
+  frame.unit = reading.unit ? *reading.unit : scaleOf(units);
+  return frame;
+}
+
+SeedPoint parsePoint(const JsonPlace& place, const SeedFrame& frame) {
+  if (place.value().is_array()) return {frame.position(place.vector()), std::nullopt};
+  if (!place.value().is_object()) place.refuse("[x, y, z], or an object with a position");
+  place.onlyKeys({"position", "radius"});
+  SeedPoint point{frame.position(place.at("position").vector()), std::nullopt};
+  if (place.has("radius")) point.radius = frame.unit * place.at("radius").number();
+  return point;
+}
+
+/// A branch's own radius is that of a vessel's first point, and of an aneurysm's points that have
+/// none.
+void spreadRadius(SeedBranch& branch, double radius) {
+  const bool all = branch.kind == formats::BranchKind::Aneurysm;
+  const std::size_t count =
+      all ? branch.points.size() : std::min<std::size_t>(1, branch.points.size());
+  for (std::size_t i = 0; i < count; ++i)
+    if (!branch.points[i].radius) branch.points[i].radius = radius;
+}
+
+SeedBranch parseBranch(const JsonPlace& place, const SeedFrame& frame) {
+  place.onlyKeys({"label", "kind", "parent", "points", "radius", "direction", "comment"});
+  SeedBranch branch;
+  branch.frame = frame;
+  branch.label = place.at("label").text();
+  if (place.has("kind")) {
+    const auto kind = branchKind(place.at("kind").text());
+    if (!kind)
+      place.at("kind").refuse("\"vessel\" or \"aneurysm\" for branch " + quotedText(branch.label));
+    branch.kind = *kind;
+  }
+  if (place.has("parent")) branch.parent = place.at("parent").text();
+  for (const auto& point : place.at("points").elements())
+    branch.points.push_back(parsePoint(point, frame));
+  if (place.has("radius")) spreadRadius(branch, frame.unit * place.at("radius").number());
+  if (place.has("direction")) branch.direction = frame.direction(place.at("direction").vector());
+  if (place.has("comment")) (void)place.at("comment").text();
+  return branch;
+}
+
+std::string jsonText(const Eigen::Vector3d& v) {
+  return json{v.x(), v.y(), v.z()}.dump();
+}
+
+std::string branchText(const SeedBranch& branch) {
+  std::string text = "    {\n      \"label\": " + json(branch.label).dump() + ",\n";
+  text += branch.kind == formats::BranchKind::Aneurysm ? "      \"kind\": \"aneurysm\",\n"
+                                                       : "      \"kind\": \"vessel\",\n";
+  if (branch.parent) text += "      \"parent\": " + json(*branch.parent).dump() + ",\n";
+  if (branch.direction) text += "      \"direction\": " + jsonText(*branch.direction) + ",\n";
+  text += "      \"points\": [\n";
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const SeedPoint& p = branch.points[i];
+    text += "        {\"position\": " + jsonText(p.position);
+    if (p.radius) text += ", \"radius\": " + json(*p.radius).dump();
+    text += i + 1 < branch.points.size() ? "},\n" : "}\n";
+  }
+  return text + "      ]\n    }";
+}
+
+}  // namespace
+
+std::vector<SeedBranch> parseSeeds(const JsonPlace& root, const SeedReading& reading) {
+  if (!root.has("format"))
+    root.refuse(
+        "the key \"format\" with \"lumen-seeds\" (lumen's own seeds), or the key \"markups\" (3D "
+        "Slicer's)");
+  if (root.at("format").value() != "lumen-seeds")
+    root.at("format").refuse("\"lumen-seeds\": this is no file of seeds");
+  root.onlyKeys(
+      {"$schema", "format", "version", "comment", "coordinateSystem", "units", "branches"});
+  if (root.at("version").value() != 1) root.at("version").refuse("1");
+  for (const char* key : {"$schema", "comment"})
+    if (root.has(key)) (void)root.at(key).text();
+  const SeedFrame frame = parseFrame(root, reading);
+  std::vector<SeedBranch> branches;
+  for (const auto& place : root.at("branches").elements())
+    branches.push_back(parseBranch(place, frame));
+  return branches;
+}
+
+std::string seedsText(const std::vector<SeedBranch>& seeds) {
+  std::string text =
+      "{\n  \"format\": \"lumen-seeds\",\n  \"version\": 1,\n  \"coordinateSystem\": \"LPS\",\n"
+      "  \"units\": \"mm\",\n  \"branches\": [\n";
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    text += branchText(seeds[i]) + (i + 1 < seeds.size() ? ",\n" : "\n");
+  return text + "  ]\n}\n";
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// 3D Slicer Markups as seeds (Slicer's markups-schema-v1.0.3.json).
+#include "converters/io/seeds/seeds_markups.h"
+
+#include <algorithm>
+
+#include "converters/base/text.h"
+#include "converters/io/seeds/seed_description.h"
+
+namespace lumen::convert {
+namespace {
+
+using nlohmann::json;
+
+/// "LPS" (the default), "RAS", or as older versions wrote them: 1 and 0.
+SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
+  if (reading.system) return *reading.system;
+  if (!markup.has("coordinateSystem")) return SeedSystem::Lps;
+  const JsonPlace place = markup.at("coordinateSystem");
+  const auto& value = place.value();
+  if (value == "LPS" || value == "1" || value == 1) return SeedSystem::Lps;
+  if (value == "RAS" || value == "0" || value == 0) return SeedSystem::Ras;
+  place.refuse("\"LPS\" or \"RAS\"; --seeds-frame states another");
+}
+
+/// "mm" (the default) or "m"; a coded unit such as ["mm", "UCUM", "millimeter"] counts by its first
+/// word.
+double unitScale(const JsonPlace& markup, const SeedReading& reading) {
+  if (reading.unit) return *reading.unit;
+  if (!markup.has("coordinateUnits")) return 1;
+  const JsonPlace unit = markup.at("coordinateUnits");
+  if (!unit.value().is_array()) return scaleOf(unit);
+  const auto words = unit.elements();
+  if (words.empty()) unit.refuse("\"mm\" or \"m\"");
+  return scaleOf(words[0]);
+}
+
+/// The values of the measurement "Radius", one for each control point; null if there is none.
+std::vector<double> radii(const JsonPlace& markup, std::size_t points) {
+  std::vector<double> values;
+  if (!markup.has("measurements")) return values;
+  for (const auto& measurement : markup.at("measurements").elements()) {
+    if (!measurement.has("name") || !measurement.has("controlPointValues")) continue;
+    if (lowerCase(measurement.at("name").text()) != "radius") continue;
+    const auto entries = measurement.at("controlPointValues").elements();
+    if (entries.size() != points)
+      measurement.at("controlPointValues")
+          .refuse(std::to_string(points) + " radii, one for each control point");
+    for (const auto& entry : entries) values.push_back(entry.number());
+  }
+  return values;
+}
+
+/// What is written in a description, of a control point or of a markup.
+void describe(const JsonPlace& holder, SeedBranch& branch) {
+  if (!holder.has("description")) return;
+  const JsonPlace place = holder.at("description");
+  applyDescription(place.text(), branch,
+                   [&](const std::string& expected) { place.refuse(expected); });
+}
+
+struct ControlPoint {
+  JsonPlace place;
+  SeedPoint point;
+};
+
+/// The control points that have a position; Slicer keeps others as placeholders.
+std::vector<ControlPoint> controlPoints(const JsonPlace& markup, const SeedFrame& frame) {
+  const auto places = markup.at("controlPoints").elements();
+  const std::vector<double> radius = radii(markup, places.size());
+  std::vector<ControlPoint> points;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const JsonPlace& place = places[i];
+    if (place.has("positionStatus") && place.at("positionStatus").text() != "defined") continue;
+    SeedPoint point{frame.position(place.at("position").vector()), std::nullopt};
+    if (!radius.empty()) point.radius = frame.unit * radius[i];
+    points.push_back({place, point});
+  }
+  return points;
+}
+
+std::string textOr(const JsonPlace& place, const char* key, const std::string& fallback) {
+  const std::string text = place.has(key) ? place.at(key).text() : std::string();
+  return text.empty() ? fallback : text;
+}
+
+/// Each control point of a Fiducial markup begins a branch of its own.
+void addFiducials(const JsonPlace& markup, const SeedFrame& frame, const std::string& name,
+                  std::vector<SeedBranch>& branches) {
+  int number = 0;
+  for (const auto& [place, point] : controlPoints(markup, frame)) {
+    SeedBranch branch;
+    branch.frame = frame;
+    branch.label = textOr(place, "label", name + "-" + std::to_string(++number));
+    branch.points = {point};
+    describe(place, branch);
+    branches.push_back(std::move(branch));
+  }
+}
+
+/// A line or curve is one branch.
+void addCurve(const JsonPlace& markup, const SeedFrame& frame, const std::string& name,
+              std::vector<SeedBranch>& branches) {
+  SeedBranch branch;
+  branch.frame = frame;
+  branch.label = name;
+  const auto points = controlPoints(markup, frame);
+  for (const auto& control : points) branch.points.push_back(control.point);
+  if (!points.empty()) describe(points[0].place, branch);
+  describe(markup, branch);
+  branches.push_back(std::move(branch));
+}
+
+}  // namespace
+
+std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& stem,
+                                     const SeedReading& reading) {
+  std::vector<SeedBranch> branches;
+  for (const auto& markup : root.at("markups").elements()) {
+    const SeedFrame frame{systemOf(markup, reading), unitScale(markup, reading)};
+    const std::string type = markup.at("type").text(), name = textOr(markup, "name", stem);
+    if (type == "Fiducial")
+      addFiducials(markup, frame, name, branches);
+    else if (type == "Line" || type == "Curve" || type == "ClosedCurve")
+      addCurve(markup, frame, name, branches);
+    else
+      markup.at("type").refuse(
+          "\"Fiducial\", \"Line\", \"Curve\" or \"ClosedCurve\": points on vessels; save those "
+          "alone");
+  }
+  return branches;
+}
+
+}  // namespace lumen::convert

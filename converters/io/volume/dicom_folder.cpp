@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/volume/dicom_folder.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+using formats::printable;
+
+struct Folder {
+  std::map<std::string, std::vector<DicomImage>> series;  ///< by instance UID
+  std::vector<DicomScan> faulty;
+};
+
+Folder scanFolder(const fs::path& path, const Progress& progress) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored)) files.push_back(entry->path());
+  }
+  if (error) throw invalidInput(path.string() + ": cannot be listed (" + error.message() + ")");
+  std::sort(files.begin(), files.end());
+  Folder folder;
+  for (const fs::path& file : files) {
+    progress.check();
+    DicomScan scan = scanDicom(file);
+    if (scan.fault)
+      folder.faulty.push_back(std::move(scan));
+    else if (scan.image)
+      folder.series[scan.series].push_back(std::move(*scan.image));
+  }
+  return folder;
+}
+
+/// One line per series: number, UID, files, description, size of an image.
+std::string listing(const Folder& folder) {
+  std::ostringstream text;
+  int number = 0;
+  for (const auto& [uid, images] : folder.series) {
+    const DicomImage& first = images[0];
+    text << "\n  " << ++number << ": " << printable(uid) << " (" << images.size()
+         << (images.size() == 1 ? " file" : " files");
+    if (!first.description.empty()) text << ", " << printable(first.description);
+    text << ", " << first.columns << " x " << first.rows << ")";
+  }
+  return text.str();
+}
+
+std::string chooseSeries(const Folder& folder, const std::string& wanted, const fs::path& path) {
+  const auto& series = folder.series;
+  if (series.empty() && !folder.faulty.empty()) throw *folder.faulty[0].fault;
+  if (series.empty())
+    throw invalidInput(path.string() +
+                       ": holds no DICOM images (its subdirectories are not searched)");
+  if (wanted.empty()) {
+    if (series.size() == 1) return series.begin()->first;
+    throw invalidInput(
+        path.string() + ": holds " + std::to_string(series.size()) +
+        " DICOM series; choose one with --series, by number or UID:" + listing(folder));
+  }
+  if (series.contains(wanted)) return wanted;
+  std::size_t number = 0;
+  const auto* const end = wanted.data() + wanted.size();
+  const auto parsed = std::from_chars(wanted.data(), end, number);
+  if (parsed.ec == std::errc() && parsed.ptr == end && number >= 1 && number <= series.size())
+    return std::next(series.begin(), static_cast<std::ptrdiff_t>(number) - 1)->first;
+  throw invalidInput(path.string() + ": has no series \"" + wanted +
+                     "\"; it holds:" + listing(folder));
+}
+
+}  // namespace
+
+std::vector<DicomImage> findDicomSeries(const fs::path& folder, const std::string& wanted,
+                                        const Progress& progress) {
+  Folder found = scanFolder(folder, progress);
+  const std::string uid = chooseSeries(found, wanted, folder);
+  for (const DicomScan& scan : found.faulty)
+    if (scan.series == uid || scan.series.empty()) throw *scan.fault;
+  return std::move(found.series[uid]);
+}
+
+}  // namespace lumen::convert

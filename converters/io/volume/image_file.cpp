@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/volume/image_file.h"
+
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/io/volume/image_header.h"
+#include "converters/io/volume/volume_checks.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A header whose geometry is settled and whose files can hold the voxels.
+struct CheckedHeader {
+  VolumeHeader shown;
+  StoredVoxels voxels;
+};
+
+CheckedHeader checkedHeader(const fs::path& path, VolumeFormat format,
+                            const ReadVolumeOptions& options, const Progress& progress) {
+  progress.check();
+  ImageHeader header =
+      format == VolumeFormat::Nrrd ? readNrrdHeader(path, options) : readMetaHeader(path, options);
+  CheckedHeader checked;
+  VolumeHeader& shown = checked.shown;
+  shown.assumptions = std::move(header.assumptions);
+  shown.storedType = nameOf(header.voxels.type);
+  shown.encoding = std::move(header.encoding);
+  shown.voxelBytes = header.voxels.count * sizeOf(header.voxels.type);
+  shown.storedBytes = checkStored(header.voxels, shown.assumptions);
+  shown.geometry = settledGeometry(header.stated, options, path, shown.assumptions);
+  checked.voxels = std::move(header.voxels);
+  return checked;
+}
+
+}  // namespace
+
+std::array<int, 3> volumeSize(const fs::path& path, const std::vector<std::int64_t>& sizes) {
+  std::string text;
+  double voxels = 1;
+  bool flat = sizes.size() < 3;
+  for (std::size_t a = 0; a < sizes.size(); ++a) {
+    text += (a > 0 ? " x " : "") + std::to_string(sizes[a]);
+    flat = flat || (a >= 3 && sizes[a] != 1);
+    voxels *= static_cast<double>(sizes[a]);
+  }
+  if (flat) refuseDimensions(path, static_cast<unsigned>(sizes.size()), text);
+  // beyond any file, and far below what overflows
+  constexpr double kMostVoxels = 1e15;
+  if (voxels > kMostVoxels)
+    throw invalidInput(path.string() + ": its header announces " + numberText(voxels) +
+                       " voxels (" + text + "), more than any file can hold");
+  return {static_cast<int>(sizes[0]), static_cast<int>(sizes[1]), static_cast<int>(sizes[2])};
+}
+
+Volume readImageFile(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
+                     const Progress& progress) {
+  CheckedHeader header = checkedHeader(path, format, options, progress);
+  Volume volume;
+  volume.geometry = header.shown.geometry;
+  volume.assumptions = std::move(header.shown.assumptions);
+  volume.voxels = readStored(header.voxels, progress, volume.assumptions);
+  return volume;
+}
+
+VolumeHeader readImageFileHeader(const fs::path& path, VolumeFormat format,
+                                 const ReadVolumeOptions& options, const Progress& progress) {
+  return checkedHeader(path, format, options, progress).shown;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names of lengths in headers.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "converters/base/text.h"
+
+namespace lumen::convert {
+
+/// Millimetres of the unit that `name` names, such as "mm", "Metres" or "um"; empty if it is not
+/// known.
+inline std::optional<double> millimetresOf(const std::string& name) {
+  static const std::map<std::string, double> known = {
+      {"mm", 1},           {"millimeter", 1},   {"millimetre", 1},    {"cm", 10},
+      {"centimeter", 10},  {"centimetre", 10},  {"dm", 100},          {"m", 1000},
+      {"meter", 1000},     {"metre", 1000},     {"um", 1e-3},         {"\xc2\xb5m", 1e-3},
+      {"\xce\xbcm", 1e-3}, {"micron", 1e-3},    {"micrometer", 1e-3}, {"micrometre", 1e-3},
+      {"nm", 1e-6},        {"nanometer", 1e-6}, {"nanometre", 1e-6},  {"in", 25.4},
+      {"inch", 25.4}};
+  std::string word = lowerCase(trimmed(name));
+  auto found = known.find(word);
+  if (found == known.end() && word.size() > 4 && word.back() == 's') {
+    word.pop_back();
+    found = known.find(word);
+  }
+  if (found == known.end()) return {};
+  return found->second;
+}
+
+}  // namespace lumen::convert

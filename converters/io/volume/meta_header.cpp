@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// MetaImage headers, after the MetaIO documentation of ITK.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <system_error>
+
+#include "converters/base/error.h"
+#include "converters/base/text.h"
+#include "converters/io/volume/detached_data.h"
+#include "converters/io/volume/image_header.h"
+#include "converters/io/volume/length_units.h"
+#include "converters/io/volume/text_header.h"
+#include "converters/io/volume/volume_checks.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr std::int64_t kMaxMetaInt = std::numeric_limits<int>::max();
+constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();
+
+// fields by the names under which they are kept, and in messages
+const std::string kSpacing = "ElementSpacing", kPixelSize = "ElementSize", kSizes = "DimSize";
+const std::string kMatrix = "TransformMatrix", kOffset = "Offset", kType = "ElementType";
+const std::string kDataFile = "ElementDataFile", kBigEndian = "ElementByteOrderMSB";
+const std::string kChannels = "ElementNumberOfChannels", kUnits = "DistanceUnits";
+const std::string kSlope = "ElementToIntensityFunctionSlope";
+const std::string kIntercept = "ElementToIntensityFunctionOffset";
+
+/// The name under which a field is kept, whatever its case; fields of two names are one.
+std::string metaField(const std::string& name) {
+  static const std::map<std::string, std::string> names = [] {
+    std::map<std::string, std::string> all = {
+        {"rotation", kMatrix}, {"orientation", kMatrix},   {"position", kOffset},
+        {"origin", kOffset},   {"imageposition", kOffset}, {"binarydatabyteordermsb", kBigEndian}};
+    for (const std::string& field :
+         {kSpacing, kPixelSize, kSizes, kMatrix, kOffset, kType, kDataFile, kBigEndian, kChannels,
+          kUnits, kSlope, kIntercept, std::string("NDims"), std::string("BinaryData"),
+          std::string("CompressedData"), std::string("CompressedDataSize"),
+          std::string("HeaderSize"), std::string("ObjectType")})
+      all[lowerCase(field)] = field;
+    return all;
+  }();
+  const auto found = names.find(lowerCase(name));
+  return found == names.end() ? lowerCase(name) : found->second;
+}
+
+/// "Key = value" lines; ElementDataFile is the last, but for the names of a list.
+TextHeader readMetaFields(const fs::path& path) {
+  HeaderLines lines(path);
+  TextHeader header(path);
+  for (std::string line; lines.next(line);) {
+    const auto mark = line.find_first_of("=:");
+    if (header.has(kDataFile)) {
+      if (!trimmed(line).empty()) header.files.push_back(trimmed(line));
+    } else if (mark != std::string::npos) {
+      header.set(metaField(trimmed(line.substr(0, mark))), trimmed(line.substr(mark + 1)));
+      header.size = lines.size();
+      if (header.has(kDataFile) && header.text(kDataFile).rfind("LIST", 0) != 0) return header;
+    } else if (!trimmed(line).empty()) {
+      break;
+    }
+  }
+  if (header.has(kDataFile)) return header;
+  throw invalidInput(path.string() +
+                     ": is not a MetaImage file: its header has no ElementDataFile line");
+}
+
+bool flag(const TextHeader& header, const std::string& field, bool absent) {
+  if (!header.has(field)) return absent;
+  const std::string value = lowerCase(header.text(field));
+  if (value == "true" || value == "t" || value == "1") return true;
+  if (value == "false" || value == "f" || value == "0") return false;
+  throw header.refusal(field, "True or False");
+}
+
+PixelType metaType(const TextHeader& header) {
+  static const std::map<std::string, PixelType> types = {
+      {"MET_CHAR", PixelType::Int8},         {"MET_ASCII_CHAR", PixelType::Int8},
+      {"MET_UCHAR", PixelType::UInt8},       {"MET_SHORT", PixelType::Int16},
+      {"MET_USHORT", PixelType::UInt16},     {"MET_INT", PixelType::Int32},
+      {"MET_UINT", PixelType::UInt32},       {"MET_LONG", PixelType::Int32},
+      {"MET_ULONG", PixelType::UInt32},      {"MET_LONG_LONG", PixelType::Int64},
+      {"MET_ULONG_LONG", PixelType::UInt64}, {"MET_FLOAT", PixelType::Float32},
+      {"MET_DOUBLE", PixelType::Float64}};
+  std::string name = header.required(kType);
+  if (name.ends_with("_ARRAY")) name.resize(name.size() - 6);
+  const auto found = types.find(name);
+  if (found == types.end())
+    throw header.refusal(kType, "integers of 8 to 64 bits, MET_FLOAT or MET_DOUBLE");
+  return found->second;
+}
+
+/// The numbers of a field, or those of another if it is absent.
+std::vector<double> spacingsOf(const TextHeader& header, std::size_t dimensions,
+                               const ReadVolumeOptions& options) {
+  const std::string field = header.has(kSpacing) ? kSpacing : kPixelSize;
+  std::vector<double> spacings = header.numbers(field, dimensions);
+  for (int a = 0; a < 3 && !spacings.empty() && !options.spacing; ++a)
+    checkStatedSpacing(header.path(), field, a + 1, spacings[static_cast<std::size_t>(a)]);
+  return spacings;
+}
+
+StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int64_t>& sizes,
+                            const ReadVolumeOptions& options,
+                            std::vector<std::string>& assumptions) {
+  const std::size_t n = sizes.size();
+  StatedGeometry stated;
+  VolumeGeometry& g = stated.geometry;
+  g.size = volumeSize(header.path(), sizes);
+  const auto spacings = spacingsOf(header, n, options);
+  const auto offset = header.numbers(kOffset, n);
+  const auto matrix = header.numbers(kMatrix, n * n);
+  g.spacing.setConstant(kUnstated);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto e = static_cast<Eigen::Index>(a);
+    if (!spacings.empty()) g.spacing[e] = spacings[a];
+    if (!offset.empty()) g.origin[e] = offset[a];
+    for (std::size_t r = 0; r < 3 && !matrix.empty(); ++r)  // the axes one after the other
+      g.direction(static_cast<Eigen::Index>(r), e) = matrix[n * a + r];
+  }
+  const std::string unit = header.text(kUnits);
+  if (unit.empty() || unit == "?") return stated;
+  stated.unit = millimetresOf(unit);
+  if (!stated.unit && !options.unit)
+    assumptions.push_back("its DistanceUnits are " + cited(unit) +
+                          ", which are not known as a length, so they are taken to be mm; state "
+                          "the unit with --unit");
+  return stated;
+}
+
+std::vector<std::int64_t> metaSizes(const TextHeader& header) {
+  constexpr std::int64_t kMostDimensions = 10;
+  const std::int64_t dimensions = header.integers("NDims", 1, 1, kMostDimensions)[0];
+  auto sizes = header.integers(kSizes, static_cast<std::size_t>(dimensions), 1, kMaxMetaInt);
+  if (dimensions < 3) (void)volumeSize(header.path(), sizes);
+  return sizes;
+}
+
+std::uint64_t slicesOf(const std::vector<std::int64_t>& sizes, std::size_t axes) {
+  std::uint64_t slices = 1;
+  for (std::size_t a = axes; a < sizes.size(); ++a) slices *= static_cast<std::uint64_t>(sizes[a]);
+  return slices;
+}
+
+/// "s%03d.raw", "s%03d.raw 1", "s%03d.raw 1 48", "s%03d.raw 1 48 1"; the name may hold spaces if
+/// all three numbers follow.
+DetachedNames metaPattern(const TextHeader& header, std::int64_t slices) {
+  const std::string& text = header.text(kDataFile);
+  std::vector<std::string> words = wordsOf(text);
+  if (words.size() > 4) {
+    std::string name = text.substr(0, text.size() - words.back().size());
+    for (std::size_t back = 2; back <= 4; ++back) {
+      name = name.substr(0, name.find_last_not_of(" \t") + 1);
+      if (back < 4) name.resize(name.size() - words[words.size() - back].size());
+    }
+    words = {name, words[words.size() - 3], words[words.size() - 2], words.back()};
+  }
+  std::vector<std::int64_t> numbers;
+  for (std::size_t w = 1; w < words.size(); ++w) {
+    const auto number = integerOf(words[w]);
+    if (!number || std::abs(*number) > kMaxMetaInt)
+      throw header.refusal(kDataFile, "a pattern and up to three whole numbers: first, last, step");
+    numbers.push_back(*number);
+  }
+  NumberRange range{1, slices, 1};
+  if (!numbers.empty()) range = {numbers[0], numbers[0] + slices - 1, 1};
+  if (numbers.size() > 1) range.last = numbers[1];
+  if (numbers.size() > 2) range.step = numbers[2];
+  if (range.step == 0) throw header.refusal(kDataFile, "a step other than 0");
+  return namesOfPattern(header.path(), words[0], range);
+}
+
+/// One name as it is, or with the ending of a compressed file if only that is there.
+std::string metaFile(const TextHeader& header, StoredVoxels& voxels) {
+  const std::string& name = header.text(kDataFile);
+  std::error_code ignored;
+  const fs::path stated = header.path().parent_path() / name;
+  if (fs::exists(stated, ignored)) return name;
+  for (const char* ending : {".gz", ".Z"})
+    if (fs::exists(stated.string() + ending, ignored)) {
+      voxels.packing = Packing::Deflate;
+      return name + ending;
+    }
+  return name;
+}
+
+void setMetaFiles(const TextHeader& header, const std::vector<std::int64_t>& sizes,
+                  const ReadVolumeOptions& options, StoredVoxels& voxels) {
+  const std::string& text = header.required(kDataFile);
+  if (text.empty()) throw header.refusal(kDataFile, "LOCAL or the name of a file");
+  if (lowerCase(text) == "local") {
+    voxels.files = {header.path()};
+    voxels.offset = header.size;
+    return;
+  }
+  DetachedNames names;
+  std::size_t axes = sizes.size() - 1;
+  const std::vector<std::string> words = wordsOf(text);
+  if (words[0] == "LIST") {
+    if (words.size() > 1) {
+      const auto stated = integerOf(words[1]);
+      if (words.size() > 2 || !stated || *stated < 1 ||
+          *stated > static_cast<std::int64_t>(sizes.size()))
+        throw header.refusal(kDataFile, "LIST and the number of axes of each file");
+      axes = static_cast<std::size_t>(*stated);
+    }
+    names = namesOfList(header.files);
+  } else if (text.find('%') != std::string::npos) {
+    names = metaPattern(header, sizes.back());
+  } else {
+    axes = sizes.size();
+    names = namesOfList({metaFile(header, voxels)});
+  }
+  if (names.count != slicesOf(sizes, axes))
+    throw invalidInput(header.path().string() + ": its ElementDataFile names " +
+                       std::to_string(names.count) + " files; expected " +
+                       std::to_string(slicesOf(sizes, axes)) + " for its DimSize " +
+                       cited(header.text(kSizes)));
+  voxels.files = detachedFiles(header.path(), names, options.allowedDetached);
+}
+
+/// How the voxels are packed and where in their files they begin.
+void setPacking(const TextHeader& header, ImageHeader& image) {
+  StoredVoxels& voxels = image.voxels;
+  const bool binary = flag(header, "BinaryData", true);
+  const bool compressed = binary && flag(header, "CompressedData", false);
+  voxels.packing = compressed ? Packing::Deflate : binary ? Packing::Raw : Packing::Text;
+  image.encoding = compressed ? "compressed" : binary ? "raw" : "text";
+  voxels.bigEndian = flag(header, kBigEndian, false);
+  const std::int64_t most = std::int64_t{1} << 50;
+  const std::int64_t size = header.integer("CompressedDataSize", 0, most, 0);
+  if (compressed && size > 0) voxels.packedSize = static_cast<std::uint64_t>(size);
+  const std::int64_t skip = header.integer("HeaderSize", binary && !compressed ? -1 : 0, most, 0);
+  if (skip == -1) voxels.byteSkip = -1;
+  if (skip > 0) voxels.offset = static_cast<std::uint64_t>(skip);
+}
+
+void noteScaling(const TextHeader& header, std::vector<std::string>& assumptions) {
+  const auto slope = header.numbers(kSlope, 1), intercept = header.numbers(kIntercept, 1);
+  if ((slope.empty() || slope[0] == 1) && (intercept.empty() || intercept[0] == 0)) return;
+  assumptions.emplace_back(
+      "its ElementToIntensityFunction is not applied: voxels have the values that are stored");
+}
+
+}  // namespace
+
+ImageHeader readMetaHeader(const fs::path& path, const ReadVolumeOptions& options) {
+  const TextHeader fields = readMetaFields(path);
+  if (fields.has("ObjectType") && lowerCase(fields.text("ObjectType")) != "image")
+    throw fields.refusal("ObjectType", "Image");
+  const std::vector<std::int64_t> sizes = metaSizes(fields);
+  ImageHeader header;
+  header.voxels.header = path;
+  const std::int64_t channels = fields.integer(kChannels, 1, kMaxMetaInt, 1);
+  if (channels != 1)
+    throw invalidInput(path.string() + ": each voxel has " + std::to_string(channels) +
+                       " components; expected one number");
+  header.stated = metaGeometry(fields, sizes, options, header.assumptions);
+  header.voxels.type = metaType(fields);
+  header.voxels.count = header.stated.geometry.voxelCount();
+  noteScaling(fields, header.assumptions);
+  setPacking(fields, header);
+  const std::uint64_t stated = header.voxels.offset;
+  setMetaFiles(fields, sizes, options, header.voxels);
+  if (stated > 0 && stated < header.voxels.offset)
+    throw fields.refusal("HeaderSize", "at least the " + std::to_string(header.voxels.offset) +
+                                           " bytes of the header");
+  if (stated > 0) header.voxels.offset = stated;
+  if (header.voxels.files.size() > 1) header.voxels.packedSize.reset();  // of all that were one
+  return header;
+}
+
+}  // namespace lumen::convert

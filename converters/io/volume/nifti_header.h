@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The header of a NIfTI-1 file, read strictly: each field that decides about voxels or their place
+// is checked against its definition (nifti1.h of the NIfTI data format working group) before
+// anything is made of it. No library is asked: niftiio repairs such fields without a word.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "converters/io/volume/stored_voxels.h"
+
+namespace lumen::convert {
+
+constexpr std::size_t kNiftiHeaderSize = 348;
+/// Where voxels begin at the earliest: after the header and the four bytes that announce extensions.
+constexpr std::size_t kNiftiFirstVoxel = 352;
+
+struct NiftiHeader {
+  bool swapped = false;       ///< the file has the other byte order than this machine
+  std::array<int, 3> size{};  ///< voxels along i, j, k; at least 1
+  PixelType type = PixelType::UInt8;
+  std::size_t voxelOffset = 0;     ///< bytes before the first voxel; at least 352
+  std::array<float, 3> pixdim{};   ///< spacings in the file's unit, unchecked
+  float handedness = 1;            ///< qfac, pixdim[0], unchecked
+  float slope = 0, intercept = 0;  ///< finite; a slope of 0 means no scaling
+  int unitCode = 0;                ///< of lengths: 1 m, 2 mm, 3 um, 0 unknown; others mean nothing
+  int qformCode = 0, sformCode = 0;              ///< 0: the transform is not stated
+  std::array<float, 3> quaternion{}, qOffset{};  ///< unchecked
+  std::array<std::array<float, 4>, 3> sform{};   ///< rows, unchecked
+
+  [[nodiscard]] std::size_t voxelCount() const {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+           static_cast<std::size_t>(size[2]);
+  }
+  [[nodiscard]] std::size_t voxelBytes() const { return voxelCount() * sizeOf(type); }
+  [[nodiscard]] bool isScaled() const { return slope != 0 && (slope != 1 || intercept != 0); }
+};
+
+/// The header in `bytes`, the first 348 of a file. Throws Error(InvalidInput), naming `path` and the
+/// field, unless it is one of a single file with a 3-D scalar volume; Error(Unsupported) for
+/// NIfTI-2, for a header whose voxels are in another file, and for types that are not read.
+NiftiHeader parseNiftiHeader(std::span<const std::byte, kNiftiHeaderSize> bytes,
+                             const std::filesystem::path& path);
+
+}  // namespace lumen::convert

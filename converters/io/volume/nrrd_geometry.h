@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the axes of an NRRD file lie in space.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "converters/io/volume/read_volume_options.h"
+#include "converters/io/volume/stated_geometry.h"
+#include "converters/io/volume/text_header.h"
+
+namespace lumen::convert {
+
+/// The geometry of a header with these `sizes`, one for each of its axes; axes of a voxel's
+/// components or of time are dropped if they have one entry. A unit that is not known appends a
+/// sentence to `assumptions`. Throws Error(InvalidInput) unless three axes remain whose fields agree
+/// with one another.
+StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int64_t>& sizes,
+                            const ReadVolumeOptions& options,
+                            std::vector<std::string>& assumptions);
+
+}  // namespace lumen::convert

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/volume/stated_geometry.h"
+
+#include <cmath>
+
+#include "converters/base/error.h"
+#include "converters/io/volume/volume_checks.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Beyond these a spacing is no distance between voxels of a body, whatever its unit ...
+constexpr double kLeastSpacing = 1e-6, kMostSpacing = 1e4;
+// ... and beyond these, mm, it is likely to be of another unit: 5 um is a fine micro-CT, 50 mm no scan.
+constexpr double kLeastUsual = 5e-3, kMostUsual = 50;
+
+std::string spacingText(const Eigen::Vector3d& spacing) {
+  return numberText(spacing[0]) + " x " + numberText(spacing[1]) + " x " + numberText(spacing[2]);
+}
+
+Eigen::Vector3d settledSpacing(const Eigen::Vector3d& stated, double unit, const fs::path& path,
+                               std::vector<std::string>& assumptions) {
+  const auto missing = stated.array().isNaN();
+  if (missing.all()) {
+    assumptions.emplace_back(
+        "its header states no spacing, so voxels are taken to be 1 mm apart; state it with "
+        "--spacing");
+    return Eigen::Vector3d::Ones();
+  }
+  for (int a = 0; a < 3; ++a)
+    if (missing[a])
+      throw invalidInput(path.string() + ": its header states no spacing along axis " +
+                         std::to_string(a + 1) +
+                         ", but along others; state all three with --spacing");
+  return unit * stated;
+}
+
+void checkSpacing(const Eigen::Vector3d& spacing, const fs::path& path) {
+  for (int a = 0; a < 3; ++a)
+    if (!(spacing[a] >= kLeastSpacing && spacing[a] <= kMostSpacing))
+      throw invalidInput(path.string() + ": the spacing along axis " + std::to_string(a + 1) +
+                         " is " + numberText(spacing[a]) + " mm; expected " +
+                         numberText(kLeastSpacing) + " to " + numberText(kMostSpacing) +
+                         "; state it with --spacing, or the file's unit with --unit");
+}
+
+}  // namespace
+
+VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOptions& options,
+                               const fs::path& path, std::vector<std::string>& assumptions) {
+  VolumeGeometry geometry = stated.geometry;
+  const double unit = options.unit.value_or(stated.unit.value_or(1));
+  geometry.origin *= unit;
+  geometry.spacing = options.spacing
+                         ? *options.spacing
+                         : settledSpacing(stated.geometry.spacing, unit, path, assumptions);
+  checkSpacing(geometry.spacing, path);
+  const bool unusual =
+      geometry.spacing.minCoeff() < kLeastUsual || geometry.spacing.maxCoeff() > kMostUsual;
+  if (unusual && !options.spacing && !options.unit)
+    assumptions.push_back((stated.unit ? "by the unit that its header states, its spacing is "
+                                       : "its header states no unit, so its spacing is taken as ") +
+                          spacingText(geometry.spacing) +
+                          " mm, which is unusual; state the unit with --unit");
+  checkGeometry(geometry, path);
+  return geometry;
+}
+
+void cropGeometry(VolumeGeometry& geometry, const IndexBox& box, const fs::path& path) {
+  auto& size = geometry.size;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box.low[a] < 0 || box.high[a] >= size[a] || box.high[a] <= box.low[a])
+      throw invalidInput(path.string() + ": the crop box goes from " + std::to_string(box.low[a]) +
+                         " to " + std::to_string(box.high[a]) + " along axis " +
+                         std::to_string(a + 1) + "; expected at least two voxels within 0 to " +
+                         std::to_string(size[a] - 1));
+  geometry.origin = geometry.worldFromIndex(Eigen::Vector3d(box.low[0], box.low[1], box.low[2]));
+  for (std::size_t a = 0; a < 3; ++a) size[a] = box.high[a] - box.low[a] + 1;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/volume/stored_voxels.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+#include "converters/base/error.h"
+#include "converters/io/volume/packed_file.h"
+#include "converters/io/volume/volume_checks.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(std::endian::native == std::endian::little, "voxels are swapped if big-endian");
+
+// Voxels are read in blocks of so many bytes: few calls, and each within the cache and 100 ms.
+constexpr std::size_t kBlockBytes = 1 << 18;
+
+std::uint64_t bytesOfEachFile(const StoredVoxels& stored) {
+  return stored.count / stored.files.size() * sizeOf(stored.type);
+}
+
+/// The fewest bytes that can hold the voxels of one file; of a deflated one, unpacked.
+double leastBytes(const StoredVoxels& stored) {
+  const auto bytes = static_cast<double>(bytesOfEachFile(stored));
+  if (stored.packing == Packing::Hex) return 2 * bytes;
+  if (stored.packing == Packing::Text)  // a digit each, and what is between them
+    return 2 * bytes / static_cast<double>(sizeOf(stored.type)) - 1;
+  return bytes;
+}
+
+void reverseBytes(std::byte* bytes, std::size_t size, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) std::reverse(bytes + i * size, bytes + (i + 1) * size);
+}
+
+/// Reads voxels of type From, stored as those of type To, file after file.
+template <class From, class To>
+class VoxelReader {
+public:
+  VoxelReader(const StoredVoxels& stored, const Progress& progress,
+              std::vector<std::string>& assumptions)
+      : m_stored(stored), m_progress(progress), m_assumptions(assumptions) {}
+
+  Voxels read() {
+    m_voxels.reserve(m_stored.count);
+    for (const fs::path& file : m_stored.files) readFile(file);
+    return std::move(m_voxels);
+  }
+
+private:
+  void readFile(const fs::path& file) {
+    const std::uint64_t bytes = bytesOfEachFile(m_stored);
+    const auto packed = openPacked(m_stored, file, bytes, m_progress);
+    constexpr std::size_t kBlock = kBlockBytes / sizeof(From);
+    for (std::uint64_t done = 0, count = bytes / sizeof(From); done < count;) {
+      m_progress.check();
+      const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, count - done));
+      const std::size_t got = readBlock(*packed, wanted);
+      done += got / sizeof(From);
+      if (got < wanted * sizeof(From)) refuseTruncated(file, done * sizeof(From), bytes);
+    }
+    if (packed->hasMore())
+      m_assumptions.push_back(
+          "the data in " + formats::printable(file.filename().string()) +
+          " goes on after the voxels that the header announces; the rest is not read");
+  }
+
+  /// Appends up to `wanted` voxels; the bytes that were there.
+  std::size_t readBlock(PackedFile& packed, std::size_t wanted) {
+    const std::size_t before = m_voxels.size();
+    m_voxels.resize(before + wanted);
+    To* to = m_voxels.data() + before;
+    if (isPlain()) {
+      const std::size_t got = packed.read(reinterpret_cast<std::byte*>(to), wanted * sizeof(From));
+      swapIfNeeded(reinterpret_cast<std::byte*>(to), got / sizeof(From));
+      return got;
+    } else {
+      const std::size_t got = packed.read(m_block.data(), wanted * sizeof(From));
+      swapIfNeeded(m_block.data(), got / sizeof(From));
+      for (std::size_t i = 0; i < got / sizeof(From); ++i) {
+        From value;
+        std::memcpy(&value, m_block.data() + i * sizeof(From), sizeof(From));
+        to[i] = converted(value);
+      }
+      return got;
+    }
+  }
+
+  /// True if the bytes of the file are those in memory.
+  [[nodiscard]] bool isPlain() const { return std::is_same_v<From, To> && !m_stored.scaling; }
+
+  [[nodiscard]] To converted(From value) const {
+    if (!m_stored.scaling) return static_cast<To>(value);
+    return static_cast<To>(m_stored.scaling->slope * static_cast<double>(value) +
+                           m_stored.scaling->intercept);
+  }
+
+  void swapIfNeeded(std::byte* bytes, std::size_t count) const {
+    if (m_stored.bigEndian && sizeof(From) > 1 && m_stored.packing != Packing::Text)
+      reverseBytes(bytes, sizeof(From), count);
+  }
+
+  [[noreturn]] void refuseTruncated(const fs::path& file, std::uint64_t got,
+                                    std::uint64_t expected) const {
+    std::string limit;
+    if (m_stored.packedSize)
+      limit = " within the " + std::to_string(*m_stored.packedSize) +
+              " bytes that the header calls their compressed size";
+    throw invalidInput(formats::printable(file.string()) +
+                       ": its voxels are truncated or damaged: " + std::to_string(got) + " of " +
+                       std::to_string(expected) + " bytes come out" + limit);
+  }
+
+  const StoredVoxels& m_stored;
+  const Progress& m_progress;
+  std::vector<std::string>& m_assumptions;
+  std::vector<To> m_voxels;
+  std::array<std::byte, kBlockBytes> m_block{};
+};
+
+template <class From, class To>
+Voxels readAs(const StoredVoxels& stored, const Progress& progress,
+              std::vector<std::string>& assumptions) {
+  if (stored.scaling && !std::is_same_v<To, float>)
+    return readAs<From, float>(stored, progress, assumptions);
+  return std::make_unique<VoxelReader<From, To>>(stored, progress, assumptions)->read();
+}
+
+Voxels readType(const StoredVoxels& stored, const Progress& progress,
+                std::vector<std::string>& assumptions) {
+  switch (stored.type) {
+    case PixelType::Int8:
+      return readAs<std::int8_t, std::int16_t>(stored, progress, assumptions);
+    case PixelType::UInt8:
+      return readAs<std::uint8_t, std::uint8_t>(stored, progress, assumptions);
+    case PixelType::Int16:
+      return readAs<std::int16_t, std::int16_t>(stored, progress, assumptions);
+    case PixelType::UInt16:
+      return readAs<std::uint16_t, std::uint16_t>(stored, progress, assumptions);
+    case PixelType::Int32:
+      return readAs<std::int32_t, float>(stored, progress, assumptions);
+    case PixelType::UInt32:
+      return readAs<std::uint32_t, float>(stored, progress, assumptions);
+    case PixelType::Int64:
+      return readAs<std::int64_t, float>(stored, progress, assumptions);
+    case PixelType::UInt64:
+      return readAs<std::uint64_t, float>(stored, progress, assumptions);
+    case PixelType::Float32:
+      return readAs<float, float>(stored, progress, assumptions);
+    case PixelType::Float64:
+      break;
+  }
+  return readAs<double, float>(stored, progress, assumptions);
+}
+
+}  // namespace
+
+std::size_t sizeOf(PixelType type) {
+  constexpr std::array<std::size_t, 10> kSizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+  return kSizes.at(static_cast<std::size_t>(type));
+}
+
+std::string nameOf(PixelType type) {
+  constexpr std::array<const char*, 10> kNames = {"int8",    "uint8",  "int16", "uint16",
+                                                  "int32",   "uint32", "int64", "uint64",
+                                                  "float32", "float64"};
+  return kNames.at(static_cast<std::size_t>(type));
+}
+
+std::uint64_t checkStored(const StoredVoxels& stored, std::vector<std::string>& assumptions) {
+  std::uint64_t total = 0;
+  for (const fs::path& file : stored.files) {
+    std::error_code error;
+    const std::uint64_t size = fs::file_size(file, error);
+    if (error) throw invalidInput(formats::printable(file.string()) + ": " + error.message());
+    total += size;
+    // from the header on, and if from the file's end backwards, not into the header
+    const double needed =
+        leastBytes(stored) + (stored.byteSkip < 0 ? -1 - static_cast<double>(stored.byteSkip)
+                                                  : static_cast<double>(stored.byteSkip));
+    const double room = static_cast<double>(size) - static_cast<double>(stored.offset);
+    const auto limit = static_cast<double>(stored.packedSize.value_or(size));
+    checkRoom(file, needed, std::min(room, limit), stored.packing == Packing::Deflate);
+    const bool exact =
+        stored.packing == Packing::Raw && stored.lineSkip == 0 && stored.byteSkip >= 0;
+    if (exact && room > needed)
+      assumptions.push_back("the data in " + formats::printable(file.filename().string()) +
+                            " goes on for " + numberText(room - needed) +
+                            " bytes after the voxels that the header announces; the rest is not "
+                            "read");
+  }
+  return total;
+}
+
+Voxels readStored(const StoredVoxels& stored, const Progress& progress,
+                  std::vector<std::string>& assumptions) {
+  try {
+    return readType(stored, progress, assumptions);
+  } catch (const std::bad_alloc&) {
+    throw invalidInput(stored.header.string() + ": its " + std::to_string(stored.count) +
+                       " voxels do not fit in memory");
+  }
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/volume/volume_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include "converters/base/error.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Headers store directions with 6 to 17 digits; beyond this they describe a sheared grid.
+constexpr double kDirectionTolerance = 1e-3;
+constexpr double kMaxVoxels = 1e11;
+
+// Deflate expands at most 1032 times (zlib's technical notes).
+constexpr double kMaxExpansion = 1032;
+
+}  // namespace
+
+void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
+  double voxels = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (geometry.size[a] < 2)
+      throw invalidInput(path.string() + ": has " + std::to_string(geometry.size[a]) +
+                         " voxel along axis " + std::to_string(a + 1) +
+                         ", so it is not 3-D; expected at least 2 along each of three axes");
+    voxels *= geometry.size[a];
+    const double spacing = geometry.spacing[static_cast<Eigen::Index>(a)];
+    if (!(std::isfinite(spacing) && spacing > 0)) {
+      std::ostringstream text;
+      text << path.string() << ": the spacing along axis " << a + 1 << " is " << spacing
+           << "; expected a positive number of mm";
+      throw invalidInput(text.str());
+    }
+  }
+  if (voxels > kMaxVoxels)
+    throw invalidInput(path.string() + ": its header announces more than 1e11 voxels");
+  if (!geometry.origin.allFinite())
+    throw invalidInput(path.string() + ": its origin is not finite; expected three numbers of mm");
+  auto& direction = geometry.direction;
+  const double fault =
+      (direction.transpose() * direction - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  // Eigen's maxCoeff() may pass over NaN
+  if (!direction.allFinite() || !(fault <= kDirectionTolerance)) {
+    std::ostringstream text;
+    text << path.string() << ": its axes' directions are not orthogonal unit vectors (off by "
+         << fault << "; expected at most " << kDirectionTolerance
+         << "); resample the volume to an orthogonal grid first";
+    throw invalidInput(text.str());
+  }
+  if (fault > 1e-14) {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(direction,
+                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
+    direction = svd.matrixU() * svd.matrixV().transpose();
+  }
+}
+
+void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value) {
+  if (std::isfinite(value) && value > 0) return;
+  throw invalidInput(path.string() + ": " + field + " states a spacing of " + numberText(value) +
+                     " along axis " + std::to_string(axis) +
+                     "; expected a positive number; state it with --spacing");
+}
+
+void checkRoom(const fs::path& path, double needed, double available, bool compressed) {
+  if (needed <= available * (compressed ? kMaxExpansion : 1)) return;
+  throw invalidInput(path.string() + ": truncated: its header announces " + numberText(needed) +
+                     " bytes of voxels, but " + numberText(std::max(available, 0.0)) +
+                     " bytes of data are there");
+}
+
+void refuseDimensions(const fs::path& path, unsigned dimensions, const std::string& sizes) {
+  throw invalidInput(path.string() + ": is " + std::to_string(dimensions) + "-D (" + sizes +
+                     "); expected a 3-D volume");
+}
+
+std::string numberText(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return text.str();
+}
+
+}  // namespace lumen::convert

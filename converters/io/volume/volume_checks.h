@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every volume must satisfy, whichever reader it came through.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "converters/voxels/volume.h"
+
+namespace lumen::convert {
+
+/// Throws Error(InvalidInput), naming `path`, unless sizes are at least 2, spacings and origin are
+/// sound and the direction is orthonormal within 1e-3; makes it orthonormal to rounding.
+void checkGeometry(VolumeGeometry& geometry, const std::filesystem::path& path);
+
+/// Throws Error(InvalidInput), naming `path` and `field`, unless `value` is a spacing; `axis`
+/// counts from 1.
+void checkStatedSpacing(const std::filesystem::path& path, const std::string& field, int axis,
+                        double value);
+
+/// Throws Error(InvalidInput) if `needed` bytes of voxels cannot come out of `available` bytes of a
+/// file.
+void checkRoom(const std::filesystem::path& path, double needed, double available, bool compressed);
+
+/// "its 3-D ..." for another number of dimensions than three; `sizes` is "4 x 2".
+[[noreturn]] void refuseDimensions(const std::filesystem::path& path, unsigned dimensions,
+                                   const std::string& sizes);
+
+/// As a message shows it: 12 digits.
+std::string numberText(double value);
+
+}  // namespace lumen::convert

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/volume/write_volume.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include <itkMetaDataObject.h>
+
+#include "converters/base/error.h"
+#include "converters/base/sha256.h"
+#include "converters/io/volume/itk_image.h"
+#include "converters/io/volume/nifti_file.h"
+#include "converters/io/volume/read_volume.h"
+#include "formats/case/atomic_file.h"
+
+namespace lumen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+using Component = itk::IOComponentEnum;
+
+Component componentOf(const std::vector<std::uint8_t>&) {
+  return Component::UCHAR;
+}
+Component componentOf(const std::vector<std::int16_t>&) {
+  return Component::SHORT;
+}
+Component componentOf(const std::vector<std::uint16_t>&) {
+  return Component::USHORT;
+}
+Component componentOf(const std::vector<float>&) {
+  return Component::FLOAT;
+}
+
+void setGeometry(itk::ImageIOBase& io, const VolumeGeometry& geometry) {
+  io.SetNumberOfDimensions(3);
+  itk::ImageIORegion region(3);
+  for (unsigned a = 0; a < 3; ++a) {
+    const auto e = static_cast<Eigen::Index>(a);
+    io.SetDimensions(a, static_cast<unsigned>(geometry.size[a]));
+    io.SetSpacing(a, geometry.spacing[e]);
+    io.SetOrigin(a, geometry.origin[e]);
+    const Eigen::Vector3d column = geometry.direction.col(e);
+    io.SetDirection(a, std::vector<double>(column.data(), column.data() + 3));
+    region.SetIndex(a, 0);
+    region.SetSize(a, static_cast<itk::SizeValueType>(geometry.size[a]));
+  }
+  io.SetIORegion(region);
+}
+
+void writeWithItk(const Volume& volume, const fs::path& file, VolumeFormat format, bool compressed,
+                  const VolumeNotes& notes) {
+  const auto io = makeImageIo(format);
+  setGeometry(*io, volume.geometry);
+  io->SetPixelType(itk::IOPixelEnum::SCALAR);
+  io->SetNumberOfComponents(1);
+  io->SetUseCompression(compressed);
+  io->SetFileName(file.string());
+  for (const auto& [key, text] : notes)
+    itk::EncapsulateMetaData<std::string>(io->GetMetaDataDictionary(), key, text);
+  std::visit(
+      [&](const auto& voxels) {
+        io->SetComponentType(componentOf(voxels));
+        io->WriteImageInformation();
+        io->Write(voxels.data());
+      },
+      volume.voxels);
+}
+
+bool isConstant(const Volume& volume) {
+  return std::visit(
+      [](const auto& voxels) {
+        return std::adjacent_find(voxels.begin(), voxels.end(), std::not_equal_to<>()) ==
+               voxels.end();
+      },
+      volume.voxels);
+}
+
+/// True if the file holds the volume's voxels. A library may not notice that a disk is full. Volumes whose voxels are all
+/// the same are not read.
+bool readsBack(const Volume& volume, const fs::path& file, VolumeFormat format) {
+  if (isConstant(volume)) return true;
+  return readVolume(file, format, {}, Progress()).voxels == volume.voxels;
+}
+
+bool writeWhole(const Volume& volume, const fs::path& file, VolumeFormat format, bool compressed,
+                const fs::path& name, const VolumeNotes& notes) {
+  try {
+    if (format == VolumeFormat::Nifti)
+      writeNifti(volume, file, compressed, name);
+    else
+      writeWithItk(volume, file, format, compressed, notes);
+    return readsBack(volume, file, format);
+  } catch (const itk::ExceptionObject&) {
+    return false;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::Unsupported) throw;
+    return false;
+  }
+}
+
+/// A hidden file beside `path` that holds the volume.
+formats::PendingFile pendingVolume(const Volume& volume, const fs::path& path, VolumeFormat format,
+                                   bool compressed, const VolumeNotes& notes) {
+  if (format == VolumeFormat::Dicom) throw unsupported(path.string() + ": DICOM is not written");
+  auto pending = formats::PendingFile::beside(path);
+  if (!pending) throw failed(pending.error().message);
+  if (!writeWhole(volume, pending->path(), format, compressed, path, notes))
+    throw failed(
+        path.string() +
+        ": cannot be written; is the disk full, or the size of files limited (ulimit -f)?");
+  return std::move(*pending);
+}
+
+}  // namespace
+
+std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
+                         const VolumeNotes& notes) {
+  const char* const ending = format == VolumeFormat::Nrrd    ? "nrrd"
+                             : format == VolumeFormat::Nifti ? "nii"
+                                                             : "mha";
+  const fs::path place = fs::temp_directory_path() / (std::string("volume.") + ending);
+  const formats::PendingFile pending = pendingVolume(volume, place, format, compressed, notes);
+  std::ifstream in(pending.path(), std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format, bool compressed) {
+  auto pending = pendingVolume(volume, path, format, compressed, {});
+  if (const auto written = pending.commit(); !written) throw failed(written.error().message);
+}
+
+formats::SourceVolume describeGeometry(const VolumeGeometry& g) {
+  formats::SourceVolume source;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto e = static_cast<Eigen::Index>(a);
+    source.size[a] = static_cast<std::uint32_t>(g.size[a]);
+    source.spacing[a] = g.spacing[e];
+    source.origin[a] = g.origin[e];
+    for (std::size_t c = 0; c < 3; ++c)
+      source.direction[3 * a + c] = g.direction(e, static_cast<Eigen::Index>(c));
+  }
+  return source;
+}
+
+formats::SourceVolume describeSource(const Volume& volume) {
+  formats::SourceVolume source = describeGeometry(volume.geometry);
+  source.sha256 =
+      std::visit([](const auto& v) { return sha256(std::as_bytes(std::span(v))); }, volume.voxels);
+  return source;
+}
+
+}  // namespace lumen::convert

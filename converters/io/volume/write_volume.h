@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Volumes from memory into files and into the record that a case keeps of its volume.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "converters/io/volume/read_volume.h"
+#include "converters/voxels/volume.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// Writes header and voxels into one file, atomically. For ITK's sake the name must end in .nrrd
+/// for NRRD, and in .mha for MetaImage. Throws Error(Unsupported) for DICOM.
+void writeVolume(const Volume& volume, const std::filesystem::path& path, VolumeFormat format,
+                 bool compressed);
+
+/// Texts that a header of NRRD keeps beside its own fields.
+using VolumeNotes = std::map<std::string, std::string>;
+
+/// The bytes of such a file, which it writes into the system's folder of temporary files. Notes are for NRRD alone. Throws as
+/// writeVolume().
+std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
+                         const VolumeNotes& notes = {});
+
+/// The part of the next that needs no voxels.
+formats::SourceVolume describeGeometry(const VolumeGeometry& geometry);
+
+/// The record of `volume` that a case keeps. The digest is SHA-256 over the voxels, x fastest, in
+/// the in-memory pixel type, little-endian.
+formats::SourceVolume describeSource(const Volume& volume);
+
+}  // namespace lumen::convert

@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/vtk/vtk_xml.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <expat.h>
+
+#include "converters/base/error.h"
+#include "converters/io/vtk/vtk_data.h"
+#include "formats/container/printable.h"
+
+namespace lumen {
+
+const VtkArray* VtkPolyData::pointArray(std::string_view name) const {
+  const auto found = std::find_if(pointData.begin(), pointData.end(),
+                                  [&](const VtkArray& array) { return array.name == name; });
+  return found == pointData.end() ? nullptr : &*found;
+}
+
+const VtkArray* VtkPolyData::cellArray(std::string_view name) const {
+  const auto found = std::find_if(cellData.begin(), cellData.end(),
+                                  [&](const VtkArray& array) { return array.name == name; });
+  return found == cellData.end() ? nullptr : &*found;
+}
+
+namespace {
+
+constexpr int kDeepest = 16;  // the format itself is five levels deep
+constexpr std::size_t kFed = std::size_t{16} << 20;
+constexpr std::uint32_t kMostComponents = 64;
+constexpr std::uint32_t kMostIndices = std::numeric_limits<std::uint32_t>::max();
+
+// Unit and axes as lumen and 3D Slicer write them, texts of a few bytes.
+constexpr std::string_view kUnit = "Unit", kSpace = "SPACE";
+constexpr std::uint64_t kLongestText = 16;
+
+enum Section {
+  kPoints,
+  kPointData,
+  kCellData,
+  kVerts,
+  kLines,
+  kPolys,
+  kStrips,
+  kFieldData,
+  kNoSection
+};
+constexpr std::array<const char*, 8> kSectionNames = {
+    "Points", "PointData", "CellData", "Verts", "Lines", "Polys", "Strips", "FieldData"};
+
+// A <DataArray> as its tag has it.
+struct Element {
+  Section section = kNoSection;
+  std::string name, type;
+  VtkForm form = VtkForm::Ascii;
+  bool isAppended = false;
+  std::uint64_t offset = 0;
+  std::uint64_t components = 1;
+  std::size_t from = 0, to = 0;  // of its text in the file
+  std::size_t line = 0;
+};
+
+struct Piece {
+  std::uint64_t points = 0;
+  std::array<std::uint64_t, 7> cells{};  // by section
+  std::vector<Element> elements;
+};
+
+struct Document {
+  VtkPacking packing;
+  std::vector<Piece> pieces;
+  std::vector<Element> field;
+  std::optional<std::size_t> appended;  // first byte behind the underscore
+  bool isAppendedBase64 = false;
+};
+
+// Calls of expat, which is C: nothing may throw through it.
+class Handler {
+public:
+  Handler(std::string_view text, const std::string& name, std::span<const std::string_view> wanted)
+      : m_text(text), m_name(name), m_wanted(wanted) {}
+
+  Document parse() {
+    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> owner(
+        XML_ParserCreate(nullptr), XML_ParserFree);
+    if (!owner) throw failed(m_name + ": no memory to parse XML");
+    m_parser = owner.get();
+    XML_SetUserData(m_parser, this);
+    XML_SetElementHandler(
+        m_parser,
+        [](void* self, const XML_Char* tag, const XML_Char** attributes) {
+          static_cast<Handler*>(self)->begin(tag, attributes);
+        },
+        [](void* self, const XML_Char* tag) { static_cast<Handler*>(self)->end(tag); });
+    XML_SetStartDoctypeDeclHandler(m_parser, [](void* self, const XML_Char*, const XML_Char*,
+                                                const XML_Char*, int) {
+      static_cast<Handler*>(self)->refuse("has a document type; expected none in a file of VTK");
+    });
+    feed();
+    if (m_fault) throw *m_fault;
+    if (!m_isFile) throw invalidInput(m_name + ": has no <VTKFile>; expected a file of VTK (.vtp)");
+    if (m_document.pieces.empty())
+      throw invalidInput(m_name + ": has no <Piece>; expected one at least");
+    return std::move(m_document);
+  }
+
+private:
+  void feed() {
+    for (std::size_t at = 0;;) {
+      const std::size_t size = std::min(kFed, m_text.size() - at);
+      const bool isLast = at + size == m_text.size();
+      const auto status = XML_Parse(m_parser, m_text.data() + at, static_cast<int>(size), isLast);
+      if (status != XML_STATUS_OK) {
+        if (!m_fault && !m_document.appended)
+          refuse(std::string("is no XML (") + XML_ErrorString(XML_GetErrorCode(m_parser)) + ")");
+        return;
+      }
+      if (isLast) return;
+      at += size;
+    }
+  }
+
+  void begin(const char* tag, const char** attributes) {
+    if (m_fault || m_document.appended) return;
+    if (++m_depth > kDeepest) return refuse("has elements more than 16 deep");
+    const std::string_view name = tag;
+    if (name == "VTKFile") return beginFile(attributes);
+    if (!m_isFile) return refuse("begins with <" + shown(name) + ">; expected <VTKFile>");
+    if (name == "Piece") return beginPiece(attributes);
+    if (name == "AppendedData") return beginAppended(attributes);
+    if (name == "DataArray") return beginArray(attributes);
+    for (std::size_t s = 0; s < kSectionNames.size(); ++s)
+      if (name == kSectionNames[s]) beginSection(static_cast<Section>(s));
+  }
+
+  void beginSection(Section section) {
+    m_section = section;
+    m_isOpen = false;  // an array that a section is within has no end
+  }
+
+  void end(const char* tag) {
+    if (m_fault || m_document.appended) return;
+    --m_depth;
+    const std::string_view name = tag;
+    if (name == "DataArray" && m_isOpen) {
+      m_isOpen = false;
+      Element& element = elements().back();
+      // keys may follow the data within the element
+      element.to = std::min({byte(), m_text.find('<', element.from), m_text.size()});
+      element.to = std::max(element.from, element.to);
+    }
+    if (m_section != kNoSection && name == kSectionNames[m_section]) {
+      m_section = kNoSection;
+      m_isOpen = false;
+    }
+    if (name == "Piece") m_inPiece = false;
+  }
+
+  void beginFile(const char** attributes) {
+    m_isFile = true;
+    const std::string_view type = attribute(attributes, "type");
+    if (type != "PolyData")
+      return refuse("is of the type \"" + shown(type) + "\"; expected PolyData",
+                    ErrorKind::Unsupported);
+    m_document.packing.bigEndian = attribute(attributes, "byte_order") == "BigEndian";
+    const std::string_view header = attribute(attributes, "header_type");
+    if (header == "UInt64")
+      m_document.packing.headerBytes = 8;
+    else if (!header.empty() && header != "UInt32")
+      return refuse("has the header_type \"" + shown(header) + "\"; expected UInt32 or UInt64");
+    const std::string_view packer = attribute(attributes, "compressor");
+    m_document.packing.zlib = !packer.empty();
+    if (!packer.empty() && packer != "vtkZLibDataCompressor")
+      refuse("is packed by \"" + shown(packer) +
+                 "\"; lumen reads vtkZLibDataCompressor and unpacked data",
+             ErrorKind::Unsupported);
+  }
+
+  void beginPiece(const char** attributes) {
+    Piece piece;
+    piece.points = count(attributes, "NumberOfPoints");
+    piece.cells[kVerts] = count(attributes, "NumberOfVerts");
+    piece.cells[kLines] = count(attributes, "NumberOfLines");
+    piece.cells[kPolys] = count(attributes, "NumberOfPolys");
+    piece.cells[kStrips] = count(attributes, "NumberOfStrips");
+    m_document.pieces.push_back(std::move(piece));
+    m_inPiece = true;
+    m_isOpen = false;  // an array that this piece is within has no end
+  }
+
+  // Where the open array is kept.
+  std::vector<Element>& elements() {
+    return m_section == kFieldData ? m_document.field : m_document.pieces.back().elements;
+  }
+
+  void beginArray(const char** attributes) {
+    const bool isField = m_section == kFieldData;
+    if (!(m_inPiece || isField) || m_section == kNoSection) return;
+    Element element;
+    element.section = m_section;
+    element.name = attribute(attributes, "Name");
+    if (isField && (attribute(attributes, "type") != "String" ||
+                    (element.name != kUnit && element.name != kSpace)))
+      return;
+    const bool isData = m_section == kPointData || m_section == kCellData;
+    if (isData && std::find(m_wanted.begin(), m_wanted.end(), element.name) == m_wanted.end())
+      return;
+    element.type = attribute(attributes, "type");
+    element.line = line();
+    if (!attribute(attributes, "NumberOfComponents").empty())
+      element.components = count(attributes, "NumberOfComponents");
+    if (element.components == 0 || element.components > kMostComponents)
+      return refuse("has an array of " + std::to_string(element.components) +
+                    " components; expected 1 to 64");
+    const std::string_view form = attribute(attributes, "format");
+    element.isAppended = form == "appended";
+    if (form == "binary")
+      element.form = VtkForm::Base64;
+    else if (!element.isAppended && !form.empty() && form != "ascii")
+      return refuse("has the format \"" + shown(form) + "\"; expected ascii, binary or appended");
+    element.offset = element.isAppended ? count(attributes, "offset") : 0;
+    element.from = byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(m_parser));
+    elements().push_back(std::move(element));
+    m_isOpen = true;
+  }
+
+  // What follows need not be XML.
+  void beginAppended(const char** attributes) {
+    m_document.isAppendedBase64 = attribute(attributes, "encoding") == "base64";
+    const std::size_t from = byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(m_parser));
+    const std::size_t mark = m_text.find_first_not_of(" \t\r\n", from);
+    if (mark == m_text.npos || m_text[mark] != '_')
+      return refuse("has appended data that do not begin with an underscore");
+    m_document.appended = mark + 1;
+    XML_StopParser(m_parser, XML_FALSE);
+  }
+
+  static std::string_view attribute(const char** attributes, std::string_view name) {
+    for (; *attributes != nullptr; attributes += 2)
+      if (name == attributes[0]) return attributes[1];
+    return {};
+  }
+
+  std::uint64_t count(const char** attributes, const char* name) {
+    const std::string_view text = attribute(attributes, name);
+    std::uint64_t value = 0;
+    if (text.empty()) return 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() ||
+        value > (std::uint64_t{1} << 48))
+      refuse(std::string("has the ") + name + " \"" + shown(text) + "\"; expected a whole number");
+    return value;
+  }
+
+  void refuse(const std::string& what, ErrorKind kind = ErrorKind::InvalidInput) {
+    if (!m_fault) m_fault = Error(kind, m_name + ": line " + std::to_string(line()) + ": " + what);
+    XML_StopParser(m_parser, XML_FALSE);
+  }
+
+  static std::string shown(std::string_view text) {
+    return formats::printable(text.substr(0, 40)) + (text.size() > 40 ? "..." : "");
+  }
+  [[nodiscard]] std::size_t line() const {
+    return static_cast<std::size_t>(XML_GetCurrentLineNumber(m_parser));
+  }
+  [[nodiscard]] std::size_t byte() const {
+    return static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(m_parser)));
+  }
+
+  std::string_view m_text;
+  const std::string& m_name;
+  std::span<const std::string_view> m_wanted;
+  XML_Parser m_parser = nullptr;
+  Document m_document;
+  std::optional<Error> m_fault;
+  int m_depth = 0;
+  bool m_isFile = false, m_inPiece = false, m_isOpen = false;
+  Section m_section = kNoSection;
+};
+
+// Puts the pieces of a document together.
+class Assembler {
+public:
+  Assembler(const Document& document, std::string_view text, const std::string& name)
+      : m_document(document), m_text(text), m_name(name) {
+    for (const Piece& piece : document.pieces)
+      for (const Element& element : piece.elements)
+        if (element.isAppended) m_offsets.push_back(element.offset);
+    for (const Element& element : document.field)
+      if (element.isAppended) m_offsets.push_back(element.offset);
+    std::sort(m_offsets.begin(), m_offsets.end());
+  }
+
+  VtkPolyData all() {
+    for (const Piece& piece : m_document.pieces) addPoints(piece);
+    addCells(kVerts, m_result.verts);
+    addCells(kLines, m_result.lines);
+    addCells(kPolys, m_result.polys);
+    addCells(kStrips, m_result.strips);
+    addArrays(kPointData, m_result.pointData);
+    addArrays(kCellData, m_result.cellData);
+    for (const Element& element : m_document.field)
+      (element.name == kUnit ? m_result.unit : m_result.space) =
+          decodeVtkText(encoded(element), m_document.packing, kLongestText);
+    return std::move(m_result);
+  }
+
+private:
+  void addPoints(const Piece& piece) {
+    const Element* element = find(piece, kPoints, nullptr);
+    if (element == nullptr) {
+      if (piece.points != 0)
+        refuse("a piece of " + std::to_string(piece.points) + " points has no <Points>");
+      return;
+    }
+    if (element->components != 3)
+      refuse(place(*element) + " has " + std::to_string(element->components) +
+             " components; expected 3");
+    const std::vector<double> values = numbers(*element, piece.points);
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+      m_result.position.emplace_back(values[i], values[i + 1], values[i + 2]);
+    if (m_result.position.size() >= kMostIndices) refuse("has more than 2^32 points");
+  }
+
+  void addCells(Section section, VtkCells& cells) {
+    std::size_t first = 0;  // of the piece's points
+    for (const Piece& piece : m_document.pieces) {
+      if (piece.cells[section] > 0) addCells(piece, section, first, cells);
+      first += static_cast<std::size_t>(piece.points);
+    }
+  }
+
+  void addCells(const Piece& piece, Section section, std::size_t first, VtkCells& cells) {
+    const Element* ends = find(piece, section, "offsets");
+    const Element* points = find(piece, section, "connectivity");
+    if (ends == nullptr || points == nullptr)
+      refuse(std::string("<") + kSectionNames[section] + "> has no " +
+             (ends == nullptr ? "offsets" : "connectivity"));
+    const std::size_t before = cells.point.size();
+    double last = 0;
+    for (const double end : numbers(*ends, piece.cells[section])) {
+      if (!(end >= last && end == std::floor(end) && end + double(before) < double(kMostIndices)))
+        refuse(place(*ends) + " has the value " + std::to_string(end) +
+               "; expected whole numbers that do not fall");
+      last = end;
+      cells.end.push_back(static_cast<std::uint32_t>(before + static_cast<std::size_t>(end)));
+    }
+    for (const double point : numbers(*points, static_cast<std::uint64_t>(last))) {
+      if (!(point >= 0 && point < double(piece.points) && point == std::floor(point)))
+        refuse(place(*points) + " has the value " + std::to_string(point) +
+               "; expected indices of the " + std::to_string(piece.points) + " points");
+      cells.point.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(point)));
+    }
+  }
+
+  void addArrays(Section section, std::vector<VtkArray>& arrays) {
+    for (const Element& model : m_document.pieces.front().elements) {
+      if (model.section != section) continue;
+      const auto isNamed = [&](const VtkArray& array) { return array.name == model.name; };
+      if (std::any_of(arrays.begin(), arrays.end(), isNamed)) continue;
+      VtkArray array{model.name, static_cast<std::uint32_t>(model.components), {}};
+      if (addValues(section, array)) arrays.push_back(std::move(array));
+    }
+  }
+
+  // False unless all pieces have it.
+  bool addValues(Section section, VtkArray& array) {
+    for (const Piece& piece : m_document.pieces) {
+      const Element* element = find(piece, section, array.name.c_str());
+      if (element == nullptr || element->components != array.components) return false;
+      const std::uint64_t count = section == kPointData
+                                      ? piece.points
+                                      : piece.cells[kVerts] + piece.cells[kLines] +
+                                            piece.cells[kPolys] + piece.cells[kStrips];
+      const std::vector<double> values = numbers(*element, count);
+      array.values.insert(array.values.end(), values.begin(), values.end());
+    }
+    return true;
+  }
+
+  // The last of a section and name; of any name if it is null.
+  static const Element* find(const Piece& piece, Section section, const char* name) {
+    const Element* found = nullptr;
+    for (const Element& element : piece.elements)
+      if (element.section == section && (name == nullptr || element.name == name)) found = &element;
+    return found;
+  }
+
+  std::vector<double> numbers(const Element& element, std::uint64_t tuples) {
+    return decodeVtkNumbers(encoded(element), m_document.packing, tuples * element.components);
+  }
+
+  VtkEncodedArray encoded(const Element& element) {
+    VtkEncodedArray array{element.type, element.form, {}, m_name + ": " + place(element)};
+    if (element.isAppended) {
+      array.form = m_document.isAppendedBase64 ? VtkForm::Base64 : VtkForm::Raw;
+      array.text = appendedText(element);
+    } else {
+      array.text = m_text.substr(element.from, element.to - element.from);
+    }
+    return array;
+  }
+
+  // Up to where the next array begins: no byte is of two arrays.
+  std::string_view appendedText(const Element& element) const {
+    if (!m_document.appended)
+      refuse(place(element) + " is appended, but the file has no appended data");
+    const std::string_view all = m_text.substr(*m_document.appended);
+    if (element.offset > all.size())
+      refuse(place(element) + " has the offset " + std::to_string(element.offset) +
+             ", behind the end of the file");
+    const auto [same, next] = std::equal_range(m_offsets.begin(), m_offsets.end(), element.offset);
+    if (next - same > 1)
+      refuse(place(element) + " has the offset " + std::to_string(element.offset) +
+             ", as another one; expected data of its own");
+    const std::uint64_t end = next == m_offsets.end() ? all.size() : *next;
+    return all.substr(static_cast<std::size_t>(element.offset),
+                      static_cast<std::size_t>(end - element.offset));
+  }
+
+  static std::string place(const Element& element) {
+    return "line " + std::to_string(element.line) + ": the array \"" +
+           formats::printable(element.name.substr(0, 40)) + "\"";
+  }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw invalidInput(m_name + ": " + what);
+  }
+
+  const Document& m_document;
+  std::string_view m_text;
+  const std::string& m_name;
+  std::vector<std::uint64_t> m_offsets;  // of appended arrays, ascending
+  VtkPolyData m_result;
+};
+
+}  // namespace
+
+VtkPolyData parseVtkXml(std::string_view text, const std::string& name,
+                        std::span<const std::string_view> wanted) {
+  const std::string shown = formats::printable(name);
+  const Document document = Handler(text, shown, wanted).parse();
+  return Assembler(document, text, shown).all();
+}
+
+}  // namespace lumen

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bright voxels outside of a case that hang together with its lumen (docs/method.md, section 7.2).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/judge/check/lumen_voxels.h"
+#include "converters/judge/check/wall_offsets.h"
+#include "converters/voxels/volume.h"
+#include "converters/voxels/voxel_set.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// How the voxels of a volume are judged.
+struct Levels {
+  const Volume& volume;
+  bool dark;  ///< vessels are darker than their background
+  std::span<const NodeLevels> node;
+};
+
+/// The intensity of voxel i, brighter is more: calls visit(value), where value(i) gives it.
+template <class Visit>
+void withVoxels(const Levels& levels, Visit&& visit) {
+  std::visit(
+      [&](const auto& voxels) {
+        visit([&voxels, dark = levels.dark](std::size_t i) {
+          const auto value = static_cast<float>(voxels[i]);
+          return dark ? -value : value;
+        });
+      },
+      levels.volume.voxels);
+}
+
+/// Voxels outside, reached from the lumen through their 26 neighbours, that are brighter than the half
+/// level of the node where the way began and than the faint level of the node nearest to them.
+struct BrightRegion {
+  VoxelSet voxels;
+  std::vector<std::uint32_t> node;   ///< for each: where its way began
+  std::vector<std::uint32_t> order;  ///< all of them as they were reached, nearest first
+  std::size_t rim = 0;               ///< how many of these touch the lumen
+  std::vector<float> depth;          ///< mm to the nearest voxel that is not bright
+  std::vector<std::uint8_t>
+      wide;  ///< 1: in, or only reached through, what is too wide for a vessel
+};
+
+/// `widest`: mm; what holds a ball of that radius is too wide. Throws Error(Cancelled).
+BrightRegion growBrightRegion(const LumenVoxels& lumen, const Levels& levels,
+                              const formats::CenterlineTree& tree, double widest,
+                              const Progress& progress);
+
+}  // namespace lumen::convert

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/judge/check/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <sstream>
+#include <variant>
+
+#include "converters/base/error.h"
+#include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
+#include "formats/case/case_field.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSameLength = 1e-4;  // of a voxel: floats of one file and doubles of another
+
+Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
+  Offsets result;
+  std::vector<double> each, absolute, uncorrected, steepest;
+  std::size_t beyond = 0, none = 0, wrong = 0;
+  for (const WallOffset& o : offsets) {
+    result.beside += o.verdict == Verdict::BesideAnother;
+    result.outside += o.verdict == Verdict::OutsideVolume;
+    none += o.verdict == Verdict::NoEdge;
+    wrong += o.verdict == Verdict::WrongPolarity;
+    if (o.verdict != Verdict::Edge) continue;
+    each.push_back(o.offset);
+    absolute.push_back(std::abs(o.offset));
+    uncorrected.push_back(o.offset - o.displaced);
+    steepest.push_back(o.fromSteepest);
+    beyond += std::abs(o.offset) > voxel;
+  }
+  result.samples = each.size() + none + wrong;
+  const auto share = [&](std::size_t n) {
+    return result.samples == 0 ? kNaN
+                               : static_cast<double>(n) / static_cast<double>(result.samples);
+  };
+  const auto quantile = [](std::vector<double>& values, double at) {
+    return values.empty() ? kNaN : nearestRank(values, at);
+  };
+  result.median = quantile(each, 0.5);
+  result.absoluteMedian = quantile(absolute, 0.5);
+  result.absoluteP90 = quantile(absolute, 0.9);
+  result.uncorrectedMedian = quantile(uncorrected, 0.5);
+  result.steepestMedian = quantile(steepest, 0.5);
+  result.beyondVoxel = share(beyond);
+  result.noEdge = share(none);
+  result.wrongPolarity = share(wrong);
+  return result;
+}
+
+Agreement agreementOf(const Offsets& offsets, double voxel) {
+  if (offsets.samples == 0) return Agreement::NotJudged;
+  if (offsets.noEdge + offsets.wrongPolarity > 0.5 || offsets.absoluteMedian > voxel)
+    return Agreement::Poor;
+  return offsets.absoluteMedian > 0.5 * voxel ? Agreement::Fair : Agreement::Good;
+}
+
+/// The range of those of the nodes [first, end); `offsets` are sorted by node.
+std::span<const WallOffset> ofNodes(const std::vector<WallOffset>& offsets, std::uint32_t first,
+                                    std::uint32_t end) {
+  const auto before = [](const WallOffset& o, std::uint32_t node) { return o.node < node; };
+  const auto from = std::lower_bound(offsets.begin(), offsets.end(), first, before);
+  return {from, std::lower_bound(from, offsets.end(), end, before)};
+}
+
+void summariseAll(const formats::CenterlineTree& tree, const std::vector<WallOffset>& offsets,
+                  CheckReport& report) {
+  report.offsets = summarise(offsets, report.voxelSize);
+  for (const formats::Branch& branch : tree.branches)
+    report.branches.push_back({branch.label, summarise(ofNodes(offsets, branch.firstNode,
+                                                               branch.firstNode + branch.nodeCount),
+                                                       report.voxelSize)});
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+    report.nodes.push_back(
+        agreementOf(summarise(ofNodes(offsets, n, n + 1), report.voxelSize), report.voxelSize));
+}
+
+/// Nodes outside of the volume, were every coordinate multiplied.
+std::size_t countOutside(const Volume& volume, const formats::CenterlineTree& tree,
+                         const Eigen::Vector3d& factor) {
+  return static_cast<std::size_t>(
+      std::count_if(tree.centre.begin(), tree.centre.end(), [&](const formats::Vec3f& centre) {
+        return !volume.geometry.containsWorld(factor.cwiseProduct(toEigen(centre)));
+      }));
+}
+
+/// Why a case has no node in the volume, as far as that can be seen.
+std::string likelyReason(const Volume& volume, const formats::CenterlineTree& tree) {
+  const std::pair<Eigen::Vector3d, const char*> reasons[] = {
+      {{-1, -1, 1}, "with x and y negated they do: one of the two is in RAS"},
+      {{1000, 1000, 1000}, "times 1000 they do: the case is in metres"},
+      {{1e-3, 1e-3, 1e-3}, "divided by 1000 they do: the volume is in metres; --unit states that"}};
+  for (const auto& [factor, reason] : reasons)
+    if (countOutside(volume, tree, factor) < tree.nodeCount() / 2) return reason;
+  return "they do not belong together, or one of them has another origin or unit";
+}
+
+template <class Values>
+std::string listed(const Values& values) {
+  std::ostringstream text;
+  text.precision(9);
+  for (const auto value : values) text << (text.tellp() > 0 ? " " : "") << value;
+  return text.str();
+}
+
+template <class Values>
+bool alike(const Values& a, const Values& b, double tolerance) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!(std::abs(a[i] - b[i]) <= tolerance)) return false;
+  return true;
+}
+
+}  // namespace
+
+EdgeOptions recordedEdgeOptions(const formats::Case& value) {
+  EdgeOptions options;
+  for (const formats::Step& step : value.metadata.steps) {
+    const auto blur = step.parameters.find("point-spread");
+    if (blur != step.parameters.end())
+      if (const auto* s = std::get_if<double>(&blur->second)) options.pointSpread = *s;
+    const auto dark = step.parameters.find("dark");
+    if (dark != step.parameters.end())
+      if (const auto* is = std::get_if<bool>(&dark->second)) options.dark = *is;
+  }
+  return options;
+}
+
+std::optional<SourceDifference> sourceDifference(const formats::SourceVolume& volume,
+                                                 const formats::SourceVolume& source) {
+  const double voxel = std::cbrt(source.spacing[0] * source.spacing[1] * source.spacing[2]);
+  const double length = kSameLength * voxel;
+  if (volume.size != source.size)
+    return SourceDifference{"size", listed(volume.size), listed(source.size)};
+  if (!alike(volume.spacing, source.spacing, length))
+    return SourceDifference{"spacing", listed(volume.spacing), listed(source.spacing)};
+  if (!alike(volume.origin, source.origin, length))
+    return SourceDifference{"origin", listed(volume.origin), listed(source.origin)};
+  if (!alike(volume.direction, source.direction, kSameLength))
+    return SourceDifference{"direction", listed(volume.direction), listed(source.direction)};
+  if (volume.sha256 != source.sha256)
+    return SourceDifference{"voxels", "sha256 " + volume.sha256, "sha256 " + source.sha256};
+  return std::nullopt;
+}
+
+std::size_t requireOverlap(const Volume& volume, const formats::CenterlineTree& tree) {
+  const std::size_t outside = countOutside(volume, tree, Eigen::Vector3d::Ones());
+  if (outside == tree.nodeCount())
+    throw invalidInput("none of the case's " + std::to_string(tree.nodeCount()) +
+                       " nodes lies in the volume: " + likelyReason(volume, tree));
+  return outside;
+}
+
+CheckResult checkCase(const Volume& volume, const formats::Case& value, const EdgeOptions& options,
+                      Progress& progress) {
+  const formats::CenterlineTree& tree = value.tree;
+  CheckResult result;
+  CheckReport& report = result.report;
+  report.options = options;
+  report.voxelSize = volume.geometry.voxelSize();
+  report.nodesOutside = requireOverlap(volume, tree);
+  const field::BlendedField surface = formats::blendedFieldOf(value);
+
+  progress.begin("lumen", tree.nodeCount());
+  const LumenVoxels lumen(tree, surface, volume.geometry, progress);
+  progress.end();
+  progress.begin("wall", tree.nodeCount());
+  const BsplineVolume spline(volume);
+  const auto offsets = wallOffsets(tree, surface, spline, lumen, options, progress);
+  summariseAll(tree, offsets, report);
+  progress.end();
+
+  progress.begin("places", 0);
+  report.lumenVolume = static_cast<double>(lumen.voxels().size()) * volume.geometry.spacing.prod();
+  const std::vector<NodeLevels> ofNodes = nodeLevels(tree, offsets);
+  if (!ofNodes.empty()) {
+    const Levels levels{volume, options.dark, ofNodes};
+    report.dark = darkInside(lumen, levels, progress);
+    report.missing = brightOutside(lumen, levels, tree, progress);
+    report.shownLength = shownLength(tree, lumen, levels);
+  }
+  report.ends = findOpenEnds(tree, report.voxelSize, report.missing.vessels);
+  progress.end();
+  result.lumen = lumen.voxels();
+  return result;
+}
+
+Volume labelVolume(const VolumeGeometry& geometry, const formats::CenterlineTree& tree,
+                   const std::vector<LumenVoxel>& lumen) {
+  const auto fill = [&](auto labels) {
+    labels.resize(geometry.voxelCount());
+    for (const LumenVoxel& voxel : lumen)
+      labels[voxel.index] =
+          static_cast<typename decltype(labels)::value_type>(tree.branch[voxel.node] + 1);
+    return Volume{geometry, std::move(labels)};
+  };
+  const std::size_t branches = tree.branches.size();
+  if (branches <= std::numeric_limits<std::uint8_t>::max())
+    return fill(std::vector<std::uint8_t>());
+  if (branches > std::numeric_limits<std::uint16_t>::max())
+    throw unsupported("a label volume holds 65535 branches, and the case has " +
+                      std::to_string(branches));
+  return fill(std::vector<std::uint16_t>());
+}
+
+}  // namespace lumen::convert

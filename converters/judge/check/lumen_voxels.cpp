@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/judge/check/lumen_voxels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/base/vectors.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kReachRadii = 2;  // a wall farther out than that is no wall of this node
+
+struct Claim {
+  std::size_t index;
+  double power;
+  std::uint32_t node;
+};
+
+struct Box {
+  std::array<int, 3> low, high;  ///< voxels, ends included; empty if low > high
+};
+
+/// The voxels within `reach` mm of `centre`, and more, as it is a box.
+Box boxAround(const VolumeGeometry& geometry, const Vector3d& centre, double reach) {
+  const Vector3d at = geometry.indexFromWorld(centre);
+  Box box{};
+  for (int a = 0; a < 3; ++a) {
+    const auto u = static_cast<std::size_t>(a);
+    const double most = geometry.size[u] - 1;
+    const double half = reach / geometry.spacing[a];
+    box.low[u] = static_cast<int>(std::clamp(std::ceil(at[a] - half), 0.0, most + 1));
+    box.high[u] = static_cast<int>(std::clamp(std::floor(at[a] + half), -1.0, most));
+  }
+  return box;
+}
+
+void claimVoxels(const formats::CenterlineTree& tree, const field::BlendedField& surface,
+                 const VolumeGeometry& geometry, std::uint32_t node, std::vector<Claim>& claims) {
+  const Vector3d centre = toEigen(tree.centre[node]);
+  const auto radius = static_cast<double>(tree.radius[node]);
+  const double reach = kReachRadii * radius + geometry.voxelSize();
+  const Box box = boxAround(geometry, centre, reach);
+  const auto nx = static_cast<std::size_t>(geometry.size[0]);
+  const auto ny = static_cast<std::size_t>(geometry.size[1]);
+  for (int z = box.low[2]; z <= box.high[2]; ++z)
+    for (int y = box.low[1]; y <= box.high[1]; ++y)
+      for (int x = box.low[0]; x <= box.high[0]; ++x) {
+        const Vector3d p = geometry.worldFromIndex({double(x), double(y), double(z)});
+        const double squared = (p - centre).squaredNorm();
+        if (squared > reach * reach) continue;
+        const field::Vec point{p.x(), p.y(), p.z()};
+        if (surface.follow(point, node) != node ||
+            !(surface.blended(point, node).value > surface.level()))
+          continue;
+        const auto row = static_cast<std::size_t>(z) * ny + static_cast<std::size_t>(y);
+        claims.push_back({row * nx + static_cast<std::size_t>(x), squared - radius * radius, node});
+      }
+}
+
+}  // namespace
+
+LumenVoxels::LumenVoxels(const formats::CenterlineTree& tree, const field::BlendedField& surface,
+                         const VolumeGeometry& geometry, Progress& progress)
+    : m_surface(surface), m_geometry(geometry), m_inside(geometry.voxelCount()) {
+  std::vector<std::vector<Claim>> claims(tree.nodeCount());
+  tbb::parallel_for(std::size_t{0}, tree.nodeCount(), [&](std::size_t n) {
+    progress.check();
+    claimVoxels(tree, surface, geometry, static_cast<std::uint32_t>(n), claims[n]);
+    progress.advance();
+  });
+  std::vector<Claim> all;
+  for (const auto& some : claims) all.insert(all.end(), some.begin(), some.end());
+  std::sort(all.begin(), all.end(), [](const Claim& a, const Claim& b) {
+    return std::tie(a.index, a.power, a.node) < std::tie(b.index, b.power, b.node);
+  });
+  for (const Claim& claim : all) {
+    if (m_inside[claim.index] != 0) continue;
+    m_inside[claim.index] = 1;
+    m_voxels.push_back({claim.index, claim.node});
+  }
+}
+
+std::size_t cornerIndex(const VolumeGeometry& geometry, const Vector3d& at, int corner) {
+  std::size_t index = 0;
+  for (int a = 2; a >= 0; --a) {
+    const int size = geometry.size[static_cast<std::size_t>(a)];
+    const int i = std::min(static_cast<int>(at[a]) + (corner >> a & 1), size - 1);
+    index = index * static_cast<std::size_t>(size) + static_cast<std::size_t>(i);
+  }
+  return index;
+}
+
+std::optional<std::uint32_t> LumenVoxels::nodeAt(std::size_t index) const {
+  if (m_inside[index] == 0) return std::nullopt;
+  const auto found =
+      std::lower_bound(m_voxels.begin(), m_voxels.end(), index,
+                       [](const LumenVoxel& v, std::size_t i) { return v.index < i; });
+  return found->node;
+}
+
+bool LumenVoxels::isInAnother(const Vector3d& point, std::uint32_t own) const {
+  const Vector3d at = m_geometry.indexFromWorld(point);
+  if (!m_geometry.containsIndex(at)) return false;
+  const field::Vec p{point.x(), point.y(), point.z()};
+  const std::uint32_t here = m_surface.follow(p, own);
+  std::uint32_t before = here;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto claimant = nodeAt(cornerIndex(m_geometry, at, corner));
+    if (!claimant) continue;
+    const std::uint32_t other = m_surface.follow(p, *claimant);
+    if (other == here || other == before) continue;
+    before = other;
+    if (m_surface.blended(p, other).value > m_surface.level()) return true;
+  }
+  return false;
+}
+
+}  // namespace lumen::convert

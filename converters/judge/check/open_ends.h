@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where branches of a case end, and whether the volume shows that the vessel goes on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/judge/check/places.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// The first node of a root or the last one of a branch, where nothing of the case is joined to it.
+struct OpenEnd {
+  std::uint32_t node = 0;
+  bool first = false;                                 ///< the branch begins here
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< unit, along the vessel
+  double goesOn = 0;  ///< mm of vessel that is seen beyond it; 0 if none is
+};
+
+/// The open ends of all vessels, branch by branch. One goes on in a missing vessel that comes within
+/// two radii and three voxels of the node, ahead of it, by its own tip or where it was reached from
+/// that branch; that vessel gets `atEnd`.
+std::vector<OpenEnd> findOpenEnds(const formats::CenterlineTree& tree, double voxel,
+                                  std::vector<MissingVessel>& vessels);
+
+}  // namespace lumen::convert

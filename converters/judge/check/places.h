@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of the volume the case gets wrong: dark voxels inside of it, and bright ones that belong to
+// its vessels and lie outside (docs/method.md, section 7.2).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/base/progress.h"
+#include "converters/judge/check/bright_region.h"
+#include "converters/judge/check/lumen_voxels.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// A connected group of voxels.
+struct Region {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS: where it is deepest
+  std::uint32_t node = 0;  ///< of the case: inside of which it lies, or from which it was reached
+  std::size_t voxels = 0;
+  double volume = 0;  ///< mm^3
+  double radius = 0;  ///< mm, of the greatest ball in it
+};
+
+struct Regions {
+  double volume = 0;            ///< mm^3, of all such voxels, in regions or not
+  std::vector<Region> regions;  ///< the greatest volume first
+};
+
+/// A place on the way of a vessel, and the node from which it was reached.
+struct WayPoint {
+  Eigen::Vector3d position;  ///< mm, LPS
+  std::uint32_t node;
+};
+
+/// A vessel of the volume that is not in the case.
+struct MissingVessel {
+  std::vector<WayPoint> way;  ///< from where it begins to its tip
+  std::size_t voxels = 0;
+  double volume = 0;   ///< mm^3
+  double length = 0;   ///< mm
+  double radius = 0;   ///< mm
+  bool atEnd = false;  ///< a branch of the case goes on in it
+};
+
+struct Missing {
+  double volume = 0;                   ///< mm^3, of all bright voxels outside, but for `wide`
+  std::vector<MissingVessel> vessels;  ///< the longest first
+  Regions wide;                        ///< what is too wide to be a vessel, and all beyond it
+};
+
+/// Voxels inside, deeper than a voxel, that are darker than the half level of their node. A region
+/// has at least four voxels.
+Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progress& progress);
+
+/// The vessels of the bright region that lie farther than two voxels from the lumen, of at least 20
+/// voxels and four voxels' length. What is half again as wide as the widest vessel of the case is
+/// none.
+Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
+                      const formats::CenterlineTree& tree, const Progress& progress);
+
+/// Where to click, so that a missing vessel is tracked.
+struct Clicks {
+  std::vector<Eigen::Vector3d> points;  ///< on its way, mm, LPS
+  double radius = 0;                    ///< mm
+  std::uint32_t beside = 0;             ///< the node of the case that it begins at
+};
+/// One click in the middle of the vessel, where its lumen is its own; a second halfway on to its tip, if
+/// that is far enough to tell which way it goes.
+Clicks clicksOn(const MissingVessel& vessel);
+
+/// mm of the tree's vessels whose axis the volume shows: where it is brighter than the half level,
+/// and counted once where branches lie in each other.
+double shownLength(const formats::CenterlineTree& tree, const LumenVoxels& lumen,
+                   const Levels& levels);
+
+}  // namespace lumen::convert

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/judge/check/profile_edge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace lumen::convert {
+namespace {
+
+constexpr int kHalfWindow = kSamplesPerVoxel / 2;  // changes and levels are taken over one voxel
+constexpr int kLevelReach =
+    5 * kSamplesPerVoxel / 2;        // how far from its edge a level is looked for
+constexpr double kLeastShare = 0.5;  // of the greatest change: weaker places are texture
+
+/// The part of a profile that lies in the volume.
+class Profile {
+public:
+  Profile(std::span<const float> values, int wall) : m_values(values), m_wall(wall) {
+    m_begin = wall;
+    while (m_begin > 0 && !std::isnan(at(m_begin - 1))) --m_begin;
+    m_end = wall;
+    while (m_end < static_cast<int>(values.size()) && !std::isnan(at(m_end))) ++m_end;
+  }
+
+  [[nodiscard]] double at(int i) const {
+    return static_cast<double>(m_values[static_cast<std::size_t>(i)]);
+  }
+  [[nodiscard]] int first() const { return m_begin + kHalfWindow; }
+  [[nodiscard]] int last() const { return m_end - 1 - kHalfWindow; }
+  [[nodiscard]] double fall(int i) const { return at(i - kHalfWindow) - at(i + kHalfWindow); }
+  [[nodiscard]] int fromWall(int i) const { return std::abs(i - m_wall); }
+
+  /// The place nearest to the wall where sign * fall has a maximum of at least `least`; -1 if none.
+  [[nodiscard]] int nearest(double sign, double least) const {
+    int best = -1;
+    for (int i = first(); i <= last(); ++i) {
+      const double here = sign * fall(i);
+      if (here < least || (i > first() && sign * fall(i - 1) > here) ||
+          (i < last() && sign * fall(i + 1) >= here))
+        continue;
+      if (best < 0 || fromWall(i) < fromWall(best)) best = i;
+    }
+    return best;
+  }
+
+  /// Where sign * fall has its maximum, in samples from the wall: of the parabola through `i` and
+  /// its neighbours.
+  [[nodiscard]] double peak(int i, double sign) const {
+    if (i <= first() || i >= last()) return i - m_wall;
+    const double before = sign * fall(i - 1), here = sign * fall(i), after = sign * fall(i + 1);
+    const double bend = before - 2 * here + after;
+    return i - m_wall + (bend < 0 ? 0.5 * (before - after) / bend : 0);
+  }
+
+  /// The greatest sign * mean over a voxel between the places `from` and `to`, times sign.
+  [[nodiscard]] double level(int from, int to, double sign) const {
+    from = std::clamp(from, first(), last());
+    to = std::clamp(to, from, last());
+    double sum = 0, best = 0;
+    for (int k = -kHalfWindow; k < kHalfWindow; ++k) sum += at(from + k);
+    best = sign * sum;
+    for (int i = from; i < to; ++i) {
+      sum += at(i + kHalfWindow) - at(i - kHalfWindow);
+      best = std::max(best, sign * sum);
+    }
+    return sign * best / (2 * kHalfWindow);
+  }
+
+  /// Where the profile passes `level` in the direction of `sign`, nearest to `edge`, in samples
+  /// from the wall; the edge itself if it does not within the reach of the levels.
+  [[nodiscard]] double crossing(int edge, double level, double sign) const {
+    for (int away = 0; away <= kLevelReach; ++away)
+      for (const int i : {edge - away, edge + away - 1}) {
+        if (i < m_begin || i + 1 >= m_end) continue;
+        const double before = sign * (at(i) - level), after = sign * (at(i + 1) - level);
+        if (before >= 0 && after < 0) return i + before / (before - after) - m_wall;
+      }
+    return edge - m_wall;
+  }
+
+private:
+  std::span<const float> m_values;
+  int m_wall, m_begin = 0, m_end = 0;
+};
+
+}  // namespace
+
+ProfileEdge findEdge(std::span<const float> values, std::size_t wall) {
+  const Profile profile(values, static_cast<int>(wall));
+  ProfileEdge edge;
+  if (profile.last() - profile.first() < kSamplesPerVoxel) return edge;
+  double greatest = 0;
+  for (int i = profile.first(); i <= profile.last(); ++i)
+    greatest = std::max(greatest, std::abs(profile.fall(i)));
+  if (!(greatest > 0)) return edge;
+  const int fall = profile.nearest(1, kLeastShare * greatest);
+  const int rise = profile.nearest(-1, kLeastShare * greatest);
+  const bool falls = fall >= 0 && (rise < 0 || profile.fromWall(fall) <=
+                                                   profile.fromWall(rise) + kSamplesPerVoxel);
+  const int place = falls ? fall : rise;
+  if (place < 0) return edge;
+  const double sign = falls ? 1 : -1;
+  edge.kind = falls ? EdgeKind::Falls : EdgeKind::Rises;
+  edge.inside = profile.level(place - kLevelReach, place - kHalfWindow, sign);
+  edge.outside = profile.level(place + kHalfWindow, place + kLevelReach, -sign);
+  edge.at = profile.crossing(place, edge.half(), sign);
+  edge.steepest = profile.peak(place, sign);
+  return edge;
+}
+
+}  // namespace lumen::convert

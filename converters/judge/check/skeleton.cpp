@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/judge/check/skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <utility>
+
+#include "converters/base/statistics.h"
+
+namespace lumen::convert {
+namespace {
+
+/// States of Skeleton's `free`.
+enum State : std::uint8_t { kTaken = 0, kFree = 1, kInGroup = 2 };
+
+constexpr double kCoverDepths = 1.5, kCoverVoxels = 2;  // what a way covers; TEASAR's scale, offset
+constexpr std::size_t kChord = 5;  // voxels: a way along the grid is longer than its vessel
+constexpr std::size_t kCheckEvery = 1 << 14;  // voxels: well below 100 ms
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+/// Whether a face of the voxel is shared with one that is not bright.
+bool isRim(const VoxelSet& set, std::uint32_t i, const std::function<bool(std::size_t)>& isBright) {
+  const auto at = set.place(i);
+  std::size_t stride = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (at[a] > 0 && !isBright(set.index(i) - stride)) return true;
+    if (at[a] + 1 < set.geometry().size[a] && !isBright(set.index(i) + stride)) return true;
+    stride *= static_cast<std::size_t>(set.geometry().size[a]);
+  }
+  return false;
+}
+
+}  // namespace
+
+// Every voxel learns of the nearest rim voxel from its neighbours, by the way there.
+std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
+                            const Progress& progress) {
+  const auto half = static_cast<float>(0.5 * set.geometry().voxelSize());
+  std::vector<float> depths(set.size(), kFar);
+  std::vector<Eigen::Vector3f> fromRim(set.size());
+  std::deque<std::uint32_t> queue;
+  for (std::uint32_t i = 0; i < set.size(); ++i)
+    if (isRim(set, i, isBright)) {
+      fromRim[i].setZero();
+      depths[i] = half;
+      queue.push_back(i);
+    }
+  for (; !queue.empty(); queue.pop_front()) {
+    if (queue.front() % kCheckEvery == 0) progress.check();
+    const Eigen::Vector3f here = fromRim[queue.front()];
+    set.eachBeside(queue.front(), [&](std::uint32_t j, const Eigen::Vector3d& way) {
+      const Eigen::Vector3f there = here + way.cast<float>();
+      const float depth = half + there.norm();
+      if (!(depth < depths[j])) return;
+      depths[j] = depth;
+      fromRim[j] = there;
+      queue.push_back(j);
+    });
+  }
+  return depths;
+}
+
+// A step costs its length by the square of the depth: in the middle it is cheap.
+void Skeleton::spread(std::uint32_t root, const Progress& progress) {
+  using Entry = std::pair<float, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  m_group.clear();
+  const auto reach = [&](std::uint32_t i, std::uint32_t from, float cost) {
+    if (m_free[i] == kTaken || (m_free[i] == kInGroup && !(cost < m_cost[i]))) return;
+    if (m_free[i] == kFree) m_group.push_back(i);
+    m_free[i] = kInGroup;
+    m_cost[i] = cost;
+    m_from[i] = from;
+    queue.emplace(cost, i);
+  };
+  for (reach(root, VoxelSet::kNone, 0); !queue.empty();) {
+    const auto [cost, i] = queue.top();
+    queue.pop();
+    if (cost > m_cost[i]) continue;
+    if (i % kCheckEvery == 0) progress.check();
+    m_set.eachBeside(i, [&, here = i, so = cost](std::uint32_t j, const Eigen::Vector3d& way) {
+      reach(j, here, so + static_cast<float>(way.norm()) / (m_depths[j] * m_depths[j]));
+    });
+  }
+}
+
+SkeletonWay Skeleton::wayTo(std::uint32_t tip) const {
+  SkeletonWay way;
+  std::uint32_t at = tip;
+  for (; at != VoxelSet::kNone && m_free[at] == kInGroup; at = m_from[at]) way.voxels.push_back(at);
+  if (at != VoxelSet::kNone) way.voxels.push_back(at);  // on the way before it
+  std::reverse(way.voxels.begin(), way.voxels.end());
+  way.length = m_set.geometry().voxelSize();  // half a voxel beyond either end
+  for (std::size_t i = 0; i + 1 < way.voxels.size(); i += kChord) {
+    const std::size_t next = std::min(i + kChord, way.voxels.size() - 1);
+    way.length += (m_set.position(way.voxels[next]) - m_set.position(way.voxels[i])).norm();
+  }
+  return way;
+}
+
+void Skeleton::cover(SkeletonWay& way) {
+  const double more = kCoverVoxels * m_set.geometry().voxelSize();
+  for (const std::uint32_t i : way.voxels)
+    m_set.eachWithin(i, kCoverDepths * static_cast<double>(m_depths[i]) + more,
+                     [&](std::uint32_t j) {
+                       way.covered += m_free[j] == kInGroup;
+                       if (m_free[j] == kInGroup) m_free[j] = kTaken;
+                     });
+  // depths come in steps of about half a voxel, and volumes have the beginnings of side branches
+  std::vector<float> depths;
+  for (const std::uint32_t i : way.voxels) depths.push_back(m_depths[i]);
+  const auto depth = static_cast<double>(upperMedian(depths));
+  const double volume = static_cast<double>(way.covered) * m_set.geometry().spacing.prod();
+  way.radius = std::clamp(std::sqrt(volume / (std::numbers::pi * way.length)), depth,
+                          depth + m_set.geometry().voxelSize());
+}
+
+std::size_t Skeleton::split(std::uint32_t root, double least, std::size_t leastVoxels,
+                            const Progress& progress, std::vector<SkeletonWay>& out) {
+  spread(root, progress);
+  std::stable_sort(m_group.begin(), m_group.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return m_cost[a] > m_cost[b]; });
+  for (const std::uint32_t tip : m_group) {
+    if (m_group.size() < leastVoxels || m_free[tip] != kInGroup) continue;
+    progress.check();
+    SkeletonWay way = wayTo(tip);
+    cover(way);
+    if (way.length >= least) out.push_back(std::move(way));
+  }
+  for (const std::uint32_t i : m_group) m_free[i] = kTaken;
+  return m_group.size();
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far the wall of a case lies from the edges of its volume (docs/method.md, section 7.1).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/judge/check/lumen_voxels.h"
+#include "converters/judge/check/profile_edge.h"
+#include "converters/voxels/bspline.h"
+#include "formats/case/case.h"
+#include "formats/field/blended_field.h"
+
+namespace lumen::convert {
+
+struct EdgeOptions {
+  double pointSpread = 0;  ///< standard deviation of the volume's blur, mm; 0: edges are not moved
+  bool dark = false;       ///< vessels are darker than their background
+};
+
+enum class Verdict : std::uint8_t {
+  Edge,           ///< the volume has an edge here: `offset` holds
+  NoEdge,         ///< nothing within reach, or too little contrast
+  WrongPolarity,  ///< the volume becomes brighter outwards
+  BesideAnother,  ///< another part of the tree begins outside: not judged
+  OutsideVolume,  ///< not judged
+};
+
+/// One place of the wall.
+struct WallOffset {
+  std::uint32_t node = 0;
+  Verdict verdict = Verdict::NoEdge;
+  double offset = 0;               ///< mm, of the wall outward of where the edge says that it is
+  double fromSteepest = 0;         ///< mm, outward of where the intensity changes most
+  double displaced = 0;            ///< mm, of the edge outward of such a wall, by the blur
+  double inside = 0, outside = 0;  ///< levels on the two sides, voxel units, brighter is more
+  double beyond = 0;               ///< the same at the far end of the profile, where one was taken
+};
+
+/// The offsets, sorted by node. Throws Error(Cancelled).
+std::vector<WallOffset> wallOffsets(const formats::CenterlineTree& tree,
+                                    const field::BlendedField& surface, const BsplineVolume& volume,
+                                    const LumenVoxels& lumen, const EdgeOptions& options,
+                                    Progress& progress);
+
+/// What is lumen and what is background around a node; brighter is more, so values are negative if
+/// vessels are dark.
+struct NodeLevels {
+  float half = 0;   ///< halfway between lumen and background
+  float faint = 0;  ///< a quarter of the way to the lumen, or where the background's texture ends
+};
+
+/// The levels of each node: medians over the edges of the nodes around it in its branch, of the
+/// branch where they have none, of the tree where it has none. Empty if there is no edge at all.
+std::vector<NodeLevels> nodeLevels(const formats::CenterlineTree& tree,
+                                   const std::vector<WallOffset>& offsets);
+
+}  // namespace lumen::convert

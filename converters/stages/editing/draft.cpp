@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/editing/draft.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "converters/base/edit_steps.h"
+#include "converters/base/error.h"
+#include "converters/base/vectors.h"
+#include "converters/stages/fitting/refit.h"
+#include "formats/case/validate.h"
+#include "formats/view/limits.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::convert {
+namespace {
+
+using formats::Case;
+using formats::Vec3f;
+
+/// The values of an array that has `components` of them for each node, for the nodes that there are now.
+template <class Value>
+std::vector<Value> gathered(const std::vector<Value>& values, std::size_t components,
+                            const std::vector<std::uint32_t>& before) {
+  std::vector<Value> out;
+  out.reserve(before.size() * components);
+  for (const std::uint32_t node : before)
+    for (std::size_t c = 0; c < components; ++c) out.push_back(values[node * components + c]);
+  return out;
+}
+
+Vec3f opposite(const Vec3f& v) {
+  return {0.0F - v.x, 0.0F - v.y, 0.0F - v.z};  // no negative zeros
+}
+
+}  // namespace
+
+/// The nodes that there will be, in order.
+struct Draft::Layout {
+  std::vector<std::uint32_t> branches;  ///< of the draft
+  std::vector<std::uint32_t> nodes;     ///< of the draft
+  std::vector<std::uint32_t> index;     ///< of the draft's nodes; kNoNode for those that go
+  std::vector<std::uint32_t> before;    ///< of `nodes`
+};
+
+Draft::Draft(const Case& value) : links(value.tree.links), m_case(value) {
+  const formats::CenterlineTree& tree = value.tree;
+  const auto origins = formats::nodeOriginsOf(value);
+  for (std::uint32_t i = 0; i < tree.nodeCount(); ++i)
+    nodes.push_back({i, tree.centre[i], tree.direction[i], tree.radius[i], tree.height[i],
+                     tree.inlierRate.empty() ? 0 : tree.inlierRate[i], origins[i]});
+  for (const formats::Branch& branch : tree.branches) {
+    DraftBranch draft{branch, kNoNode, {}};
+    if (branch.parentNode != formats::kNoParent)
+      draft.parent = static_cast<std::uint32_t>(branch.parentNode);
+    for (std::uint32_t i = 0; i < branch.nodeCount; ++i)
+      draft.nodes.push_back(branch.firstNode + i);
+    branches.push_back(std::move(draft));
+  }
+}
+
+void Draft::reverse(std::vector<std::uint32_t>& chain) {
+  std::reverse(chain.begin(), chain.end());
+  for (const std::uint32_t node : chain) nodes[node].direction = opposite(nodes[node].direction);
+}
+
+double Draft::lengthOf(const std::vector<std::uint32_t>& chain) const {
+  double length = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i)
+    length += (toEigen(nodes[chain[i]].centre) - toEigen(nodes[chain[i - 1]].centre)).norm();
+  return length;
+}
+
+std::string Draft::freeLabel(const std::string& base) const {
+  for (std::size_t number = 2;; ++number) {
+    std::string ending(1, '-');
+    ending += std::to_string(number);
+    std::string label = base.substr(0, formats::kMaxNameBytes - ending.size());
+    while (!formats::isUtf8(label)) label.pop_back();
+    label += ending;
+    if (std::none_of(branches.begin(), branches.end(),
+                     [&](const DraftBranch& b) { return b.record.label == label; }))
+      return label;
+  }
+}
+
+Draft::Layout Draft::layOut() const {
+  std::vector<std::uint32_t> owner(nodes.size(), kNoNode);
+  for (std::uint32_t b = 0; b < branches.size(); ++b)
+    for (const std::uint32_t node : branches[b].nodes) owner[node] = b;
+  Layout layout;
+  layout.index.assign(nodes.size(), kNoNode);
+  std::vector<bool> isPlaced(branches.size(), false);
+  for (std::uint32_t b = 0; b < branches.size(); ++b) {
+    // what it hangs on, up to what is placed
+    std::vector<std::uint32_t> due;
+    for (std::uint32_t at = b; at != kNoNode && !isPlaced[at];) {
+      due.push_back(at);
+      isPlaced[at] = true;
+      at = branches[at].parent == kNoNode ? kNoNode : owner[branches[at].parent];
+    }
+    layout.branches.insert(layout.branches.end(), due.rbegin(), due.rend());
+  }
+  for (const std::uint32_t b : layout.branches)
+    for (const std::uint32_t node : branches[b].nodes) {
+      layout.index[node] = static_cast<std::uint32_t>(layout.nodes.size());
+      layout.nodes.push_back(node);
+      layout.before.push_back(nodes[node].before);
+    }
+  return layout;
+}
+
+void Draft::putTree(const Layout& layout, Case& out) const {
+  formats::CenterlineTree& tree = out.tree;
+  const bool hasRates = !m_case.tree.inlierRate.empty();
+  for (const std::uint32_t n : layout.nodes) {
+    const DraftNode& node = nodes[n];
+    tree.centre.push_back(node.centre);
+    tree.direction.push_back(node.direction);
+    tree.radius.push_back(node.radius);
+    tree.height.push_back(node.height);
+    if (hasRates) tree.inlierRate.push_back(node.inlierRate);
+  }
+  for (const std::uint32_t b : layout.branches) {
+    const DraftBranch& draft = branches[b];
+    formats::Branch branch = draft.record;
+    branch.firstNode = layout.index[draft.nodes.front()];
+    branch.nodeCount = static_cast<std::uint32_t>(draft.nodes.size());
+    branch.parentNode = draft.parent == kNoNode
+                            ? formats::kNoParent
+                            : static_cast<std::int32_t>(layout.index[draft.parent]);
+    double rates = 0;
+    for (const std::uint32_t node : draft.nodes) {
+      rates += nodes[node].inlierRate;
+      const auto at = static_cast<std::int32_t>(layout.index[node]);
+      tree.parent.push_back(node == draft.nodes.front() ? branch.parentNode : at - 1);
+      tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
+    }
+    if (draft.isOther && hasRates && branch.meanInlierRate)
+      branch.meanInlierRate = static_cast<float>(rates / static_cast<double>(draft.nodes.size()));
+    tree.branches.push_back(std::move(branch));
+  }
+}
+
+void Draft::putLinks(const Layout& layout, Case& out) const {
+  for (const auto& [a, b] : links) {
+    const std::uint32_t first = std::min(layout.index[a], layout.index[b]);
+    const std::uint32_t second = std::max(layout.index[a], layout.index[b]);
+    if (second == kNoNode || out.tree.parent[second] == static_cast<std::int32_t>(first)) continue;
+    out.tree.links.push_back({first, second});
+  }
+  std::sort(out.tree.links.begin(), out.tree.links.end());
+}
+
+void Draft::putPoints(const Layout& layout, Case& out) const {
+  if (!m_case.points) return;
+  const formats::PointSets& points = *m_case.points;
+  out.points.emplace();
+  out.points->offset.push_back(0);
+  for (const std::uint32_t node : layout.before) {
+    if (node != kNewNode)
+      for (std::uint32_t k = points.offset[node]; k < points.offset[node + 1]; ++k)
+        if (isGone.empty() || !isGone[k]) out.points->position.push_back(points.position[k]);
+    out.points->offset.push_back(static_cast<std::uint32_t>(out.points->position.size()));
+  }
+}
+
+void Draft::putModels(const Layout& layout, Case& out) const {
+  if (!m_case.models) return;
+  const formats::BlobbyModels& models = *m_case.models;
+  out.models.emplace();
+  out.models->kernel = models.kernel;
+  out.models->kernelParameter = models.kernelParameter;
+  out.models->isoLevel = models.isoLevel;
+  out.models->offset.push_back(0);
+  for (const std::uint32_t node : layout.before) {
+    if (node != kNewNode)
+      for (std::uint32_t k = models.offset[node]; k < models.offset[node + 1]; ++k) {
+        out.models->centre.push_back(models.centre[k]);
+        out.models->width.push_back(models.width[k]);
+      }
+    out.models->offset.push_back(static_cast<std::uint32_t>(out.models->centre.size()));
+  }
+}
+
+void Draft::putArrays(const Layout& layout, Case& out, Change& change) const {
+  const bool hasNew =
+      std::find(layout.before.begin(), layout.before.end(), kNewNode) != layout.before.end();
+  for (const formats::NodeArray& array : m_case.nodeArrays) {
+    if (array.name == formats::kOriginArray) continue;
+    if (hasNew) {
+      change.droppedArrays.push_back(array.name);
+      continue;
+    }
+    formats::NodeArray kept{array.name, array.components, array.unit, {}};
+    std::visit(
+        [&](const auto& values) {
+          kept.values = gathered(values, array.components, layout.before);
+        },
+        array.values);
+    out.nodeArrays.push_back(std::move(kept));
+  }
+  std::vector<formats::NodeOrigin> origins;
+  for (const std::uint32_t node : layout.nodes) origins.push_back(nodes[node].origin);
+  formats::setNodeOrigins(out, origins);
+}
+
+Change Draft::finish(Case& target, const std::string& sentence) const {
+  const Layout layout = layOut();
+  Change change;
+  change.before = layout.before;
+  change.sentence = sentence;
+  Case out;
+  out.metadata = m_case.metadata;
+  recordEdit(out.metadata, sentence);
+  putTree(layout, out);
+  putLinks(layout, out);
+  putPoints(layout, out);
+  putModels(layout, out);
+  putArrays(layout, out, change);
+  out.otherChunks = m_case.otherChunks;
+  formats::dropDependentChunks(out);
+  if (const auto valid = formats::validate(out); !valid)
+    throw invalidInput("this cannot be done, as the case would break a rule of the format: " +
+                       valid.error().text());
+  if (out.models) change.stale = staleNodes(m_case, out, change.before);
+  target = std::move(out);
+  return change;
+}
+
+}  // namespace lumen::convert

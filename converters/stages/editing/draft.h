@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case taken apart into branches of nodes, to be changed and put together again by the rules of the
+// format. Every edit is a change of such a draft.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "converters/stages/editing/change.h"
+#include "formats/case/case.h"
+#include "formats/case/node_origin.h"
+
+namespace lumen::convert {
+
+/// No node of a draft.
+constexpr std::uint32_t kNoNode = UINT32_MAX;
+
+struct DraftNode {
+  std::uint32_t before = kNewNode;  ///< its index in the case
+  formats::Vec3f centre{}, direction{};
+  float radius = 0, height = 0, inlierRate = 0;
+  formats::NodeOrigin origin = formats::NodeOrigin::Measured;
+};
+
+struct DraftBranch {
+  formats::Branch record;            ///< without its range and its parent
+  std::uint32_t parent = kNoNode;    ///< what its first node hangs on
+  std::vector<std::uint32_t> nodes;  ///< at least one
+  bool isOther = false;              ///< other nodes than before, so another mean
+};
+
+/// Nodes are named by their place in `nodes`, where those of the case have their index. Nodes that are of
+/// no branch are not in the case that is made of it, and neither are their links.
+class Draft {
+public:
+  explicit Draft(const formats::Case& value);
+
+  std::vector<DraftNode> nodes;
+  std::vector<DraftBranch> branches;
+  std::vector<std::array<std::uint32_t, 2>> links;
+  std::vector<bool> isGone;  ///< for each wall point of the case; may be empty
+
+  /// The branch of a node of the case, before anything was moved.
+  [[nodiscard]] std::uint32_t branchOf(std::uint32_t node) const {
+    return m_case.tree.branch[node];
+  }
+  /// Turns some nodes to look the other way, and puts the last first.
+  void reverse(std::vector<std::uint32_t>& chain);
+  /// mm along a chain.
+  [[nodiscard]] double lengthOf(const std::vector<std::uint32_t>& chain) const;
+  /// A label that no branch has: `base` with the first free number from 2 on behind it.
+  [[nodiscard]] std::string freeLabel(const std::string& base) const;
+
+  /// Puts the draft together in the place of the case that it was made of, and records `sentence`. Parents
+  /// come before what hangs on them, else the order stays. Throws Error(InvalidInput) if a rule of the
+  /// format is broken, and leaves the case as it was.
+  Change finish(formats::Case& target, const std::string& sentence) const;
+
+private:
+  struct Layout;
+  [[nodiscard]] Layout layOut() const;
+  void putTree(const Layout& layout, formats::Case& out) const;
+  void putLinks(const Layout& layout, formats::Case& out) const;
+  void putPoints(const Layout& layout, formats::Case& out) const;
+  void putModels(const Layout& layout, formats::Case& out) const;
+  void putArrays(const Layout& layout, formats::Case& out, Change& change) const;
+
+  const formats::Case& m_case;
+};
+
+}  // namespace lumen::convert

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edits of edit.h that concern what hangs on what.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/vectors.h"
+#include "converters/stages/editing/checks.h"
+#include "converters/stages/editing/draft.h"
+#include "converters/stages/editing/edit.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using formats::Case;
+using formats::NodeOrigin;
+using formats::StopReason;
+
+/// Of the lesser radius: from one node of a bridge to the next, as tracking puts them.
+constexpr double kSpacing = 0.5;
+/// Nodes of one bridge, as of one branch that is tracked: more means that a radius is wrong.
+constexpr double kLongestBridge = 20000;
+
+/// Nodes on the straight way from a node to a branch's first one, without both.
+std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
+  const Vector3d start = toEigen(from.centre), way = toEigen(to.centre) - start;
+  const double first = std::min(from.radius, to.radius), last = to.radius;
+  const double count = std::floor(way.norm() / (kSpacing * first));
+  if (!(count <= kLongestBridge))
+    throw invalidInput(
+        "the way there is " + std::to_string(std::lround(count * kSpacing)) +
+        " radii long, which would take more than 20000 nodes; expected a nearer node");
+  std::vector<DraftNode> nodes;
+  for (double n = 1; n < count; ++n) {
+    DraftNode node;
+    node.origin = NodeOrigin::Bridged;
+    node.centre = toVec3f(start + n / count * way);
+    node.direction = toVec3f(way.normalized());
+    node.radius = static_cast<float>(first + (last - first) * n / count);
+    node.height = static_cast<float>(2 * kSpacing) * node.radius;
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+/// Drops the bridge by which a branch was led to what it hung on; nodes that something else hangs on, or
+/// that close a loop, stay, and so does the last.
+void dropBridge(const Draft& draft, DraftBranch& branch) {
+  const auto isUsed = [&](std::uint32_t node) {
+    return std::any_of(draft.branches.begin(), draft.branches.end(),
+                       [&](const DraftBranch& b) { return b.parent == node; }) ||
+           std::any_of(draft.links.begin(), draft.links.end(),
+                       [&](const auto& link) { return link[0] == node || link[1] == node; });
+  };
+  auto first = branch.nodes.begin();
+  while (first + 1 != branch.nodes.end() && draft.nodes[*first].origin == NodeOrigin::Bridged &&
+         !isUsed(*first))
+    ++first;
+  branch.nodes.erase(branch.nodes.begin(), first);
+}
+
+void requireNotBelow(const Case& target, std::uint32_t branch, std::uint32_t node) {
+  const auto& tree = target.tree;
+  for (std::uint32_t b = tree.branch[node];;) {
+    if (b == branch)
+      throw invalidInput(quoted(target, branch) + " cannot hang on " + nodeText(target, node) +
+                         ", which is part of it or hangs on it; expected a node of another branch");
+    if (tree.branches[b].parentNode == formats::kNoParent) return;
+    b = tree.branch[static_cast<std::size_t>(tree.branches[b].parentNode)];
+  }
+}
+
+}  // namespace
+
+Change joinBranch(Case& target, std::uint32_t branch, std::uint32_t node) {
+  requireBranch(target, branch);
+  requireNode(target, node);
+  requireNotBelow(target, branch, node);
+  if (target.tree.branches[branch].parentNode == static_cast<std::int32_t>(node))
+    throw invalidInput(quoted(target, branch) + " hangs on " + nodeText(target, node) +
+                       " already; expected another node");
+  Draft draft(target);
+  DraftBranch& child = draft.branches[branch];
+  dropBridge(draft, child);
+  const auto between = bridge(draft.nodes[node], draft.nodes[child.nodes.front()]);
+  std::vector<std::uint32_t> chain;
+  for (const DraftNode& put : between) {
+    chain.push_back(static_cast<std::uint32_t>(draft.nodes.size()));
+    draft.nodes.push_back(put);
+  }
+  child.nodes.insert(child.nodes.begin(), chain.begin(), chain.end());
+  child.parent = node;
+  child.isOther = true;
+  return draft.finish(target, "joined " + quoted(target, branch) + " to " + nodeText(target, node));
+}
+
+Change reverseBranch(Case& target, std::uint32_t branch) {
+  requireBranch(target, branch);
+  Draft draft(target);
+  DraftBranch& turned = draft.branches[branch];
+  draft.reverse(turned.nodes);
+  turned.record.stopReason = StopReason::Unknown;
+  std::string sentence = "reversed " + quoted(target, branch);
+  if (turned.parent != kNoNode) sentence += ", which hangs on nothing now";
+  turned.parent = kNoNode;
+  return draft.finish(target, sentence);
+}
+
+Change makeRoot(Case& target, std::uint32_t branch) {
+  requireBranch(target, branch);
+  if (target.tree.branches[branch].parentNode == formats::kNoParent)
+    throw invalidInput(quoted(target, branch) +
+                       " is the root of its tree already; to begin at its other end, reverse it");
+  Draft draft(target);
+  std::uint32_t hangOn = kNoNode, leftAt = kNoNode;  // leftAt: the node by which the way leaves
+  for (std::uint32_t b = branch; b != UINT32_MAX;) {
+    // dividing puts branches behind all others, so that indices stay
+    DraftBranch& piece = draft.branches[b];
+    const std::uint32_t above = piece.parent, first = piece.nodes.front();
+    const auto at = std::find(piece.nodes.begin(), piece.nodes.end(), leftAt);
+    piece.parent = hangOn;
+    if (at == piece.nodes.end() || at + 1 == piece.nodes.end()) {
+      draft.reverse(piece.nodes);
+      piece.record.stopReason = StopReason::Unknown;
+    } else if (at != piece.nodes.begin()) {
+      DraftBranch rest = piece;
+      rest.nodes.erase(rest.nodes.begin(), rest.nodes.begin() + (at - piece.nodes.begin()) + 1);
+      rest.parent = leftAt;
+      piece.nodes.erase(at + 1, piece.nodes.end());
+      piece.isOther = rest.isOther = true;
+      piece.record.stopReason = StopReason::Unknown;
+      draft.reverse(piece.nodes);
+      const std::string other = draft.freeLabel(piece.record.label);
+      const bool isLonger = draft.lengthOf(rest.nodes) > draft.lengthOf(piece.nodes);
+      (isLonger ? piece : rest).record.label = other;
+      draft.branches.push_back(std::move(rest));
+    }
+    hangOn = first;
+    leftAt = above;
+    b = above == kNoNode ? UINT32_MAX : draft.branchOf(above);
+  }
+  return draft.finish(target,
+                      "made the end of " + quoted(target, branch) + " the root of its tree");
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a node's model is weighed and minimised (docs/method.md, sections 2.4 and 2.5).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "converters/stages/fitting/node_data.h"
+
+namespace lumen::convert::fitting {
+
+/// What stays as it is while one node is fitted.
+struct NodeProblem {
+  const LocalModelOptions& options;
+  double radius;                ///< of the node
+  double bulge;                 ///< radius of the wall's finest bulges
+  double reach;                 ///< no centre moves farther from the node
+  std::span<const Ball> lumen;  ///< no centre moves out of their union
+};
+
+/// Buffers of fits, kept from one to the next, and the energy at work. One per thread.
+struct FitWorkspace {
+  Energy energy{EnergyParameters{}};
+  MinimiseWorkspace minimiser;
+  std::vector<Ball> around;
+};
+
+/// `around` is filled where the node does not say what is inside.
+NodeProblem makeProblem(const LocalModelOptions& options, const NodeData& node,
+                        std::vector<Ball>& around);
+
+/// Makes `energy` that of the node's points, in weights for its radius, so that it measures
+/// distances of models like `blobs`.
+void beginEnergy(const NodeProblem& problem, std::span<const formats::Vec3d> points,
+                 std::span<const Blob> blobs, Energy& energy);
+
+/// Weighs the priors by what they do against noise of the variance that E_d estimates, and expects
+/// the mean curvature and width of `blobs`; the energy of those in the new weights. Against points
+/// without noise the priors would only bend the surface away. E_d is a mean over all points, and so
+/// the evenness of one blob counts as much as one of them.
+double weighPriors(const NodeProblem& problem, std::span<const Blob> blobs, Energy& energy);
+
+/// Minimises the energy over blobs[active ..]; what it ends at.
+double minimiseFrom(const NodeProblem& problem, std::size_t active, MinimiseOptions options,
+                    std::span<Blob> blobs, FitWorkspace& workspace);
+
+/// Minimises over all blobs until none is dropped; what it ends at.
+double minimiseAll(const NodeProblem& problem, std::vector<Blob>& blobs, FitWorkspace& workspace);
+
+/// Drops blobs that have no use: at the end of their reach, or too narrow. True if it did. Keeps
+/// all if none has any.
+bool dropUseless(const NodeProblem& problem, std::vector<Blob>& blobs);
+
+/// Root mean square of the points' distances, as E_d measured them last, in the fit's frame.
+double meanDistance(const Energy& energy);
+
+}  // namespace lumen::convert::fitting

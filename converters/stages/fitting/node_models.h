@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The models of a case in the making: of all of its nodes, or of some beside those that it has.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "converters/base/progress.h"
+#include "converters/stages/fitting/fit_options.h"
+#include "converters/stages/fitting/local_model.h"
+#include "formats/case/case.h"
+#include "formats/case/topology.h"
+
+namespace lumen::convert::fitting {
+
+/// A node's frame is x' = (x - centre) * scale. What it is made from must outlive it.
+class NodeModels {
+public:
+  /// To fit all nodes of a case that has wall points, or `nodes`, ascending, of one that has models,
+  /// too: the others keep theirs. `options` are resolved.
+  NodeModels(const formats::Case& value, const FitOptions& options);
+  NodeModels(const formats::Case& value, const FitOptions& options,
+             std::span<const std::uint32_t> nodes);
+
+  /// Fits every node for itself. Throws Error(Cancelled).
+  void fit(Progress& progress);
+
+  /// Brings the surfaces of adjacent models together where they meet. Reads the models of the sweep
+  /// before only, so that the order of the nodes does not matter. Throws Error(Cancelled).
+  void refine(Progress& progress);
+
+  [[nodiscard]] formats::BlobbyModels assemble() const;
+
+private:
+  struct Worker {
+    FitWorkspace workspace;
+    std::vector<formats::Vec3d> points, seams;
+    std::vector<Ball> lumen;
+  };
+
+  [[nodiscard]] formats::Vec3d toLocal(std::uint32_t node, const formats::Vec3f& p) const;
+  [[nodiscard]] bool isInSac(std::uint32_t node) const;
+  [[nodiscard]] Ball ball(std::uint32_t frame, std::uint32_t node) const;
+  [[nodiscard]] NodeData data(std::uint32_t node, const Worker& worker) const;
+
+  template <class Action>
+  void forEachNode(Progress& progress, const Action& action) {
+    tbb::parallel_for(std::size_t{0}, m_nodes.size(), [&](std::size_t i) {
+      progress.check();
+      action(m_nodes[i], m_workers.local());
+      progress.advance();
+    });
+  }
+
+  void takeModels(std::uint32_t node);
+  void gatherPoints(std::uint32_t node, Worker& worker) const;
+  void gatherSeams(std::uint32_t node, std::vector<formats::Vec3d>& seams) const;
+  void findSeam(std::uint32_t node);
+
+  const formats::Case& m_case;
+  const formats::CenterlineTree& m_tree;
+  const FitOptions& m_options;
+  double m_scale;
+  LocalModelOptions m_local;
+  formats::Neighbours m_neighbours;
+  std::vector<std::uint32_t> m_nodes;  ///< that are fitted
+  std::vector<std::uint32_t>
+      m_seams;                       ///< nodes whose seam with their parent is theirs or next to it
+  std::vector<bool> m_isKept;        ///< nodes that are not fitted
+  std::vector<LocalModel> m_models;  ///< in the frame of their node
+  std::vector<std::vector<formats::Vec3d>> m_seam;   ///< of a node and its parent, in its frame
+  std::vector<std::vector<formats::Vec3f>> m_drawn;  ///< of each node that has no measured points
+  tbb::enumerable_thread_specific<Worker> m_workers;
+};
+
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the models of two adjacent nodes meet (docs/method.md, section 2.7): the radical plane, on
+// which both have the same power |X - C|^2 - r^2.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "converters/stages/fitting/levenberg_marquardt.h"
+#include "converters/stages/fitting/ring.h"
+
+namespace lumen::convert::fitting {
+
+/// A node and its model. All centres are in one frame; the blobs are in the frame of their node.
+struct SeamSide {
+  Ball node;
+  std::span<const Blob> blobs;
+};
+
+/// Rays per seam.
+constexpr std::size_t kSeamRays = kRingSize;
+
+/// Points between the two surfaces, along rays in the radical plane, in the frame of the centres: at
+/// most kSeamRays. `share`: of the way from the first surface to the second; halfway for two that move. None where a ray meets one of the surfaces only, where they are
+/// farther apart than half of the narrower radius, or where one of `others` has a smaller power.
+std::vector<formats::Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide& first,
+                                       const SeamSide& second, std::span<const Ball> others,
+                                       double share = 0.5);
+
+}  // namespace lumen::convert::fitting

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/phantom/phantom.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "converters/base/error.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/stages/phantom/scene.h"
+#include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr int kSmallestSize = 32, kLargestSize = 1024;
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+void requireRange(const char* option, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw Error(ErrorKind::Usage, std::string("phantom: --") + option + " is " +
+                                    formats::shortText(value) + ", expected " +
+                                    formats::shortText(low) + " to " + formats::shortText(high));
+}
+
+void checkSubject(const PhantomOptions& options) {
+  if (!options.tree.empty()) {
+    if (!options.name.empty())
+      throw Error(ErrorKind::Usage, "phantom: has the name '" + formats::printable(options.name) +
+                                        "' and --tree, expected one of them");
+    if (options.size != 0)
+      throw Error(ErrorKind::Usage,
+                  "phantom: --size is given with --tree, whose box fits the tree; leave it out");
+    return;
+  }
+  const std::vector<std::string>& names = phantomNames();
+  if (std::find(names.begin(), names.end(), options.name) == names.end())
+    throw Error(ErrorKind::Usage, "phantom: unknown name '" + formats::printable(options.name) +
+                                      "', expected one of " + joined(names));
+}
+
+void checkOptions(const PhantomOptions& options) {
+  checkSubject(options);
+  if (options.size != 0) requireRange("size", options.size, kSmallestSize, kLargestSize);
+  requireRange("voxel", options.voxel, 0.01, 10);
+  if (options.sliceThickness != 0)
+    requireRange("slice-thickness", options.sliceThickness, options.voxel, 100 * options.voxel);
+  requireRange("noise", options.noise, 0, 2);
+  requireRange("bias", options.bias, 0, 2);
+  requireRange("psf", options.psf, 0, 5);
+  requireRange("fade", options.fade, 0, 1);
+}
+
+formats::Case describeTruth(const Scene& scene, const PhantomOptions& options) {
+  formats::Case truth;
+  truth.tree = scene.design.tree;
+  formats::Step step;
+  step.name = "phantom";
+  step.tool = "lumen " LUMEN_VERSION;
+  step.parameters = options.parameters();
+  if (options.tree.empty()) {
+    step.parameters["size"] = static_cast<std::int64_t>(scene.grid.size[0]);
+  } else {
+    step.parameters.erase("name");
+    step.parameters.erase("size");
+    step.parameters["tree-sha256"] = scene.treeSha256;
+  }
+  step.parameters.insert(scene.design.notes.begin(), scene.design.notes.end());
+  truth.metadata.steps.push_back(step);
+  return truth;
+}
+
+VolumeGeometry geometryOf(const Scene& scene, const Image& image) {
+  VolumeGeometry geometry;
+  geometry.size = image.size;
+  geometry.spacing.setConstant(scene.grid.voxel);
+  geometry.spacing.z() *= scene.slice;
+  geometry.origin = scene.grid.origin;
+  geometry.origin.z() += 0.5 * (scene.slice - 1) * scene.grid.voxel;
+  return geometry;
+}
+
+}  // namespace
+
+std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() const {
+  std::map<std::string, formats::ParameterValue> parameters = {
+      {"name", name},
+      {"size", static_cast<std::int64_t>(size)},
+      {"voxel", voxel},
+      {"noise", noise},
+      {"bias", bias},
+      {"psf", psf},
+      {"random-seed", static_cast<std::int64_t>(seed)}};
+  if (sliceThickness != 0) parameters["slice-thickness"] = sliceThickness;
+  if (fade != 0) parameters["fade"] = fade;
+  return parameters;
+}
+
+const std::vector<std::string>& phantomNames() {
+  static const std::vector<std::string> names = {
+      "tube",        "helix",   "bifurcation",  "kissing",   "aneurysm",
+      "stenosis",    "dropout", "sac-lobes",    "companion", "hairpin",
+      "right-angle", "fading",  "thick-slices", "patient"};
+  return names;
+}
+
+Phantom makePhantom(const PhantomOptions& options, Progress& progress) {
+  checkOptions(options);
+  Scene scene =
+      options.tree.empty() ? sceneOfName(options, progress) : sceneOfTree(options, progress);
+  // drawing, two passes of the blur, and the noise each report every slice
+  progress.begin("phantom", 3 * static_cast<std::size_t>(scene.grid.size[2]) +
+                                static_cast<std::size_t>(scene.grid.size[1]));
+  Image image = drawOccupancy(scene.design, scene.grid, progress);
+  blur(image, options.psf, progress);
+  if (scene.slice != 1) image = averageSlices(image, scene.slice);
+
+  Phantom phantom;
+  phantom.volume.geometry = geometryOf(scene, image);
+  phantom.volume.voxels =
+      degrade(image, options.bias, options.noise, options.seed, scene.slice, progress);
+  phantom.truth = describeTruth(scene, options);
+  phantom.truth.metadata.voxelSize =
+      scene.slice == 1 ? options.voxel : phantom.volume.geometry.voxelSize();
+  phantom.truth.metadata.source = describeSource(phantom.volume);
+  phantom.seeds = std::move(scene.design.seeds);
+  progress.end();
+  return phantom;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Synthetic angiograms with a known truth. Nothing here is patient data.
+//
+// A phantom has a name, and fills a cube with origin 0; or it is a tree of a file (--tree), and
+// the volume is the box around it, where the file has it. Directions are the identity, voxels
+// cubes; slices may be thicker (--slice-thickness), and are then means over their thickness. A
+// voxel's intensity is 100 outside of vessels and 1100 within them (less where contrast is lost);
+// voxels that the wall crosses have the share of them that lies inside. Then come the point-spread
+// function, the mean over thick slices, the bias field, and white noise.
+//
+// The truth defines the wall exactly: the union of the round cones between consecutive nodes of
+// each branch (common/tube_tree_distance.h). Nodes are about half a voxel apart. Ends are round; a
+// vessel that leaves the volume ends on the plane of the outermost voxel centres. A child's first
+// node lies on its parent's axis. Where a vessel divides, the wider child goes on as the same
+// branch. An aneurysm is a branch from its parent's axis to the centre of its sac, each radius that
+// of the largest ball inside.
+//
+// | name | shows |
+// |---|---|
+// | tube, helix | a straight vessel, a winding one |
+// | bifurcation | a fork of 70 degrees |
+// | kissing | two vessels whose walls touch over a quarter of the extent |
+// | aneurysm | a sac on a bend |
+// | stenosis | a narrowing to 45 % |
+// | dropout | contrast that falls to 35 %, twice |
+// | sac-lobes | a sac with two lobes, in a fork |
+// | companion | a narrow bright vessel and a wide dark one, side by side over most of the extent |
+// | hairpin | half circles of 3, 2 and 1.5 radii |
+// | right-angle | narrow children that leave a wide parent at a right angle |
+// | fading | contrast that falls along the tree |
+// | thick-slices | a fork in slices of five voxels |
+// | patient | a random tree |
+//
+// Shapes scale with the volume's edge. Radii of the small phantoms are given for 25.4 mm (128
+// voxels of 0.2 mm), where they are 0.6 to 2.6 mm, and scale by no less than 0.5 and no more
+// than 1.5. `patient` keeps radii of 2.2 to 0.25 mm (at least 1.25 voxels) in volumes of 50 mm or
+// more; it has 40 branches from 45 mm on, in proportion fewer in smaller volumes, and its branches
+// get shorter with the volume. Its step in the metadata names the two vessels that touch
+// ("kissing").
+//
+// A tree from a file is smoothed as smooth_chain.h says. Its branches are b000, b001 and so on, its
+// seeds those of the vessels that are longer than 5 mm and wide enough to be tracked (design.h),
+// and its step states the digest of the file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/io/seeds/seeds.h"
+#include "converters/voxels/volume.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+struct PhantomOptions {
+  std::string name;            ///< one of phantomNames(); empty with a tree
+  std::filesystem::path tree;  ///< an SWC file in mm; empty with a name
+  int size = 0;         ///< voxels along an edge; 0: the phantom's own (128; patient 256); a tree's
+                        ///< box follows from it
+  double voxel = 0.2;   ///< mm
+  double noise = 0.05;  ///< standard deviation, as a share of the vessels' contrast
+  double bias = 0.1;    ///< amplitude of the slow bias field, as a share of the contrast
+  double psf = 0.6;     ///< standard deviation of the Gaussian point-spread function, in voxels
+  double sliceThickness = 0;  ///< mm along z; 0: a voxel, or the phantom's own
+  double fade = 0;  ///< share of the contrast that is lost at the end farthest from the root
+  std::uint64_t seed = 1;
+  [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
+};
+
+struct Phantom {
+  Volume volume;                  ///< int16
+  formats::Case truth;            ///< the true tree, densely sampled; no points, no models
+  std::vector<SeedBranch> seeds;  ///< what a user would click
+};
+
+constexpr int kFewestSlices = 4;
+
+/// In the order of the table above.
+const std::vector<std::string>& phantomNames();
+
+/// Throws Error(Usage) for an unknown name, options out of range and both or neither of name and
+/// tree, Error(InvalidInput) for the file of the tree, and Error(Cancelled).
+Phantom makePhantom(const PhantomOptions& options, Progress& progress);
+
+}  // namespace lumen::convert

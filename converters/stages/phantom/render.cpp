@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/phantom/render.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/base/simd.h"
+#include "converters/geometry/tube_tree_distance.h"
+#include "formats/case/blobby.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr float kFar = 1e6F;
+constexpr int kSubvoxels = 3;             // along each edge
+constexpr double kHalfDiagonal = 0.8661;  // of a unit cube
+constexpr int kColumns = 64;              // adjacent lines that one pass across rows takes together
+
+Vector3d centreOf(const Grid& grid, int x, int y, int z) {
+  return grid.origin + grid.voxel * Vector3d(x, y, z);
+}
+
+struct Segment {
+  RoundCone cone;
+  Vector3d low, high;  // mm: the box of the cone and of the voxels that it may share
+};
+
+std::vector<Segment> segmentsOf(const formats::CenterlineTree& tree, double margin) {
+  std::vector<Segment> segments;
+  for (const formats::Branch& branch : tree.branches)
+    for (std::uint32_t n = branch.firstNode; n + 1 < branch.firstNode + branch.nodeCount; ++n) {
+      const Vector3d a = nodeCentre(tree, n), b = nodeCentre(tree, n + 1);
+      const double ra = static_cast<double>(tree.radius[n]),
+                   rb = static_cast<double>(tree.radius[n + 1]);
+      segments.push_back({RoundCone(a, ra, b, rb),
+                          (a.array() - ra).min(b.array() - rb).matrix().array() - margin,
+                          (a.array() + ra).max(b.array() + rb).matrix().array() + margin});
+    }
+  return segments;
+}
+
+// Lowers the signed distances, in mm, of one slab of the image to those of a segment.
+void drawSegment(const Segment& segment, const Grid& grid, int zFirst, int zLast, Image& image) {
+  const auto lowest = [&](int axis, int limit) {
+    return std::max(
+        limit, static_cast<int>(std::ceil((segment.low[axis] - grid.origin[axis]) / grid.voxel)));
+  };
+  const auto highest = [&](int axis, int limit) {
+    return std::min(
+        limit, static_cast<int>(std::floor((segment.high[axis] - grid.origin[axis]) / grid.voxel)));
+  };
+  const int x0 = lowest(0, 0), x1 = highest(0, grid.size[0] - 1);
+  for (int z = lowest(2, zFirst); z <= highest(2, zLast); ++z)
+    for (int y = lowest(1, 0); y <= highest(1, grid.size[1] - 1); ++y) {
+      float* row = image.row(y, z);
+      for (int x = x0; x <= x1; ++x)
+        row[x] =
+            std::min(row[x], static_cast<float>(segment.cone.distance(centreOf(grid, x, y, z))));
+    }
+}
+
+// Integrates occupancy times contrast over the voxel around `centre`.
+double occupancyOf(const TubeTreeDistance& wall, const std::vector<float>& contrast,
+                   const Vector3d& centre, double voxel, std::vector<std::uint32_t>& near) {
+  const double step = voxel / kSubvoxels;
+  wall.collect(centre, kHalfDiagonal * voxel, near);
+  double sum = 0;
+  for (int k = 0; k < kSubvoxels; ++k)
+    for (int j = 0; j < kSubvoxels; ++j)
+      for (int i = 0; i < kSubvoxels; ++i) {
+        const Vector3d offset = step * Vector3d(i - 1, j - 1, k - 1);
+        const WallHit hit = wall.nearestOf(near, centre + offset);
+        const double inside = std::clamp(0.5 - hit.distance / step, 0.0, 1.0);
+        const double a = static_cast<double>(contrast[hit.node]);
+        const double b =
+            static_cast<double>(contrast[std::min<std::size_t>(hit.node + 1, contrast.size() - 1)]);
+        sum += inside * (a + hit.along * (b - a));
+      }
+  return sum / (kSubvoxels * kSubvoxels * kSubvoxels);
+}
+
+std::vector<float> gaussianWeights(double sigma) {
+  const int reach = std::max(1, static_cast<int>(std::ceil(4 * sigma)));
+  std::vector<double> weights;
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i) {
+    weights.push_back(formats::repeatableExp(-0.5 * i * i / (sigma * sigma)));
+    sum += weights.back();
+  }
+  std::vector<float> normalised;
+  for (const double w : weights) normalised.push_back(static_cast<float>(w / sum));
+  return normalised;
+}
+
+// out[i] = sum_k weights[k] * in[i + k * stride] over `count` independent lanes.
+LUMEN_SIMD_CLONES void weightedSum(const float* in, const float* weights, std::size_t taps,
+                                   std::size_t stride, float* out, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = 0;
+  for (std::size_t k = 0; k < taps; ++k)
+    for (std::size_t i = 0; i < count; ++i) out[i] += weights[k] * in[i + k * stride];
+}
+
+void blurRows(Image& image, const std::vector<float>& weights, int z) {
+  const auto n = static_cast<std::size_t>(image.size[0]), reach = weights.size() / 2;
+  std::vector<float> padded(n + 2 * reach);
+  for (int y = 0; y < image.size[1]; ++y) {
+    float* row = image.row(y, z);
+    for (std::size_t i = 0; i < padded.size(); ++i)
+      padded[i] = row[std::min(n - 1, i < reach ? 0 : i - reach)];
+    weightedSum(padded.data(), weights.data(), weights.size(), 1, row, n);
+  }
+}
+
+// Lines of n values `step` apart, starting at `first` and its `width` successors.
+void blurColumns(float* first, std::size_t n, std::size_t step, std::size_t width,
+                 const std::vector<float>& weights, std::vector<float>& padded) {
+  const std::size_t reach = weights.size() / 2;
+  padded.resize((n + 2 * reach) * width);
+  for (std::size_t i = 0; i < n + 2 * reach; ++i) {
+    const float* from = first + std::min(n - 1, i < reach ? 0 : i - reach) * step;
+    std::copy(from, from + width, padded.begin() + static_cast<std::ptrdiff_t>(i * width));
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    weightedSum(padded.data() + i * width, weights.data(), weights.size(), width, first + i * step,
+                width);
+}
+
+struct Wave {
+  Vector3d perVoxel;  // phase advance, radians
+  double phase;
+};
+
+std::array<Wave, 4> biasWaves(int n, std::uint64_t seed) {
+  Random random(seed, ~std::uint64_t{0});
+  std::array<Wave, 4> waves;
+  for (Wave& wave : waves) {
+    Vector3d direction;
+    do direction = randomInCube(random);
+    while (direction.norm() < 0.1 || direction.norm() > 1);
+    const double periods = random.uniform(0.5, 1.5);
+    wave.perVoxel = direction.normalized() * (2 * std::numbers::pi * periods / n);
+    wave.phase = random.uniform(0, 2 * std::numbers::pi);
+  }
+  return waves;
+}
+
+// Adds the mean of the waves times `bias` to a row, each wave by turning a phasor from voxel to
+// voxel.
+void addBias(float* row, int n, int y, double z, const std::array<Wave, 4>& waves, double bias) {
+  for (const Wave& wave : waves) {
+    const double start = wave.phase + wave.perVoxel.y() * y + wave.perVoxel.z() * z;
+    double c = std::cos(start), s = std::sin(start);
+    const double turnC = std::cos(wave.perVoxel.x()), turnS = std::sin(wave.perVoxel.x());
+    for (int x = 0; x < n; ++x) {
+      row[x] += static_cast<float>(0.25 * bias * c);
+      const double next = c * turnC - s * turnS;
+      s = s * turnC + c * turnS;
+      c = next;
+    }
+  }
+}
+
+}  // namespace
+
+Image drawOccupancy(const Design& design, const Grid& grid, Progress& progress) {
+  const auto [nx, ny, nz] = grid.size;
+  Image image{grid.size,
+              std::vector<float>(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
+                                     static_cast<std::size_t>(nz),
+                                 kFar)};
+  const double rim = kHalfDiagonal * grid.voxel;
+  const std::vector<Segment> segments = segmentsOf(design.tree, rim);
+  const TubeTreeDistance wall(design.tree);
+  const bool uniform = std::all_of(design.contrast.begin(), design.contrast.end(),
+                                   [](float c) { return c == 1.0F; });
+  constexpr int kSlab = 4;
+  tbb::parallel_for(0, (nz + kSlab - 1) / kSlab, [&, nx = nx, ny = ny, nz = nz](int slab) {
+    const int zFirst = slab * kSlab, zLast = std::min(nz, zFirst + kSlab) - 1;
+    for (const Segment& segment : segments)
+      if (segment.high.z() >= centreOf(grid, 0, 0, zFirst).z() &&
+          segment.low.z() <= centreOf(grid, 0, 0, zLast).z()) {
+        progress.check();
+        drawSegment(segment, grid, zFirst, zLast, image);
+      }
+    std::vector<std::uint32_t> near;
+    for (int z = zFirst; z <= zLast; ++z) {
+      progress.check();
+      for (int y = 0; y < ny; ++y) {
+        float* row = image.row(y, z);
+        for (int x = 0; x < nx; ++x) {
+          const double distance = static_cast<double>(row[x]);
+          if (distance >= rim)
+            row[x] = 0;
+          else if (distance <= -rim && uniform)
+            row[x] = 1;
+          else
+            row[x] = static_cast<float>(
+                occupancyOf(wall, design.contrast, centreOf(grid, x, y, z), grid.voxel, near));
+        }
+      }
+      progress.advance();
+    }
+  });
+  return image;
+}
+
+void blur(Image& image, double sigma, Progress& progress) {
+  if (sigma <= 0) return;
+  const std::vector<float> weights = gaussianWeights(sigma);
+  const auto nx = static_cast<std::size_t>(image.size[0]),
+             ny = static_cast<std::size_t>(image.size[1]),
+             nz = static_cast<std::size_t>(image.size[2]);
+  const auto columns = [&](float* first, std::size_t n, std::size_t step,
+                           std::vector<float>& padded) {
+    for (std::size_t x = 0; x < nx; x += kColumns)
+      blurColumns(first + x, n, step, std::min<std::size_t>(kColumns, nx - x), weights, padded);
+  };
+  tbb::parallel_for(0, image.size[2], [&](int z) {
+    progress.check();
+    std::vector<float> padded;
+    blurRows(image, weights, z);
+    columns(image.row(0, z), ny, nx, padded);
+    progress.advance();
+  });
+  tbb::parallel_for(0, image.size[1], [&](int y) {
+    progress.check();
+    std::vector<float> padded;
+    columns(image.row(y, 0), nz, nx * ny, padded);
+    progress.advance();
+  });
+}
+
+Image averageSlices(const Image& image, double thickness) {
+  const auto slice =
+      static_cast<std::size_t>(image.size[0]) * static_cast<std::size_t>(image.size[1]);
+  const int count = static_cast<int>(image.size[2] / thickness * (1 + 1e-12));
+  Image thick{{image.size[0], image.size[1], count},
+              std::vector<float>(slice * static_cast<std::size_t>(count), 0.0F)};
+  tbb::parallel_for(0, count, [&](int k) {
+    // voxel z reaches from z to z + 1
+    const double low = k * thickness, high = low + thickness;
+    float* out = thick.row(0, k);
+    for (int z = static_cast<int>(low); z < image.size[2] && z < high; ++z) {
+      const auto weight = static_cast<float>(
+          (std::min(high, z + 1.0) - std::max(low, static_cast<double>(z))) / thickness);
+      const float* in = image.value.data() + static_cast<std::size_t>(z) * slice;
+      for (std::size_t i = 0; i < slice; ++i) out[i] += weight * in[i];
+    }
+  });
+  return thick;
+}
+
+double countedNormal(Random& random) {
+  const int ones = std::popcount(random.next()) + std::popcount(random.next());
+  const std::uint64_t bits = random.next();
+  const double u = static_cast<double>(bits >> 32) * 0x1.0p-32;
+  const double v = static_cast<double>(bits & 0xffffffffU) * 0x1.0p-32;
+  // the variances add: 128 / 4 of the count, 1 / 12 of each uniform deviate
+  constexpr double kPerDeviation = 0.17632035;  // 1 / sqrt(32 + 1 / 6)
+  return (ones - 64 + (u + v - 1)) * kPerDeviation;
+}
+
+std::vector<std::int16_t> degrade(Image& image, double bias, double noise, std::uint64_t seed,
+                                  double thickness, Progress& progress) {
+  const auto [nx, ny, nz] = image.size;
+  const int depth = static_cast<int>(std::lround(nz * thickness));
+  const std::array<Wave, 4> waves = biasWaves(std::max({nx, ny, depth}), seed);
+  std::vector<std::int16_t> voxels(image.value.size());
+  tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int z) {
+    progress.check();
+    for (int y = 0; y < ny; ++y) {
+      float* row = image.row(y, z);
+      const std::size_t line =
+          static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y);
+      if (bias > 0) addBias(row, nx, y, thickness * z, waves, bias);
+      Random random(seed, line);
+      std::int16_t* out = voxels.data() + line * static_cast<std::size_t>(nx);
+      for (int x = 0; x < nx; ++x) {
+        double value = static_cast<double>(row[x]);
+        if (noise > 0) value += noise * countedNormal(random);
+        out[x] = static_cast<std::int16_t>(
+            std::clamp(std::nearbyint(kBackground + kContrast * value), -32768.0, 32767.0));
+      }
+    }
+    progress.advance();
+  });
+  return voxels;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/phantom/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+
+#include "converters/base/error.h"
+#include "converters/base/sha256.h"
+#include "converters/io/centerline/read_swc.h"
+#include "converters/stages/phantom/smooth_chain.h"
+#include "formats/case/case_file.h"
+#include "formats/container/printable.h"
+#include "formats/view/limits.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSmallestPatient = 25;    // mm
+constexpr double kMarginVoxels = 10;       // between the walls and the faces
+constexpr double kMostVoxels = 536870912;  // 2^29: 3 GiB while it is drawn
+constexpr double kMostDraws = 1e11;        // distances of voxels to pieces of wall: minutes
+constexpr double kNamedSlice = 5;          // voxels, of the phantom with thick slices
+// A stream of its own, so that the clicks do not change when the drawing does.
+constexpr std::uint64_t kClicks = 0x636c69636b73ULL;
+
+std::string shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+struct Bounds {
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Vector3d high = -low;
+  void add(const Vector3d& point, double radius) {
+    low = low.cwiseMin((point.array() - radius).matrix());
+    high = high.cwiseMax((point.array() + radius).matrix());
+  }
+};
+
+// Voxels along each edge, as whole numbers that need not fit any integer.
+Vector3d sizeOf(const Bounds& box, double voxel) {
+  return (((box.high - box.low) / voxel).array().ceil() + 1 + 2 * kMarginVoxels).matrix();
+}
+
+// The least voxel of two digits, mm, that makes few enough voxels.
+double workableVoxel(const Bounds& box, double voxel) {
+  while (sizeOf(box, voxel).prod() > 0.98 * kMostVoxels) {
+    const double digit = std::pow(10.0, std::floor(std::log10(voxel)) - 1);
+    voxel = (std::floor(voxel / digit + 1e-9) + 1) * digit;
+  }
+  return voxel;
+}
+
+Grid gridAround(const Bounds& box, double voxel) {
+  const Vector3d size = sizeOf(box, voxel);
+  if (!(size.prod() <= kMostVoxels)) {
+    const double workable = workableVoxel(box, voxel);
+    throw Error(ErrorKind::Usage, "phantom: a --voxel of " + shown(voxel) + " mm makes " +
+                                      shown(size.x()) + " x " + shown(size.y()) + " x " +
+                                      shown(size.z()) +
+                                      " voxels of the tree, expected at "
+                                      "most 536870912 in all: " +
+                                      (workable <= 10 ? "--voxel " + shown(workable) + " is enough"
+                                                      : "lengths of the file are taken as mm"));
+  }
+  Grid grid;
+  grid.voxel = voxel;
+  for (int a = 0; a < 3; ++a) grid.size[static_cast<std::size_t>(a)] = static_cast<int>(size[a]);
+  grid.origin = (box.low.array() - kMarginVoxels * voxel).matrix();
+  return grid;
+}
+
+double chordLength(const CenterlineFile& file) {
+  double length = 0;
+  for (const CenterlinePoint& point : file.points)
+    if (point.parent != kNoPoint)
+      length +=
+          (point.position - file.points[static_cast<std::size_t>(point.parent)].position).norm();
+  return length;
+}
+
+// Refuses what would take too much memory or time to make.
+void checkEffort(const CenterlineFile& file, double voxel, const std::string& name) {
+  Bounds box;
+  double widest = 0;
+  for (const CenterlinePoint& point : file.points) {
+    box.add(point.position, point.radius);
+    widest = std::max(widest, point.radius);
+  }
+  gridAround(box, voxel);
+  const double nodes =
+      chordLength(file) / (0.5 * voxel) + 2 * static_cast<double>(file.points.size());
+  const double draws = nodes * std::pow(2 * widest / voxel + 3, 3);
+  if (nodes <= static_cast<double>(formats::kMaxNodes) / 4 && draws <= kMostDraws) return;
+  throw invalidInput(name + ": its vessels are " + shown(chordLength(file)) +
+                     " mm long and up to " + shown(widest) +
+                     " mm in radius, too much to draw in voxels of " + shown(voxel) +
+                     " mm; expected a tree in mm, or a larger --voxel");
+}
+
+std::string labelOf(std::size_t index) {
+  char text[32];
+  std::snprintf(text, sizeof text, "b%03zu", index);
+  return text;
+}
+
+Design designOf(const CenterlineFile& file, double voxel, const std::string& name,
+                const Progress& progress) {
+  const std::vector<SmoothVessel> vessels = smoothVessels(file, 0.1 * voxel);
+  if (vessels.size() > formats::kMaxBranches)
+    throw invalidInput(name + ": has " + std::to_string(vessels.size()) +
+                       " vessels; expected at most " + std::to_string(formats::kMaxBranches));
+  TreeBuilder builder(Frame{voxel, 0});
+  for (const SmoothVessel& vessel : vessels) {
+    progress.check();
+    builder.add(labelOf(builder.tree().branches.size()), vessel.parent, vessel.path);
+  }
+  return builder.design();
+}
+
+std::string digestOf(const std::filesystem::path& file) {
+  const auto bytes = formats::readFileBytes(file);
+  if (!bytes) throw invalidInput(bytes.error().text());
+  return sha256(*bytes);
+}
+
+}  // namespace
+
+Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
+  const std::map<std::string, std::function<Design(const Frame&)>> small = {
+      {"tube", designTube},
+      {"helix", designHelix},
+      {"bifurcation", designBifurcation},
+      {"kissing", designKissing},
+      {"aneurysm", designAneurysm},
+      {"stenosis", designStenosis},
+      {"dropout", designDropout},
+      {"sac-lobes", designSacLobes},
+      {"companion", designCompanion},
+      {"hairpin", designHairpin},
+      {"right-angle", designRightAngle},
+      {"fading", designFading},
+      {"thick-slices", designThickSlices}};
+  const auto found = small.find(options.name);
+  const bool patient = found == small.end();
+  const int size = options.size != 0 ? options.size : patient ? 256 : 128;
+  const Frame frame{options.voxel, options.voxel * (size - 1)};
+  if (patient && frame.extent < kSmallestPatient)
+    throw Error(ErrorKind::Usage, "phantom: the volume is " + std::to_string(frame.extent) +
+                                      " mm wide, expected at least 25 mm for 'patient'");
+  Scene scene;
+  scene.design = patient ? designPatient(frame, options.seed, progress) : found->second(frame);
+  fadeContrast(scene.design, options.fade);
+  scene.grid = {{size, size, size}, options.voxel};
+  if (options.name == "thick-slices") scene.slice = kNamedSlice;
+  if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
+  if (size < kFewestSlices * scene.slice)
+    throw Error(ErrorKind::Usage,
+                "phantom: --slice-thickness is " + shown(scene.slice * options.voxel) +
+                    " mm, expected at most " + shown(options.voxel * size / kFewestSlices) +
+                    " mm in a volume of " + shown(options.voxel * size) + " mm");
+  Random random(options.seed, kClicks);
+  scene.design.seeds = clickSeeds(scene.design.tree, random);
+  return scene;
+}
+
+Scene sceneOfTree(const PhantomOptions& options, Progress& progress) {
+  const std::string name = formats::printable(options.tree.string());
+  const CenterlineFile file = readSwc(options.tree);
+  checkEffort(file, options.voxel, name);
+  Scene scene;
+  scene.treeSha256 = digestOf(options.tree);
+  scene.design = designOf(file, options.voxel, name, progress);
+  fadeContrast(scene.design, options.fade);
+  Bounds box;
+  const formats::CenterlineTree& tree = scene.design.tree;
+  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+    box.add(nodeCentre(tree, n), static_cast<double>(tree.radius[n]));
+  if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
+  scene.grid = gridAround(box, options.voxel);
+  // whole slices
+  const double slices =
+      std::max<double>(kFewestSlices, std::ceil(scene.grid.size[2] / scene.slice));
+  scene.grid.size[2] = static_cast<int>(std::ceil(slices * scene.slice));
+  Random random(options.seed, kClicks);
+  scene.design.seeds = clickLargeVessels(tree, options.voxel, random);
+  return scene;
+}
+
+}  // namespace lumen::convert

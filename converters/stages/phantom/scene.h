@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a phantom draws: a design, and the voxels that show it.
+#pragma once
+
+#include "converters/base/progress.h"
+#include "converters/stages/phantom/design.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/phantom/render.h"
+
+namespace lumen::convert {
+
+struct Scene {
+  Design design;           ///< with its seeds
+  Grid grid;               ///< of cubic voxels, before slices are averaged
+  double slice = 1;        ///< thickness of a slice, voxels
+  std::string treeSha256;  ///< of the file with the tree; empty if the phantom has a name
+};
+
+/// The phantom `options.name` in a cube. The options are within their ranges. Throws Error(Usage)
+/// if the volume is too small for it, and Error(Cancelled).
+Scene sceneOfName(const PhantomOptions& options, Progress& progress);
+
+/// The trees of the SWC file `options.tree`, in millimetres, where the file has them, in a box
+/// around them. Throws Error(InvalidInput) for the file, and Error(Usage) for a voxel that makes
+/// too many voxels, with one that does not.
+Scene sceneOfTree(const PhantomOptions& options, Progress& progress);
+
+}  // namespace lumen::convert

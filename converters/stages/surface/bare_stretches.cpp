@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/bare_stretches.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "converters/base/vectors.h"
+#include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr double kLength = 4;  // radii: shorter ones lie within a parent's lumen
+constexpr double kNear = 2;    // radii
+
+// Nodes first .. last - 1 of one branch.
+struct Stretch {
+  std::uint32_t first, last;
+  double length;  // mm
+};
+
+std::vector<Stretch> withoutVertices(const formats::CenterlineTree& tree,
+                                     const formats::Branch& branch,
+                                     const std::vector<bool>& hasVertex) {
+  std::vector<Stretch> found;
+  const std::uint32_t end = branch.firstNode + branch.nodeCount;
+  for (std::uint32_t i = branch.firstNode; i < end; ++i) {
+    if (hasVertex[i]) continue;
+    Stretch stretch{i, i, 0};
+    for (; stretch.last < end && !hasVertex[stretch.last]; ++stretch.last)
+      if (stretch.last > i)
+        stretch.length +=
+            (toEigen(tree.centre[stretch.last]) - toEigen(tree.centre[stretch.last - 1])).norm();
+    const double radius = tree.radius[(stretch.first + stretch.last) / 2];
+    if (stretch.length > kLength * radius) found.push_back(stretch);
+    i = stretch.last;
+  }
+  return found;
+}
+
+std::string placeText(const formats::Vec3f& p) {
+  std::string text = "(";
+  text.append(formats::shortText(p.x)).append(", ").append(formats::shortText(p.y));
+  return text.append(", ").append(formats::shortText(p.z)).append(")");
+}
+
+}  // namespace
+
+std::vector<std::string> bareStretches(const CaseSurface& surface,
+                                       const formats::CenterlineTree& tree) {
+  std::vector<bool> hasVertex(tree.nodeCount(), false);
+  for (const std::uint32_t node : surface.node) hasVertex[node] = true;
+  std::vector<std::string> sentences;
+  for (const formats::Branch& branch : tree.branches)
+    for (const Stretch& stretch : withoutVertices(tree, branch, hasVertex)) {
+      const std::uint32_t middle = (stretch.first + stretch.last) / 2;
+      const Eigen::Vector3d centre = toEigen(tree.centre[middle]);
+      const double near = kNear * tree.radius[middle];
+      if (std::any_of(surface.mesh.position.begin(), surface.mesh.position.end(),
+                      [&](const Eigen::Vector3d& p) { return (p - centre).norm() < near; }))
+        continue;
+      sentences.push_back("the surface leaves out " +
+                          formats::shortText(static_cast<float>(stretch.length)) +
+                          " mm of branch " + formats::printable(branch.label) + ", from " +
+                          placeText(tree.centre[stretch.first]) + " to " +
+                          placeText(tree.centre[stretch.last - 1]));
+    }
+  return sentences;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/closed_surface.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/stages/surface/bare_stretches.h"
+#include "converters/stages/surface/cut_ends.h"
+#include "converters/stages/surface/decimate.h"
+#include "converters/stages/surface/end_planes.h"
+#include "converters/stages/surface/extract.h"
+#include "converters/stages/surface/flow_extension.h"
+#include "converters/stages/surface/mend_crossings.h"
+#include "converters/stages/surface/offset_field.h"
+#include "converters/stages/surface/overlaps.h"
+#include "converters/stages/surface/remesh.h"
+#include "converters/stages/surface/thick_wall.h"
+#include "converters/stages/surface/thin_walls.h"
+#include "converters/stages/surface/to_surface_mesh.h"
+#include "formats/case/case_field.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::convert {
+namespace {
+
+// Edges of the lattice in radii: half of them would give no truer topology, at four times the cost.
+constexpr double kLatticeShare = 1.0;
+// Of a wall's thickness: how far lumens that touch are drawn apart, so that each keeps a third of
+// that as its wall.
+constexpr double kSharedWall = 0.5;
+// Of the radius: how far a lumen is prolonged where its wall is made, a cell of the lattice.
+constexpr double kBeyondEnds = 1;
+// Of a wall's thickness: how much thinner it may be in the middle of a triangle.
+constexpr double kWallSag = 0.03;
+// Twice that takes a quarter of the time, and a vessel is still six-sided or more.
+constexpr double kQuickShare = 2.0;
+
+double gapOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
+  if (options.gap) return *options.gap;
+  if (source.metadata.voxelSize) return 0.1 * *source.metadata.voxelSize;
+  const auto& radius = source.tree.radius;
+  return 0.05 * double{*std::min_element(radius.begin(), radius.end())};
+}
+
+// Two walls need more of it than none.
+SheetOptions gapsOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
+  const Length wall = options.thickness.value_or(Length{});
+  return {.gap = std::max(gapOf(source, options), kSharedWall * wall.mm),
+          .gapShare = kSharedWall * wall.radii};
+}
+
+EdgeLength edgeOf(const ClosedSurfaceOptions& options) {
+  EdgeLength edge = options.edge;
+  const Length wall = options.thickness.value_or(Length{});
+  edge.sag = {kWallSag * wall.mm, kWallSag * wall.radii};
+  return edge;
+}
+
+class Making {
+public:
+  Making(const formats::Case& source, const ClosedSurfaceOptions& options, Progress& progress)
+      : m_source(source),
+        m_options(options),
+        m_progress(progress),
+        m_blended(formats::blendedFieldOf(source)),
+        m_field(source, m_blended, gapsOf(source, options)) {}
+
+  ClosedSurface run() {
+    SurfaceReport& report = m_result.report;
+    report.gap = m_field.options().gap;
+    std::vector<DetailLevel> levels = leveled(m_options.thickness ? wall() : lumen());
+    for (DetailLevel& level : levels) {
+      if (!m_options.extend.empty()) extend(level.surface);
+      if (m_options.open && !m_options.thickness) openEnds(level.surface);
+      m_result.levels.push_back(toSurfaceMesh(level.surface, m_field, m_progress));
+      report.errors.push_back(level.error);
+    }
+    report.vertices = m_result.levels.front().position.size();
+    report.triangles = m_result.levels.front().triangle.size();
+    return std::move(m_result);
+  }
+
+private:
+  // With ends, but not yet as asked for.
+  CaseSurface lumen() {
+    CaseSurface surface = extract(m_field, m_result.report);
+    noteEnds(cutEnds(surface, m_field, m_progress));
+    refine(surface, m_field, edgeOf(m_options));
+    m_result.report.crossings = mendCrossings(surface, m_field, m_progress);
+    m_result.report.overlaps = overlapsOf(surface, m_field);
+    for (std::string& sentence : bareStretches(surface, m_source.tree))
+      m_result.report.messages.push_back(std::move(sentence));
+    return surface;
+  }
+
+  // The outer walls of vessels that touch keep a third of the gap, so a wall is left between each
+  // and its lumen.
+  CaseSurface wall() {
+    CaseSurface inner = lumen();
+    const Length& thickness = *m_options.thickness;
+    // beyond its ends, so that the outer surface is cut where it runs on
+    CaseSurface prolonged = inner;
+    extendEnds(prolonged, m_source, {{"", {thickness.mm, kBeyondEnds + thickness.radii}}});
+    const OffsetField around(m_source, m_blended, m_field.options().gap / 3, prolonged, thickness);
+    SurfaceReport ofOuter;
+    CaseSurface outer = extract(around, ofOuter);
+    EndsReport ends;
+    ends.messages = cutLike(outer, around, inner, m_progress);
+    ends.flat = m_result.report.flatEnds - ends.messages.size();
+    ends.rounded = m_result.report.roundedEnds + ends.messages.size();
+    noteEnds(std::move(ends));
+    refine(outer, around, edgeOf(m_options));
+    mendCrossings(outer, around, m_progress);
+    for (std::string& sentence : thinWalls(outer, around))
+      m_result.report.messages.push_back(std::move(sentence));
+    return thickWall(inner, outer, m_source);
+  }
+
+  void extend(CaseSurface& surface) {
+    const std::vector<std::string> said = extendEnds(surface, m_source, m_options.extend);
+    if (m_result.levels.empty())
+      m_result.report.messages.insert(m_result.report.messages.end(), said.begin(), said.end());
+  }
+
+  CaseSurface extract(const SheetField& field, SurfaceReport& report) {
+    ExtractionReport found;
+    CaseSurface surface = extractSurface(field, kLatticeShare, found, m_progress);
+    report.trees = found.trees;
+    report.openedEdges = found.openedEdges;
+    report.cuts = std::move(found.cuts);
+    return surface;
+  }
+
+  void noteEnds(EndsReport found) {
+    SurfaceReport& report = m_result.report;
+    report.flatEnds = found.flat;
+    report.roundedEnds = found.rounded;
+    std::move(found.messages.begin(), found.messages.end(), std::back_inserter(report.messages));
+    for (const std::string& sentence : found.moved) m_progress.detail(sentence);
+  }
+
+  void refine(CaseSurface& surface, const SheetField& field, const EdgeLength& edge) {
+    const RemeshReport found = remesh(surface, field, edge, m_progress);
+    m_result.report.offField += found.offField;
+    m_result.report.sharpTriangles += found.sharp;
+  }
+
+  // The surface with as few triangles as --max-error allows, and in as many levels as are asked for.
+  std::vector<DetailLevel> leveled(CaseSurface surface) {
+    std::optional<CaseSurface> whole;
+    std::vector<DetailLevel> levels{{std::move(surface), -1}};
+    if (m_options.maxError > 0) {
+      whole = levels[0].surface;
+      levels[0].error = decimate(levels[0].surface, m_field, {m_options.maxError, 0}, m_progress);
+      if (levels[0].error > m_options.maxError)
+        throw failed("with fewer triangles the surface would lie " +
+                     formats::shortText(static_cast<float>(levels[0].error)) +
+                     " mm off, which is more than --max-error");
+    }
+    addCoarserLevels(levels, m_options.levels, m_field, m_progress);
+    for (std::size_t i = 1; i < levels.size(); ++i)
+      levels[i].error = distanceBetween(levels[i].surface, whole ? *whole : levels[0].surface);
+    return levels;
+  }
+
+  const formats::Case& m_source;
+  const ClosedSurfaceOptions& m_options;
+  Progress& m_progress;
+  field::BlendedField m_blended;
+  SheetField m_field;
+  ClosedSurface m_result;
+};
+
+void requireModels(const formats::Case& source) {
+  if (!source.models || source.tree.nodeCount() == 0)
+    throw invalidInput(
+        "the case has no models, and a mesh is made from them; lumen fit makes them");
+}
+
+}  // namespace
+
+SurfaceMesh quickSurface(const formats::Case& source, Progress& progress) {
+  requireModels(source);
+  const field::BlendedField blended = formats::blendedFieldOf(source);
+  const SheetField field(source, blended, {gapOf(source, {}), 0, 0});
+  ExtractionReport ignored;
+  return toSurfaceMesh(extractSurface(field, kQuickShare, ignored, progress), field, progress);
+}
+
+ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
+                            Progress& progress) {
+  requireModels(source);
+  if (options.thickness && (options.open || !options.extend.empty()))
+    throw Error(ErrorKind::Usage,
+                "--thickness gives a closed wall; it goes with neither --open nor --extend");
+  return Making(source, options, progress).run();
+}
+
+}  // namespace lumen::convert

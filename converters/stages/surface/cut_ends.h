@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Flat ends of a closed surface, and their names.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/stages/surface/case_surface.h"
+#include "converters/stages/surface/end_planes.h"
+#include "converters/stages/surface/sheet_field.h"
+
+namespace lumen::convert {
+
+struct EndsReport {
+  std::size_t flat = 0;               ///< ends that were cut
+  std::size_t rounded = 0;            ///< ends that no plane could cut
+  std::vector<std::string> messages;  ///< a sentence for each rounded end
+  std::vector<std::string> moved;     ///< and for each that was cut farther in
+};
+
+/// A surface with the field that it follows.
+struct FieldSurface {
+  CaseSurface* surface = nullptr;
+  const SheetField* field = nullptr;
+};
+
+/// Cuts each of the ends flat, and closes it by a flat cap: `surfaces` are one, or a lumen's and the
+/// same with a wall around it, which get the same ends in the same planes. Where the plane meets
+/// no simple opening of at least 0.8 of the vessel's radius, it is moved inwards along the
+/// centerline, by up to a radius, to the first that is as wide, or else the widest; where there is
+/// none, the end stays as the field closes it. Groups
+/// are "wall"; "inlet", or "inlet-LABEL" where a case has several; "outlet-LABEL"; and "cap-LABEL" for
+/// what could not be cut; ends that have no surface have none. Surfaces stay closed manifolds of
+/// the same genus.
+EndsReport cutEnds(std::span<const FieldSurface> surfaces, const std::vector<EndPlane>& planes,
+                   Progress& progress);
+
+/// The same for one surface and its case's own ends.
+EndsReport cutEnds(CaseSurface& surface, const SheetField& field, Progress& progress);
+
+/// Cuts `outer`, a surface that lies around `inner` and follows `field`, in the planes of its flat ends:
+/// groups and ends become the same. Where a plane meets no simple opening of it, the end becomes one
+/// that is not flat, of both; returns a sentence for each.
+std::vector<std::string> cutLike(CaseSurface& outer, const SheetField& field, CaseSurface& inner,
+                                 Progress& progress);
+
+/// Leaves out what closes the flat ends: a boundary at each rim. Rounded ends stay closed.
+void openEnds(CaseSurface& surface);
+
+/// The rim of each end: of a flat one the loop of vertices around its faces, counter-clockwise seen from
+/// outside; of a rounded one nothing. In the order of ends.
+/// Throws Error(Failed) unless the edges around a flat end make one loop.
+std::vector<std::vector<std::uint32_t>> rimsOf(const CaseSurface& surface);
+
+}  // namespace lumen::convert

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/extract.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/stages/surface/lattice_topology.h"
+#include "converters/stages/surface/marching_tetrahedra.h"
+#include "converters/stages/surface/sampled_lattice.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr double kNearEnd = 0.03;  // of an edge: crossings keep off its ends
+
+class Extraction {
+public:
+  Extraction(const SheetField& field, double share, ExtractionReport& report, Progress& progress)
+      : m_field(field), m_report(report), m_progress(progress), m_lattice(field, share, progress) {}
+
+  CaseSurface run() {
+    m_lumens = lumensOf(m_lattice);
+    m_trees = joinTrees(m_lattice, m_field, m_lumens, m_report.openedEdges);
+    m_report.trees = m_trees.size();
+    m_progress.check();
+    march();
+    bool isGrown = false;
+    for (const TreeLumen& tree : m_trees) {
+      if (tree.lumen == kOutside || eulerOf(tree.lumen) == 2 - 2 * std::ptrdiff_t(tree.links))
+        continue;
+      m_progress.check();
+      const auto cuts = growTree(m_lattice, m_field, tree, m_lumens);
+      m_report.cuts.insert(m_report.cuts.end(), cuts.begin(), cuts.end());
+      isGrown = true;
+    }
+    if (isGrown) march();
+    m_progress.check();
+    return assemble();
+  }
+
+private:
+  void march() {
+    std::vector<std::vector<CrossingTriangle>> found(m_lattice.blockCount());
+    const auto inside = [&](std::uint32_t v) { return m_lattice.isInside(v); };
+    m_lattice.eachTetrahedron([&](std::size_t block, const SampledLattice::Tetrahedron& t) {
+      marchTetrahedron(t, m_lattice.split(), inside, found[block]);
+    });
+    m_triangles = SampledLattice::joined(found);
+    m_crossings.clear();
+    m_crossings.reserve(m_triangles.size() * 3);
+    for (const CrossingTriangle& t : m_triangles)
+      m_crossings.insert(m_crossings.end(), t.begin(), t.end());
+    std::sort(m_crossings.begin(), m_crossings.end());
+    m_crossings.erase(std::unique(m_crossings.begin(), m_crossings.end()), m_crossings.end());
+  }
+
+  // Of the closed surfaces around a lumen: each edge is that of two triangles.
+  [[nodiscard]] std::ptrdiff_t eulerOf(std::uint32_t lumen) const {
+    const auto isOf = [&](const Crossing& c) { return m_lumens[c.inside] == lumen; };
+    const auto vertices = std::count_if(m_crossings.begin(), m_crossings.end(), isOf);
+    const auto triangles = std::count_if(m_triangles.begin(), m_triangles.end(),
+                                         [&](const CrossingTriangle& t) { return isOf(t[0]); });
+    return vertices - triangles / 2;
+  }
+
+  CaseSurface assemble() const {
+    CaseSurface surface;
+    surface.groups = {{"wall", FaceKind::Wall}};
+    surface.mesh.triangle.resize(m_triangles.size());
+    surface.group.assign(m_triangles.size(), 0);
+    tbb::parallel_for(std::size_t{0}, m_triangles.size(), [&](std::size_t i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto at = std::lower_bound(m_crossings.begin(), m_crossings.end(), m_triangles[i][k]);
+        surface.mesh.triangle[i][k] = static_cast<std::uint32_t>(at - m_crossings.begin());
+      }
+    });
+    surface.mesh.position.resize(m_crossings.size());
+    surface.node.resize(m_crossings.size());
+    tbb::parallel_for(std::size_t{0}, m_crossings.size(), [&](std::size_t i) {
+      place(m_crossings[i], surface.mesh.position[i], surface.node[i]);
+    });
+    return surface;
+  }
+
+  [[nodiscard]] Eigen::Vector3d farEnd(const Crossing& crossing) const {
+    if (crossing.outside < m_lattice.size()) return m_lattice.place(crossing.outside);
+    const auto& [u, v] = m_lattice.split().edgeOf(crossing.outside);
+    if (u == crossing.inside) return m_lattice.place(v);
+    if (v == crossing.inside) return m_lattice.place(u);
+    return 0.5 * (m_lattice.place(u) + m_lattice.place(v));
+  }
+
+  // Where the wall of the sheet at the inside end crosses the edge, by the false position.
+  void place(const Crossing& crossing, Eigen::Vector3d& position, std::uint32_t& node) const {
+    constexpr int kSteps = 2;
+    const Eigen::Vector3d in = m_lattice.place(crossing.inside), out = farEnd(crossing);
+    node = m_lattice.node(crossing.inside);
+    double low = 0, high = 1, atLow = m_lattice.distance(crossing.inside);
+    double atHigh = m_field.at(out, node).distance, t = 0.5;
+    if (atHigh > 0) {
+      const auto straight = [&] { return low + (high - low) * atLow / (atLow - atHigh); };
+      for (int step = 0; step < kSteps; ++step) {
+        t = straight();
+        const double distance = m_field.at(in + t * (out - in), node).distance;
+        (distance < 0 ? low : high) = t;
+        (distance < 0 ? atLow : atHigh) = distance;
+      }
+      t = std::clamp(straight(), kNearEnd, 1 - kNearEnd);
+    }
+    position = in + t * (out - in);
+    node = m_field.at(position, node).node;
+  }
+
+  const SheetField& m_field;
+  ExtractionReport& m_report;
+  Progress& m_progress;
+  SampledLattice m_lattice;
+  std::vector<std::uint32_t> m_lumens;
+  std::vector<TreeLumen> m_trees;
+  std::vector<CrossingTriangle> m_triangles;
+  std::vector<Crossing> m_crossings;  // ascending
+};
+
+}  // namespace
+
+CaseSurface extractSurface(const SheetField& field, double share, ExtractionReport& report,
+                           Progress& progress) {
+  return Extraction(field, share, report, progress).run();
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/flow_extension.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <Eigen/Core>
+
+#include "converters/base/error.h"
+#include "converters/geometry/self_intersections.h"
+#include "converters/stages/surface/cut_ends.h"
+#include "converters/stages/surface/flat_region.h"
+#include "converters/stages/surface/flow_tube.h"
+#include "converters/stages/surface/surface_fans.h"
+#include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr double kMostTriangles = 5e6;  // of one tube
+
+void closeTube(SurfaceFans& fans, const FlowTube& tube, const SurfaceEnd& end,
+               const std::vector<std::uint32_t>& ring, double length) {
+  Loop2 loop;
+  for (const std::uint32_t v : ring) loop.push_back(tube.flat(fans.surface().mesh.position[v]));
+  const FlatMesh cap = triangulateRegion(loop, {}, tube.edge());
+  if (cap.triangle.empty())
+    throw failed("the tube at " + formats::printable(fans.surface().groups[end.group].name) +
+                 " has no simple section");
+  std::vector<std::uint32_t> number = ring;
+  for (std::size_t i = ring.size(); i < cap.point.size(); ++i)
+    number.push_back(fans.addVertex(tube.lift(cap.point[i], length), end.node));
+  for (const Triangle& t : cap.triangle)
+    fans.add({number[t[0]], number[t[1]], number[t[2]]}, end.group);
+}
+
+// Replaces the faces of an end by a tube with the same faces at its far side.
+void extend(SurfaceFans& fans, SurfaceEnd& end, const std::vector<std::uint32_t>& rim,
+            const std::vector<std::uint32_t>& faces, const Length& wanted) {
+  const FlowTube tube(fans, end, rim);
+  const double length = wanted.at(tube.radius());
+  if (!(length / tube.edge() * double(tube.around()) < kMostTriangles))
+    throw invalidInput("an extension of " + formats::shortText(length) + " mm at " +
+                       formats::printable(fans.surface().groups[end.group].name) +
+                       " needs too many triangles; expected a shorter one, or longer edges");
+  for (const std::uint32_t t : faces) fans.remove(t);
+  const std::size_t rows = tube.rows(length), n = rim.size();
+  std::vector<std::uint32_t> ring = rim, next(n);
+  for (std::size_t j = 1; j <= rows; ++j) {
+    for (std::size_t k = 0; k < n; ++k)
+      next[k] = fans.addVertex(tube.place(j, k, rows, length), end.node);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t l = (k + 1) % n;
+      fans.add({ring[k], ring[l], next[k]}, 0);
+      fans.add({ring[l], next[l], next[k]}, 0);
+    }
+    ring = next;
+  }
+  closeTube(fans, tube, end, ring, length);
+  end.centre += length * end.normal;
+}
+
+// The length for each end; nothing where none was asked for.
+std::vector<std::optional<Length>> lengthsOf(const CaseSurface& surface,
+                                             const formats::Case& source,
+                                             const std::vector<EndLength>& lengths,
+                                             const std::vector<std::vector<std::uint32_t>>& rims,
+                                             std::vector<std::string>& messages) {
+  std::map<std::string, Length> byLabel;
+  for (const EndLength& length : lengths) {
+    const auto& branches = source.tree.branches;
+    const std::string label = formats::printable(length.label);
+    if (!length.label.empty() &&
+        std::none_of(branches.begin(), branches.end(),
+                     [&](const formats::Branch& b) { return b.label == length.label; }))
+      throw Error(ErrorKind::Usage, "--extend: no branch of the case is called " + label);
+    if (!byLabel.try_emplace(length.label, length.length).second)
+      throw Error(ErrorKind::Usage,
+                  "--extend: two lengths for " + (label.empty() ? "all ends" : label));
+  }
+  std::vector<std::optional<Length>> found(surface.ends.size());
+  std::set<std::string> used;
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    auto length = byLabel.find(source.tree.branches[surface.ends[e].branch].label);
+    if (length == byLabel.end()) length = byLabel.find("");
+    if (length == byLabel.end() || rims[e].empty()) continue;
+    found[e] = length->second;
+    used.insert(length->first);
+  }
+  for (const auto& entry : byLabel)
+    if (used.count(entry.first) == 0)
+      messages.push_back(
+          "nothing to extend: " +
+          (entry.first.empty() ? std::string("the case") : formats::printable(entry.first)) +
+          " has no flat end");
+  return found;
+}
+
+struct Box {
+  Eigen::Array3d low = Eigen::Array3d::Constant(1e300), high = -low;
+  void add(const Eigen::Vector3d& p) {
+    low = low.min(p.array());
+    high = high.max(p.array());
+  }
+  [[nodiscard]] bool meets(const Box& other) const {
+    return (low <= other.high).all() && (other.low <= high).all();
+  }
+};
+
+// What tubes run into. Vertices from `firstNew` on are those of tubes; `owner` is the end of each.
+class Collisions {
+public:
+  Collisions(const CaseSurface& surface, const formats::Case& source, std::size_t firstNew,
+             const std::vector<std::uint32_t>& owner)
+      : m_surface(surface), m_source(source), m_firstNew(firstNew), m_owner(owner) {}
+
+  [[nodiscard]] std::vector<std::string> sentences() const {
+    const TriangleMesh near = trianglesNear();
+    std::set<std::pair<std::uint32_t, std::string>> met;
+    for (const auto& [one, other] : selfIntersections(near).pairs) {
+      const Triangle &a = near.triangle[one], &b = near.triangle[other];
+      if (const auto end = ownerOf(a)) met.insert({*end, nameOf(b)});
+      if (const auto end = ownerOf(b)) met.insert({*end, nameOf(a)});
+    }
+    std::vector<std::string> sentences;
+    for (const auto& [end, what] : met)
+      sentences.push_back("the extension of " + nameOfEnd(end) + " runs into " + what +
+                          "; expected a shorter --extend there");
+    return sentences;
+  }
+
+private:
+  // The last vertex of a tube's triangle is one of its own: rims come first.
+  [[nodiscard]] std::optional<std::uint32_t> ownerOf(const Triangle& t) const {
+    const std::uint32_t last = std::max({t[0], t[1], t[2]});
+    if (last < m_firstNew) return std::nullopt;
+    return m_owner[last - m_firstNew];
+  }
+  [[nodiscard]] std::string nameOfEnd(std::uint32_t end) const {
+    return formats::printable(m_surface.groups[m_surface.ends[end].group].name);
+  }
+  [[nodiscard]] std::string nameOf(const Triangle& t) const {
+    if (const auto end = ownerOf(t)) return "the extension of " + nameOfEnd(*end);
+    const std::uint32_t branch = m_source.tree.branch[m_surface.node[t[0]]];
+    return "branch " + formats::printable(m_source.tree.branches[branch].label);
+  }
+  [[nodiscard]] TriangleMesh trianglesNear() const {
+    std::map<std::uint32_t, Box> boxes;
+    for (std::size_t i = 0; i < m_owner.size(); ++i)
+      boxes[m_owner[i]].add(m_surface.mesh.position[m_firstNew + i]);
+    TriangleMesh near{m_surface.mesh.position, {}};
+    for (const Triangle& t : m_surface.mesh.triangle) {
+      Box box;
+      for (const std::uint32_t v : t) box.add(near.position[v]);
+      if (std::any_of(boxes.begin(), boxes.end(),
+                      [&box](const auto& entry) { return entry.second.meets(box); }))
+        near.triangle.push_back(t);
+    }
+    return near;
+  }
+
+  const CaseSurface& m_surface;
+  const formats::Case& m_source;
+  std::size_t m_firstNew;
+  const std::vector<std::uint32_t>& m_owner;
+};
+
+}  // namespace
+
+std::vector<std::string> extendEnds(CaseSurface& surface, const formats::Case& source,
+                                    const std::vector<EndLength>& lengths) {
+  std::vector<std::string> messages;
+  const auto rims = rimsOf(surface);
+  const auto wanted = lengthsOf(surface, source, lengths, rims, messages);
+  std::vector<std::vector<std::uint32_t>> faces(surface.groups.size());
+  for (std::uint32_t t = 0; t < surface.group.size(); ++t) faces[surface.group[t]].push_back(t);
+  const std::size_t before = surface.mesh.position.size();
+  std::vector<std::uint32_t> owner;  // of each new vertex
+  SurfaceFans fans(surface);
+  for (std::size_t e = 0; e < wanted.size(); ++e) {
+    if (wanted[e]) extend(fans, surface.ends[e], rims[e], faces[surface.ends[e].group], *wanted[e]);
+    owner.resize(surface.mesh.position.size() - before, static_cast<std::uint32_t>(e));
+  }
+  fans.compact();  // new vertices stay the last ones
+  const std::size_t firstNew = surface.mesh.position.size() - owner.size();
+  const auto met = Collisions(surface, source, firstNew, owner).sentences();
+  messages.insert(messages.end(), met.begin(), met.end());
+  return messages;
+}
+
+}  // namespace lumen::convert

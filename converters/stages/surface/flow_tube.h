@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shape of a tube that continues a vessel from an opening.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/stages/surface/flat_region.h"
+#include "converters/stages/surface/surface_fans.h"
+
+namespace lumen::convert {
+
+/// One opening with what its tube is made from. `place` of row 0 is the rim itself.
+class FlowTube {
+public:
+  /// `rim` runs counter-clockwise seen from outside; the faces of the end are there.
+  FlowTube(const SurfaceFans& fans, const SurfaceEnd& end, const std::vector<std::uint32_t>& rim);
+
+  /// Of the circle of the opening's area, mm.
+  [[nodiscard]] double radius() const { return m_radius; }
+  /// Mean edge of the rim, mm.
+  [[nodiscard]] double edge() const { return m_length / double(m_point.size()); }
+  /// Vertices around.
+  [[nodiscard]] std::size_t around() const { return m_point.size(); }
+  /// Rows of nearly equilateral triangles that a tube of that many mm needs.
+  [[nodiscard]] std::size_t rows(double length) const;
+
+  /// Vertex k of row j of `rows` of a tube of `length` mm; rows are staggered by half an edge.
+  [[nodiscard]] Eigen::Vector3d place(std::size_t j, std::size_t k, std::size_t rows,
+                                      double length) const;
+
+  /// Coordinates in the plane of the opening, and back, `height` mm in front of it.
+  [[nodiscard]] Eigen::Vector2d flat(const Eigen::Vector3d& p) const;
+  [[nodiscard]] Eigen::Vector3d lift(const Eigen::Vector2d& p, double height) const;
+
+private:
+  [[nodiscard]] Eigen::Vector3d slopeAt(const SurfaceFans& fans,
+                                        const std::vector<std::uint32_t>& rim, std::size_t i) const;
+  void smoothSlopes();
+  [[nodiscard]] double turnOf(const Loop2& loop) const;
+  [[nodiscard]] double indexAt(double around) const;
+
+  SurfaceEnd m_end;
+  Eigen::Vector3d m_along, m_across;
+  std::vector<Eigen::Vector3d> m_point;  ///< of the rim
+  std::vector<Eigen::Vector3d> m_slope;  ///< sideways for each mm along the normal, at each of them
+  std::vector<double> m_share;           ///< of the rim's length at each, times their number
+  double m_length = 0, m_radius = 0, m_turn = 0;
+  Eigen::Vector2d m_centre = Eigen::Vector2d::Zero();
+};
+
+}  // namespace lumen::convert

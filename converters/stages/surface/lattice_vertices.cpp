@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/lattice_vertices.h"
+
+#include <utility>
+
+namespace lumen::convert {
+namespace {
+
+using Position = AdaptiveLattice::Position;
+
+std::uint64_t keyOf(const Position& p) {
+  std::uint64_t key = 0;
+  for (const std::int32_t c : p) key = key << 20 | static_cast<std::uint64_t>(c);
+  return key;
+}
+
+Position centreOf(const LatticeCube& cube) {
+  const std::int32_t half = cube.size / 2;
+  return {cube.corner[0] + half, cube.corner[1] + half, cube.corner[2] + half};
+}
+
+Position cornerOf(const LatticeCube& cube, unsigned corner) {
+  Position p = cube.corner;
+  for (std::size_t a = 0; a < 3; ++a)
+    if ((corner >> a & 1U) != 0) p[a] += cube.size;
+  return p;
+}
+
+Position faceCentre(const LatticeCube& cube, int side) {
+  Position p = centreOf(cube);
+  p[static_cast<std::size_t>(side / 2)] += side % 2 == 0 ? -cube.size / 2 : cube.size / 2;
+  return p;
+}
+
+// The four corners of a face, in a circle: bit a of a corner is set where it is greater along axis a.
+std::array<unsigned, 4> faceCorners(int side) {
+  const unsigned axis = static_cast<unsigned>(side) / 2;
+  const unsigned u = 1U << (axis + 1) % 3, v = 1U << (axis + 2) % 3;
+  const unsigned base = side % 2 != 0 ? 1U << axis : 0U;
+  return {base, base | u, base | u | v, base | v};
+}
+
+}  // namespace
+
+LatticeVertices::LatticeVertices(const AdaptiveLattice& lattice) : m_lattice(lattice) {
+  m_index.reserve(lattice.cubes().size() * 5 / 2);
+  for (std::uint32_t i = 0; i < lattice.cubes().size(); ++i) {
+    const LatticeCube& cube = lattice.cubes()[i];
+    m_own.push_back({add(centreOf(cube), i), {}});
+    for (unsigned c = 0; c < 8; ++c) m_own.back().corner[c] = add(cornerOf(cube, c), i);
+    for (int side = 0; side < 6; ++side) {
+      const AdaptiveLattice::Neighbour next = lattice.neighbour(cube, side);
+      if (next.kind == AdaptiveLattice::Kind::Coarser) add(faceCentre(cube, side), i);
+      if (next.kind != AdaptiveLattice::Kind::None) continue;
+      m_isOutermost[add(faceCentre(cube, side), i)] = true;
+      for (const unsigned c : faceCorners(side)) m_isOutermost[m_own.back().corner[c]] = true;
+    }
+  }
+}
+
+std::uint32_t LatticeVertices::add(const Position& position, std::uint32_t cube) {
+  const auto next = static_cast<std::uint32_t>(m_position.size());
+  const auto [at, isNew] = m_index.try_emplace(keyOf(position), next);
+  if (!isNew) return at->second;
+  m_position.push_back(position);
+  m_cube.push_back(cube);
+  m_isOutermost.push_back(false);
+  return next;
+}
+
+std::uint32_t LatticeVertices::find(const Position& position) const {
+  const auto at = m_index.find(keyOf(position));
+  return at == m_index.end() ? kNone : at->second;
+}
+
+std::vector<std::uint32_t> LatticeVertices::verticesOf(std::uint32_t cube) const {
+  std::vector<std::uint32_t> vertices{m_own[cube].centre};
+  vertices.insert(vertices.end(), m_own[cube].corner.begin(), m_own[cube].corner.end());
+  return vertices;
+}
+
+void LatticeVertices::orient(Tetrahedron& t) const {
+  const auto from = [&](std::uint32_t vertex, std::size_t a) {
+    return std::int64_t{m_position[vertex][a]} - m_position[t[0]][a];
+  };
+  std::int64_t m[3][3];
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t a = 0; a < 3; ++a) m[i][a] = from(t[i + 1], a);
+  const std::int64_t volume = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                              m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                              m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  if (volume < 0) std::swap(t[2], t[3]);
+}
+
+// The vertex in the middle of an edge, which is there if a smaller cube touches the edge.
+std::uint32_t LatticeVertices::middleOf(std::uint32_t cube, unsigned from, unsigned to) const {
+  const Position p = m_position[m_own[cube].corner[from]], q = m_position[m_own[cube].corner[to]];
+  return find({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+}
+
+// Of two cubes of one size the one at the greater coordinate answers for what they share, and of
+// two sizes the smaller.
+std::size_t LatticeVertices::collect(std::uint32_t index,
+                                     std::array<Tetrahedron, 96>& found) const {
+  using Kind = AdaptiveLattice::Kind;
+  const LatticeCube& cube = m_lattice.cubes()[index];
+  const Own& own = m_own[index];
+  std::size_t count = 0;
+  const auto emit = [&](Tetrahedron t) {
+    orient(t);
+    found[count++] = t;
+  };
+  for (int side = 0; side < 6; ++side) {
+    const AdaptiveLattice::Neighbour next = m_lattice.neighbour(cube, side);
+    if (next.kind == Kind::Finer || (next.kind == Kind::Same && side % 2 != 0)) continue;
+    const std::uint32_t other = next.kind == Kind::None ? kNone : m_own[next.cube].centre;
+    const std::uint32_t face = next.kind == Kind::Same ? kNone : find(faceCentre(cube, side));
+    const auto segment = [&](std::uint32_t from, std::uint32_t to) {
+      if (next.kind == Kind::Same) return emit({own.centre, other, from, to});
+      emit({own.centre, face, from, to});
+      if (other != kNone) emit({other, face, from, to});
+    };
+    const std::array<unsigned, 4> corners = faceCorners(side);
+    for (std::size_t e = 0; e < 4; ++e) {
+      const unsigned from = corners[e], to = corners[(e + 1) % 4];
+      const std::uint32_t middle = middleOf(index, from, to);
+      if (middle == kNone) {
+        segment(own.corner[from], own.corner[to]);
+      } else {
+        segment(own.corner[from], middle);
+        segment(middle, own.corner[to]);
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The points of an adaptive lattice at which the field is sampled, and the tetrahedra between them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <tsl/robin_map.h>
+
+#include "converters/stages/surface/adaptive_lattice.h"
+
+namespace lumen::convert {
+
+/// Corners and centres of cubes, and centres of faces between cubes of two sizes.
+///
+/// The tetrahedra fill the lattice and meet face to face: a body-centred cubic lattice where cubes
+/// have one size; where a cube meets a wider one, both are cones over the fan of triangles around
+/// the centre of the face that they share (after F. Labelle and J. Shewchuk, *Isosurface stuffing*,
+/// 2007, with another transition).
+class LatticeVertices {
+public:
+  explicit LatticeVertices(const AdaptiveLattice& lattice);
+
+  [[nodiscard]] std::size_t size() const { return m_position.size(); }
+  /// mm, LPS.
+  [[nodiscard]] Eigen::Vector3d place(std::uint32_t vertex) const {
+    return m_lattice.place(m_position[vertex]);
+  }
+  /// A cube that the vertex belongs to.
+  [[nodiscard]] const LatticeCube& cubeOf(std::uint32_t vertex) const {
+    return m_lattice.cubes()[m_cube[vertex]];
+  }
+  /// The centre of a cube, and its corners.
+  [[nodiscard]] std::vector<std::uint32_t> verticesOf(std::uint32_t cube) const;
+  /// Whether it lies on the outside of the lattice.
+  [[nodiscard]] bool isOutermost(std::uint32_t vertex) const { return m_isOutermost[vertex]; }
+
+  using Tetrahedron = std::array<std::uint32_t, 4>;
+  /// Hands on the tetrahedra that a cube answers for, each once, of positive volume.
+  template <class Visit>
+  void eachTetrahedron(std::uint32_t cube, Visit&& visit) const {
+    std::array<Tetrahedron, 96> found{};
+    const std::size_t count = collect(cube, found);
+    for (std::size_t i = 0; i < count; ++i) visit(found[i]);
+  }
+
+private:
+  using Position = AdaptiveLattice::Position;
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  /// A cube's own.
+  struct Own {
+    std::uint32_t centre = 0;
+    std::array<std::uint32_t, 8> corner{};
+  };
+  std::uint32_t add(const Position& position, std::uint32_t cube);
+  [[nodiscard]] std::uint32_t find(const Position& position) const;
+  std::size_t collect(std::uint32_t cube, std::array<Tetrahedron, 96>& found) const;
+  [[nodiscard]] std::uint32_t middleOf(std::uint32_t cube, unsigned from, unsigned to) const;
+  void orient(Tetrahedron& t) const;
+
+  const AdaptiveLattice& m_lattice;
+  std::vector<Own> m_own;  ///< of each cube
+  std::vector<Position> m_position;
+  std::vector<std::uint32_t> m_cube;
+  std::vector<bool> m_isOutermost;
+  tsl::robin_map<std::uint64_t, std::uint32_t, LatticeHash> m_index;
+};
+
+}  // namespace lumen::convert

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/length.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "converters/base/error.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+Length parseLength(std::string_view text, const std::string& option) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string_view unit = text.substr(static_cast<std::size_t>(stop - text.data()));
+  const bool isUnit = unit.empty() || unit == "mm" || unit == "r";
+  if (error != std::errc{} || !isUnit || !std::isfinite(value) || !(value > 0))
+    throw Error(ErrorKind::Usage, option + ": found " + formats::printable(text) +
+                                      ", expected a length above 0 in mm, such as 0.5 or "
+                                      "0.5mm, or in radii, such as 5r");
+  return unit == "r" ? Length{0, value} : Length{value, 0};
+}
+
+EndLength parseEndLength(std::string_view text, const std::string& option) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string_view::npos) return {"", parseLength(text, option)};
+  if (equals == 0)
+    throw Error(ErrorKind::Usage, option + ": found " + formats::printable(text) +
+                                      ", expected the label of a branch before the \"=\"");
+  return {std::string(text.substr(0, equals)), parseLength(text.substr(equals + 1), option)};
+}
+
+}  // namespace lumen::convert

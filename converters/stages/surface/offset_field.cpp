@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/offset_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "converters/stages/surface/remesh_target.h"
+
+namespace lumen::convert {
+namespace {
+
+// The walls of two legs of a fork of 20 degrees come apart where the way between them is that many
+// times their width: 1 / sin(10 degrees).
+constexpr double kLeastWay = 6;
+constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+constexpr double kReach = 3;      // thicknesses: what is farther off is nobody's wall
+constexpr double kOnEdge = 1e-6;  // of a triangle: a foot so near to an edge is on it
+constexpr double kOnWall = 1e-9;  // mm: where the way to the foot has no direction
+
+// The corners' angles are the weights (J. Baerentzen and H. Aanaes, *Signed distance computation
+// using the angle weighted pseudonormal*, 2005).
+std::vector<Eigen::Vector3d> vertexNormals(const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3d> normal(mesh.position.size(), Eigen::Vector3d::Zero());
+  for (const Triangle& t : mesh.triangle)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d &here = mesh.position[t[i]], a = mesh.position[t[(i + 1) % 3]] - here,
+                            b = mesh.position[t[(i + 2) % 3]] - here;
+      const Eigen::Vector3d across = a.cross(b);
+      const double sine = across.norm();
+      if (sine > 0) normal[t[i]] += std::atan2(sine, a.dot(b)) / sine * across;
+    }
+  for (Eigen::Vector3d& n : normal) n.normalize();
+  return normal;
+}
+
+}  // namespace
+
+OffsetField::OffsetField(const formats::Case& source, const field::BlendedField& field, double gap,
+                         const CaseSurface& inner, const Length& thickness)
+    : SheetField(source, field,
+                 {.gap = gap,
+                  .offset = thickness.mm,
+                  .offsetShare = thickness.radii,
+                  .leastWay = kLeastWay}),
+      m_inner(inner),
+      m_tree(inner.mesh),
+      m_normal(vertexNormals(inner.mesh)) {
+  m_thickness = vesselRadii(inner, *this);
+  for (double& t : m_thickness) t = thickness.at(t);
+  gradeLengths(inner.mesh, m_thickness);
+  m_thickest = *std::max_element(m_thickness.begin(), m_thickness.end());
+}
+
+bool OffsetField::isOther(std::uint32_t a, std::uint32_t b) const {
+  const auto others = touching(a);
+  return std::binary_search(others.begin(), others.end(), b);
+}
+
+OffsetField::Foot OffsetField::footOn(std::uint32_t triangle, const Eigen::Vector3d& at,
+                                      const Eigen::Vector3d& point) const {
+  const Triangle& t = m_inner.mesh.triangle[triangle];
+  const auto& p = m_inner.mesh.position;
+  const Eigen::Vector3d u = p[t[1]] - p[t[0]], v = p[t[2]] - p[t[0]], w = at - p[t[0]];
+  const Eigen::Vector3d normal = u.cross(v);
+  const double area = normal.squaredNorm();
+  Eigen::Vector3d share(1, 0, 0);
+  if (area > 0) {
+    share[1] = w.cross(v).dot(normal) / area;
+    share[2] = u.cross(w).dot(normal) / area;
+    share[0] = 1 - share[1] - share[2];
+  }
+  Foot foot;
+  Eigen::Index nearest = 0;
+  share.maxCoeff(&nearest);
+  foot.node = m_inner.node[t[static_cast<std::size_t>(nearest)]];
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    foot.thickness += share[static_cast<Eigen::Index>(i)] * m_thickness[t[i]];
+    outward += share[static_cast<Eigen::Index>(i)] * m_normal[t[i]];
+  }
+  if (share.minCoeff() > kOnEdge) outward = normal;
+  const Eigen::Vector3d way = point - at;
+  const double distance = way.norm();
+  const bool isInside = way.dot(outward) < 0;
+  foot.distance = isInside ? -distance : distance;
+  foot.gradient = distance > kOnWall ? Eigen::Vector3d(way / foot.distance) : outward.normalized();
+  return foot;
+}
+
+template <class Takes>
+OffsetField::Foot OffsetField::footOf(const Eigen::Vector3d& point, double reach,
+                                      const Takes& takes) const {
+  double most = reach * reach, nearest = std::numeric_limits<double>::infinity(), least = nearest;
+  Foot best, plain;
+  m_tree.visitNear(point, most, [&](std::uint32_t t, const Eigen::Vector3d& at, double squared) {
+    const double distance = std::sqrt(squared);
+    if (distance >= nearest && distance - m_thickest >= least) return;
+    const Foot foot = footOn(t, at, point);
+    if (!takes(foot.node)) return;
+    if (distance < nearest) {
+      nearest = distance;
+      plain = foot;
+    }
+    if (distance - foot.thickness >= least) return;
+    least = distance - foot.thickness;
+    best = foot;
+    // a greater distance cannot give less, whatever the thickness
+    most = std::min(most, (least + m_thickest) * (least + m_thickest));
+  });
+  // inside the lumen the nearest point says how deep
+  return plain.distance < 0 ? plain : best;
+}
+
+SheetSample OffsetField::sampleOf(const Eigen::Vector3d& point, const Foot& own) const {
+  SheetSample sample;
+  sample.wall = own.distance - own.thickness;
+  sample.distance = sample.wall;
+  sample.gradient = own.gradient;
+  sample.node = own.node;
+  if (!mayTouch(own.node) || own.distance > kReach * m_thickest) return sample;
+  const double reach = std::max(own.distance, 0.0) + m_thickest + options().gap;
+  const Foot other =
+      footOf(point, reach, [&](std::uint32_t node) { return isOther(own.node, node); });
+  if (other.node == kNone) return sample;
+  const double harmonic = 1 / (1 / own.thickness + 1 / other.thickness);
+  const double apart =
+      (own.distance / own.thickness - other.distance / other.thickness) * harmonic +
+      0.5 * options().gap;
+  if (apart <= sample.distance) return sample;
+  const Eigen::Vector3d gradient = own.gradient / own.thickness - other.gradient / other.thickness;
+  sample.distance = apart;
+  sample.isSeparated = true;
+  sample.other = other.node;
+  if (gradient.norm() > 0) sample.gradient = gradient.normalized();
+  return sample;
+}
+
+OffsetField::Foot OffsetField::ownFoot(const Eigen::Vector3d& point, std::uint32_t node) const {
+  return footOf(point, kAnywhere, [&](std::uint32_t other) { return !isOther(node, other); });
+}
+
+double OffsetField::fromLumen(const Eigen::Vector3d& point, std::uint32_t node) const {
+  return ownFoot(point, node).distance;
+}
+
+SheetSample OffsetField::at(const Eigen::Vector3d& point, std::uint32_t node) const {
+  return sampleOf(point, ownFoot(point, node));
+}
+
+SheetSample OffsetField::deepest(const Eigen::Vector3d& point, std::uint32_t /*node*/) const {
+  return sampleOf(point, footOf(point, kAnywhere, [](std::uint32_t) { return true; }));
+}
+
+bool OffsetField::isReached(const Eigen::Vector3d& /*point*/, std::uint32_t from,
+                            std::uint32_t to) const {
+  return !isOther(from, to);
+}
+
+}  // namespace lumen::convert

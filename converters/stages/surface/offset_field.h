@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The outer surface of a wall: what is as far from a lumen's surface as the wall is thick.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "converters/geometry/triangle_tree.h"
+#include "converters/stages/surface/case_surface.h"
+#include "converters/stages/surface/length.h"
+#include "converters/stages/surface/sheet_field.h"
+
+namespace lumen::convert {
+
+/// The signed distance to the outer surface of a wall around a lumen.
+///
+/// With d the distance from the lumen's surface, t the thickness there, and d', t' those of another
+/// vessel, the surface is the zero of
+///
+///     g = max(d - t, (d/t - d'/t') / (1/t + 1/t') + gap/2)
+///
+/// so walls of vessels that touch share what is between the lumens as their thicknesses are. What is
+/// another vessel is told by the tree: nodes whose way along it is longer than six times the width of
+/// both with their walls. Nearer ones have one wall: it fills the corner of a fork.
+class OffsetField : public SheetField {
+public:
+  /// `inner` is a closed surface of the case, whose ends are cut; it must stay. Thicknesses of radii
+  /// grow by no more than a quarter of the way along the surface.
+  OffsetField(const formats::Case& source, const field::BlendedField& field, double gap,
+              const CaseSurface& inner, const Length& thickness);
+
+  [[nodiscard]] SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const override;
+  [[nodiscard]] SheetSample deepest(const Eigen::Vector3d& point,
+                                    std::uint32_t node) const override;
+  [[nodiscard]] bool isReached(const Eigen::Vector3d& point, std::uint32_t from,
+                               std::uint32_t to) const override;
+  /// The distance of a point from the lumen's surface, mm, for a cursor at `node`; negative inside.
+  [[nodiscard]] double fromLumen(const Eigen::Vector3d& point, std::uint32_t node) const;
+
+private:
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  struct Foot {
+    double distance = 0;  ///< from the lumen's surface, mm; negative inside
+    double thickness = 0;
+    std::uint32_t node = kNone;  ///< of the tree; none if nothing is within reach
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, of the distance
+  };
+  [[nodiscard]] bool isOther(std::uint32_t a, std::uint32_t b) const;
+  /// The foot with the least d - t of those within `reach` whose node `takes` takes.
+  template <class Takes>
+  [[nodiscard]] Foot footOf(const Eigen::Vector3d& point, double reach, const Takes& takes) const;
+  [[nodiscard]] Foot ownFoot(const Eigen::Vector3d& point, std::uint32_t node) const;
+  [[nodiscard]] Foot footOn(std::uint32_t triangle, const Eigen::Vector3d& at,
+                            const Eigen::Vector3d& point) const;
+  [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, const Foot& own) const;
+
+  const CaseSurface& m_inner;
+  TriangleTree m_tree;
+  std::vector<double> m_thickness;        ///< of each vertex
+  std::vector<Eigen::Vector3d> m_normal;  ///< of each vertex, by the angles of its faces
+  double m_thickest = 0;
+};
+
+}  // namespace lumen::convert

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A piece of surface while it is being made: plain arrays, before it joins its branch's mesh.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/geometry/triangle_mesh.h"
+
+namespace lumen::convert {
+
+/// The points X with normal . X <= offset; the normal has unit length and points out.
+struct HalfSpace {
+  Eigen::Vector3d normal;
+  double offset = 0;
+  [[nodiscard]] double distance(const Eigen::Vector3d& point) const {
+    return normal.dot(point) - offset;
+  }
+};
+
+/// Cuts away what lies outside `space`. Triangles that share a cut edge share its new vertex. A
+/// vertex closer to the plane than `snap` counts as lying on it, so no sliver thinner than that is
+/// left.
+void clip(TriangleMesh& patch, const HalfSpace& space, double snap);
+
+/// Drops the connected parts that have no vertex within `distance` of `centre`, mm.
+void dropFarParts(TriangleMesh& patch, const Eigen::Vector3d& centre, double distance);
+
+/// Rounds positions to floats, joins the ends of edges that rounding made equal, and drops the
+/// triangles that this flattened and the vertices that no triangle uses.
+void roundToFloat(TriangleMesh& patch);
+
+/// Gives every vertex but one fan of triangles: where several fans meet in a point, and along edges
+/// that have not exactly two opposite triangles, each fan gets a vertex of its own.
+void separateFans(TriangleMesh& patch);
+
+}  // namespace lumen::convert

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last sharp triangles, one by one.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "converters/geometry/triangle_quality.h"
+#include "converters/stages/surface/remesh_moves.h"
+
+namespace lumen::convert {
+namespace {
+
+using Mesh = RemeshMesh;
+
+constexpr double kMendBelow = 0.095;  // positions are rounded to floats when written
+constexpr int kRounds = 6;
+// Where the field has no smooth surface, such as where it jumps from one model to the next.
+constexpr int kStretchSteps = 30, kStretchRings = 6, kStretchPasses = 3;
+constexpr double kLongestMade = 2;  // of the target: a longer edge is no cure
+constexpr double kGain = 1.0001;    // else it could go round in circles by rounding
+
+// Flips the edge of the face that helps most.
+bool flipBest(Mesh& mesh, Mesh::FaceHandle face) {
+  std::optional<Mesh::EdgeHandle> best;
+  double quality = 0;
+  for (const Mesh::EdgeHandle edge : mesh.fe_range(face)) {
+    if (!mesh.mayFlip(edge)) continue;
+    const Mesh::Outcome outcome = mesh.afterFlip(edge);
+    if (outcome.isTurned || outcome.quality <= kGain * outcome.before || outcome.quality <= quality)
+      continue;
+    quality = outcome.quality;
+    best = edge;
+  }
+  if (best) mesh.flip(*best);
+  return best.has_value();
+}
+
+bool collapseBest(Mesh& mesh, Mesh::FaceHandle face) {
+  std::optional<Mesh::HalfedgeHandle> best;
+  double quality = 0;
+  for (const Mesh::HalfedgeHandle side : mesh.fh_range(face))
+    for (const Mesh::HalfedgeHandle h : {side, mesh.opposite_halfedge_handle(side)}) {
+      if (!mesh.mayCollapse(h)) continue;
+      const Mesh::Outcome outcome = mesh.afterCollapse(h);
+      if (outcome.isTurned || outcome.longest > kLongestMade ||
+          outcome.quality <= kGain * outcome.before || outcome.quality <= quality)
+        continue;
+      quality = outcome.quality;
+      best = h;
+    }
+  if (best) mesh.collapse(*best);
+  return best.has_value();
+}
+
+// Eight directions across the normal, in the plane of a flat end or along a rim.
+std::vector<Eigen::Vector3d> directionsAt(const Mesh& mesh, Mesh::VertexHandle v) {
+  const auto& here = mesh.data(v);
+  std::vector<Eigen::Vector3d> directions;
+  if (here.kind == VertexKind::Rim) {
+    for (const Mesh::HalfedgeHandle h : mesh.voh_range(v))
+      if (mesh.data(mesh.edge_handle(h)).isRim)
+        directions.push_back(mesh.calc_edge_vector(h).normalized());
+    return directions;
+  }
+  const bool isFlat = here.kind == VertexKind::Flat;
+  const Eigen::Vector3d normal = isFlat ? *mesh.rules().plane[here.end] : here.gradient;
+  if (normal.isZero()) return directions;
+  const Eigen::Vector3d u = normal.unitOrthogonal(), w = normal.cross(u);
+  for (const double a : {-1.0, 0.0, 1.0})
+    for (const double b : {-1.0, 0.0, 1.0})
+      if (a != 0 || b != 0) directions.push_back((a * u + b * w).normalized());
+  return directions;
+}
+
+// Looks for a better place of one vertex, step by step, and takes it if it is better on the field.
+void moveToBetter(Mesh& mesh, Mesh::VertexHandle v) {
+  const auto kept = mesh.data(v);
+  const Eigen::Vector3d start = mesh.point(v);
+  if (kept.kind == VertexKind::Locked) return;
+  const double before = mesh.starQuality(v, start);
+  const auto directions = directionsAt(mesh, v);
+  Eigen::Vector3d place = start;
+  double quality = before;
+  for (double step = 0.4 * kept.target; step > 0.02 * kept.target; step *= 0.5) {
+    const Eigen::Vector3d from = place;
+    for (const Eigen::Vector3d& direction : directions) {
+      const Eigen::Vector3d there = from + step * direction;
+      const double q = mesh.starQuality(v, there);
+      if (q <= kGain * quality || !mesh.mayMove(v, there)) continue;
+      quality = q;
+      place = there;
+    }
+  }
+  if (place == start) return;
+  mesh.set_point(v, place);
+  if (kept.kind != VertexKind::Flat) settle(mesh, v);
+  if (mesh.starQuality(v, mesh.point(v)) > kGain * before) return;
+  mesh.set_point(v, start);
+  mesh.data(v) = kept;
+}
+
+void mendFace(Mesh& mesh, Mesh::FaceHandle face) {
+  if (flipBest(mesh, face) || collapseBest(mesh, face)) return;
+  for (const Mesh::VertexHandle v : mesh.verticesOf(face)) moveToBetter(mesh, v);
+}
+
+// Faces at the boundary are left to the piece that has them inside.
+bool needsMending(const Mesh& mesh, Mesh::FaceHandle face) {
+  for (const Mesh::VertexHandle v : mesh.verticesOf(face))
+    if (mesh.is_boundary(v)) return false;
+  return mesh.qualityOf(face) < kMendBelow;
+}
+
+std::vector<Mesh::FaceHandle> facesToMend(const Mesh& mesh) {
+  std::vector<Mesh::FaceHandle> bad;
+  for (const Mesh::FaceHandle face : mesh.faces())
+    if (needsMending(mesh, face)) bad.push_back(face);
+  return bad;
+}
+
+// The wall's vertices within some rings of the faces, in the order of their handles.
+std::vector<Mesh::VertexHandle> wallAround(const Mesh& mesh,
+                                           const std::vector<Mesh::FaceHandle>& faces, int rings) {
+  std::vector<std::uint8_t> marked(mesh.n_vertices(), 0);
+  const auto mark = [&](Mesh::VertexHandle v) -> std::uint8_t& {
+    return marked[static_cast<std::size_t>(v.idx())];
+  };
+  for (const Mesh::FaceHandle face : faces)
+    for (const Mesh::VertexHandle v : mesh.verticesOf(face)) mark(v) = 1;
+  for (int ring = 1; ring <= rings; ++ring)
+    for (const Mesh::VertexHandle v : mesh.vertices()) {
+      if (mark(v) != ring) continue;
+      for (const Mesh::VertexHandle w : mesh.vv_range(v))
+        if (mark(w) == 0) mark(w) = static_cast<std::uint8_t>(ring + 1);
+    }
+  std::vector<Mesh::VertexHandle> found;
+  for (const Mesh::VertexHandle v : mesh.vertices())
+    if (mark(v) != 0 && mesh.data(v).kind == VertexKind::Wall) found.push_back(v);
+  return found;
+}
+
+// Takes vertices off the field and stretches the wall between the others like a membrane.
+void stretch(Mesh& mesh, const std::vector<Mesh::VertexHandle>& vertices) {
+  for (int step = 0; step < kStretchSteps; ++step)
+    for (const Mesh::VertexHandle v : vertices) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double count = 0;
+      for (const Mesh::VertexHandle w : mesh.vv_range(v)) {
+        sum += mesh.point(w);
+        ++count;
+      }
+      mesh.set_point(v, sum / count);
+    }
+  for (const Mesh::VertexHandle v : vertices) {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for (const Mesh::FaceHandle face : mesh.vf_range(v)) {
+      const auto c = mesh.cornersOf(face);
+      normal += (c[1] - c[0]).cross(c[2] - c[0]);
+    }
+    if (normal.norm() > 0) mesh.data(v).gradient = normal.normalized();
+    mesh.data(v).isOffField = true;
+  }
+}
+
+}  // namespace
+
+void mendFaces(RemeshMesh& mesh, const Progress& progress) {
+  std::size_t before = std::numeric_limits<std::size_t>::max();
+  for (int round = 0; round < kRounds; ++round) {
+    progress.check();
+    const auto bad = facesToMend(mesh);
+    if (bad.empty() || bad.size() > before) return;
+    before = bad.size();
+    for (const Mesh::FaceHandle face : bad)
+      if (!mesh.status(face).deleted() && needsMending(mesh, face)) mendFace(mesh, face);
+  }
+}
+
+void stretchFolds(RemeshMesh& mesh, const Progress& progress) {
+  for (int rings = 2; rings <= kStretchRings; ++rings) {
+    const auto bad = facesToMend(mesh);
+    if (bad.empty()) return;
+    stretch(mesh, wallAround(mesh, bad, rings));
+    for (int i = 0; i < kStretchPasses; ++i) {
+      collapseShort(mesh);
+      splitLong(mesh);
+      flipForAngles(mesh);
+      relax(mesh);
+    }
+    mendFaces(mesh, progress);
+  }
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/remesh_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "converters/geometry/triangle_quality.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr double kLargestTurn = 0.5;    // cosine: 60 degrees from where a face should look
+constexpr std::uint32_t kRimEdges = 8;  // of a rim, at least
+
+Eigen::Vector3d normalOf(const RemeshMesh::Corners& c) {
+  return (c[1] - c[0]).cross(c[2] - c[0]);
+}
+
+// The vectors may have any length.
+double cosine(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0 ? a.dot(b) / lengths : -1;
+}
+
+// True if a face of the normal looks away from `outward`, and further than `before` did.
+bool isTurned(const Eigen::Vector3d& normal, const RemeshMesh::Corners& before,
+              const Eigen::Vector3d& outward) {
+  if (outward.isZero(0)) return cosine(normal, normalOf(before)) < kLargestTurn;
+  const double along = normal.dot(outward);
+  constexpr double kSquare = kLargestTurn * kLargestTurn;
+  if (along > 0 && along * along >= kSquare * normal.squaredNorm() * outward.squaredNorm())
+    return false;
+  return cosine(normal, outward) < cosine(normalOf(before), outward);
+}
+
+}  // namespace
+
+RemeshMesh::RemeshMesh(const Piece& piece, const PieceRules& rules) : m_rules(rules) {
+  reserve(2 * piece.vertex.size(), 6 * piece.vertex.size(), 4 * piece.vertex.size());
+  for (const PieceVertex& vertex : piece.vertex) {
+    auto& kept = data(add_vertex(vertex.position));
+    kept.gradient = vertex.gradient;
+    kept.target = vertex.target;
+    kept.node = vertex.node;
+    kept.home = vertex.home;
+    kept.isSeparated = vertex.isSeparated;
+    kept.isOffField = vertex.isOffField;
+  }
+  const auto handle = [](std::uint32_t v) { return VertexHandle(static_cast<int>(v)); };
+  for (std::size_t f = 0; f < piece.triangle.size(); ++f) {
+    const Triangle& t = piece.triangle[f];
+    const FaceHandle face = add_face(handle(t[0]), handle(t[1]), handle(t[2]));
+    if (face.is_valid()) data(face).group = piece.group[f];
+  }
+  m_rimEdges.assign(rules.plane.size(), 0);
+  findKinds();
+}
+
+void RemeshMesh::findKinds() {
+  std::vector<std::uint8_t> rims(n_vertices(), 0);
+  for (const EdgeHandle edge : edges()) {
+    const HalfedgeHandle h = halfedge_handle(edge, 0), back = opposite_halfedge_handle(h);
+    if (is_boundary(edge)) continue;
+    const std::uint32_t a = data(face_handle(h)).group, b = data(face_handle(back)).group;
+    if (a == b) continue;
+    data(edge).isRim = true;
+    ++m_rimEdges[a];
+    ++m_rimEdges[b];
+    for (const VertexHandle v : {to_vertex_handle(h), to_vertex_handle(back)})
+      rims[static_cast<std::size_t>(v.idx())] =
+          static_cast<std::uint8_t>(std::min(rims[static_cast<std::size_t>(v.idx())] + 1, 3));
+  }
+  for (const VertexHandle v : vertices()) {
+    auto& here = data(v);
+    const std::uint8_t rim = rims[static_cast<std::size_t>(v.idx())];
+    std::uint32_t flat = 0, flats = 0;
+    for (const FaceHandle face : vf_range(v)) {
+      const std::uint32_t group = data(face).group;
+      if (!m_rules.plane[group] || (flats > 0 && group == flat)) continue;
+      flat = group;
+      ++flats;
+    }
+    here.end = flat;
+    if (is_boundary(v) || (rim != 0 && rim != 2) || flats > 1)
+      here.kind = VertexKind::Locked;
+    else if (rim == 2)
+      here.kind = VertexKind::Rim;
+    else
+      here.kind = flats > 0 ? VertexKind::Flat : VertexKind::Wall;
+  }
+}
+
+Piece RemeshMesh::toPiece() const {
+  Piece piece;
+  std::vector<std::uint32_t> index(n_vertices(), kNewVertex);
+  for (const VertexHandle v : vertices()) {
+    const auto& from = data(v);
+    index[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(piece.vertex.size());
+    piece.vertex.push_back({point(v), from.gradient, from.target, from.node, from.home,
+                            from.isSeparated, from.isOffField, is_boundary(v)});
+  }
+  for (const FaceHandle face : faces()) {
+    const auto corner = verticesOf(face);
+    Triangle& t = piece.triangle.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) t[i] = index[static_cast<std::size_t>(corner[i].idx())];
+    piece.group.push_back(data(face).group);
+  }
+  return piece;
+}
+
+double RemeshMesh::lengthOf(EdgeHandle edge) const {
+  const HalfedgeHandle h = halfedge_handle(edge, 0);
+  return (point(to_vertex_handle(h)) - point(from_vertex_handle(h))).norm();
+}
+
+double RemeshMesh::targetOf(EdgeHandle edge) const {
+  const HalfedgeHandle h = halfedge_handle(edge, 0);
+  return 0.5 * (data(to_vertex_handle(h)).target + data(from_vertex_handle(h)).target);
+}
+
+std::array<RemeshMesh::VertexHandle, 3> RemeshMesh::verticesOf(FaceHandle face) const {
+  const HalfedgeHandle h = halfedge_handle(face);
+  return {from_vertex_handle(h), to_vertex_handle(h), to_vertex_handle(next_halfedge_handle(h))};
+}
+
+RemeshMesh::Corners RemeshMesh::cornersOf(FaceHandle face) const {
+  const auto v = verticesOf(face);
+  return {point(v[0]), point(v[1]), point(v[2])};
+}
+
+RemeshMesh::EdgeHandle RemeshMesh::longestOf(FaceHandle face) const {
+  EdgeHandle longest;
+  for (const EdgeHandle edge : fe_range(face))
+    if (!longest.is_valid() || lengthOf(edge) > lengthOf(longest)) longest = edge;
+  return longest;
+}
+
+bool RemeshMesh::isInPlane(EdgeHandle edge) const {
+  for (const unsigned side : {0U, 1U}) {
+    const FaceHandle face = face_handle(halfedge_handle(edge, side));
+    if (face.is_valid() && m_rules.plane[data(face).group]) return true;
+  }
+  return false;
+}
+
+Eigen::Vector3d RemeshMesh::outward(std::uint32_t group,
+                                    const std::array<VertexHandle, 3>& vertices) const {
+  if (const auto& plane = m_rules.plane[group]) return *plane;
+  return data(vertices[0]).gradient + data(vertices[1]).gradient + data(vertices[2]).gradient;
+}
+
+double RemeshMesh::qualityOf(const Corners& c, const Eigen::Vector3d& outward) const {
+  return (c[1] - c[0]).cross(c[2] - c[0]).dot(outward) < 0 ? 0 : squaredSine(c[0], c[1], c[2]);
+}
+
+double RemeshMesh::qualityOf(FaceHandle face) const {
+  return qualityOf(cornersOf(face), outward(data(face).group, verticesOf(face)));
+}
+
+double RemeshMesh::starQuality(VertexHandle vertex, const Eigen::Vector3d& position) const {
+  double least = 4;
+  eachFaceAround(vertex, [&](FaceHandle face, VertexHandle a, VertexHandle b) {
+    const Eigen::Vector3d out = outward(data(face).group, {vertex, a, b});
+    least = std::min(least, qualityOf({position, point(a), point(b)}, out));
+  });
+  return least;
+}
+
+bool RemeshMesh::mayMove(VertexHandle vertex, const Eigen::Vector3d& position) const {
+  bool may = true;
+  eachFaceAround(vertex, [&](FaceHandle face, VertexHandle a, VertexHandle b) {
+    if (!may) return;
+    const Corners before{point(vertex), point(a), point(b)}, after{position, before[1], before[2]};
+    may = !isTurned(normalOf(after), before, outward(data(face).group, {vertex, a, b}));
+  });
+  return may;
+}
+
+bool RemeshMesh::mayCollapse(HalfedgeHandle h) {
+  const VertexHandle gone = from_vertex_handle(h), kept = to_vertex_handle(h);
+  const VertexKind kind = data(gone).kind;
+  if (kind == VertexKind::Locked) return false;
+  const EdgeHandle edge = edge_handle(h);
+  if (kind == VertexKind::Rim) {
+    if (!data(edge).isRim) return false;
+    for (const HalfedgeHandle side : {h, opposite_halfedge_handle(h)})
+      if (m_rimEdges[data(face_handle(side)).group] <= kRimEdges) return false;
+  }
+  if (!is_collapse_ok(h)) return false;
+  if (!is_boundary(kept)) return true;
+  for (const VertexHandle w : vv_range(gone))
+    if (w != kept && is_boundary(w) && !find_halfedge(w, kept).is_valid()) return false;
+  return true;
+}
+
+RemeshMesh::Outcome RemeshMesh::afterCollapse(HalfedgeHandle h) const {
+  const VertexHandle gone = from_vertex_handle(h), kept = to_vertex_handle(h);
+  Outcome outcome{false, 4, 4, 0};
+  for (const FaceHandle face : vf_range(gone)) {
+    auto v = verticesOf(face);
+    const Corners c = cornersOf(face);
+    const std::uint32_t group = data(face).group;
+    outcome.before = std::min(outcome.before, qualityOf(c, outward(group, v)));
+    if (std::find(v.begin(), v.end(), kept) != v.end()) continue;
+    Corners moved = c;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (v[i] == gone) {
+        v[i] = kept;
+        moved[i] = point(kept);
+      }
+    const Eigen::Vector3d out = outward(group, v);
+    if (isTurned(normalOf(moved), c, out)) outcome.isTurned = true;
+    outcome.quality = std::min(outcome.quality, qualityOf(moved, out));
+  }
+  for (const VertexHandle w : vv_range(gone))
+    outcome.longest = std::max(outcome.longest, (point(w) - point(kept)).norm() * 2 /
+                                                    (data(w).target + data(kept).target));
+  return outcome;
+}
+
+bool RemeshMesh::makesLonger(HalfedgeHandle h, double share) const {
+  const VertexHandle kept = to_vertex_handle(h);
+  const Eigen::Vector3d position = point(kept);
+  const double target = data(kept).target;
+  for (HalfedgeHandle side = next_halfedge_handle(opposite_halfedge_handle(h)); side != h;
+       side = next_halfedge_handle(opposite_halfedge_handle(side))) {
+    const VertexHandle w = to_vertex_handle(side);
+    const double longest = 0.5 * share * (data(w).target + target);
+    if ((point(w) - position).squaredNorm() > longest * longest) return true;
+  }
+  return false;
+}
+
+void RemeshMesh::collapse(HalfedgeHandle h) {
+  const HalfedgeHandle back = opposite_halfedge_handle(h);
+  if (data(edge_handle(h)).isRim)
+    for (const HalfedgeHandle side : {h, back}) --m_rimEdges[data(face_handle(side)).group];
+  // Of the two edges of a face that vanishes, the one of the vertex that goes is merged into the
+  // other or takes its place: both must say the same.
+  for (const HalfedgeHandle side : {h, back}) {
+    if (!face_handle(side).is_valid()) continue;
+    const EdgeHandle a = edge_handle(next_halfedge_handle(side)),
+                     b = edge_handle(prev_halfedge_handle(side));
+    const bool isRim = data(a).isRim || data(b).isRim;
+    data(a).isRim = data(b).isRim = isRim;
+  }
+  TriMesh_ArrayKernelT::collapse(h);
+}
+
+bool RemeshMesh::mayFlip(EdgeHandle edge) const {
+  if (is_boundary(edge) || data(edge).isRim || !is_flip_ok(edge)) return false;
+  const HalfedgeHandle h = halfedge_handle(edge, 0);
+  return !(is_boundary(opposite_vh(h)) && is_boundary(opposite_he_opposite_vh(h)));
+}
+
+RemeshMesh::Outcome RemeshMesh::afterFlip(EdgeHandle edge) const {
+  const HalfedgeHandle h = halfedge_handle(edge, 0);
+  const VertexHandle from = from_vertex_handle(h), to = to_vertex_handle(h), left = opposite_vh(h),
+                     right = opposite_he_opposite_vh(h);
+  const std::uint32_t group = data(face_handle(h)).group;
+  const auto cornersAt = [&](const std::array<VertexHandle, 3>& v) {
+    return Corners{point(v[0]), point(v[1]), point(v[2])};
+  };
+  using Corner = std::array<VertexHandle, 3>;
+  const Corner old0{from, to, left}, old1{to, from, right}, new0{from, right, left},
+      new1{to, left, right};
+  Outcome outcome{false, 4, 4, 0};
+  for (const Corner& v : {old0, old1})
+    outcome.before = std::min(outcome.before, qualityOf(cornersAt(v), outward(group, v)));
+  // Neither new face may look worse than the worse of the two before.
+  const Corners before0 = cornersAt(old0), before1 = cornersAt(old1);
+  for (const Corner& v : {new0, new1}) {
+    const Eigen::Vector3d out = outward(group, v), normal = normalOf(cornersAt(v));
+    if (isTurned(normal, before0, out) && isTurned(normal, before1, out)) outcome.isTurned = true;
+    outcome.quality = std::min(outcome.quality, qualityOf(cornersAt(v), out));
+  }
+  outcome.longest =
+      (point(left) - point(right)).norm() * 2 / (data(left).target + data(right).target);
+  return outcome;
+}
+
+RemeshMesh::VertexHandle RemeshMesh::splitEdge(EdgeHandle edge) {
+  const HalfedgeHandle h = halfedge_handle(edge, 0), back = opposite_halfedge_handle(h);
+  const VertexHandle from = from_vertex_handle(h), to = to_vertex_handle(h), left = opposite_vh(h);
+  const std::uint32_t groupLeft = data(face_handle(h)).group,
+                      groupRight = data(face_handle(back)).group;
+  const bool isRim = data(edge).isRim;
+  const VertexHandle middle = add_vertex(Point(0.5 * (point(from) + point(to))));
+  split(edge, middle);
+  for (const FaceHandle face : vf_range(middle)) {
+    const auto v = verticesOf(face);
+    data(face).group = std::find(v.begin(), v.end(), left) != v.end() ? groupLeft : groupRight;
+  }
+  for (const HalfedgeHandle spoke : voh_range(middle)) {
+    const VertexHandle w = to_vertex_handle(spoke);
+    data(edge_handle(spoke)).isRim = isRim && (w == from || w == to);
+  }
+  auto& made = data(middle);
+  const auto &a = data(from), &b = data(to);
+  made.gradient = (a.gradient + b.gradient).normalized();
+  made.target = 0.5 * (a.target + b.target);
+  made.drift = made.target;
+  made.node = a.node;
+  made.isSeparated = a.isSeparated || b.isSeparated;
+  made.isOffField = a.isOffField && b.isOffField;
+  const std::uint32_t flat = m_rules.plane[groupLeft] ? groupLeft : groupRight;
+  if (m_rules.plane[flat]) made.end = flat;
+  made.kind = isRim ? VertexKind::Rim : made.end != 0 ? VertexKind::Flat : VertexKind::Wall;
+  if (isRim) {
+    ++m_rimEdges[groupLeft];
+    ++m_rimEdges[groupRight];
+  }
+  return middle;
+}
+
+}  // namespace lumen::convert

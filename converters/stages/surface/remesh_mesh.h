@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// The halfedge mesh of a piece, and which changes to it are allowed. Only sources that change
+// meshes include this: OpenMesh's headers are slow to compile.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+// EigenVectorT.hh specialises a template without including it.
+// clang-format off
+#include <OpenMesh/Core/Utils/vector_traits.hh>
+#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+// clang-format on
+
+#include "converters/stages/surface/remesh_piece.h"
+
+namespace lumen::convert {
+
+/// How a vertex may move.
+enum class VertexKind : std::uint8_t {
+  Wall,   ///< along the field's surface
+  Flat,   ///< within the plane of its end
+  Rim,    ///< along a rim
+  Locked  ///< not at all
+};
+
+struct RemeshTraits : OpenMesh::DefaultTraits {
+  using Point = Eigen::Vector3d;
+  using Normal = Eigen::Vector3d;
+  VertexTraits {
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    double target = 0;
+    double drift = 0;  // along the surface since it was last moved onto the field, mm
+    std::uint32_t node = 0;
+    std::uint32_t home = kNewVertex;
+    int valence = 0;        // while flipToSix() runs
+    std::uint32_t end = 0;  // the group of the flat end, of kinds Flat and Rim; 0: none
+    VertexKind kind = VertexKind::Wall;
+    bool isSeparated = false;
+    bool isOffField = false;
+  };
+  FaceTraits { std::uint32_t group = 0; };
+  EdgeTraits { bool isRim = false; };
+  VertexAttributes(OpenMesh::Attributes::Status);
+  EdgeAttributes(OpenMesh::Attributes::Status);
+  FaceAttributes(OpenMesh::Attributes::Status);
+  HalfedgeAttributes(OpenMesh::Attributes::PrevHalfedge);
+};
+
+/// A piece as halfedges, with the rules that keep it a manifold with its rims on the same surface.
+class RemeshMesh : public OpenMesh::TriMesh_ArrayKernelT<RemeshTraits> {
+public:
+  using Corners = std::array<Eigen::Vector3d, 3>;
+
+  RemeshMesh(const Piece& piece, const PieceRules& rules);
+  [[nodiscard]] Piece toPiece() const;
+  [[nodiscard]] const PieceRules& rules() const { return m_rules; }
+
+  [[nodiscard]] double lengthOf(EdgeHandle edge) const;
+  [[nodiscard]] double targetOf(EdgeHandle edge) const;
+  [[nodiscard]] std::array<VertexHandle, 3> verticesOf(FaceHandle face) const;
+  [[nodiscard]] Corners cornersOf(FaceHandle face) const;
+  /// Calls `visit` with the face and the other two vertices, in its order, of each face around
+  /// `vertex`, which has one. Quicker than OpenMesh's circulators with verticesOf().
+  template <class Visit>
+  void eachFaceAround(VertexHandle vertex, Visit&& visit) const {
+    const HalfedgeHandle first = halfedge_handle(vertex);
+    HalfedgeHandle h = first;
+    do {
+      const HalfedgeHandle before = prev_halfedge_handle(h);
+      if (const FaceHandle face = face_handle(h); face.is_valid())
+        visit(face, to_vertex_handle(h), from_vertex_handle(before));
+      h = opposite_halfedge_handle(before);
+    } while (h != first);
+  }
+  [[nodiscard]] EdgeHandle longestOf(FaceHandle face) const;
+  /// True if both faces are of the same flat end, or one is.
+  [[nodiscard]] bool isInPlane(EdgeHandle edge) const;
+
+  /// Where a face of these vertices should look, of any length: zero if nobody knows.
+  [[nodiscard]] Eigen::Vector3d outward(std::uint32_t group,
+                                        const std::array<VertexHandle, 3>& vertices) const;
+  /// The squared sine of a face's least angle; 0 if it is turned away from where it should look.
+  [[nodiscard]] double qualityOf(FaceHandle face) const;
+  [[nodiscard]] double qualityOf(const Corners& corners, const Eigen::Vector3d& outward) const;
+  /// The least quality of the faces around a vertex, as if it were at `position`.
+  [[nodiscard]] double starQuality(VertexHandle vertex, const Eigen::Vector3d& position) const;
+
+  /// True if no face is turned away, or further than now, by moving `vertex` to `position`.
+  [[nodiscard]] bool mayMove(VertexHandle vertex, const Eigen::Vector3d& position) const;
+
+  /// What a collapse of `h` (its start goes) would leave: allowed only by topology, rims and
+  /// boundary.
+  [[nodiscard]] bool mayCollapse(HalfedgeHandle h);
+  struct Outcome {
+    bool isTurned = false;  ///< a face would turn away, or further than before
+    double quality = 0;     ///< the least of the faces that change, after
+    double before = 0;      ///< and before, those that vanish included
+    double longest = 0;     ///< edge that would be made, over its target
+  };
+  [[nodiscard]] Outcome afterCollapse(HalfedgeHandle h) const;
+  /// True if Outcome::longest would be more than `share`: quicker to find out than the rest.
+  [[nodiscard]] bool makesLonger(HalfedgeHandle h, double share) const;
+  /// As OpenMesh's, whose decimater calls it too, and keeps count of rims.
+  void collapse(HalfedgeHandle h);
+
+  [[nodiscard]] bool mayFlip(EdgeHandle edge) const;
+  [[nodiscard]] Outcome afterFlip(EdgeHandle edge) const;
+
+  /// Puts a vertex in the middle of `edge`; its place in the field is not looked up.
+  VertexHandle splitEdge(EdgeHandle edge);
+
+private:
+  void findKinds();
+  const PieceRules& m_rules;
+  std::vector<std::uint32_t> m_rimEdges;  ///< of each group
+};
+
+}  // namespace lumen::convert

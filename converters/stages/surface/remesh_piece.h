@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A part of a surface that is remeshed by itself, while its boundary stays.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/geometry/triangle_mesh.h"
+#include "converters/stages/surface/sheet_field.h"
+
+namespace lumen::convert {
+
+constexpr std::uint32_t kNewVertex = 0xFFFFFFFF;
+
+/// A vertex of a piece.
+struct PieceVertex {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, of the field; zero if unknown
+  double target = 0;                                   ///< length that edges should have here, mm
+  std::uint32_t node = 0;                              ///< of its cursor
+  std::uint32_t home = kNewVertex;                     ///< its index in the whole surface
+  bool isSeparated = false;                            ///< as SheetSample says
+  bool isOffField = false;                             ///< the field had no surface near by
+  bool isBoundary = false;                             ///< of the piece, so that it was not touched
+};
+
+/// A manifold with boundary. Vertices of the boundary are not touched, and no edge is made between
+/// two of them, so that pieces which share them can be put together again.
+struct Piece {
+  std::vector<PieceVertex> vertex;
+  std::vector<Triangle> triangle;    ///< indices into `vertex`
+  std::vector<std::uint32_t> group;  ///< of each triangle
+};
+
+/// What all pieces of a surface share.
+struct PieceRules {
+  const SheetField& field;
+  /// Of each group, the unit normal of its plane if it is a flat end.
+  std::vector<std::optional<Eigen::Vector3d>> plane;
+};
+
+enum class PieceWork : std::uint8_t {
+  Remesh,  ///< to the target lengths, which become shorter in slits
+  Seam,    ///< the same, where slits have their targets
+  Mend,    ///< only triangles that are sharp or folded
+  Stretch  ///< and where that does not help, off the field
+};
+
+/// Does the work in place; vertices that went are gone, new ones are at the end.
+void remeshPiece(Piece& piece, const PieceRules& rules, PieceWork work, const Progress& progress);
+
+}  // namespace lumen::convert

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/remesh_pieces.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace lumen::convert {
+namespace {
+
+constexpr std::size_t kPieceTriangles = 20000;  // their halfedges stay in a core's cache
+constexpr std::size_t kLeastPieces = 8;         // enough for a few threads to share the work
+constexpr std::size_t kLeastTriangles = 3000;   // below, seams are more work than they save
+
+std::size_t pieceSize(std::size_t triangles) {
+  return std::clamp(triangles / kLeastPieces, kLeastTriangles, kPieceTriangles);
+}
+
+// Directed edges of the piece that have no opposite one, as pairs (from, to), sorted.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> openEdges(
+    std::span<const Triangle> triangles) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all, open;
+  all.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i) all.emplace_back(t[i], t[(i + 1) % 3]);
+  std::sort(all.begin(), all.end());
+  for (const auto& [from, to] : all)
+    if (!std::binary_search(all.begin(), all.end(), std::pair(to, from)))
+      open.emplace_back(from, to);
+  return open;
+}
+
+std::vector<Triangle> trianglesOf(const TriangleMesh& mesh, const TriangleList& list) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(list.size());
+  for (const std::uint32_t t : list) triangles.push_back(mesh.triangle[t]);
+  return triangles;
+}
+
+// Vertices from which two open edges start: two fans of triangles meet there. Sorted.
+std::vector<std::uint32_t> pinchedVertices(std::span<const Triangle> triangles) {
+  const auto open = openEdges(triangles);
+  std::vector<std::uint32_t> pinched;
+  for (std::size_t i = 1; i < open.size(); ++i)
+    if (open[i].first == open[i - 1].first && (pinched.empty() || pinched.back() != open[i].first))
+      pinched.push_back(open[i].first);
+  return pinched;
+}
+
+std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+PieceVertex vertexOf(const RemeshState& state, std::uint32_t v) {
+  return {state.surface.mesh.position[v],
+          state.gradient[v],
+          state.target[v],
+          state.surface.node[v],
+          v,
+          state.isSeparated[v] != 0,
+          state.isOffField[v] != 0,
+          state.isBoundary[v] != 0};
+}
+
+void keep(RemeshState& state, std::size_t at, const PieceVertex& from) {
+  state.surface.mesh.position[at] = from.position;
+  state.surface.node[at] = from.node;
+  state.gradient[at] = from.gradient;
+  state.target[at] = from.target;
+  state.isSeparated[at] = from.isSeparated ? 1 : 0;
+  state.isOffField[at] = from.isOffField ? 1 : 0;
+  state.isBoundary[at] = from.isBoundary ? 1 : 0;
+}
+
+void resize(RemeshState& state, std::size_t vertices) {
+  state.surface.mesh.position.resize(vertices);
+  state.surface.node.resize(vertices);
+  state.gradient.resize(vertices);
+  state.target.resize(vertices);
+  state.isSeparated.resize(vertices);
+  state.isOffField.resize(vertices);
+  state.isBoundary.resize(vertices);
+}
+
+// Drops vertices that no triangle uses; the others keep their order.
+void dropUnused(RemeshState& state) {
+  TriangleMesh& mesh = state.surface.mesh;
+  std::vector<std::uint32_t> index(mesh.position.size(), 0);
+  for (const Triangle& t : mesh.triangle)
+    for (const std::uint32_t v : t) index[v] = 1;
+  std::uint32_t count = 0;
+  for (std::uint32_t v = 0; v < index.size(); ++v) {
+    if (index[v] == 0) continue;
+    index[v] = count;
+    if (count != v) keep(state, count, vertexOf(state, v));
+    ++count;
+  }
+  resize(state, count);
+  for (Triangle& t : mesh.triangle)
+    for (std::uint32_t& v : t) v = index[v];
+}
+
+}  // namespace
+
+PieceRules rulesOf(const CaseSurface& surface, const SheetField& field) {
+  PieceRules rules{field, {}};
+  rules.plane.resize(surface.groups.size());
+  for (const SurfaceEnd& end : surface.ends)
+    if (surface.groups[end.group].kind != FaceKind::Cap) rules.plane[end.group] = end.normal;
+  return rules;
+}
+
+std::vector<TriangleList> piecesByNode(const CaseSurface& surface) {
+  const auto& triangles = surface.mesh.triangle;
+  const auto keyOf = [&](std::uint32_t t) {
+    return std::min({surface.node[triangles[t][0]], surface.node[triangles[t][1]],
+                     surface.node[triangles[t][2]]});
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order(triangles.size());
+  for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = {keyOf(t), t};
+  std::sort(order.begin(), order.end());
+  const std::size_t size = pieceSize(triangles.size());
+  std::vector<TriangleList> pieces;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool isNewNode = i == 0 || order[i].first != order[i - 1].first;
+    const bool isLastPart = order.size() - i < size / 2;
+    if (i == 0 || (isNewNode && !isLastPart && pieces.back().size() >= size)) pieces.emplace_back();
+    pieces.back().push_back(order[i].second);
+  }
+  return pieces;
+}
+
+std::vector<TriangleList> piecesAround(const TriangleMesh& mesh, std::vector<std::uint8_t> marked,
+                                       int rings) {
+  const auto touches = [&](const Triangle& t) {
+    return marked[t[0]] != 0 || marked[t[1]] != 0 || marked[t[2]] != 0;
+  };
+  for (int ring = 1; ring < rings; ++ring) {
+    std::vector<std::uint8_t> grown = marked;
+    for (const Triangle& t : mesh.triangle)
+      if (touches(t)) grown[t[0]] = grown[t[1]] = grown[t[2]] = 1;
+    marked = std::move(grown);
+  }
+  std::vector<std::uint32_t> parent(mesh.position.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  TriangleList inside;
+  for (std::uint32_t f = 0; f < mesh.triangle.size(); ++f) {
+    const Triangle& t = mesh.triangle[f];
+    if (!touches(t)) continue;
+    inside.push_back(f);
+    const std::uint32_t root = rootOf(parent, t[0]);
+    parent[rootOf(parent, t[1])] = root;
+    parent[rootOf(parent, t[2])] = root;
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+  for (const std::uint32_t f : inside) order.emplace_back(rootOf(parent, mesh.triangle[f][0]), f);
+  std::sort(order.begin(), order.end());
+  std::vector<TriangleList> pieces;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool isNew = i == 0 || order[i].first != order[i - 1].first;
+    if (i == 0 || (isNew && pieces.back().size() >= kLeastTriangles)) pieces.emplace_back();
+    pieces.back().push_back(order[i].second);
+  }
+  return pieces;
+}
+
+Piece cutOut(const RemeshState& state, TriangleList& triangles) {
+  const TriangleMesh& mesh = state.surface.mesh;
+  std::vector<Triangle> corners = trianglesOf(mesh, triangles);
+  for (auto pinched = pinchedVertices(corners); !pinched.empty();
+       pinched = pinchedVertices(corners)) {
+    std::erase_if(triangles, [&](std::uint32_t t) {
+      return std::ranges::any_of(mesh.triangle[t], [&](std::uint32_t v) {
+        return std::binary_search(pinched.begin(), pinched.end(), v);
+      });
+    });
+    corners = trianglesOf(mesh, triangles);
+  }
+  std::vector<std::uint32_t> used;
+  used.reserve(3 * corners.size());
+  for (const Triangle& t : corners) used.insert(used.end(), t.begin(), t.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  Piece piece;
+  for (const std::uint32_t v : used) piece.vertex.push_back(vertexOf(state, v));
+  for (Triangle& t : corners)
+    for (std::uint32_t& v : t)
+      v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  piece.triangle = std::move(corners);
+  for (const std::uint32_t t : triangles) piece.group.push_back(state.surface.group[t]);
+  return piece;
+}
+
+void putBack(RemeshState& state, std::span<const TriangleList> triangles,
+             std::span<const Piece> pieces) {
+  CaseSurface& surface = state.surface;
+  std::vector<std::uint8_t> replaced(surface.mesh.triangle.size(), 0);
+  for (const TriangleList& list : triangles)
+    for (const std::uint32_t t : list) replaced[t] = 1;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < replaced.size(); ++t) {
+    if (replaced[t] != 0) continue;
+    surface.mesh.triangle[kept] = surface.mesh.triangle[t];
+    surface.group[kept++] = surface.group[t];
+  }
+  surface.mesh.triangle.resize(kept);
+  surface.group.resize(kept);
+  for (const Piece& piece : pieces) {
+    std::vector<std::uint32_t> index;
+    auto next = static_cast<std::uint32_t>(surface.mesh.position.size());
+    for (const PieceVertex& vertex : piece.vertex)
+      index.push_back(vertex.home == kNewVertex ? next++ : vertex.home);
+    resize(state, next);
+    for (std::size_t v = 0; v < index.size(); ++v) keep(state, index[v], piece.vertex[v]);
+    for (const Triangle& t : piece.triangle)
+      surface.mesh.triangle.push_back({index[t[0]], index[t[1]], index[t[2]]});
+    surface.group.insert(surface.group.end(), piece.group.begin(), piece.group.end());
+  }
+  dropUnused(state);
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/remesh_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <queue>
+#include <span>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "formats/case/topology.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr double kGrowth = 0.25;  // of the way: neighbouring edges differ by a quarter at most
+constexpr double kEdgesAround = 8;
+
+Eigen::Vector3d centreOf(const formats::CenterlineTree& tree, std::uint32_t node) {
+  return {tree.centre[node].x, tree.centre[node].y, tree.centre[node].z};
+}
+
+// The radius between `node` and its neighbours in its branch, at the nearest point of the axis: it
+// has no steps where the cursor goes on to the next node.
+double radiusAt(const formats::CenterlineTree& tree, const formats::Neighbours& edges,
+                const Eigen::Vector3d& point, std::uint32_t node) {
+  const Eigen::Vector3d from = centreOf(tree, node);
+  double best = (point - from).squaredNorm(), radius = tree.radius[node];
+  for (const std::uint32_t other : edges.of(node)) {
+    if (tree.branch[other] != tree.branch[node]) continue;
+    const Eigen::Vector3d way = centreOf(tree, other) - from;
+    const double length2 = way.squaredNorm();
+    if (!(length2 > 0)) continue;
+    const double share = std::clamp((point - from).dot(way) / length2, 0.0, 1.0);
+    const double distance = (point - from - share * way).squaredNorm();
+    if (distance >= best) continue;
+    best = distance;
+    radius = (1 - share) * tree.radius[node] + share * tree.radius[other];
+  }
+  return radius;
+}
+
+}  // namespace
+
+// Shortest first, as Dijkstra's algorithm goes.
+void gradeLengths(const TriangleMesh& mesh, std::vector<double>& length) {
+  std::vector<std::uint32_t> offset(mesh.position.size() + 1, 0), around;
+  for (const Triangle& t : mesh.triangle)
+    for (const std::uint32_t v : t) ++offset[v + 1];
+  for (std::size_t v = 1; v < offset.size(); ++v) offset[v] += offset[v - 1];
+  around.resize(mesh.triangle.size() * 3);
+  std::vector<std::uint32_t> next(offset.begin(), offset.end() - 1);
+  for (const Triangle& t : mesh.triangle)
+    for (std::size_t i = 0; i < 3; ++i) around[next[t[i]]++] = t[(i + 1) % 3];
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto lower = [&](std::uint32_t v) {
+    for (std::uint32_t e = offset[v]; e < offset[v + 1]; ++e) {
+      const std::uint32_t w = around[e];
+      const double bound = length[v] + kGrowth * (mesh.position[w] - mesh.position[v]).norm();
+      if (bound >= length[w]) continue;
+      length[w] = bound;
+      queue.emplace(bound, w);
+    }
+  };
+  // Each edge has one direction in either of its triangles: going out covers both.
+  for (std::uint32_t v = 0; v < mesh.position.size(); ++v) lower(v);
+  while (!queue.empty()) {
+    const auto [bound, v] = queue.top();
+    queue.pop();
+    if (bound <= length[v]) lower(v);
+  }
+}
+
+std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& field) {
+  const formats::CenterlineTree& tree = field.source().tree;
+  const formats::Neighbours edges(tree);
+  std::vector<double> radius(surface.mesh.position.size());
+  tbb::parallel_for(std::size_t{0}, radius.size(), [&](std::size_t v) {
+    radius[v] = radiusAt(tree, edges, surface.mesh.position[v], surface.node[v]);
+  });
+  return radius;
+}
+
+std::vector<double> targetLengths(const CaseSurface& surface, const SheetField& field,
+                                  const EdgeLength& edge) {
+  std::vector<double> length = vesselRadii(surface, field);
+  for (double& l : length) {
+    const double radius = l, longest = 2 * std::numbers::pi * radius / kEdgesAround;
+    l = std::clamp(edge.share * radius, std::min(edge.minimum, edge.maximum), edge.maximum);
+    l = std::min(l, longest);
+    if (const double sag = edge.sag.at(radius); sag > 0)
+      l = std::min(l, std::sqrt(8 * radius * sag));
+  }
+  gradeLengths(surface.mesh, length);
+  return length;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/sampled_lattice.h"
+
+#include <algorithm>
+
+namespace lumen::convert {
+
+SampledLattice::SampledLattice(const SheetField& field, double share, Progress& progress)
+    : m_field(field), m_lattice(field, share, progress), m_vertices(m_lattice) {
+  progress.check();
+  m_distance.resize(size());
+  m_node.resize(size());
+  m_isInside.resize(size());
+  tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) {
+    const auto v = static_cast<std::uint32_t>(i);
+    const SheetSample sample = m_field.deepest(place(v), m_vertices.cubeOf(v).node);
+    m_node[i] = sample.node;
+    m_distance[i] = sample.distance;
+    m_isInside[i] = sample.distance < 0 && !isOutermost(v);
+  });
+  progress.check();
+  update();
+}
+
+void SampledLattice::update() {
+  gatherTetrahedra();
+  findSplitEdges();
+}
+
+void SampledLattice::gatherTetrahedra() {
+  const std::size_t count = m_lattice.cubes().size();
+  m_tetrahedra.assign((count + kBlock - 1) / kBlock, {});
+  tbb::parallel_for(std::size_t{0}, m_tetrahedra.size(), [&](std::size_t block) {
+    const std::size_t last = std::min(count, (block + 1) * kBlock);
+    for (std::size_t cube = block * kBlock; cube < last; ++cube)
+      m_vertices.eachTetrahedron(static_cast<std::uint32_t>(cube), [&](const Tetrahedron& t) {
+        if (isInside(t[0]) || isInside(t[1]) || isInside(t[2]) || isInside(t[3]))
+          m_tetrahedra[block].push_back(t);
+      });
+  });
+}
+
+bool SampledLattice::isOneLumen(std::uint32_t u, std::uint32_t v) const {
+  const std::uint32_t a = m_node[u], b = m_node[v];
+  if (a == b || !m_field.mayTouch(a) || !m_field.mayTouch(b)) return true;
+  return m_field.isReached(place(v), a, b) || m_field.isReached(place(u), b, a);
+}
+
+void SampledLattice::force(std::uint32_t vertex, const SheetSample& sample) {
+  constexpr double kDepth = 1e-3;  // of the radius
+  m_isInside[vertex] = 1;
+  m_node[vertex] = sample.node;
+  m_distance[vertex] = std::min(sample.distance, -kDepth * m_field.radius(sample.node));
+}
+
+void SampledLattice::findSplitEdges() {
+  std::vector<std::vector<Edge>> found(blockCount());
+  eachTetrahedron([&](std::size_t block, const Tetrahedron& t) {
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j)
+        if (isInside(t[i]) && isInside(t[j]) && !isOneLumen(t[i], t[j]))
+          found[block].push_back(std::minmax(t[i], t[j]));
+  });
+  std::vector<Edge> edges = joined(found);
+  m_isOnSplit.assign(size(), false);
+  for (const auto& [u, v] : edges) m_isOnSplit[u] = m_isOnSplit[v] = true;
+  m_split = SplitEdges(std::move(edges), static_cast<std::uint32_t>(size()));
+}
+
+std::vector<std::uint32_t> SampledLattice::verticesAround(const Eigen::Vector3d& point) const {
+  const std::uint32_t cube = m_lattice.cubeAt(point);
+  if (cube == AdaptiveLattice::kNone) return {};
+  return m_vertices.verticesOf(cube);
+}
+
+}  // namespace lumen::convert

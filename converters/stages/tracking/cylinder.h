@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// A cylinder through wall candidates: RANSAC with a pruned direction search (docs/method.md,
+// sections 1.3 and 1.4; Yureidini's thesis, 3.4).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/base/random.h"
+#include "converters/stages/tracking/rays.h"
+#include "converters/stages/tracking/track_options.h"
+
+namespace lumen::convert {
+
+/// Fewer candidates or inliers than this decide about no cylinder: it has five unknowns.
+constexpr std::size_t kFewestCandidates = 8;
+
+/// An infinite circular cylinder and the share of the candidates that lie in its band.
+struct Cylinder {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< a point on the axis, mm, LPS
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< unit
+  double radius = 0;                                 ///< mm
+  double inlierRate = 0;                             ///< in [0, 1]
+};
+
+/// How cylinders are searched for. Only read: any number of threads may share one.
+struct CylinderSearch {
+  explicit CylinderSearch(const TrackOptions& options);
+
+  double acceptedRate;  ///< p_inl
+  double band;          ///< r_t, relative to the radius
+  int minTrials, maxTrials;
+  std::vector<Eigen::Vector3d> sphere;  ///< an icosphere; half of it are the axes
+};
+
+/// What a cylinder is expected to be like.
+struct ExpectedCylinder {
+  Eigen::Vector3d direction;  ///< unit
+  double radius = 0;          ///< rho, mm
+  bool smooth = false;        ///< `direction` is that of a path: sharp turns are unlikely
+};
+
+/// Buffers of the search, of no meaning between calls. One per thread.
+struct CylinderWorkspace {
+  std::vector<float> u, v;  ///< candidates in the plane normal to an axis
+  std::vector<std::size_t> inliers;
+  std::vector<double> along;
+};
+
+/// The best cylinder through `points` that holds their origin, with an axis within 90 degrees of
+/// the expected direction and a radius in [rho/2, 3 rho/2]: the first axis, by increasing angle,
+/// whose rate reaches the accepted one; else the best of all, where `smooth` says that a rate at an
+/// angle a from the direction counts (1 + cos a)/2 of itself (its rate may be anything; 0 and no
+/// radius if none is valid). Refined to least squares on its inliers.
+Cylinder estimateCylinder(const CylinderSearch& search, const Candidates& points,
+                          const ExpectedCylinder& expected, Random& random,
+                          CylinderWorkspace& workspace);
+
+/// Least squares of (distance to the axis - radius) over the inliers, over the axis' position,
+/// direction and radius, inliers chosen anew between rounds; then the centre moves along the axis
+/// to the median of the inliers. Returns the start if that has no more inliers.
+Cylinder refineCylinder(const Candidates& points, const Cylinder& start, double band,
+                        CylinderWorkspace& workspace);
+
+/// Indices of the candidates whose distance to the axis is within `band` radii of the radius.
+void findInliers(const Candidates& points, const Cylinder& cylinder, double band,
+                 std::vector<std::size_t>& out);
+
+}  // namespace lumen::convert

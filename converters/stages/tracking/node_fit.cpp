@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/tracking/node_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <utility>
+
+#include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
+#include "converters/geometry/icosphere.h"
+#include "converters/stages/tracking/wall_support.h"
+
+namespace lumen::convert {
+namespace {
+
+/// Of a node's inliers: the share that its height holds; the rest are stragglers along the axis.
+constexpr double kHeld = 0.75;
+/// Of the accepting inlier rate: a cylinder below it is no vessel (Yureidini's thesis, 3.4).
+constexpr double kLeastRate = 0.5;
+/// Times that a node whose wall is not supported is fitted anew. Each time its radius falls.
+constexpr int kRefits = 3;
+/// Of the radius that was tried: the most that is tried next.
+constexpr double kNarrower = 0.7;
+
+/// Distance along the axis from the centre of `cylinder` to a candidate, mm.
+double distanceAlong(const Cylinder& cylinder, const Candidates& points, std::size_t i) {
+  return std::abs((points.origin + points.offset(i) - cylinder.centre).dot(cylinder.axis));
+}
+
+/// Height and wall points from the inliers of a cylinder: the smallest symmetric interval along the
+/// axis that holds three quarters of them, and those in it.
+TrackedNode makeNode(const Cylinder& cylinder, const Candidates& points,
+                     const std::vector<std::size_t>& inliers) {
+  std::vector<double> extent, strengths;
+  extent.reserve(inliers.size());
+  strengths.reserve(inliers.size());
+  for (const std::size_t i : inliers) {
+    extent.push_back(distanceAlong(cylinder, points, i));
+    strengths.push_back(points.strength[i]);
+  }
+  TrackedNode node;
+  node.meanSquareAlong = std::inner_product(extent.begin(), extent.end(), extent.begin(), 0.0) /
+                         static_cast<double>(extent.size());
+  node.strength = median(std::move(strengths));
+  const double half = nearestRank(extent, kHeld);
+  node.centre = cylinder.centre;
+  node.direction = cylinder.axis;
+  node.radius = cylinder.radius;
+  node.inlierRate = cylinder.inlierRate;
+  node.height = 2.0 * half;
+  for (const std::size_t i : inliers)
+    if (distanceAlong(cylinder, points, i) <= half)
+      node.points.push_back(toVec3f(points.origin + points.offset(i)));
+  return node;
+}
+
+/// A cylinder fixes its centre across the axis only; along it few points decide, so the centre
+/// keeps within the guess' slack.
+void holdPlace(const NodeGuess& guess, Cylinder& cylinder) {
+  const double along = (cylinder.centre - guess.centre).dot(cylinder.axis);
+  cylinder.centre += (std::clamp(along, -guess.slack, guess.slack) - along) * cylinder.axis;
+}
+
+/// Below it, a wall is not told from noise.
+double leastStrength(const TrackContext& context) {
+  return context.options.noiseMargin * context.noiseFloor;
+}
+
+/// Noise makes a cylinder too, but neither a good one nor one with a strong wall.
+bool isNoise(const TrackContext& context, const TrackedNode& node) {
+  return node.inlierRate < context.options.inlierRate && node.strength < leastStrength(context);
+}
+
+/// To two digits, so that what is too little never reads as if it were enough.
+double roundedDown(double value) {
+  return std::floor(100.0 * value + 1e-9) / 100.0;
+}
+double roundedUp(double value) {
+  return std::ceil(100.0 * value - 1e-9) / 100.0;
+}
+
+std::string formatted(const char* format, double a, double b) {
+  std::array<char, 320> text{};
+  std::snprintf(text.data(), text.size(), format, a, b);
+  return text.data();
+}
+
+/// Fits a node to a guess, whatever it holds.
+NodeFit fitToWall(const TrackContext& context, const NodeGuess& guess, double minRate,
+                  Random& random, TrackWorkspace& workspace) {
+  const VolumeGeometry& geometry = context.volume.geometry();
+  Candidates& points = workspace.candidates;
+  NodeFit fit;
+  const auto stop = [&](FitStage stage, double inlierRate) {
+    fit.stage = stage;
+    fit.inlierRate = inlierRate;
+    return std::move(fit);
+  };
+  const auto tooFew = [&](std::size_t walls) {
+    fit.walls = walls;
+    return stop(FitStage::FewWalls, 0);
+  };
+  if (!geometry.containsWorld(guess.centre)) return fit;
+  workspace.caster.cast(guess.centre, kRayRadii * guess.radius, points);
+  if (points.count() < kFewestCandidates) return tooFew(points.count());
+  Cylinder cylinder =
+      estimateCylinder(context.search, points, {guess.direction, guess.radius, guess.smooth},
+                       random, workspace.cylinder);
+  if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
+  holdPlace(guess, cylinder);
+  if (!geometry.containsWorld(cylinder.centre))
+    return stop(FitStage::LeftVolume, cylinder.inlierRate);
+  // the first rays came from a guess: cast and fit again from the better centre
+  workspace.caster.cast(cylinder.centre, kRayRadii * cylinder.radius, points);
+  cylinder = refineCylinder(points, cylinder, context.search.band, workspace.cylinder);
+  if (points.count() < kFewestCandidates) return tooFew(points.count());
+  if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
+  if (!geometry.containsWorld(cylinder.centre))
+    return stop(FitStage::LeftVolume, cylinder.inlierRate);
+  holdPlace(guess, cylinder);
+  findInliers(points, cylinder, context.search.band, workspace.inliers);
+  if (workspace.inliers.size() < kFewestCandidates) return tooFew(workspace.inliers.size());
+  if (cylinder.axis.dot(guess.direction) < 0) cylinder.axis = -cylinder.axis;
+  TrackedNode node = makeNode(cylinder, points, workspace.inliers);
+  fit.strength = node.strength;
+  if (isNoise(context, node)) return stop(FitStage::Noise, cylinder.inlierRate);
+  fit.node = std::move(node);
+  return stop(FitStage::Found, cylinder.inlierRate);
+}
+
+}  // namespace
+
+TrackContext::TrackContext(const BsplineVolume& theVolume, const TrackOptions& theOptions,
+                           double theNoiseFloor, const Progress& theProgress)
+    : volume(theVolume),
+      options(theOptions),
+      noiseFloor(theNoiseFloor),
+      progress(theProgress),
+      search(theOptions),
+      rays(icosphere(icosphereOrder(theOptions.rays))) {}
+
+TrackWorkspace::TrackWorkspace(const TrackContext& context)
+    : caster(context.volume, context.rays, context.options.samples, context.options.dark) {}
+
+double leastInlierRate(const TrackOptions& options) {
+  return kLeastRate * options.inlierRate;
+}
+
+bool isNearer(const NodeFit& a, const NodeFit& b) {
+  if (a.stage != b.stage) return a.stage > b.stage;
+  if (a.stage == FitStage::FewWalls) return a.walls > b.walls;
+  if (a.stage == FitStage::Noise) return a.strength > b.strength;
+  return a.inlierRate > b.inlierRate;
+}
+
+std::string failureText(const TrackContext& context, const NodeFit& best) {
+  switch (best.stage) {
+    case FitStage::OutsideVolume:
+      return "there is no volume: it lies outside";
+    case FitStage::FewWalls:
+      return formatted(
+          "at most %.0f rays meet the wall of a vessel, at least %.0f are needed: does it lie in "
+          "one, "
+          "and are vessels bright (if not: --dark)?",
+          static_cast<double>(best.walls), static_cast<double>(kFewestCandidates));
+    case FitStage::LowRate:
+      return formatted(
+          "no cylinder fits: best inlier rate %.2f, at least %.2f is needed (half of "
+          "--inlier-rate)",
+          roundedDown(best.inlierRate), roundedUp(leastInlierRate(context.options)));
+    case FitStage::DarkInside:
+      return formatted(
+          "a cylinder fits, but %.0f %% of what it holds is as dark as what is around it: click in "
+          "the middle of the vessel, or give its radius",
+          100.0 * best.dark, 0);
+    case FitStage::LeftVolume:
+      return "a cylinder fits, but its centre lies outside of the volume: a click nearer to the "
+             "axis, or with a radius, would help";
+    case FitStage::Noise:
+      return formatted("a cylinder fits with an inlier rate of %.2f only, ",
+                       roundedDown(best.inlierRate), 0) +
+             formatted(
+                 "and its wall is %.2f times as strong as noise: expected at least %.2f times "
+                 "(--noise-margin)",
+                 roundedDown(best.strength / context.noiseFloor),
+                 roundedUp(context.options.noiseMargin));
+    case FitStage::Found:
+      break;
+  }
+  return "a cylinder fits";
+}
+
+NodeFit fitNode(const TrackContext& context, const NodeGuess& guess, double minRate, Random& random,
+                TrackWorkspace& workspace) {
+  NodeFit first = fitToWall(context, guess, minRate, random, workspace);
+  if (!first.node) return first;
+  WallSupport support =
+      wallSupport(context.volume, *first.node, guess.centre, context.options.dark);
+  if (isSupported(support)) return first;
+  first.node.reset();
+  first.stage = FitStage::DarkInside;
+  first.dark = support.dark;
+  NodeGuess next = guess;
+  next.centre = support.middle;
+  next.radius = support.radius;
+  for (int refit = 0; refit < kRefits; ++refit) {
+    NodeFit fit = fitToWall(context, next, minRate, random, workspace);
+    if (!fit.node) {
+      next.radius *= kNarrower;
+      continue;
+    }
+    support = wallSupport(context.volume, *fit.node, guess.centre, context.options.dark);
+    if (isSupported(support)) return fit;
+    next.centre = support.middle;
+    next.radius = std::min(support.radius, kNarrower * next.radius);
+  }
+  return first;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/tracking/point_spread.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Nodes that are measured: the most, for the time it takes, and the least that a median is worth
+/// something of.
+constexpr std::size_t kMostNodes = 256, kLeastNodes = 8;
+/// Voxels: radii whose walls are measured, the second if the first are too few. Wider walls are
+/// flatter, and less of the far wall shows in their profiles.
+constexpr double kWide = 3.0, kWideEnough = 1.0;
+/// Wall points of a node that is measured: with fewer, noise makes up its profile.
+constexpr std::size_t kFewestPoints = 32;
+/// Voxels: a profile's reach to either side of the wall, and the spacing of its samples.
+constexpr double kReach = 4.0, kSpacing = 0.1;
+constexpr int kSamples = 2 * static_cast<int>(kReach / kSpacing) + 1;
+/// Of a profile's samples: the steepest fall is looked for up to so far from the wall.
+constexpr std::size_t kPartNearWall = 8;  // one in so many
+/// Voxels: how far from the wall the levels of lumen and background are looked for. Farther out
+/// other vessels begin.
+constexpr double kLevelReach = 2.5;
+/// Voxels: a half level that is nearer to the steepest fall than that is not told from it.
+constexpr double kLopsided = 0.05;
+/// Of the radius: the most that the half level moves a wall.
+constexpr double kMostLopsided = 0.1;
+constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // of the Gaussian exp(-x^2/2)
+
+/// The last partial denominator of the continued fraction: it has converged to all digits for the
+/// arguments that occur, w < (q + 1)^2 with q <= kNearlyFlat.
+constexpr int kLastDenominator = 120;
+/// (seen/sigma)^2 beyond which two terms of the expansion for flat walls are exact to 1e-5.
+constexpr double kNearlyFlat = 50;
+/// Halvings of the interval that holds the radius: to the last bit.
+constexpr int kBisections = 50;
+/// Of the radius that was seen: the least that a ball is corrected to, as for the cylinder.
+constexpr double kLeastShare = 0.5;
+
+/// z I0(z)/I1(z) - 2 as a function of w = z^2, by the continued fraction of Bessel functions'
+/// ratios (Abramowitz and Stegun, 9.1.73, for imaginary arguments).
+double besselTerm(double w) {
+  double tail = 0;
+  for (int k = kLastDenominator; k >= 4; k -= 2) tail = w / (k + tail);
+  return tail;
+}
+
+/// The mean over a node's wall points of the intensity on the line from its axis through the point,
+/// at distances radius - kReach .. radius + kReach voxels. Lined up by the cylinder, not by the
+/// points: those follow the noise, and their mean would be steeper than the wall.
+std::vector<double> meanProfile(const BsplineVolume& volume, const TrackedNode& node) {
+  const VolumeGeometry& geometry = volume.geometry();
+  const double voxel = geometry.voxelSize();
+  std::vector<double> sum(kSamples, 0.0);
+  std::vector<float> values(kSamples);
+  for (const formats::Vec3f& p : node.points) {
+    const Vector3d offset = toEigen(p) - node.centre;
+    const double along = offset.dot(node.direction);
+    const Vector3d outward = (offset - along * node.direction).normalized();
+    const Vector3d start =
+        node.centre + along * node.direction + (node.radius - kReach * voxel) * outward;
+    const Vector3d step = (geometry.direction.transpose() * outward * (kSpacing * voxel))
+                              .cwiseQuotient(geometry.spacing);
+    volume.sampleLine(geometry.indexFromWorld(start), step, values);
+    for (std::size_t i = 0; i < values.size(); ++i) sum[i] += static_cast<double>(values[i]);
+  }
+  for (double& value : sum) value /= static_cast<double>(node.points.size());
+  return sum;
+}
+
+/// The fall of a profile around its middle, in samples; brighter inside.
+struct Fall {
+  double width = 0;      ///< in full at half height; 0 if it does not fall to half on either side
+  double halfLevel = 0;  ///< from the steepest place outward to the half level
+};
+
+/// From the place `peak`, refined by a parabola through the falls around it, to where the profile
+/// passes halfway between the greatest mean over a voxel before it and the least one behind; 0 if it
+/// does not.
+double halfLevelOf(const std::vector<double>& profile, const std::vector<double>& fall,
+                   std::size_t peak) {
+  const auto reach = static_cast<std::size_t>(kLevelReach / kSpacing);
+  const auto box = static_cast<std::size_t>(1.0 / kSpacing);
+  const std::size_t half = box / 2, first = peak - std::min(peak, reach);
+  const auto meanAround = [&](std::size_t i) {
+    return std::accumulate(profile.begin() + static_cast<std::ptrdiff_t>(i - half),
+                           profile.begin() + static_cast<std::ptrdiff_t>(i + half), 0.0) /
+           static_cast<double>(2 * half);
+  };
+  double inside = meanAround(peak - half), outside = meanAround(peak + half);
+  for (std::size_t i = std::max(first, half); i + half < peak; ++i)
+    inside = std::max(inside, meanAround(i));
+  for (std::size_t i = peak + half; i <= peak + reach && i + half < profile.size(); ++i)
+    outside = std::min(outside, meanAround(i));
+  const double level = 0.5 * (inside + outside);
+  const double bend = fall[peak - 1] - 2 * fall[peak] + fall[peak + 1];
+  const double steepest =
+      static_cast<double>(peak) + (bend < 0 ? 0.5 * (fall[peak - 1] - fall[peak + 1]) / bend : 0);
+  std::size_t at = peak;
+  while (at > first && profile[at] < level) --at;
+  while (at + 1 < profile.size() && at < peak + reach && profile[at + 1] >= level) ++at;
+  if (at + 1 >= profile.size() || profile[at] < level || profile[at + 1] >= level) return 0;
+  return static_cast<double>(at) + (profile[at] - level) / (profile[at] - profile[at + 1]) -
+         steepest;
+}
+
+Fall fallOf(std::vector<double> profile, double sign) {
+  for (double& value : profile) value *= sign;
+  const std::size_t n = profile.size();
+  std::vector<double> fall(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) fall[i] = profile[i - 1] - profile[i + 1];
+  const auto middle = fall.begin() + static_cast<std::ptrdiff_t>(n / 2);
+  const auto near = static_cast<std::ptrdiff_t>(n / kPartNearWall);
+  const auto peak =
+      static_cast<std::size_t>(std::max_element(middle - near, middle + near + 1) - fall.begin());
+  const double half = 0.5 * fall[peak];
+  if (!(half > 0)) return {};
+  std::size_t right = peak, left = peak;
+  while (right < n && fall[right] > half) ++right;
+  while (left > 0 && fall[left] > half) --left;
+  if (right + 1 >= n || left == 0) return {};
+  const auto crossing = [&](std::size_t low, std::size_t high) {
+    return (fall[high] - half) / (fall[high] - fall[low]);
+  };
+  return {static_cast<double>(right - left) - 2.0 + crossing(right, right - 1) +
+              crossing(left, left + 1),
+          halfLevelOf(profile, fall, peak)};
+}
+
+/// Standard deviation of the blur under which a disc falls fastest at `seen` from its centre, by a
+/// curve that is `width` wide at half its height; 0 if the disc is too narrow to tell. For wide
+/// discs 1/s^2 = 1/g^2 + 1/(2 seen^2), where g is the Gaussian's of that width; below, a table of
+/// the closed form (see cylinderRadius) for radii of 1.5, 1.75, 2, 2.5 and 3 standard deviations.
+double spreadOf(double seen, double width) {
+  struct Entry {
+    double ratio, share;
+  };
+  constexpr std::array<Entry, 5> kTable = {
+      {{0.6680, 0.4808}, {0.7112, 0.4502}, {0.7747, 0.4284}, {0.9565, 0.4125}, {1.1749, 0.4135}}};
+  const double ratio = seen / width;
+  if (ratio < kTable.front().ratio) return 0;
+  for (std::size_t i = 1; i < kTable.size(); ++i) {
+    const auto& [low, high] = std::pair(kTable[i - 1], kTable[i]);
+    if (ratio > high.ratio) continue;
+    const double t = (ratio - low.ratio) / (high.ratio - low.ratio);
+    return width * (low.share + t * (high.share - low.share));
+  }
+  const double gaussian = width / kWidthAtHalfHeight;
+  return 1.0 / std::sqrt(1.0 / (gaussian * gaussian) + 0.5 / (seen * seen));
+}
+
+/// The profile, `step` mm from sample to sample, of the disc that a blur of `sigma` makes fall fastest
+/// at `seen` from its centre: narrow ones have their half level elsewhere by themselves. Its fall is
+/// the blurred edge, summed around it.
+std::vector<double> blurredDisc(double seen, double sigma, double step) {
+  constexpr int kParts = 64;
+  const double radius = cylinderRadius(seen, sigma), s2 = sigma * sigma;
+  std::vector<double> profile(kSamples, 0.0);
+  double sum = 0;
+  for (std::size_t i = profile.size(); i-- > 0;) {
+    const double r = seen + (static_cast<double>(i) + 0.5 - 0.5 * (kSamples - 1)) * step;
+    double fall = 0;
+    for (int part = 0; part < kParts; ++part) {
+      const double c = std::cos(2 * std::numbers::pi * part / kParts);
+      fall += c * std::exp((2 * r * radius * c - r * r - radius * radius) / (2 * s2));
+    }
+    sum += fall * radius * step / (s2 * kParts);
+    profile[i] = sum;
+  }
+  return profile;
+}
+
+/// Nodes whose walls are measured: the wide ones, or the widest ones that there are, spread evenly.
+std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch* const> vessels,
+                                            double voxel) {
+  std::vector<const TrackedNode*> wide;
+  for (const double voxels : {kWide, kWideEnough}) {
+    wide.clear();
+    for (const TrackedBranch* branch : vessels)
+      for (const TrackedNode& node : branch->nodes)
+        if (node.radius >= voxels * voxel && node.points.size() >= kFewestPoints)
+          wide.push_back(&node);
+    if (wide.size() >= kLeastNodes) break;
+  }
+  if (wide.size() <= kMostNodes) return wide;
+  std::vector<const TrackedNode*> even;
+  for (std::size_t i = 0; i < kMostNodes; ++i) even.push_back(wide[i * wide.size() / kMostNodes]);
+  return even;
+}
+
+}  // namespace
+
+double cylinderRadius(double seen, double sigma) {
+  if (!(sigma > 0)) return seen;
+  const double q = seen * seen / (sigma * sigma);
+  if (q > kNearlyFlat) return seen * (1.0 + (0.5 - 0.375 / q) / q);
+  double low = 0.25 * q * q, high = (q + 1) * (q + 1);
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (besselTerm(middle) < q - 1 ? low : high) = middle;
+  }
+  return seen * std::sqrt(high) / q;
+}
+
+double ballRadius(double seen, double sigma) {
+  // both principal curvatures displace the wall by s^2/(2R)
+  return std::max(2.0 * cylinderRadius(seen, sigma) - seen, kLeastShare * seen);
+}
+
+std::optional<WallShape> measureWalls(const BsplineVolume& volume,
+                                      std::span<const TrackedBranch* const> vessels, bool dark) {
+  const double voxel = volume.geometry().voxelSize();
+  std::vector<double> spreads, halfLevels;
+  for (const TrackedNode* node : widestNodes(vessels, voxel)) {
+    const Fall fall = fallOf(meanProfile(volume, *node), dark ? -1.0 : 1.0);
+    if (fall.width == 0) continue;
+    const double spread = spreadOf(node->radius, fall.width * kSpacing * voxel);
+    if (!(spread > 0)) continue;
+    spreads.push_back(spread);
+    const Fall even = fallOf(blurredDisc(node->radius, spread, kSpacing * voxel), 1);
+    halfLevels.push_back((fall.halfLevel - even.halfLevel) * kSpacing * voxel);
+  }
+  if (spreads.size() < kLeastNodes) return std::nullopt;
+  const double halfLevel = median(std::move(halfLevels));
+  return WallShape{median(std::move(spreads)),
+                   std::abs(halfLevel) > kLopsided * voxel ? halfLevel : 0.0};
+}
+
+void correctWalls(TrackedBranch& branch, formats::BranchKind kind, const WallShape& shape) {
+  for (TrackedNode& node : branch.nodes) {
+    const bool vessel = kind == formats::BranchKind::Vessel;
+    const double most = kMostLopsided * node.radius;
+    const double seen = node.radius + std::clamp(shape.halfLevel, -most, most);
+    const double radius =
+        vessel ? cylinderRadius(seen, shape.pointSpread) : ballRadius(seen, shape.pointSpread);
+    for (formats::Vec3f& p : node.points) {
+      Vector3d outward = toEigen(p) - node.centre;
+      if (vessel) outward -= outward.dot(node.direction) * node.direction;
+      const Eigen::Vector3f shift = ((radius - node.radius) * outward.normalized()).cast<float>();
+      p.x += shift.x();
+      p.y += shift.y();
+      p.z += shift.z();
+    }
+    node.radius = radius;
+  }
+}
+
+}  // namespace lumen::convert

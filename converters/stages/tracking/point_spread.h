@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a volume's blur displaces the walls that its gradient shows, and how wide that blur is
+// (docs/method.md, section 1.9).
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "converters/stages/tracking/tracked_branch.h"
+#include "converters/voxels/bspline.h"
+
+namespace lumen::convert {
+
+/// The radius of the cylinder that, under an isotropic Gaussian blur of standard deviation `sigma`,
+/// has its steepest fall at the distance `seen` from its axis (all in one unit). The blurred disc
+/// of radius R falls by (R/s^2) exp(-(r^2 + R^2)/(2 s^2)) I1(r R/s^2), which is steepest where z
+/// I0(z)/I1(z) = (r/s)^2 + 1 with z = r R/s^2: about s^2/(2R) inside of the wall, and never nearer
+/// to the axis than s. There the radius cannot be told; the least that is returned is seen / 2.
+double cylinderRadius(double seen, double sigma);
+
+/// The same for the ball, whose wall is bent both ways: its steepest fall is about s^2/R inside.
+double ballRadius(double seen, double sigma);
+
+/// What the walls of the tracked vessels look like on average.
+struct WallShape {
+  /// mm, standard deviation of the Gaussian whose blur makes the walls as wide as they are: from the
+  /// width at half height of the derivative of the profile. It holds the voxel's own box and the
+  /// spline as well as the scanner.
+  double pointSpread = 0;
+  /// mm, outward of the steepest fall: where the intensity is halfway between lumen and background,
+  /// less what the blur of a round wall makes of that. 0 for an even lumen; less than 0 where it
+  /// darkens towards its wall.
+  double halfLevel = 0;
+};
+
+/// The medians over the widest nodes, each from the mean profile across its wall. Empty where fewer
+/// than eight nodes are wide enough to show it.
+std::optional<WallShape> measureWalls(const BsplineVolume& volume,
+                                      std::span<const TrackedBranch* const> vessels, bool dark);
+
+/// Moves radii and wall points from the steepest fall to the wall: to the half level, by at most a
+/// tenth of the radius, and outward by what the blur has displaced it; away from the node's axis in
+/// a vessel, from its centre in an aneurysm.
+void correctWalls(TrackedBranch& branch, formats::BranchKind kind, const WallShape& shape);
+
+}  // namespace lumen::convert

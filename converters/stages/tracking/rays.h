@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Candidate wall points around a centre (docs/method.md, section 1.2; Yureidini's thesis, 3.3).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/voxels/bspline.h"
+
+namespace lumen::convert {
+
+/// Length of the rays that look for the wall of a vessel, in radii expected of it (thesis section
+/// 3.3): those that reach a wall twice as far as expected still see it whole.
+constexpr double kRayRadii = 3.0;
+
+/// Wall candidates as a structure of arrays, in mm relative to `origin` (LPS mm).
+struct Candidates {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::vector<float> x, y, z;
+  std::vector<float> strength;  ///< drop of intensity across the wall, voxel units per mm, > 0
+
+  [[nodiscard]] std::size_t count() const { return x.size(); }
+  [[nodiscard]] Eigen::Vector3d offset(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void clear();
+};
+
+/// Casts rays along the vertices of an icosphere. Not thread-safe: one per thread.
+class RayCaster {
+public:
+  /// `directions`: unit, LPS. `dark`: vessels are darker than their background.
+  RayCaster(const BsplineVolume& volume, std::vector<Eigen::Vector3d> directions, int samples,
+            bool dark);
+
+  /// Rays of `length` mm from `centre` (LPS mm). On each, the place where the intensity falls
+  /// fastest, refined between samples by a parabola, if its distance t holds length/12 <= t <= 0.8
+  /// length. What lies outside the volume is not seen.
+  void cast(const Eigen::Vector3d& centre, double length, Candidates& out);
+
+  [[nodiscard]] std::size_t rayCount() const { return m_directions.size(); }
+
+private:
+  const BsplineVolume& m_volume;
+  std::vector<Eigen::Vector3d> m_directions, m_indexDirections;
+  std::vector<float> m_values;
+  float m_sign;
+};
+
+}  // namespace lumen::convert

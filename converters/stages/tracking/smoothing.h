@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// How strong noise alone looks to the tracker; how much smoothing a volume needs because of it, and
+// because of thick slices; and the spline of the volume smoothed so (docs/method.md, section 1.8).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/io/seeds/seeds.h"
+#include "converters/stages/tracking/rays.h"
+#include "converters/stages/tracking/track_options.h"
+
+namespace lumen::convert {
+
+/// The strength of the wall (voxel units per mm, as Candidates::strength) that rays find where
+/// there is no vessel: the lower quartile, over places spread evenly at random over the volume, of
+/// the median over the rays from that place. Zero for a background without noise. Depends on
+/// `options.seed`. However uneven the voxels are, the bricks of the spline that it needs are
+/// bounded: places are fewer where rays are long in the finest voxels. Throws Error(Cancelled).
+double noiseFloor(const BsplineVolume& volume, const TrackOptions& options,
+                  const Progress& progress);
+
+/// How much brighter (or darker, if `options.dark`) the vessels are than what is around them, voxel
+/// units: the median over the clicks (256 of them, if there are more) of the difference between a click and the lower quartile of
+/// what rays of sixteen voxels meet. Zero without clicks inside of the volume.
+double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
+                        const TrackOptions& options, const Progress& progress);
+
+/// Standard deviations, mm, of the Gaussian along each index axis: `smoothing`, and if `evenBlur`
+/// what the finer axes need to be about as blurred as one that is more than 1.5 times as coarse.
+/// Without that a round vessel is an ellipse in thick slices, which no cylinder fits. At most what
+/// BsplineVolume takes.
+Eigen::Vector3d smoothingAlongAxes(const VolumeGeometry& geometry, double smoothing, bool evenBlur);
+
+struct SmoothedVolume {
+  std::unique_ptr<BsplineVolume> spline;
+  double smoothing = 0;   ///< mm, without what makes the blur even
+  double noiseFloor = 0;  ///< of `spline`
+};
+
+/// The spline that a volume is tracked in, and its noise floor: smoothed as `options` say, or else
+/// as little as it takes, of steps up to 1.25 voxels, for the wall of a vessel of the clicks'
+/// contrast to be six times as strong as noise; not at all if that takes more, since the clicks are
+/// then on nothing that can be told from noise. The seeds are needed for their contrast only.
+SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                              const TrackOptions& options, const Progress& progress);
+
+}  // namespace lumen::convert

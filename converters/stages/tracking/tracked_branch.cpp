@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/tracking/tracked_branch.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Of a radius: a centre that is nearer to another vessel's axis is in that vessel; so much of a
+/// narrower one's own radius is.
+constexpr double kCore = 0.5;
+
+/// Closest point to `p` on the segment a-b, as a fraction of it.
+double fractionOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
+  const double length2 = (b - a).squaredNorm();
+  return length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
+}
+
+}  // namespace
+
+TrackedNode reversed(TrackedNode node) {
+  node.direction = -node.direction;
+  return node;
+}
+
+void reverseTrack(std::vector<TrackedNode>& nodes) {
+  std::reverse(nodes.begin(), nodes.end());
+  for (TrackedNode& node : nodes) node = reversed(std::move(node));
+}
+
+ChainPoint closestOnChain(std::span<const TrackedNode> chain, const Vector3d& point) {
+  ChainPoint best;
+  best.distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const std::size_t next = std::min(i + 1, chain.size() - 1);
+    const TrackedNode &a = chain[i], &b = chain[next];
+    const double t = fractionOnSegment(a.centre, b.centre, point);
+    const Vector3d at = a.centre + t * (b.centre - a.centre);
+    const double distance = (point - at).norm();
+    if (distance < best.distance)
+      best = {at, a.radius + t * (b.radius - a.radius), distance, t < 0.5 ? i : next};
+  }
+  return best;
+}
+
+void turnRound(TrackedBranch& branch) {
+  reverseTrack(branch.nodes);
+  branch.clickNode = branch.nodes.size() - 1 - std::min(branch.clickNode, branch.nodes.size() - 1);
+  std::swap(branch.stopReason, branch.startReason);
+  std::swap(branch.goesOn, branch.startGoesOn);
+}
+
+bool inCore(std::span<const TrackedBranch* const> branches, const TrackedNode& node) {
+  return std::any_of(branches.begin(), branches.end(), [&](const TrackedBranch* branch) {
+    if (branch->nodes.empty()) return false;
+    const ChainPoint closest = closestOnChain(branch->nodes, node.centre);
+    const double core = std::max(kCore * closest.radius, closest.radius - kCore * node.radius);
+    return closest.distance < core;
+  });
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/tracking/tracking_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "converters/base/edit_steps.h"
+#include "converters/base/recorded_options.h"
+#include "converters/stages/tracking/known_tracks.h"
+
+namespace lumen::convert {
+namespace {
+
+/// The variance of a box is the square of its edge over this.
+constexpr double kEdgesToVariance = 12.0;
+
+/// The most that one edge of a voxel may be of another: beyond, rays of a vessel's size cross nothing
+/// along the one axis and thousands of voxels along the other.
+constexpr double kMostUneven = 1000.0;
+
+void checkVoxels(const Eigen::Vector3d& spacing) {
+  const double uneven = spacing.maxCoeff() / spacing.minCoeff();
+  if (uneven <= kMostUneven) return;
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(),
+                "the volume's voxels are %g x %g x %g mm, one edge %.3g times another; expected at "
+                "most %g times: if the spacing is wrong, --spacing states it, else resample",
+                spacing.x(), spacing.y(), spacing.z(), uneven, kMostUneven);
+  throw invalidInput(text.data());
+}
+
+/// Times the contrast of the vessels as they should be: if they have so much the other way, they are
+/// the other way.
+constexpr double kOtherWay = 4.0;
+
+void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                     const TrackOptions& options, Progress& progress) {
+  const Eigen::Vector3d& spacing = volume.geometry.spacing;
+  const double most = BsplineVolume::kMostSmoothing * spacing.minCoeff();
+  const BsplineVolume spline(
+      volume, Eigen::Vector3d::Constant(std::min(volume.geometry.voxelSize(), most)));
+  TrackOptions other = options;
+  other.dark = !options.dark;
+  const double contrast = contrastAtClicks(spline, seeds, options, progress);
+  if (contrastAtClicks(spline, seeds, other, progress) <= kOtherWay * contrast) return;
+  progress.warn(
+      options.dark ? "most seeds lie where it is brighter than around them, but --dark tracks dark "
+                     "vessels: leave it out if vessels are bright"
+                   : "most seeds lie where it is darker than around them: if vessels are dark, add "
+                     "--dark");
+}
+
+TrackOptions optionsFor(const formats::Case& tracked) {
+  if (auto options = recordedTrackOptions(tracked)) return *std::move(options);
+  throw invalidInput(
+      "the case has no \"track\" step; expected one whose vessels were tracked in this volume");
+}
+
+/// The middle of every vessel, as clicks.
+std::vector<SeedBranch> clicksOf(const formats::Case& tracked) {
+  std::vector<SeedBranch> clicks;
+  for (const formats::Branch& branch : tracked.tree.branches) {
+    if (branch.kind != formats::BranchKind::Vessel) continue;
+    SeedBranch click;
+    const auto& c = tracked.tree.centre[branch.firstNode + branch.nodeCount / 2];
+    click.points.push_back({{c.x, c.y, c.z}, std::nullopt});
+    clicks.push_back(std::move(click));
+  }
+  return clicks;
+}
+
+}  // namespace
+
+std::optional<TrackOptions> recordedTrackOptions(const formats::Case& value) {
+  const formats::Step* step = lastStep(value.metadata, "track");
+  if (!step) return std::nullopt;
+  const RecordedOptions recorded(*step);
+  TrackOptions o;
+  recorded.read("inlier-rate", o.inlierRate);
+  recorded.read("inlier-band", o.inlierBand);
+  recorded.read("rays", o.rays);
+  recorded.read("axes", o.axes);
+  recorded.read("samples", o.samples);
+  recorded.read("min-trials", o.minTrials);
+  recorded.read("max-trials", o.maxTrials);
+  recorded.read("step", o.step);
+  recorded.read("noise-margin", o.noiseMargin);
+  recorded.read("look-ahead", o.lookAhead);
+  recorded.read("branch-offset", o.branchOffset);
+  recorded.read("aneurysm-gradient", o.aneurysmGradient);
+  recorded.read("max-nodes", o.maxNodes);
+  recorded.read("dark", o.dark);
+  recorded.read("even-blur", o.evenBlur);
+  recorded.read("smoothing", o.smoothing);
+  recorded.read("point-spread", o.pointSpread);
+  std::int64_t seed = static_cast<std::int64_t>(o.seed);
+  recorded.read("random-seed", seed);
+  o.seed = static_cast<std::uint64_t>(seed);
+  return o;
+}
+
+WallShape wallShapeOf(const TrackingVolume& volume, const std::vector<SeedBranch>& seeds,
+                      const std::vector<TrackedBranch>& branches) {
+  std::vector<const TrackedBranch*> vessels;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    if (seeds[i].kind == formats::BranchKind::Vessel) vessels.push_back(&branches[i]);
+  const VolumeGeometry& geometry = volume.geometry();
+  const double edge =
+      volume.options().evenBlur ? geometry.spacing.maxCoeff() : geometry.voxelSize();
+  const double smoothing = volume.options().smoothing.value_or(0);
+  const double least = std::sqrt(smoothing * smoothing + edge * edge / kEdgesToVariance);
+  return measureWalls(volume.spline(), vessels, volume.options().dark)
+      .value_or(WallShape{least, 0});
+}
+
+TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracked,
+                               Progress& progress)
+    : m_options(optionsFor(tracked)) {
+  m_options.check(volume.geometry.spacing.minCoeff());
+  checkVoxels(volume.geometry.spacing);
+  m_smoothed = smoothForNoise(volume, clicksOf(tracked), m_options, progress);
+  m_options.smoothing = m_smoothed.smoothing;
+  const KnownTracks known(tracked);
+  m_wallShape = wallShapeOf(*this, known.seeds, known.branches);
+  if (!m_options.pointSpread) return;
+  m_wallShape->pointSpread = *m_options.pointSpread;
+  if (*m_options.pointSpread == 0) m_wallShape->halfLevel = 0;
+}
+
+TrackingVolume::TrackingVolume(const Volume& volume, const std::vector<SeedBranch>& clicks,
+                               const TrackOptions& options, Progress& progress)
+    : m_options(options) {
+  m_options.check(volume.geometry.spacing.minCoeff());
+  checkVoxels(volume.geometry.spacing);
+  warnOfOtherSign(volume, clicks, options, progress);
+  m_smoothed = smoothForNoise(volume, clicks, options, progress);
+  m_options.smoothing = m_smoothed.smoothing;
+  if (options.pointSpread) m_wallShape = WallShape{*options.pointSpread, 0};
+}
+
+}  // namespace lumen::convert

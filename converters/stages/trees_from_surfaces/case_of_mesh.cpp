@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/trees_from_surfaces/case_of_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "converters/base/error.h"
+#include "converters/geometry/triangle_tree.h"
+#include "converters/stages/repair/repair.h"
+#include "converters/stages/trees_from_surfaces/closed_mesh.h"
+#include "converters/stages/trees_from_surfaces/inner_side.h"
+#include "converters/stages/trees_from_surfaces/inside_voxels.h"
+#include "converters/stages/trees_from_surfaces/nodes_on_lines.h"
+#include "converters/stages/trees_from_surfaces/vessel_lines.h"
+
+namespace lumen::convert {
+namespace {
+
+/// Of the voxel of the search: half the least width that it can tell.
+constexpr double kLeastRadius = 0.5;
+
+/// "The surface has 3 loops; 2 of them became links". Empty if there are as many.
+std::string loopsNote(const ClosedMesh& surface, const formats::CenterlineTree& tree) {
+  std::size_t roots = 0;
+  for (const formats::Branch& branch : tree.branches) roots += branch.parentNode < 0 ? 1 : 0;
+  const std::int64_t handles =
+      static_cast<std::int64_t>(roots) - eulerCharacteristic(surface.mesh) / 2;
+  const auto links = static_cast<std::int64_t>(tree.links.size());
+  if (handles <= 0 || handles == links) return {};
+  return "the surface has " + std::to_string(handles) + (handles == 1 ? " loop; " : " loops; ") +
+         std::to_string(links) + " of the tree are closed by a link";
+}
+
+/// A surface without openings of which no part is in another, and which is no wall with a thickness: of one that is,
+/// the inner side. Says in `notes` what was left out.
+ClosedMesh lumenSurface(TriangleMesh mesh, const std::string& name, std::vector<std::string>& notes,
+                        const Progress& progress) {
+  UnnestedMesh apart = unnested(std::move(mesh));
+  if (apart.outer > 0)
+    notes.push_back(name +
+                    ": this is a wall with a thickness, its inner and outer side apart; the inner "
+                    "side was taken for the lumen");
+  if (apart.enclosed > 0)
+    notes.push_back(name + ": " + std::to_string(apart.enclosed) +
+                    (apart.enclosed == 1 ? " part that lies" : " parts that lie") +
+                    " within another one was left out");
+  ClosedMesh surface = closeMesh(std::move(apart.mesh));
+  const auto inner = innerSide(surface, TriangleTree(surface.mesh), progress);
+  if (!inner) return surface;
+  const std::string wall = name + ": this is the surface of a wall that has a thickness";
+  const std::size_t taken = inner->triangle.size(), all = surface.mesh.triangle.size();
+  RepairResult repaired;
+  try {
+    repaired = repairMesh(*inner, name, progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::InvalidInput) throw;
+    throw invalidInput(wall +
+                       ", inner and outer side in one, and its inner side alone encloses no lumen; "
+                       "expected the surface of the lumen");
+  }
+  notes.push_back(wall + "; its inner side, " + std::to_string(taken) + " of " +
+                  std::to_string(all) + " triangles, was taken for the lumen");
+  return closeMesh(std::move(repaired.mesh));
+}
+
+}  // namespace
+
+MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
+                    const std::optional<GivenCenterline>& centerline,
+                    const std::map<std::string, formats::ParameterValue>& parameters,
+                    Progress& progress) {
+  std::vector<std::string> notes;
+  const ClosedMesh surface = lumenSurface(std::move(mesh), name, notes, progress);
+  MeshCase out = caseOfLumen(surface, 0, name, centerline, parameters, progress);
+  out.notes.insert(out.notes.begin(), notes.begin(), notes.end());
+  return out;
+}
+
+MeshCase caseOfLumen(const ClosedMesh& surface, double resolution, const std::string& name,
+                     const std::optional<GivenCenterline>& centerline,
+                     const std::map<std::string, formats::ParameterValue>& parameters,
+                     Progress& progress) {
+  MeshCase out;
+  if (std::all_of(surface.end.begin(), surface.end.end(),
+                  [](std::uint32_t end) { return end != ClosedMesh::kWall; }))
+    throw invalidInput(name + ": this surface has no wall of a vessel, only flat ends");
+  const LumenGeometry lumen(surface);
+  const double width = leastWidth(surface, lumen.tree());
+  if (!(width > 0))
+    throw invalidInput(name +
+                       ": no ray from this surface's wall meets the wall on the other side; "
+                       "it encloses no vessel");
+  const VolumeGeometry grid = insideGrid(surface, std::max(width, resolution));
+  progress.begin("tree", 0);
+  const VesselLines lines = centerline ? linesOf(centerline->file, centerline->name, lumen)
+                                       : findLines(lumen, grid, progress);
+  progress.end();
+  if (lines.lines.empty())
+    throw invalidInput(name + ": no vessel was found inside of this surface");
+  out.notes.insert(out.notes.end(), lines.notes.begin(), lines.notes.end());
+  out.result = nodesOnLines(lines.lines, lumen, kLeastRadius * grid.voxelSize(), progress);
+  if (const std::string note = loopsNote(surface, out.result.tree); !note.empty())
+    out.notes.push_back(name + ": " + note);
+  out.result.metadata.voxelSize = grid.voxelSize();
+  formats::Step step{"surface", "lumen " LUMEN_VERSION, parameters};
+  step.parameters["cell"] = grid.voxelSize();
+  step.parameters["centerline"] = centerline.has_value();
+  out.result.metadata.steps.push_back(std::move(step));
+  return out;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vessels of a surface that comes without a centerline.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/stages/trees_from_surfaces/inside_voxels.h"
+#include "converters/stages/trees_from_surfaces/vessel_lines.h"
+#include "converters/stages/trees_from_surfaces/vessel_ways.h"
+#include "converters/voxels/voxel_set.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint32_t kNone = VesselWay::kNone;
+constexpr std::size_t kLeastPart = 27;  // voxels of a part that may be a vessel
+constexpr double kTip = 4;              // depths from a tip: what says how wide the vessel is there
+constexpr double kReach = 4;            // depths from where a way is trimmed to the vessel's end
+
+/// From the inside as voxels to lines.
+class LineFinder {
+public:
+  LineFinder(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress)
+      : m_lumen(lumen),
+        m_set(grid, insideVoxels(lumen.surface().mesh, grid, progress)),
+        m_depths(m_set.size()),
+        m_isOpen(
+            [&lumen](const Vector3d& a, const Vector3d& b) { return lumen.tree().isFree(a, b); }),
+        m_ways((measure(progress), m_set), m_depths, m_isOpen, progress),
+        m_progress(progress) {}
+
+  VesselLines find() {
+    const std::vector<std::uint32_t> atEnd = voxelsAtEnds();
+    std::vector<bool> isSeen(m_set.size(), false);
+    std::size_t small = 0;
+    for (std::uint32_t i = 0; i < m_set.size(); ++i) {
+      if (isSeen[i]) continue;
+      const std::vector<std::uint32_t> part = m_ways.partOf(i);
+      for (const std::uint32_t j : part) isSeen[j] = true;
+      if (part.size() < kLeastPart) {
+        ++small;
+        continue;
+      }
+      addPart(rootOf(atEnd, part));
+    }
+    if (small > 0)
+      m_out.notes.push_back(std::to_string(small) + " part" + (small == 1 ? "" : "s") +
+                            " of the inside smaller than " + std::to_string(kLeastPart) +
+                            " voxels of " + std::to_string(m_set.geometry().voxelSize()) +
+                            " mm left out");
+    return std::move(m_out);
+  }
+
+private:
+  void measure(Progress& progress) {
+    progress.begin("depth", 0);
+    tbb::parallel_for(
+        std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()), [&](std::uint32_t i) {
+          if (i % 1024 == 0) progress.check();
+          m_depths[i] = static_cast<float>(m_lumen.tree().nearest(m_set.position(i)).distance);
+        });
+    progress.end();
+  }
+
+  /// For each flat end the nearest voxel inside, or kNone.
+  [[nodiscard]] std::vector<std::uint32_t> voxelsAtEnds() const {
+    const VolumeGeometry& grid = m_set.geometry();
+    std::vector<std::uint32_t> out;
+    for (const MeshEnd& end : m_lumen.surface().ends) {
+      const Vector3d at = grid.indexFromWorld(end.centre - 1.5 * grid.voxelSize() * end.normal);
+      std::uint32_t best = kNone;
+      double least = 0;
+      for (int k = 0; k < 125; ++k) {
+        const Vector3d near(std::round(at.x()) + k % 5 - 2, std::round(at.y()) + k / 5 % 5 - 2,
+                            std::round(at.z()) + k / 25 - 2);
+        if (!grid.containsIndex(near)) continue;
+        const auto index = static_cast<std::size_t>(
+            near.x() + grid.size[0] * (near.y() + grid.size[1] * near.z()));
+        const std::uint32_t voxel = m_set.find(index);
+        if (voxel == VoxelSet::kNone) continue;
+        const double away = (near - at).squaredNorm();
+        if (best != kNone && away >= least) continue;
+        best = voxel;
+        least = away;
+      }
+      out.push_back(best);
+    }
+    return out;
+  }
+
+  /// Where the widest vessel of a part comes in.
+  std::uint32_t rootOf(const std::vector<std::uint32_t>& atEnd,
+                       const std::vector<std::uint32_t>& part) {
+    std::vector<std::uint32_t> sorted = part;
+    std::sort(sorted.begin(), sorted.end());
+    std::uint32_t best = kNone;
+    double widest = 0;
+    for (std::size_t e = 0; e < atEnd.size(); ++e)
+      if (std::binary_search(sorted.begin(), sorted.end(), atEnd[e]) &&
+          m_lumen.surface().ends[e].radius > widest) {
+        widest = m_lumen.surface().ends[e].radius;
+        best = atEnd[e];
+      }
+    if (best != kNone) return best;
+    const std::uint32_t far = m_ways.farthest(part.front(), m_progress);
+    const std::vector<VesselWay> ways = m_ways.find(far, m_progress);
+    for (const VesselWay& way : ways) {
+      if (way.isSac || way.meets != kNone) continue;
+      const auto tipFirst = [&](bool isStart) {
+        std::vector<std::uint32_t> voxels = way.voxels;
+        if (!isStart) std::reverse(voxels.begin(), voxels.end());
+        const double width = widthAtTip(voxels);
+        if (width <= widest) return;
+        widest = width;
+        best = voxels.front();
+      };
+      tipFirst(false);
+      if (way.parent == kNone) tipFirst(true);
+    }
+    return best == kNone ? far : best;
+  }
+
+  /// The least depth from where the greatest ball at a tip is to a few depths on.
+  [[nodiscard]] double widthAtTip(const std::vector<std::uint32_t>& voxels) const {
+    double width = 0;
+    const Vector3d tip = m_set.position(voxels.front());
+    for (const std::uint32_t i : voxels) {
+      const auto depth = static_cast<double>(m_depths[i]);
+      const double away = (m_set.position(i) - tip).norm();
+      if (away < depth) continue;
+      if (width == 0) width = depth;
+      width = std::min(width, depth);
+      if (away > kTip * depth) break;
+    }
+    return width;
+  }
+
+  void addPart(std::uint32_t root) {
+    const std::vector<VesselWay> ways = m_ways.find(root, m_progress);
+    const std::size_t first = m_out.lines.size();
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+      m_progress.check();
+      m_out.lines.push_back(lineOf(ways, w, first));
+    }
+  }
+
+  /// Whether another way comes to the tip of this one round a loop.
+  [[nodiscard]] bool isMetAtTip(const std::vector<VesselWay>& ways, std::size_t w) const {
+    const Vector3d tip = m_set.position(ways[w].voxels.back());
+    return std::any_of(ways.begin(), ways.end(), [&](const VesselWay& other) {
+      if (other.meets != w) return false;
+      const std::uint32_t at = ways[w].voxels[other.meetsVoxel];
+      return (m_set.position(at) - tip).norm() < 2 * static_cast<double>(m_depths[at]);
+    });
+  }
+
+  /// The nearest point of a line that no wall hides from `from`; `from` itself if there is none.
+  [[nodiscard]] Vector3d nearestSeen(const VesselLine& line, const Vector3d& from) const {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < line.point.size(); ++i)
+      order.emplace_back((line.point[i] - from).squaredNorm(), i);
+    std::sort(order.begin(), order.end());
+    const auto seen = std::find_if(order.begin(), order.end(), [&](const auto& entry) {
+      return m_isOpen(from, line.point[entry.second]);
+    });
+    return seen == order.end() ? from : line.point[seen->second];
+  }
+
+  VesselLine lineOf(const std::vector<VesselWay>& ways, std::size_t w, std::size_t first) const {
+    const VesselWay& way = ways[w];
+    VesselLine line;
+    line.label = "vessel-" + std::to_string(first + w + 1);
+    line.isSac = way.isSac;
+    for (const std::uint32_t i : way.voxels) line.point.push_back(m_set.position(i));
+    const VesselLine* parent = nullptr;
+    if (way.parent != kNone) {
+      line.parent = static_cast<int>(first + way.parent);
+      parent = &m_out.lines[first + way.parent];
+      line.point.front() = nearestSeen(*parent, line.point.front());
+    } else {
+      trim(line, true, m_lumen);
+    }
+    if (way.meets != kNone) {
+      line.meets = static_cast<int>(first + way.meets);
+      const Vector3d tip = line.point.back();
+      const Vector3d meeting = nearestSeen(m_out.lines[first + way.meets], tip);
+      if (meeting != tip) line.point.push_back(meeting);
+    }
+    const bool goesOn = way.meets != kNone || isMetAtTip(ways, w);
+    if (!goesOn) trim(line, false, m_lumen);
+    centre(line, parent, m_lumen);
+    if (!parent) extend(line, true, kReach, m_lumen);
+    if (!goesOn) extend(line, false, kReach, m_lumen);
+    return line;
+  }
+
+  const LumenGeometry& m_lumen;
+  VoxelSet m_set;
+  std::vector<float> m_depths;
+  VesselWays::IsOpen m_isOpen;
+  VesselWays m_ways;
+  Progress& m_progress;
+  VesselLines m_out;
+};
+
+}  // namespace
+
+VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress) {
+  return LineFinder(lumen, grid, progress).find();
+}
+
+}  // namespace lumen::convert

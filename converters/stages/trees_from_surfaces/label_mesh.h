@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Labels of a volume as a closed surface.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/geometry/triangle_mesh.h"
+#include "converters/voxels/volume.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+/// The names of labels by their values, which are not 0.
+using LabelNames = std::map<std::int64_t, std::string>;
+
+/// Voxels of a volume: of each the place of its label among the names, counted from 1; 0 for all
+/// others.
+struct LabelMask {
+  VolumeGeometry geometry;
+  std::vector<std::uint8_t> label;
+  std::vector<std::string> names;
+};
+
+/// The voxels with these labels; all but 0, called "label-N", if `wanted` is empty. Throws
+/// Error(InvalidInput), `name` (of the file, printable) first, for voxels that are no whole numbers,
+/// more than 255 labels, and a label that no voxel has, with those that there are.
+LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::string& name);
+
+struct LabelSurface {
+  /// mm, LPS, oriented, manifold, and closed but where the volume cuts vessels off.
+  TriangleMesh mesh;
+  std::size_t cavities = 0;  ///< holes within that were filled
+};
+
+/// The surface of all labels in one (docs/method.md, section 10): their voxels, smoothed by a kernel
+/// whose second moments are zero, so that round walls stay where they are. No voxel's centre changes
+/// sides. Vessels that the volume cuts off are open there, half a voxel beyond the last centres. Memory: a byte a voxel, and what is near to labels. The same bits on any number of
+/// threads. Throws Error(Cancelled).
+LabelSurface surfaceOf(const LabelMask& mask, const Progress& progress);
+
+/// Names each branch by the label that most of its nodes lie in, "NAME", "NAME-2" and so on along
+/// the tree; one that lies in none keeps its name.
+void nameBranches(const LabelMask& mask, formats::Case& value);
+
+}  // namespace lumen::convert

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// The course of a vessel inside of a surface, before it gets nodes.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/geometry/triangle_tree.h"
+#include "converters/stages/trees_from_surfaces/closed_mesh.h"
+
+namespace lumen::convert {
+
+struct VesselLine {
+  std::string label;
+  std::vector<Eigen::Vector3d> point;  ///< mm, LPS, away from the parent, on whose line it begins
+  int parent = -1;                     ///< a line before this one, or -1
+  int meets = -1;                      ///< the line that the last point joins: a loop; or -1
+  bool isSac = false;
+  bool reachesStart = false;  ///< its first point is where the lumen ends, not a place in it
+  bool reachesEnd = false;    ///< the same of its last point
+};
+
+/// Where lumens begin and end, how wide they are, and what is on the axis of another.
+class LumenGeometry {
+public:
+  /// `surface` must stay; not all of it is ends.
+  explicit LumenGeometry(const ClosedMesh& surface)
+      : m_surface(surface), m_wall(wallOf(surface)), m_tree(surface.mesh), m_wallTree(m_wall) {}
+  LumenGeometry(const LumenGeometry&) = delete;
+  LumenGeometry& operator=(const LumenGeometry&) = delete;
+  [[nodiscard]] const ClosedMesh& surface() const { return m_surface; }
+  [[nodiscard]] const TriangleTree& tree() const { return m_tree; }
+  /// mm to the wall; flat ends are none.
+  [[nodiscard]] double depth(const Eigen::Vector3d& point) const {
+    return m_wallTree.nearest(point).distance;
+  }
+  /// The triangle is part of a vessel's wall, and not of a flat end.
+  [[nodiscard]] bool isWall(std::uint32_t triangle) const {
+    return m_surface.end[triangle] == ClosedMesh::kWall;
+  }
+
+private:
+  static TriangleMesh wallOf(const ClosedMesh& surface);
+  const ClosedMesh& m_surface;
+  TriangleMesh m_wall;
+  TriangleTree m_tree, m_wallTree;
+};
+
+/// Lengths from the first point to each, mm.
+std::vector<double> lengthsAlong(std::span<const Eigen::Vector3d> line);
+
+/// The place at `length` mm along a polyline of two points or more with these lengths.
+Eigen::Vector3d placeAt(std::span<const Eigen::Vector3d> line, std::span<const double> lengths,
+                        double length);
+
+/// How wide the lumen is along a line, mm: at each point its depth, or that of a point of the line less half the way
+/// there, so that round ends are not thin.
+std::vector<double> widthsAlong(std::span<const Eigen::Vector3d> line, const LumenGeometry& lumen);
+
+/// The unit direction of a line at one of its points, over `reach` mm on either side.
+Eigen::Vector3d courseAt(std::span<const Eigen::Vector3d> line, std::size_t i, double reach);
+
+/// mm from a point to a line, and the line's nearest point.
+std::pair<double, std::size_t> distanceTo(std::span<const Eigen::Vector3d> line,
+                                          const Eigen::Vector3d& point);
+
+/// What evenly() puts between two points, of the width.
+constexpr double kLineStep = 0.25;
+
+/// The same course by points that are a quarter of its width apart; both ends stay.
+std::vector<Eigen::Vector3d> evenly(std::span<const Eigen::Vector3d> line,
+                                    const LumenGeometry& lumen);
+
+/// Moves the points of a line, but the first and the last, into the middle of the lumen: to the centroids of the
+/// sections across it, as far as 1.6 times the median of each section's rays. Points that lie within the lumen of
+/// `parent` (which may be null), and its wall around them, stay on a smooth way.
+void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lumen);
+
+/// Takes off the last point of a way through voxels: what is nearer to its tip than the wall is; `atStart`: the first.
+void trim(VesselLine& line, bool atStart, const LumenGeometry& lumen);
+
+/// Lets the line end where its lumen does: straight on to the wall, or to the centre of the flat end that is there,
+/// if that is within `reach` depths.
+void extend(VesselLine& line, bool atStart, double reach, const LumenGeometry& lumen);
+
+}  // namespace lumen::convert

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/voxels/bspline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "converters/base/simd.h"
+#include "formats/case/blobby.h"
+
+namespace lumen::convert {
+namespace {
+
+// A brick serves kBrick^3 cells. A sample in cell i reads coefficients i-1 .. i+2, so each axis
+// stores kBrick + 3 of them and every 4x4x4 support lies in one brick. Rows are padded to a
+// multiple of 4.
+constexpr int kBrickShift = 5;
+constexpr int kBrick = 1 << kBrickShift;
+constexpr int kStored = kBrick + 3;
+constexpr int kRow = kStored + 1;
+constexpr int kPlane = kRow * kStored;
+constexpr std::size_t kBrickFloats = static_cast<std::size_t>(kPlane) * kStored;
+
+// The prefilter's impulse response is sqrt(3) z^|n| with z = sqrt(3) - 2. Cut after kHalo terms on
+// each side, its tail is at most 2e-7 of the voxels' range, the size of float rounding.
+constexpr int kHalo = 12;
+constexpr int kPadded = kStored + 2 * kHalo;
+constexpr int kPaddedRow = (kPadded + 3) / 4 * 4;
+
+using Taps = std::array<float, kHalo + 1>;
+
+/// One side of the truncated symmetric filter, scaled so that a constant stays what it is: the
+/// prefilter after a Gaussian of `sigma` voxels.
+Taps makeTaps(double sigma) {
+  const double pole = std::sqrt(3.0) - 2.0;
+  std::array<double, 4 * kHalo + 1> gauss{1.0}, prefilter{1.0};
+  for (std::size_t n = 1; n < gauss.size(); ++n) {
+    const double x = static_cast<double>(n);
+    gauss[n] = sigma > 0 ? formats::repeatableExp(-0.5 * x * x / (sigma * sigma)) : 0.0;
+    prefilter[n] = prefilter[n - 1] * pole;
+  }
+  std::array<double, kHalo + 1> exact{};
+  double sum = 0;
+  for (int n = 0; n <= kHalo; ++n) {
+    double& tap = exact[static_cast<std::size_t>(n)];
+    for (int m = -3 * kHalo; m <= 3 * kHalo; ++m)
+      tap += gauss[static_cast<std::size_t>(std::abs(m))] *
+             prefilter[static_cast<std::size_t>(std::abs(n - m))];
+    sum += n == 0 ? tap : 2 * tap;
+  }
+  Taps taps{};
+  for (std::size_t n = 0; n < taps.size(); ++n) taps[n] = static_cast<float>(exact[n] / sum);
+  return taps;
+}
+
+/// out[x] = sum_n taps[|n|] in[x + n * stride] for `count` adjacent x.
+LUMEN_SIMD_CLONES
+void filterRun(const float* __restrict in, std::ptrdiff_t stride, const float* __restrict taps,
+               float* __restrict out, int count) {
+  for (int x = 0; x < count; ++x) {
+    float sum = taps[0] * in[x];
+    for (std::ptrdiff_t n = 1; n <= kHalo; ++n)
+      sum += taps[n] * (in[x - n * stride] + in[x + n * stride]);
+    out[x] = sum;
+  }
+}
+
+/// Index `i` of the infinite signal that repeats voxels 0 .. n-1 mirrored about both end voxels.
+int mirror(int i, int n) {
+  if (n == 1) return 0;
+  const int period = 2 * (n - 1);
+  i %= period;
+  if (i < 0) i += period;
+  return i < n ? i : period - i;
+}
+
+/// The weights of coefficients i-1 .. i+2 at i + t, t in [0, 1].
+std::array<double, 4> weightsAt(double t) {
+  const double u = 1 - t;
+  return {u * u * u / 6, 2.0 / 3 + t * t * (t / 2 - 1), 2.0 / 3 + u * u * (u / 2 - 1),
+          t * t * t / 6};
+}
+
+// ---- blocks of samples on a line ----
+
+constexpr int kBlock = 64;
+using BlockFloats = std::array<float, kBlock>;
+
+/// Samples as a structure of arrays.
+struct alignas(64) Block {
+  std::array<BlockFloats, 3> t;  ///< place inside the cell
+  std::array<std::array<int, kBlock>, 3> cell;
+  std::array<int, kBlock> inside;         ///< 0 or 1
+  std::array<int, kBlock> brick, offset;  ///< which brick, and where the 4x4x4 support begins in it
+  std::array<const float*, kBlock> support;  ///< null outside
+  std::array<std::array<BlockFloats, 4>, 3> weight;
+};
+
+/// What `locate` needs to know of a line and of the volume.
+struct LineSetup {
+  std::array<double, 3> start, step, highest;
+  std::array<int, 3> lastCell, bricks;
+};
+
+/// Fills all of a block but `support`, for samples first .. first + kBlock - 1 of the line.
+LUMEN_SIMD_CLONES
+void locate(const LineSetup& line, int first, Block& block) {
+  block.inside.fill(1);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double start = line.start[a], step = line.step[a], highest = line.highest[a];
+    const int lastCell = line.lastCell[a];
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      const double at = start + static_cast<double>(first + static_cast<int>(i)) * step;
+      const bool inside = (at >= 0) & (at <= highest);
+      const double safe = inside ? at : 0.0;
+      int cell = static_cast<int>(safe);
+      cell = cell < lastCell ? cell : lastCell;
+      block.inside[i] &= inside ? 1 : 0;
+      block.cell[a][i] = cell;
+      block.t[a][i] = static_cast<float>(safe - static_cast<double>(cell));
+    }
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      const float t = block.t[a][i], u = 1 - t;
+      block.weight[a][0][i] = u * u * u * (1.0F / 6);
+      block.weight[a][1][i] = 2.0F / 3 + t * t * (0.5F * t - 1);
+      block.weight[a][2][i] = 2.0F / 3 + u * u * (0.5F * u - 1);
+      block.weight[a][3][i] = t * t * t * (1.0F / 6);
+    }
+  }
+  constexpr int mask = kBrick - 1;
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    const int x = block.cell[0][i], y = block.cell[1][i], z = block.cell[2][i];
+    block.brick[i] = ((z >> kBrickShift) * line.bricks[1] + (y >> kBrickShift)) * line.bricks[0] +
+                     (x >> kBrickShift);
+    block.offset[i] = (z & mask) * kPlane + (y & mask) * kRow + (x & mask);
+  }
+}
+
+// Four coefficients of a row. The width is the same in every clone, and so is the order of the
+// sums.
+typedef float Lanes __attribute__((vector_size(16)));
+
+inline Lanes lanesAt(const float* p) {
+  Lanes v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+/// The 64-term sum of each sample: over y, then z, in four lanes of x, and these at last.
+LUMEN_SIMD_CLONES
+void interpolate(const Block& block, std::size_t count, float* out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* plane = block.support[i];
+    if (plane == nullptr) {
+      out[i] = std::numeric_limits<float>::quiet_NaN();
+      continue;
+    }
+    const auto& [wx, wy, wz] = block.weight;
+    Lanes sum{};
+    for (std::size_t k = 0; k < 4; ++k, plane += kPlane)
+      sum += wz[k][i] *
+             ((wy[0][i] * lanesAt(plane) + wy[1][i] * lanesAt(plane + kRow)) +
+              (wy[2][i] * lanesAt(plane + 2 * kRow) + wy[3][i] * lanesAt(plane + 3 * kRow)));
+    sum *= Lanes{wx[0][i], wx[1][i], wx[2][i], wx[3][i]};
+    out[i] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
+}
+
+}  // namespace
+
+struct BsplineVolume::Bricks {
+  const Volume& volume;
+  std::array<int, 3> lastCell{};  ///< cells are 0 .. lastCell; a single voxel still makes one cell
+  std::array<int, 3> count{};     ///< bricks along each axis
+  std::array<Taps, 3> taps;
+  std::vector<std::atomic<float*>> coefficients;
+  std::atomic<std::size_t> built{0};
+
+  Bricks(const Volume& v, const Eigen::Vector3d& smoothing) : volume(v) {
+    std::size_t total = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto axis = static_cast<Eigen::Index>(a);
+      taps[a] = makeTaps(smoothing[axis] / v.geometry.spacing[axis]);
+      lastCell[a] = std::max(v.geometry.size[a] - 2, 0);
+      count[a] = (lastCell[a] >> kBrickShift) + 1;
+      total *= static_cast<std::size_t>(count[a]);
+    }
+    coefficients = std::vector<std::atomic<float*>>(total);
+  }
+  ~Bricks() {
+    for (auto& c : coefficients) delete[] c.load(std::memory_order_relaxed);
+  }
+  Bricks(const Bricks&) = delete;
+  Bricks& operator=(const Bricks&) = delete;
+
+  const float* at(std::size_t id) {
+    const float* ready = coefficients[id].load(std::memory_order_acquire);
+    return ready ? ready : build(id);
+  }
+  const float* build(std::size_t id);
+  template <class T>
+  void filter(const std::vector<T>& voxels, const std::array<int, 3>& low, float* out) const;
+};
+
+/// Several threads may build the same brick; they compute the same bytes and the first one is kept.
+const float* BsplineVolume::Bricks::build(std::size_t id) {
+  const auto n = static_cast<int>(id);
+  const std::array<int, 3> low{(n % count[0]) * kBrick - 1, (n / count[0] % count[1]) * kBrick - 1,
+                               (n / count[0] / count[1]) * kBrick - 1};
+  auto fresh = std::make_unique<float[]>(kBrickFloats);
+  std::visit([&](const auto& voxels) { filter(voxels, low, fresh.get()); }, volume.voxels);
+  float* expected = nullptr;
+  if (!coefficients[id].compare_exchange_strong(expected, fresh.get(), std::memory_order_acq_rel))
+    return expected;
+  built.fetch_add(1, std::memory_order_relaxed);
+  return fresh.release();
+}
+
+/// The coefficients with indices low .. low + kStored - 1 on each axis. Each is a fixed sum over
+/// the voxels around it, so bricks that share a coefficient agree on it bitwise.
+template <class T>
+void BsplineVolume::Bricks::filter(const std::vector<T>& voxels, const std::array<int, 3>& low,
+                                   float* out) const {
+  const auto& size = volume.geometry.size;
+  std::array<std::array<std::size_t, kPadded>, 3> source;
+  for (std::size_t a = 0; a < 3; ++a)
+    for (int i = 0; i < kPadded; ++i)
+      source[a][static_cast<std::size_t>(i)] =
+          static_cast<std::size_t>(mirror(low[a] - kHalo + i, size[a]));
+  const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
+
+  std::vector<float> planes(static_cast<std::size_t>(kPlane) * kPadded);
+  std::array<float, static_cast<std::size_t>(kRow) * kPadded> rows;
+  std::array<float, kPaddedRow> line{};
+  rows.fill(0);
+  for (std::size_t z = 0; z < kPadded; ++z) {
+    for (std::size_t y = 0; y < kPadded; ++y) {
+      const T* from = voxels.data() + (source[2][z] * ny + source[1][y]) * nx;
+      for (std::size_t x = 0; x < kPadded; ++x) line[x] = static_cast<float>(from[source[0][x]]);
+      filterRun(line.data() + kHalo, 1, taps[0].data(), rows.data() + y * kRow, kStored);
+    }
+    // rows are contiguous, so the y filter of a whole plane is one run
+    filterRun(rows.data() + kHalo * kRow, kRow, taps[1].data(), planes.data() + z * kPlane, kPlane);
+  }
+  filterRun(planes.data() + static_cast<std::size_t>(kHalo) * kPlane, kPlane, taps[2].data(), out,
+            static_cast<int>(kBrickFloats));
+}
+
+BsplineVolume::BsplineVolume(const Volume& volume, const Eigen::Vector3d& smoothing)
+    : m_bricks(std::make_unique<Bricks>(volume, smoothing)) {}
+BsplineVolume::~BsplineVolume() = default;
+
+const VolumeGeometry& BsplineVolume::geometry() const {
+  return m_bricks->volume.geometry;
+}
+
+std::size_t BsplineVolume::coefficientBytes() const {
+  return m_bricks->built.load(std::memory_order_relaxed) * kBrickFloats * sizeof(float);
+}
+
+float BsplineVolume::sample(const Eigen::Vector3d& index) const {
+  const auto& g = m_bricks->volume.geometry;
+  if (!g.containsIndex(index)) return std::numeric_limits<float>::quiet_NaN();
+  std::array<int, 3> cell{};
+  for (int a = 0; a < 3; ++a) {
+    const auto u = static_cast<std::size_t>(a);
+    cell[u] = std::min(static_cast<int>(index[a]), m_bricks->lastCell[u]);
+  }
+  const auto& count = m_bricks->count;
+  const int id = ((cell[2] >> kBrickShift) * count[1] + (cell[1] >> kBrickShift)) * count[0] +
+                 (cell[0] >> kBrickShift);
+  constexpr int mask = kBrick - 1;
+  const float* c = m_bricks->at(static_cast<std::size_t>(id)) + (cell[2] & mask) * kPlane +
+                   (cell[1] & mask) * kRow + (cell[0] & mask);
+  const auto x = weightsAt(index[0] - cell[0]), y = weightsAt(index[1] - cell[1]),
+             z = weightsAt(index[2] - cell[2]);
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t i = 0; i < 4; ++i)
+        sum += z[k] * y[j] * x[i] * static_cast<double>(c[k * kPlane + j * kRow + i]);
+  return static_cast<float>(sum);
+}
+
+void BsplineVolume::sampleLineReference(const Eigen::Vector3d& startIndex,
+                                        const Eigen::Vector3d& stepIndex,
+                                        std::span<float> out) const {
+  for (std::size_t n = 0; n < out.size(); ++n)
+    out[n] = sample(startIndex + static_cast<double>(n) * stepIndex);
+}
+
+void BsplineVolume::sampleLine(const Eigen::Vector3d& startIndex, const Eigen::Vector3d& stepIndex,
+                               std::span<float> out) const {
+  LineSetup line{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto e = static_cast<Eigen::Index>(a);
+    line.start[a] = startIndex[e];
+    line.step[a] = stepIndex[e];
+    line.highest[a] = m_bricks->volume.geometry.size[a] - 1;
+  }
+  line.lastCell = m_bricks->lastCell;
+  line.bricks = m_bricks->count;
+  Block block;
+  int brick = -1;
+  const float* coefficients = nullptr;
+  for (std::size_t first = 0; first < out.size(); first += kBlock) {
+    locate(line, static_cast<int>(first), block);
+    const std::size_t count = std::min<std::size_t>(kBlock, out.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (block.inside[i] != 0 && block.brick[i] != brick) {
+        brick = block.brick[i];
+        coefficients = m_bricks->at(static_cast<std::size_t>(brick));
+      }
+      block.support[i] = block.inside[i] != 0 ? coefficients + block.offset[i] : nullptr;
+    }
+    interpolate(block, count, out.data() + first);
+  }
+}
+
+}  // namespace lumen::convert
