@@ -5,8 +5,8 @@
     tests/hash_outputs.py build/release > after.hashes
     diff before.hashes after.hashes         # what changed; nothing, if nothing is printed
 
-Runs `lumen` (found in BUILD/converters/cli) and libblob.so (in BUILD/libblob): every phantom with its
-truth and seeds, tracked, fitted, converted to every format, described, checked, compared, validated and queried
+Runs `lumen` (found in BUILD/converters/cli, or in BUILD/converters/app of older builds) and libblob.so (in
+BUILD/libblob): every phantom with its truth and seeds, tracked, fitted, converted to every format, described, checked, compared, validated and queried
 on every SIMD path that this processor has; the real angiogram of --data, where it is; and the
 files of spec/conformance. A failed run is an output too: its exit status is part of what is hashed.
 The set takes about two minutes on two cores, with --quick half a minute.
@@ -35,6 +35,7 @@ import hash_queries
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SMALL = ["tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dropout", "sac-lobes", "companion",
          "hairpin", "right-angle", "fading", "thick-slices"]
+PROGRAMS = ["converters/cli/lumen", "converters/app/lumen"]  # below the build folder; the first that exists
 FULL = ["bifurcation", "kissing"]  # the phantoms that every format and option is tried on
 KERNELS = ["gaussian", "quartic", "soft-object"]
 MESHES = ["glb", "gltf", "vtp", "obj", "stl", "ply"]
@@ -250,9 +251,17 @@ def arguments():
     return parser.parse_args()
 
 
+def program(build):
+    """The command line of a build."""
+    found = [build / path for path in PROGRAMS if (build / path).exists()]
+    if not found:
+        sys.exit(f"hash_outputs.py: {build} has none of {', '.join(PROGRAMS)}")
+    return found[0].resolve()
+
+
 def hash_all(options, work):
     listing = Listing(options.only, options.raw)
-    lumen = (options.build / "converters/cli/lumen").resolve(strict=True)
+    lumen = program(options.build)
     blob = hash_queries.load(options.build / "libblob/libblob.so")
     runs = {name: lambda folder, name=name: phantom(folder, blob, name)
             for name in SMALL + ([] if options.quick else ["patient"])}
