@@ -17,7 +17,7 @@
 #include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
 #include "tests/cli/run_lumen.h"
-#include "tests/reproduce/surface_facts.h"
+#include "tests/evaluation/reproduce/surface_facts.h"
 
 namespace lumen::test {
 namespace {

@@ -33,11 +33,3 @@ if(NOT LUMEN_SANITIZE)
       -D LIBDIR=${CMAKE_INSTALL_LIBDIR} -D CC=${CMAKE_C_COMPILER}
       -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/consume.cmake)
 endif()
-
-if(LUMEN_BUILD_BENCHMARKS)
-  include(bench/query/query.cmake)
-  include(bench/contact/contact.cmake)
-  lumen_test(contact_test
-    LIBS lumen_options lumen_contact_count
-    SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/bench/contact_test.cpp)
-endif()

@@ -10,8 +10,3 @@ target_include_directories(editing_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 lumen_test(one_click_test
   LIBS lumen_check lumen_editing lumen_fitting lumen_phantom lumen_tracking
   SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/one_click_test.cpp)
-
-if(LUMEN_BUILD_BENCHMARKS)
-  add_executable(click_bench ${CMAKE_CURRENT_SOURCE_DIR}/bench/click_bench.cpp)
-  target_link_libraries(click_bench PRIVATE lumen_editing lumen_fitting lumen_tracking)
-endif()

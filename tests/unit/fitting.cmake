@@ -15,12 +15,3 @@ lumen_test(fitting_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/seam_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/shapes.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/unmeasured_test.cpp)
-
-if(LUMEN_BUILD_BENCHMARKS)
-  find_package(benchmark REQUIRED)
-  add_executable(fit_bench
-    ${CMAKE_CURRENT_SOURCE_DIR}/bench/fit_bench.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting/shapes.cpp)
-  target_include_directories(fit_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/fitting)
-  target_link_libraries(fit_bench PRIVATE lumen_fitting benchmark::benchmark_main)
-endif()

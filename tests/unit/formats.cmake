@@ -33,20 +33,3 @@ add_executable(write_spec EXCLUDE_FROM_ALL
   ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/write_spec.cpp)
 target_include_directories(write_spec PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(write_spec PRIVATE lumen_view nlohmann_json::nlohmann_json)
-
-if(LUMEN_BUILD_BENCHMARKS)
-  find_package(benchmark REQUIRED)
-  add_executable(formats_bench
-    ${CMAKE_CURRENT_SOURCE_DIR}/bench/formats_bench.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp)
-  target_include_directories(formats_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-  target_link_libraries(formats_bench PRIVATE lumen_case GTest::gtest benchmark::benchmark_main)
-
-  # sizes are compared with those of VTK's files, which zlib compresses
-  find_package(ZLIB REQUIRED)
-  add_executable(open_bench
-    ${CMAKE_CURRENT_SOURCE_DIR}/bench/open_bench.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp)
-  target_include_directories(open_bench PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-  target_link_libraries(open_bench PRIVATE lumen_case GTest::gtest ZLIB::ZLIB)
-endif()

@@ -57,7 +57,3 @@ lumen_test(read_mesh_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/repair_test.cpp)
-
-if(LUMEN_BUILD_BENCHMARKS)
-  include(bench/rays.cmake)
-endif()

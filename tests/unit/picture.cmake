@@ -8,6 +8,3 @@ lumen_test(picture_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/picture/trace_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/picture/volume_behind_test.cpp)
 target_include_directories(picture_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/check)
-
-add_executable(picture_bench ${CMAKE_CURRENT_SOURCE_DIR}/bench/picture_bench.cpp)
-target_link_libraries(picture_bench PRIVATE lumen_picture lumen_commands)

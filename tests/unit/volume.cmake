@@ -17,9 +17,3 @@ lumen_test(volume_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/stored_voxels_test.cpp)
 target_include_directories(volume_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume)
 target_link_libraries(volume_test PRIVATE ZLIB::ZLIB)
-
-if(LUMEN_BUILD_BENCHMARKS)
-  find_package(benchmark REQUIRED)
-  add_executable(bspline_bench ${CMAKE_CURRENT_SOURCE_DIR}/bench/bspline_bench.cpp)
-  target_link_libraries(bspline_bench PRIVATE lumen_volume benchmark::benchmark)
-endif()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The measuring instrument of lumen_vessels. The truth is a T: a root of 20 mm and radius 1 along x,
 // and a child of 10 mm and radius 0.5 that leaves it upwards at x = 10.
-#include "tests/reproduce/vessel_score.h"
+#include "tests/evaluation/reproduce/vessel_score.h"
 
 #include <gtest/gtest.h>
 

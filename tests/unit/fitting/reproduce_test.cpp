@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "formats/case/blobby.h"
-#include "tests/reproduce/convolution_shapes.h"
-#include "tests/reproduce/family_fit.h"
-#include "tests/reproduce/particles.h"
-#include "tests/reproduce/seams.h"
-#include "tests/reproduce/shape_fit.h"
+#include "tests/evaluation/reproduce/convolution_shapes.h"
+#include "tests/evaluation/reproduce/family_fit.h"
+#include "tests/evaluation/reproduce/particles.h"
+#include "tests/evaluation/reproduce/seams.h"
+#include "tests/evaluation/reproduce/shape_fit.h"
 
 namespace lumen::reproduce {
 namespace {

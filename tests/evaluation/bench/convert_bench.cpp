@@ -26,7 +26,7 @@
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/tracking/tracker.h"
 #include "formats/case/case_file.h"
-#include "tests/reproduce/report.h"
+#include "tests/evaluation/reproduce/report.h"
 
 namespace {
 

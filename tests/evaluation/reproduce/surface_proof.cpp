@@ -9,7 +9,7 @@
 #include "converters/base/error.h"
 #include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
-#include "tests/reproduce/surface_facts.h"
+#include "tests/evaluation/reproduce/surface_facts.h"
 
 namespace {
 

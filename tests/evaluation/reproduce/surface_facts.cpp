@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/reproduce/surface_facts.h"
+#include "tests/evaluation/reproduce/surface_facts.h"
 
 #include <algorithm>
 #include <array>

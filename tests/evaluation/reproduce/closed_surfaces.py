@@ -19,7 +19,7 @@ import sys
 import time
 from pathlib import Path
 
-CLICKS = Path(__file__).resolve().parent.parent / "data"
+CLICKS = Path(__file__).resolve().parents[2] / "data"
 KINDS = ["tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dropout", "sac-lobes", "companion", "hairpin",
          "right-angle", "fading", "thick-slices"]
 VOLUMES = [("3DRA", "aneurism-3dra.nrrd", "aneurism-3dra"), ("aorta", "aorta/aorta.mha", "aorta"), ("fistula", "avf/avf.nii", "avf")]
@@ -155,7 +155,7 @@ def report(results):
     right = sum(is_right(r["facts"]) for r in results.values())
     text = "# Closed surfaces\n\n"
     text += ("`lumen convert CASE SURFACE.vtp` with default options, and what is in the file, by `lumen_surface_proof` "
-             "(`tests/reproduce/surface_facts.h`): closed, a manifold at edges and vertices, oriented outward, connected parts and "
+             "(`tests/evaluation/reproduce/surface_facts.h`): closed, a manifold at edges and vertices, oriented outward, connected parts and "
              "their Euler characteristics by CGAL; trees and handles beside what the graph of the case says; pairs of triangles "
              "that intersect, as lumen and as CGAL find them; the median and the least of the triangles' least angles, in degrees. "
              "Distances are in radii of the vessel: of the farthest vertex of the wall from the field, with how many are over a "

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "libblob" / "python"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "libblob" / "python"))
 import lumen_blob  # noqa: E402  pylint: disable=wrong-import-position
 import sofa_pictures  # noqa: E402  pylint: disable=wrong-import-position
 from sofa_run import LEAK, axis_points, depths, run_scene  # noqa: E402  pylint: disable=wrong-import-position
@@ -133,7 +133,7 @@ the tip oscillates on the mesh and slides on the local models. Depth and the tip
 
 def report(results, sizes):
     lines = ["# Chapter 5 in SOFA", "",
-             "By `tests/reproduce/sofa_chapter5.py`. Collision: finding contacts and making constraints of them. Processor means are",
+             "By `tests/evaluation/reproduce/sofa_chapter5.py`. Collision: finding contacts and making constraints of them. Processor means are",
              "wall times by the share of a processor that the process had. Depth: of the instrument's surface beyond the",
              "blended field's wall at its deepest point, until it leaves (1 mm), at frames and between them.", ""]
     for part, runs in results.items():

@@ -19,7 +19,7 @@ import sys
 import time
 from pathlib import Path
 
-CLICKS = Path(__file__).resolve().parent.parent / "data"
+CLICKS = Path(__file__).resolve().parents[2] / "data"
 VOLUMES = [("3DRA", "aneurism-3dra.nrrd", "aneurism-3dra"), ("aorta", "aorta/aorta.mha", "aorta"), ("fistula", "avf/avf.nii", "avf")]
 
 

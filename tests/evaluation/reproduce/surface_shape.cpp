@@ -16,7 +16,7 @@
 
 #include "converters/geometry/self_intersections.h"
 #include "converters/geometry/triangle_quality.h"
-#include "tests/reproduce/surface_facts.h"
+#include "tests/evaluation/reproduce/surface_facts.h"
 
 namespace lumen::reproduce {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the time of lumen picture goes: opening the models, tracing, all of a picture, and the PNG.
 //
-//   build/release/tests/picture_bench CASE.lumen [THREADS]
+//   build/release/tests/evaluation/bench/picture_bench CASE.lumen [THREADS]
 //
 // 1000 by 800 pixels from in front; the least of five runs, of the clock and of the processor.
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays from within a vessel to its wall: TriangleTree against Embree 3, on one thread.
 //
-//   build/release/tests/rays_bench MESH.stl
+//   build/release/tests/evaluation/bench/rays_bench MESH.stl
 //
 // From the middles of chords of the mesh, 162 rays each, as wall points of a mesh are found.
 #include <algorithm>

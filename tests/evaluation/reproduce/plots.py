@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws NAME.svg from every NAME.plot.json of a folder; the same data give the same bytes.
 
-    tests/reproduce/plots.py FOLDER
+    tests/evaluation/reproduce/plots.py FOLDER
 
 Needs Matplotlib 3.6 or newer.
 """

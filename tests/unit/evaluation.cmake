@@ -1,0 +1,6 @@
+# Counts of the programs of tests/evaluation.
+if(LUMEN_BUILD_BENCHMARKS)
+  lumen_test(contact_test
+    LIBS lumen_options lumen_contact_count
+    SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/evaluation/contact_test.cpp)
+endif()
