@@ -148,18 +148,13 @@ TEXT
 run_ctest() {
   local report=$PWD/build/release/tests.xml status=0
   say "Running the tests"
-  rm -f "$report"
+  rm -rf "$report" build/release/results
   ctest --test-dir build/release --output-on-failure -j "$(nproc)" --output-junit "$report" || status=$?
   if [ ! -s "$report" ]; then
     echo "bootstrap.sh: ctest left no report" >&2
     exit 1
   fi
-  local all failed skipped
-  all=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* tests="\([0-9]*\)".*/\1/p')
-  failed=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* failures="\([0-9]*\)".*/\1/p')
-  skipped=$(tr '\n\t' '  ' <"$report" | sed -n 's/.*<testsuite[^>]* skipped="\([0-9]*\)".*/\1/p')
-  [ "$skipped" -eq 0 ] || echo "$skipped skipped: they need files or programs that are not here; each says which"
-  echo "$((all - failed - skipped)) passed, $failed failed"
+  tests/count_results.py "$report" build/release/results || status=$?
   return "$status"
 }
 

@@ -6,6 +6,7 @@ lumen_test(blob_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/closed_form_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/cursor_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/derivative_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/far_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/open_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/robust_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/seam_test.cpp
@@ -22,6 +23,7 @@ foreach(language C CXX)
   set_target_properties(${name} PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF
     CXX_STANDARD 11 CXX_EXTENSIONS OFF)
   add_test(NAME BlobHeader.IsUsedFrom${language} COMMAND ${name})
+  set_tests_properties(BlobHeader.IsUsedFrom${language} PROPERTIES LABELS quick)
 endforeach()
 
 # Installs the library elsewhere and builds a plain C project against it, by CMake and by pkg-config.
@@ -32,4 +34,5 @@ if(NOT LUMEN_SANITIZE)
       -D PROJECT=${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/consumer
       -D LIBDIR=${CMAKE_INSTALL_LIBDIR} -D CC=${CMAKE_C_COMPILER}
       -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/consume.cmake)
+  set_tests_properties(BlobInstall.APlainCProjectUsesIt PROPERTIES LABELS slow)
 endif()

@@ -10,53 +10,45 @@ foreach(name kissing bifurcation)
   add_test(NAME BlobExamples.Makes_${name}
     COMMAND ${CMAKE_COMMAND} -D LUMEN=$<TARGET_FILE:lumen> -D NAME=${name} -D FOLDER=${models}
       -P ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples/make_model.cmake)
-  set_tests_properties(BlobExamples.Makes_${name} PROPERTIES FIXTURES_SETUP blob_${name})
+  set_tests_properties(BlobExamples.Makes_${name} PROPERTIES LABELS slow FIXTURES_SETUP blob_${name})
 endforeach()
 
 # The whole rod's surface ends within 0.01 mm of the wall or farther inside.
 add_test(NAME Catheter.StaysInABifurcation
   COMMAND catheter ${models}/bifurcation.lumen --steps 500 --young 1e4)
-set_tests_properties(Catheter.StaysInABifurcation PROPERTIES
+set_tests_properties(Catheter.StaysInABifurcation PROPERTIES LABELS slow
   FIXTURES_REQUIRED blob_bifurcation
   PASS_REGULAR_EXPRESSION "\"deepest_mm\": (-|0\\.00)[0-9.]*,\n.*\"contacts_most\": [1-9]")
 
 if(TARGET mujoco_vessel)
   lumen_test(mujoco_test
+    LABELS foreign
     LIBS lumen_options mujoco_vessel
     SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples/mujoco_test.cpp)
   target_include_directories(mujoco_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples)
   foreach(name kissing bifurcation)
     add_test(NAME MuJoCo.ToolsStayIn_${name} COMMAND tools_in_vessel ${models}/${name}.lumen 1)
-    set_tests_properties(MuJoCo.ToolsStayIn_${name} PROPERTIES FIXTURES_REQUIRED blob_${name})
+    set_tests_properties(MuJoCo.ToolsStayIn_${name} PROPERTIES LABELS foreign FIXTURES_REQUIRED blob_${name})
   endforeach()
 endif()
 
-find_program(NODE node)
 if(TARGET blob_wasm AND NODE)
   get_target_property(wasm blob_wasm WASM)
   add_test(NAME Wasm.WritesNativeAnswers
     COMMAND query_samples ${models}/kissing.lumen 100000 ${models}/kissing.queries)
-  set_tests_properties(Wasm.WritesNativeAnswers PROPERTIES
+  set_tests_properties(Wasm.WritesNativeAnswers PROPERTIES LABELS slow
     FIXTURES_REQUIRED blob_kissing FIXTURES_SETUP blob_queries)
   add_test(NAME Wasm.GivesTheBitsOfTheNativeLibrary
     COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/libblob/wasm/compare.mjs ${wasm} ${models}/kissing.lumen
       ${models}/kissing.queries)
-  set_tests_properties(Wasm.GivesTheBitsOfTheNativeLibrary PROPERTIES
+  set_tests_properties(Wasm.GivesTheBitsOfTheNativeLibrary PROPERTIES LABELS slow
     FIXTURES_REQUIRED "blob_kissing;blob_queries")
 endif()
 
-# The first interpreter that has NumPy; a sanitizer's runtime cannot be loaded into Python from a library.
-find_program(PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
-find_program(PYTHON NAMES python3)
-if(PYTHON AND NOT LUMEN_SANITIZE)
-  execute_process(COMMAND ${PYTHON} -c "import numpy" RESULT_VARIABLE no_numpy OUTPUT_QUIET ERROR_QUIET)
-  if(no_numpy)
-    message(STATUS "NumPy not found: the Python package is not tested")
-  else()
-    add_test(NAME Python.UnitTests
-      COMMAND ${PYTHON} -B -W error -m unittest discover -s ${PROJECT_SOURCE_DIR}/libblob/python/tests)
-    set_tests_properties(Python.UnitTests PROPERTIES
-      FIXTURES_REQUIRED blob_kissing
-      ENVIRONMENT "PYTHONPATH=${PROJECT_SOURCE_DIR}/libblob/python;LUMEN_BLOB_LIBRARY=$<TARGET_FILE:blob>;LUMEN_BLOB_MODEL=${models}/kissing.lumen")
-  endif()
+if(HAS_NUMPY AND NOT LUMEN_SANITIZE)
+  python_test(Python.UnitTests foreign
+    -W error -m unittest discover -s ${PROJECT_SOURCE_DIR}/libblob/python/tests)
+  set_tests_properties(Python.UnitTests PROPERTIES
+    FIXTURES_REQUIRED blob_kissing
+    ENVIRONMENT "PYTHONPATH=${PROJECT_SOURCE_DIR}/libblob/python;LUMEN_BLOB_LIBRARY=$<TARGET_FILE:blob>;LUMEN_BLOB_MODEL=${models}/kissing.lumen")
 endif()

@@ -1,6 +1,7 @@
 # The executable, from outside.
 find_package(PNG REQUIRED)
 lumen_test(cli_test
+  LABELS slow
   LIBS lumen_options lumen_terminal lumen_command_line lumen_case lumen_base lumen::blob_static nlohmann_json::nlohmann_json PNG::PNG
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/centerline_test.cpp
@@ -33,6 +34,7 @@ add_dependencies(cli_test lumen)
 
 # The closed surfaces that it writes, measured with CGAL and filled by TetGen.
 lumen_test(closed_surface_test
+  LABELS foreign
   LIBS lumen_surface_facts lumen_case nlohmann_json::nlohmann_json
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/closed_surface_test.cpp
@@ -41,25 +43,13 @@ target_compile_definitions(closed_surface_test PRIVATE LUMEN_EXECUTABLE="$<TARGE
 add_dependencies(closed_surface_test lumen)
 
 # The program as it is installed, and its answers.
-find_program(PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
-find_program(PYTHON NAMES python3)
-if(PYTHON AND NOT LUMEN_SANITIZE)
-  add_test(NAME Install.GivesAProgramThatRunsWhereverItIs
-    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_install.py ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR})
-  add_test(NAME View.StartsServesSavesAndEnds
-    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_view.py $<TARGET_FILE:lumen>)
-  execute_process(COMMAND ${PYTHON} -c "import vtkmodules" RESULT_VARIABLE no_vtk OUTPUT_QUIET ERROR_QUIET)
-  if(no_vtk)
-    message(STATUS "Python's VTK (python3-vtk9) not found: lumen's files are not opened with it")
-  else()
-    add_test(NAME Centerline.OpensInVtkWithTheArraysOfVmtk
-      COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_vtk_centerline.py $<TARGET_FILE:lumen>)
-  endif()
-  execute_process(COMMAND ${PYTHON} -c "import jsonschema" RESULT_VARIABLE no_jsonschema OUTPUT_QUIET ERROR_QUIET)
-  if(no_jsonschema)
-    message(STATUS "Python's jsonschema not found: the JSON answers are not tested")
-  else()
-    add_test(NAME Answers.AreWhatTheirSchemasSay
-      COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_answers.py $<TARGET_FILE:lumen>)
-  endif()
+python_test(Install.GivesAProgramThatRunsWhereverItIs slow
+  ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_install.py ${CMAKE_COMMAND} ${PROJECT_BINARY_DIR})
+python_test(View.StartsServesSavesAndEnds slow ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_view.py $<TARGET_FILE:lumen>)
+if(HAS_VTK)
+  python_test(Centerline.OpensInVtkWithTheArraysOfVmtk foreign
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_vtk_centerline.py $<TARGET_FILE:lumen>)
+endif()
+if(HAS_JSONSCHEMA)
+  python_test(Answers.AreWhatTheirSchemasSay slow ${CMAKE_CURRENT_SOURCE_DIR}/cli/check_answers.py $<TARGET_FILE:lumen>)
 endif()

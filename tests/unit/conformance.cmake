@@ -16,25 +16,18 @@ target_link_libraries(case_reader PRIVATE lumen_case nlohmann_json::nlohmann_jso
 add_executable(blob_reader ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/blob_reader.cpp)
 target_link_libraries(blob_reader PRIVATE lumen_options lumen::blob nlohmann_json::nlohmann_json)
 
-find_package(Python3 3.9 COMPONENTS Interpreter)
-if(Python3_FOUND)
-  add_test(NAME Conformance.OfOurReaderHoldsToTheByte
-    COMMAND Python3::Interpreter ${conformance}/run.py --exact --reader $<TARGET_FILE:case_reader>)
-  add_test(NAME Conformance.OfTheReferenceReaderHolds
-    COMMAND Python3::Interpreter ${conformance}/run.py --lacks zstd --lacks draco
-      --reader "{python} -S -E ${PROJECT_SOURCE_DIR}/spec/reference/lumen_reader.py")
-  # libblob answers queries, has neither decoder, and computes with floats
-  set(queries_only ${conformance}/run.py --queries-only --tolerance 1e-5 --lacks zstd --lacks draco)
-  add_test(NAME Conformance.OfLibblobHolds
-    COMMAND Python3::Interpreter ${queries_only} --reader $<TARGET_FILE:blob_reader>)
-  add_test(NAME Conformance.OfLibblobInDoublesHolds
-    COMMAND Python3::Interpreter ${queries_only} --reader "$<TARGET_FILE:blob_reader> --doubles")
-  find_program(NODE node)
-  if(TARGET blob_wasm AND NODE)
-    add_test(NAME Conformance.OfLibblobInWebAssemblyHolds
-      COMMAND Python3::Interpreter ${queries_only} --reader
-        "${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/blob_reader.mjs $<TARGET_PROPERTY:blob_wasm,WASM>")
-  endif()
-  add_test(NAME Conformance.FilesAreThoseOfTheirRecipes
-    COMMAND Python3::Interpreter ${conformance}/make.py --check)
+python_test(Conformance.OfOurReaderHoldsToTheByte quick
+  ${conformance}/run.py --exact --reader $<TARGET_FILE:case_reader>)
+python_test(Conformance.OfTheReferenceReaderHolds quick
+  ${conformance}/run.py --lacks zstd --lacks draco
+  --reader "{python} -S -E ${PROJECT_SOURCE_DIR}/spec/reference/lumen_reader.py")
+# libblob answers queries, has neither decoder, and computes with floats
+set(queries_only ${conformance}/run.py --queries-only --tolerance 1e-5 --lacks zstd --lacks draco)
+python_test(Conformance.OfLibblobHolds quick ${queries_only} --reader $<TARGET_FILE:blob_reader>)
+python_test(Conformance.OfLibblobInDoublesHolds quick
+  ${queries_only} --reader "$<TARGET_FILE:blob_reader> --doubles")
+if(TARGET blob_wasm AND NODE)
+  python_test(Conformance.OfLibblobInWebAssemblyHolds slow ${queries_only} --reader
+    "${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/unit/conformance/blob_reader.mjs $<TARGET_PROPERTY:blob_wasm,WASM>")
 endif()
+python_test(Conformance.FilesAreThoseOfTheirRecipes slow ${conformance}/make.py --check)

@@ -10,6 +10,7 @@ find_library(BULLET_MATH LinearMath)
 find_path(BULLET_INCLUDE BulletCollision/CollisionShapes/btSdfCollisionShape.h PATH_SUFFIXES bullet)
 if(BULLET_DYNAMICS AND BULLET_COLLISION AND BULLET_MATH AND BULLET_INCLUDE)
   lumen_test(cdf_test
+    LABELS foreign
     LIBS lumen_grids lumen_surface ${BULLET_DYNAMICS} ${BULLET_COLLISION} ${BULLET_MATH}
     SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/cdf_test.cpp)
   target_include_directories(cdf_test SYSTEM PRIVATE ${BULLET_INCLUDE})
@@ -18,6 +19,7 @@ else()
 endif()
 if(LUMEN_WRITES_VDB)
   lumen_test(vdb_test
+    LABELS foreign
     LIBS lumen_grids lumen_surface ${OPENVDB_LIBRARY} ${IMATH_LIBRARY}
     SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/vdb_test.cpp)
   target_include_directories(vdb_test SYSTEM PRIVATE ${OPENVDB_INCLUDE_DIR})
@@ -32,6 +34,7 @@ endif()
 
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIOMeta ITKIONIFTI ITKIONRRD)
 lumen_test(grid_files_test
+  LABELS foreign
   LIBS lumen_export ${ITK_LIBRARIES}
   SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/grid_files_test.cpp)
 target_compile_definitions(grid_files_test PRIVATE ITK_USE_SYSTEM_EIGEN)
@@ -48,18 +51,17 @@ lumen_test(export_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/named_end_test.cpp)
 
 # One case through every target, located again by the target's own loader; and cases that are hard to export.
-if(PYTHON AND NOT LUMEN_SANITIZE)
-  add_test(NAME Export.OneCaseIsLocatedAgainInEveryFolder
-    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/export/landmarks.py $<TARGET_FILE:lumen>)
-  add_test(NAME Export.HardCasesAreWrittenWholeOrRefused
-    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/export/bad_inputs.py $<TARGET_FILE:lumen>)
-  set_tests_properties(Export.OneCaseIsLocatedAgainInEveryFolder PROPERTIES SKIP_RETURN_CODE 77
+python_test(Export.OneCaseIsLocatedAgainInEveryFolder foreign
+  ${CMAKE_CURRENT_SOURCE_DIR}/export/landmarks.py $<TARGET_FILE:lumen>)
+if(TEST Export.OneCaseIsLocatedAgainInEveryFolder)
+  set_tests_properties(Export.OneCaseIsLocatedAgainInEveryFolder PROPERTIES
     ENVIRONMENT LUMEN_BLOB_LIBRARY=$<TARGET_FILE:blob>)
 endif()
+python_test(Export.HardCasesAreWrittenWholeOrRefused slow
+  ${CMAKE_CURRENT_SOURCE_DIR}/export/bad_inputs.py $<TARGET_FILE:lumen>)
 
 # Arrays by NumPy, the stage by three's USD loader.
-if(PYTHON AND NOT no_numpy AND NOT LUMEN_SANITIZE)
-  add_test(NAME Isaac.ArraysAndStageAreReadByNumpyAndThree
-    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/export/check_isaac.py $<TARGET_FILE:lumen>)
-  set_tests_properties(Isaac.ArraysAndStageAreReadByNumpyAndThree PROPERTIES SKIP_RETURN_CODE 77)
+if(HAS_NUMPY)
+  python_test(Isaac.ArraysAndStageAreReadByNumpyAndThree foreign
+    ${CMAKE_CURRENT_SOURCE_DIR}/export/check_isaac.py $<TARGET_FILE:lumen>)
 endif()

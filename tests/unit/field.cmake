@@ -4,5 +4,6 @@ lumen_test(field_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob/tree.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/field/blended_field_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/field/case_field_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/field/kernel_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/field/kernel_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/field/neighbourhood_test.cpp)
 target_include_directories(field_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob)

@@ -17,7 +17,7 @@ lumen_test(mesh_test
 # CGAL, which is GPL, is only ever compared with. It is headers alone; its own CMake package would hide
 # OpenMesh's from what follows.
 lumen_test(self_intersections_test
-  LABELS threads
+  LABELS foreign threads
   LIBS lumen_repair gmp mpfr
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/self_intersections_test.cpp)
@@ -27,10 +27,9 @@ target_compile_options(self_intersections_test PRIVATE -frounding-math)
 # it the test fails.
 add_executable(mesh_samples ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_samples.cpp)
 target_link_libraries(mesh_samples PRIVATE lumen_surface nlohmann_json::nlohmann_json)
-find_program(NODE_EXECUTABLE NAMES node nodejs)
 set(mesh_folder ${CMAKE_CURRENT_BINARY_DIR}/mesh_samples_files)
 add_test(NAME MeshSamples.AreWritten COMMAND mesh_samples ${mesh_folder})
-set_tests_properties(MeshSamples.AreWritten PROPERTIES FIXTURES_SETUP mesh_samples)
+set_tests_properties(MeshSamples.AreWritten PROPERTIES LABELS foreign FIXTURES_SETUP mesh_samples)
 set(gltf_files)
 foreach(sample tree fine empty closed confidence lod lod_per_branch)
   foreach(coding plain draco meshopt)
@@ -38,16 +37,14 @@ foreach(sample tree fine empty closed confidence lod lod_per_branch)
   endforeach()
 endforeach()
 add_test(NAME GltfValidator.FindsNoErrorAndNoWarning
-  COMMAND ${NODE_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gltf/validate.mjs ${gltf_files})
-set_tests_properties(GltfValidator.FindsNoErrorAndNoWarning PROPERTIES FIXTURES_REQUIRED mesh_samples)
+  COMMAND ${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/gltf/validate.mjs ${gltf_files})
+set_tests_properties(GltfValidator.FindsNoErrorAndNoWarning PROPERTIES LABELS foreign FIXTURES_REQUIRED mesh_samples)
 
-# VTK reads what was written. Debian's module belongs to Debian's Python.
-find_program(DEBIAN_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
-if(DEBIAN_PYTHON)
-  add_test(NAME Vtk.ReadsMeshesAsTheyWere
-    COMMAND ${DEBIAN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/vtk/compare_meshes.py
-      ${mesh_folder}/closed ${mesh_folder}/many ${mesh_folder}/empty)
-  set_tests_properties(Vtk.ReadsMeshesAsTheyWere PROPERTIES FIXTURES_REQUIRED mesh_samples SKIP_RETURN_CODE 77)
+# VTK reads what was written.
+python_test(Vtk.ReadsMeshesAsTheyWere foreign
+  ${CMAKE_CURRENT_SOURCE_DIR}/vtk/compare_meshes.py ${mesh_folder}/closed ${mesh_folder}/many ${mesh_folder}/empty)
+if(TEST Vtk.ReadsMeshesAsTheyWere)
+  set_tests_properties(Vtk.ReadsMeshesAsTheyWere PROPERTIES FIXTURES_REQUIRED mesh_samples)
 endif()
 
 lumen_test(read_mesh_test

@@ -5,11 +5,5 @@ lumen_test(mujoco_export_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mujoco/wire_reach_test.cpp)
 
 # What it exports for MuJoCo and CathSim, in the official engine: `npm ci` in tests/mujoco; skipped, saying so, without it.
-find_program(PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
-find_program(PYTHON NAMES python3)
-if(PYTHON AND NOT LUMEN_SANITIZE)
-  add_test(NAME MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls
-    COMMAND ${PYTHON} -B ${CMAKE_CURRENT_SOURCE_DIR}/mujoco/check_mujoco.py --lumen $<TARGET_FILE:lumen>
-      --blob $<TARGET_FILE:blob>)
-  set_tests_properties(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls PROPERTIES SKIP_RETURN_CODE 77)
-endif()
+python_test(MuJoCoExport.GuidewiresStayInTheLumenAndNotInConvexHulls foreign
+  ${CMAKE_CURRENT_SOURCE_DIR}/mujoco/check_mujoco.py --lumen $<TARGET_FILE:lumen> --blob $<TARGET_FILE:blob>)

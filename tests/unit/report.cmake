@@ -9,10 +9,9 @@ lumen_test(report_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/tree_profiles_test.cpp)
 
 # The page in Chromium, from disk and on paper. Its packages are those of the viewer's page.
-find_program(NODE node)
 if(NODE)
   add_test(NAME ReportPage.FitsOnPaperAndRunsNothing COMMAND ${NODE} ${CMAKE_CURRENT_SOURCE_DIR}/report/run.mjs)
   set_tests_properties(ReportPage.FitsOnPaperAndRunsNothing PROPERTIES
-    SKIP_RETURN_CODE 77 RUN_SERIAL ON TIMEOUT 1800
+    LABELS foreign SKIP_RETURN_CODE 77 RUN_SERIAL ON TIMEOUT 1800
     ENVIRONMENT "LUMEN=$<TARGET_FILE:lumen>;LUMEN_PICTURES=${CMAKE_BINARY_DIR}/people")
 endif()

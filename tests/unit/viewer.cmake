@@ -13,18 +13,18 @@ if(NPM AND EXISTS ${PROJECT_SOURCE_DIR}/viewer/page/node_modules/.package-lock.j
   add_test(NAME ViewerPage.Units COMMAND ${NPM} test --silent WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/viewer/page)
   add_test(NAME ViewerPage.TypesAndStyle
     COMMAND ${NPM} run --silent check WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/viewer/page)
+  set_tests_properties(ViewerPage.Units ViewerPage.TypesAndStyle PROPERTIES LABELS slow)
 endif()
 
 # As a person would use it: the program, the page and Chromium, by pointer and keys. Each keeps pictures of what it saw. They
 # run alone, as drawing in software takes all cores.
-find_program(NODE node)
 if(NODE)
   add_executable(ask_blob ${PROJECT_SOURCE_DIR}/viewer/page/people/ask_blob.c)
   target_link_libraries(ask_blob PRIVATE blob)
   foreach(story correct draw_and_save from_disk gallery hostile_library keys missing mistakes touching)
     add_test(NAME ViewerPage.People.${story} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/viewer/page/people/run.mjs ${story})
     set_tests_properties(ViewerPage.People.${story} PROPERTIES
-      SKIP_RETURN_CODE 77 RUN_SERIAL ON TIMEOUT 1800
+      LABELS foreign SKIP_RETURN_CODE 77 RUN_SERIAL ON TIMEOUT 1800
       ENVIRONMENT "LUMEN=$<TARGET_FILE:lumen>;LUMEN_ASK_BLOB=$<TARGET_FILE:ask_blob>;LUMEN_PICTURES=${CMAKE_BINARY_DIR}/people")
   endforeach()
 endif()
