@@ -12,10 +12,10 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "converters/base/message_text.h"
 #include "converters/cli/command.h"
 #include "converters/cli/command_config.h"
 #include "converters/cli/help_text.h"
-#include "converters/cli/message_text.h"
 #include "converters/cli/usage_error.h"
 #include "converters/cli/value_checks.h"
 #include "converters/engine/report.h"

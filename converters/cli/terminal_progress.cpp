@@ -8,7 +8,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "converters/cli/message_text.h"
+#include "converters/base/message_text.h"
 
 namespace lumen {
 

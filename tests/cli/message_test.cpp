@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/base/message_text.h"
 #include "converters/base/suggestion.h"
-#include "converters/cli/message_text.h"
 
 namespace lumen::test {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/cli/message_text.h"
+#include "converters/base/message_text.h"
 #include "converters/engine/file_access.h"
 #include "formats/container/printable.h"
 #include "viewer/session/session.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/cli/message_text.h"
+#include "converters/base/message_text.h"
 
 #include "formats/container/printable.h"
 
@@ -7,7 +7,7 @@ namespace lumen {
 
 namespace {
 
-// digits; a checksum has eight, and a program's objects lie above what fewer can say
+// digits; a checksum has eight, and the address of an object has more
 constexpr std::size_t kShortestAddress = 9;
 
 std::size_t hexDigits(std::string_view text) {
