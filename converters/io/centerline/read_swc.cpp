@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/parsed_number.h"
 #include "converters/io/centerline/fill_radii.h"
 #include "converters/io/centerline/read_text.h"
 #include "formats/container/printable.h"
@@ -42,10 +43,10 @@ struct Line {
 
 class Parser {
 public:
-  Parser(std::string_view text, std::string name) : m_text(text), m_name(std::move(name)) {}
+  Parser(std::string_view text, std::string name)
+      : m_text(withoutByteOrderMark(text)), m_name(std::move(name)) {}
 
   std::vector<Line> lines() {
-    if (m_text.starts_with("\xEF\xBB\xBF")) m_text.remove_prefix(3);
     std::vector<Line> lines;
     while (!m_text.empty()) {
       ++m_number;
@@ -117,14 +118,10 @@ private:
   }
 
   [[nodiscard]] double numberOf(std::string_view text, std::size_t column) const {
-    std::string_view digits = text;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value) ||
-        std::abs(value) > kLargestLength * 10 || text.starts_with("+-"))
+    const auto value = parsedNumber(text);
+    if (!value || !(std::abs(*value) <= kLargestLength * 10))
       refuse(found(text, column) + "; expected a number");
-    return value;
+    return *value;
   }
 
   [[nodiscard]] std::int32_t wholeOf(std::string_view text, std::size_t column, double low) const {

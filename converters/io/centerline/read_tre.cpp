@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 #include "converters/base/error.h"
+#include "converters/base/parsed_number.h"
 #include "converters/base/text.h"
 #include "converters/io/centerline/fill_radii.h"
 #include "converters/io/centerline/join_curves.h"
@@ -51,7 +52,8 @@ struct TreObject {
 
 class TreParser {
 public:
-  TreParser(std::string_view text, std::string name) : m_rest(text), m_name(std::move(name)) {}
+  TreParser(std::string_view text, std::string name)
+      : m_rest(withoutByteOrderMark(text)), m_name(std::move(name)) {}
 
   // All objects but the scene itself.
   std::vector<TreObject> objects() {
@@ -233,11 +235,9 @@ private:
   [[nodiscard]] std::vector<double> numbersOf(std::string_view text) const {
     std::vector<double> numbers;
     for (std::string_view word; !(word = nextWord(text)).empty();) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc{} || end != word.data() + word.size())
-        refuse("has " + shown(std::string(word)) + "; expected a number");
-      numbers.push_back(value);
+      const auto value = parsedNumber(word);
+      if (!value) refuse("has " + shown(std::string(word)) + "; expected a number");
+      numbers.push_back(*value);
     }
     return numbers;
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/io/mesh/read_stl.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <string>
 
 #include "converters/base/text.h"
 #include "converters/io/mesh/mesh_builder.h"
@@ -11,11 +13,16 @@
 namespace lumen::convert {
 namespace {
 
+constexpr std::string_view kSolid = "solid";
 constexpr std::size_t kHeader = 80, kBeforeFacets = 84, kFacet = 50, kNormal = 12;
 
+/// True for "solid" in letters of any case. Binary headers in capitals have zeros within 84 bytes.
 bool startsAsText(std::string_view bytes) {
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  return first != bytes.npos && bytes.substr(first).starts_with("solid");
+  std::string_view text = withoutByteOrderMark(bytes);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  const std::string_view word = text.substr(0, kSolid.size());
+  if (lowerCase(std::string(word)) != kSolid) return false;
+  return word == kSolid || bytes.substr(0, kBeforeFacets).find('\0') == bytes.npos;
 }
 
 std::uint64_t countOf(std::string_view bytes) {

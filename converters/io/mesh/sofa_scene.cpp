@@ -3,18 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 
 #include <expat.h>
 
 #include "converters/base/error.h"
+#include "converters/base/parsed_number.h"
 #include "converters/base/text.h"
 #include "formats/container/printable.h"
 
@@ -198,11 +197,9 @@ private:
     if (text.empty()) return {};
     std::vector<double> values;
     for (const std::string_view word : words(text)) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc() || end != word.data() + word.size() || !(std::abs(value) < 1e12))
-        break;
-      values.push_back(value);
+      const auto value = parsedNumber(word);
+      if (!value || !(std::abs(*value) < 1e12)) break;
+      values.push_back(*value);
     }
     if (values.size() == count && words(text).size() == count) return values;
     refuse(std::string("has the ") + name + " \"" +

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <system_error>
 
+#include "converters/base/parsed_number.h"
 #include "converters/io/mesh/mesh_builder.h"
 
 namespace lumen::convert {
@@ -26,15 +27,9 @@ std::string_view TextCursor::restOfLine() {
 }
 
 double TextCursor::numberOf(std::string_view word, const char* what) const {
-  const char* first = word.data();
-  const char* last = first + word.size();
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') ++first;
-  double value = 0;
-  const auto [end, error] = std::from_chars(first, last, value);
-  const bool tiny = error == std::errc::result_out_of_range && value == 0;
-  if ((error != std::errc{} && !tiny) || end != last)
-    refuse(foundText(what, word) + "; expected a number");
-  return value;
+  const auto value = parsedNumber(word);
+  if (!value) refuse(foundText(what, word) + "; expected a number");
+  return *value;
 }
 
 std::uint64_t TextCursor::whole(const char* what, std::uint64_t largest) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words and numbers of a text, with the line that they stand in.
+// Words and numbers of a text, and the line of each.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,19 @@
 #include <string>
 #include <string_view>
 
+#include "converters/base/parsed_number.h"
+
 namespace lumen::convert {
 
 /// Goes through a text once. Lines end with LF, CR LF or CR; words stand between blanks.
 class TextCursor {
 public:
-  /// `line` is the number of the first line.
+  /// `line` is the number of the first line. A byte-order mark before the text is no part of it.
   TextCursor(std::string_view text, std::string name, std::size_t line = 1)
-      : m_text(text), m_name(std::move(name)), m_line(line) {}
+      : m_text(text),
+        m_name(std::move(name)),
+        m_at(text.size() - withoutByteOrderMark(text).size()),
+        m_line(line) {}
 
   /// The next word, of this line or a later one; empty at the end.
   std::string_view word() {
@@ -26,14 +31,14 @@ public:
     skipSpace(false);
     return take();
   }
-  /// What is left of this line, without blanks around it, and behind its end.
+  /// The rest of this line without blanks around it. The next word is one of the next line.
   std::string_view restOfLine();
 
-  /// The next word (of whichever line) as a number, finite or not; refuses what is none. `what` is
-  /// the subject of a sentence.
+  /// The next word, of this line or a later one, as a number, finite or not. Refuses a word that is
+  /// no number, and a number too large for a double. `what` is the subject of the message.
   double number(const char* what) { return numberOf(word(), what); }
   double numberOf(std::string_view word, const char* what) const;
-  /// The next word as a whole number from 0 to `largest`; of `counted` things there are so many.
+  /// The next word as a whole number from 0 to `largest`. Refuses any other word.
   std::uint64_t whole(const char* what, std::uint64_t largest);
   std::uint64_t wholeOf(std::string_view word, const char* what, std::uint64_t largest) const;
 
@@ -42,7 +47,7 @@ public:
   [[nodiscard]] std::size_t left() const { return m_text.size() - m_at; }
   [[nodiscard]] std::string place() const { return "line " + std::to_string(m_line); }
   [[nodiscard]] const std::string& name() const { return m_name; }
-  /// Moves on by bytes that are no text.
+  /// Steps over `bytes` bytes, which are no text.
   void skip(std::size_t bytes) { m_at += bytes; }
 
   /// Throws Error(InvalidInput): "name: line N: what".
@@ -79,7 +84,7 @@ private:
 
   std::string_view m_text;
   std::string m_name;
-  std::size_t m_at = 0;
+  std::size_t m_at;
   std::size_t m_line;
 };
 

@@ -2,24 +2,12 @@
 #include "converters/io/seeds/seed_description.h"
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 
+#include "converters/base/parsed_number.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seeds_parse.h"
 
 namespace lumen::convert {
-namespace {
-
-std::optional<double> numberIn(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-}  // namespace
-
 void applyDescription(const std::string& text, SeedBranch& branch,
                       const std::function<void(const std::string&)>& refuse) {
   for (std::size_t begin = 0; begin < text.size();) {
@@ -35,7 +23,7 @@ void applyDescription(const std::string& text, SeedBranch& branch,
     } else if (key == "kind" && branchKind(value)) {
       branch.kind = *branchKind(value);
     } else if (key == "radius") {
-      const auto radius = numberIn(value);
+      const auto radius = parsedNumber(value);
       if (!radius) return refuse("a number after \"radius=\"");
       for (auto& point : branch.points)
         if (!point.radius) point.radius = branch.frame.unit * *radius;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <fstream>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seed_rules.h"
@@ -47,9 +49,9 @@ std::string stemOf(const fs::path& file) {
 }
 
 /// The first character that is no white space; 0 if there is none.
-char firstOf(const std::string& text) {
+char firstOf(std::string_view text) {
   const auto at = text.find_first_not_of(" \t\r\n");
-  return at == std::string::npos ? '\0' : text[at];
+  return at == text.npos ? '\0' : text[at];
 }
 
 /// The first line, for a message.
@@ -59,9 +61,11 @@ std::string firstLine(const std::string& text) {
 
 std::vector<SeedBranch> parseText(const std::string& text, const fs::path& file,
                                   const SeedReading& reading) {
-  const char first = firstOf(text);
+  const std::string_view marked = withoutByteOrderMark(text);
+  const char first = firstOf(marked);
   const bool named = lowerCase(file.extension().string()) == ".fcsv";
-  if (first == '#' || (named && first != '{')) return parseFcsv(text, file, stemOf(file), reading);
+  if (first == '#' || (named && first != '{'))
+    return parseFcsv(marked, file, stemOf(file), reading);
   if (first != '{' && first != '[')
     throw invalidInput(
         printable(file.string()) + ": is not JSON: found " +

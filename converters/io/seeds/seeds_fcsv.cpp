@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seed_description.h"
@@ -111,12 +111,11 @@ private:
 
   [[nodiscard]] double number(const std::vector<std::string>& row, Column column) const {
     const std::string& text = row[m_column[column]];
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    const auto value = parsedNumber(text);
+    if (!value || !std::isfinite(*value))
       refuse(std::string(kNames[column]) + " is " + quotedText(text) +
              "; expected a finite number");
-    return value;
+    return *value;
   }
 
   [[nodiscard]] std::string text(const std::vector<std::string>& row, Column column) const {

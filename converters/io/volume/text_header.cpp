@@ -7,6 +7,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "converters/base/parsed_number.h"
 #include "converters/base/text.h"
 #include "formats/container/printable.h"
 
@@ -46,11 +47,7 @@ std::vector<std::string> wordsOf(std::string_view text, std::string_view separat
 }
 
 std::optional<double> numberOf(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
+  return parsedNumber(text);
 }
 
 std::optional<std::int64_t> integerOf(std::string_view text) {

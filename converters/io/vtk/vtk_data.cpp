@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstring>
 #include <limits>
-#include <system_error>
 
 #include <zlib.h>
 
 #include "converters/base/error.h"
+#include "converters/base/parsed_number.h"
 #include "formats/container/printable.h"
 
 namespace lumen {
@@ -142,13 +141,11 @@ private:
   }
 
   [[nodiscard]] double numberOf(std::string_view word) const {
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc::result_out_of_range && end == word.data() + word.size()) return value;
-    if (error != std::errc{} || end != word.data() + word.size())
+    const auto value = parsedNumber(word);
+    if (!value)
       refuse("has \"" + formats::printable(word.substr(0, kShownVtkBytes)) +
              (word.size() > kShownVtkBytes ? "...\"" : "\"") + "; expected a number");
-    return value;
+    return *value;
   }
 
   std::vector<std::uint64_t> headers(std::uint64_t count) {

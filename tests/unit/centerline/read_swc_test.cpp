@@ -60,6 +60,11 @@ TEST(ReadSwc, AByteOrderMarkAndIdsWrittenAsRealNumbersAreRead) {
   EXPECT_EQ(file.points[1].radius, 1);
 }
 
+TEST(ReadSwc, NumbersTooSmallForADoubleAreZero) {
+  EXPECT_EQ(parseSwc("1 1 1e-400 0 0 1 -1\n", "tree.swc").points[0].position.x(), 0);
+  EXPECT_NE(refusal("1 1 1e400 0 0 1 -1\n"), "");
+}
+
 TEST(ReadSwc, ParentsComeFirstWhereverTheyStandAndWhateverTheirIds) {
   // 70 <- 5 <- 900, and a root of its own in between
   const CenterlineFile file =

@@ -46,6 +46,11 @@ TEST(ReadTre, PlacesAreScaledThenTurnedThenMovedAsItkDoes) {
   EXPECT_EQ(file.axes, CenterlineAxes::Lps);
 }
 
+TEST(ReadTre, AByteOrderMarkAndTinyNumbersAreRead) {
+  const std::string tiny = with(kTube, "2 2 3 0.25", "2 2 1e-400 0.25");
+  EXPECT_EQ(parseTre("\xEF\xBB\xBF" + tiny, "a.tre").points.at(1).position.z(), 0);
+}
+
 TEST(ReadTre, ATubeHangsOnTheOneThatItsParentIdNames) {
   const std::string text = kTube +
                            "ObjectType = Tube\nID = 5\nParentID = 4\nParentPoint = 1\nPointDim = x "

@@ -41,6 +41,13 @@ TEST_F(Fcsv, EachRowIsAVessel) {
   EXPECT_EQ(seeds[1].points[0].radius, 1.5);
 }
 
+TEST_F(Fcsv, AByteOrderMarkAndTinyNumbersAreRead) {
+  const auto seeds = read("\xEF\xBB\xBF# CoordinateSystem = LPS\n" + kColumns +
+                          "1,1e-400,-3,4,0,0,0,1,1,1,0,ICA,,\n");
+  ASSERT_EQ(seeds.size(), 1U);
+  EXPECT_EQ(seeds[0].points[0].position, Vector3d(0, -3, 4));
+}
+
 TEST_F(Fcsv, TheHeaderStatesTheCoordinateSystem) {
   const std::string row = "1,1,2,3,0,0,0,1,1,1,0,a,,\n";
   for (const char* lps : {"LPS", "1"})
