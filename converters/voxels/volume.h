@@ -2,6 +2,7 @@
 // A scalar volume in memory, in the precision of its file.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include <Eigen/Dense>
+
+#include "converters/voxels/cell_box.h"
 
 namespace lumen::convert {
 
@@ -38,11 +41,33 @@ struct VolumeGeometry {
   }
   /// Geometric mean of the spacing, mm: what "a voxel" means wherever a length is tied to one.
   [[nodiscard]] double voxelSize() const { return std::cbrt(spacing.prod()); }
-  [[nodiscard]] std::size_t voxelCount() const {
-    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-           static_cast<std::size_t>(size[2]);
+
+  /// All cells of the volume.
+  [[nodiscard]] CellBox cells() const { return {Cell::Zero(), {size[0], size[1], size[2]}}; }
+  [[nodiscard]] std::size_t voxelCount() const { return cells().count(); }
+  [[nodiscard]] bool contains(const Cell& cell) const { return cells().contains(cell); }
+  /// The place of a cell among the voxels.
+  [[nodiscard]] std::size_t index(const Cell& cell) const { return cells().index(cell); }
+  [[nodiscard]] Cell cell(std::size_t index) const { return cells().cell(index); }
+  /// The centre of a voxel, mm, LPS.
+  [[nodiscard]] Eigen::Vector3d position(const Cell& cell) const {
+    return worldFromIndex(cell.cast<double>());
   }
+  /// The cells within a box in index space, as far as the volume has them.
+  [[nodiscard]] CellBox cellsAround(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
 };
+
+/// Rounded outward, and moved to the volume's rim where a corner lies beyond it.
+inline CellBox VolumeGeometry::cellsAround(const Eigen::Vector3d& low,
+                                           const Eigen::Vector3d& high) const {
+  Cell first, last;
+  for (int a = 0; a < 3; ++a) {
+    const double end = size[static_cast<std::size_t>(a)] - 1;
+    first[a] = static_cast<int>(std::clamp(std::floor(low[a]), 0.0, end));
+    last[a] = static_cast<int>(std::clamp(std::ceil(high[a]), 0.0, end));
+  }
+  return CellBox::between(first, last);
+}
 
 /// Voxels x fastest. Pixel types that are not listed are widened on reading (int8 to int16; 32-bit
 /// and wider integers and doubles to float).

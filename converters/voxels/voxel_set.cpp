@@ -16,14 +16,6 @@ VoxelSet::VoxelSet(const VolumeGeometry& geometry, std::vector<std::size_t> indi
   m_rows.resize(rows + 1, static_cast<std::uint32_t>(m_indices.size()));
 }
 
-std::array<int, 3> VoxelSet::place(std::uint32_t i) const {
-  const auto nx = static_cast<std::size_t>(m_geometry.size[0]);
-  const auto ny = static_cast<std::size_t>(m_geometry.size[1]);
-  const std::size_t index = m_indices[i];
-  return {static_cast<int>(index % nx), static_cast<int>(index / nx % ny),
-          static_cast<int>(index / nx / ny)};
-}
-
 std::uint32_t VoxelSet::find(std::size_t index) const {
   const std::size_t row = index / static_cast<std::size_t>(m_geometry.size[0]);
   const std::uint32_t i = lowerBound(row, index);

@@ -2,13 +2,12 @@
 #include "converters/judge/check/bright_region.h"
 
 #include <algorithm>
-#include <array>
 #include <deque>
 #include <limits>
 #include <utility>
 
 #include "converters/base/vectors.h"
-#include "converters/judge/check/skeleton.h"
+#include "converters/voxels/depth.h"
 
 namespace lumen::convert {
 namespace {
@@ -21,31 +20,23 @@ class NearestNode {
 public:
   NearestNode(const VolumeGeometry& geometry, const formats::CenterlineTree& tree)
       : m_geometry(geometry), m_tree(tree) {
-    std::size_t count = 1;
-    for (std::size_t a = 0; a < 3; ++a) {
-      m_cells[a] = static_cast<std::size_t>((geometry.size[a] - 1) / kEdge + 1);
-      count *= m_cells[a];
-    }
-    m_node.resize(count, VoxelSet::kNone);
+    const Cell last = geometry.cells().high();
+    m_blocks = CellBox::between(Cell::Zero(), last / kEdge);
+    m_node.resize(m_blocks.count(), VoxelSet::kNone);
   }
 
-  std::uint32_t of(std::size_t index) {
-    const auto nx = static_cast<std::size_t>(m_geometry.size[0]);
-    const auto ny = static_cast<std::size_t>(m_geometry.size[1]);
-    const std::array<std::size_t, 3> cell{index % nx / kEdge, index / nx % ny / kEdge,
-                                          index / nx / ny / kEdge};
-    std::uint32_t& node = m_node[(cell[2] * m_cells[1] + cell[1]) * m_cells[0] + cell[0]];
-    if (node == VoxelSet::kNone) node = search(cell);
+  std::uint32_t of(const Cell& cell) {
+    const Cell block = cell / kEdge;
+    std::uint32_t& node = m_node[m_blocks.index(block)];
+    if (node == VoxelSet::kNone) node = search(block);
     return node;
   }
 
 private:
   static constexpr int kEdge = 8;  // voxels
 
-  [[nodiscard]] std::uint32_t search(const std::array<std::size_t, 3>& cell) const {
-    Eigen::Vector3d middle;
-    for (int a = 0; a < 3; ++a)
-      middle[a] = (static_cast<double>(cell[static_cast<std::size_t>(a)]) + 0.5) * kEdge - 0.5;
+  [[nodiscard]] std::uint32_t search(const Cell& block) const {
+    const Eigen::Vector3d middle = (block.cast<double>().array() + 0.5) * kEdge - 0.5;
     const Eigen::Vector3d at = m_geometry.worldFromIndex(middle);
     double best = std::numeric_limits<double>::infinity();
     std::uint32_t node = 0;
@@ -62,7 +53,7 @@ private:
 
   const VolumeGeometry& m_geometry;
   const formats::CenterlineTree& m_tree;
-  std::array<std::size_t, 3> m_cells{};
+  CellBox m_blocks;
   std::vector<std::uint32_t> m_node;
 };
 
@@ -71,21 +62,6 @@ struct Reached {
   std::uint32_t node;
 };
 
-/// Visits the 26 neighbours of a voxel that lie in the volume.
-template <class Visit>
-void eachNeighbour(const VolumeGeometry& geometry, std::size_t index, Visit&& visit) {
-  const auto nx = static_cast<std::size_t>(geometry.size[0]);
-  const auto ny = static_cast<std::size_t>(geometry.size[1]);
-  const int x = static_cast<int>(index % nx), y = static_cast<int>(index / nx % ny);
-  const int z = static_cast<int>(index / nx / ny);
-  for (int k = std::max(z - 1, 0); k <= std::min(z + 1, geometry.size[2] - 1); ++k)
-    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, geometry.size[1] - 1); ++j)
-      for (int i = std::max(x - 1, 0); i <= std::min(x + 1, geometry.size[0] - 1); ++i)
-        if (i != x || j != y || k != z)
-          visit((static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
-                static_cast<std::size_t>(i));
-}
-
 /// The bright voxels outside, nearest first, of which the first `rim` touch the lumen; `bright` is
 /// 1 inside and becomes 1 there.
 template <class Value>
@@ -93,10 +69,12 @@ std::vector<Reached> grow(const LumenVoxels& lumen, const Levels& levels, Neares
                           const Value& value, std::vector<std::uint8_t>& bright, std::size_t& rim,
                           const Progress& progress) {
   std::vector<Reached> reached;
+  const CellBox cells = levels.volume.geometry.cells();
   const auto from = [&](std::size_t index, std::uint32_t node) {
-    eachNeighbour(levels.volume.geometry, index, [&](std::size_t next) {
+    cells.forEachNeighbour(cells.cell(index), [&](const Cell& cell) {
+      const std::size_t next = cells.index(cell);
       if (bright[next] != 0 || !(value(next) > levels.node[node].half) ||
-          !(value(next) > levels.node[nearest.of(next)].faint))
+          !(value(next) > levels.node[nearest.of(cell)].faint))
         return;
       bright[next] = 1;
       reached.push_back({next, node});

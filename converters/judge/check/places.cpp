@@ -2,7 +2,6 @@
 #include "converters/judge/check/places.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <tuple>
@@ -10,6 +9,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/judge/check/skeleton.h"
+#include "converters/voxels/depth.h"
 #include "converters/voxels/voxel_set.h"
 
 namespace lumen::convert {
@@ -60,28 +60,21 @@ Regions regionsOf(const VoxelSet& set, std::span<const float> depth,
 std::vector<std::uint8_t> awayFromLumen(const BrightRegion& region, const LumenVoxels& lumen) {
   const VolumeGeometry& geometry = region.voxels.geometry();
   const double limit = kBrightAway * geometry.voxelSize() * (1 + 1e-9);
-  std::vector<std::array<int, 3>> offsets;
-  const Vector3d reach = (limit * geometry.spacing.cwiseInverse()).array().floor();
-  for (int z = -static_cast<int>(reach[2]); z <= reach[2]; ++z)
-    for (int y = -static_cast<int>(reach[1]); y <= reach[1]; ++y)
-      for (int x = -static_cast<int>(reach[0]); x <= reach[0]; ++x)
-        if (geometry.spacing.cwiseProduct(Vector3d(x, y, z)).norm() <= limit)
-          offsets.push_back({x, y, z});
-  const auto isInside = [&](const std::array<int, 3>& at, const std::array<int, 3>& offset) {
-    std::size_t index = 0;
-    for (std::size_t a = 3; a-- > 0;) {
-      const int i = at[a] + offset[a];
-      if (i < 0 || i >= geometry.size[a]) return false;
-      index = index * static_cast<std::size_t>(geometry.size[a]) + static_cast<std::size_t>(i);
-    }
-    return lumen.inside()[index] != 0;
+  const Cell reach = (limit * geometry.spacing.cwiseInverse()).array().floor().cast<int>();
+  std::vector<Cell> offsets;
+  CellBox::between(-reach, reach).forEach([&](const Cell& offset) {
+    if (geometry.spacing.cwiseProduct(offset.cast<double>()).norm() <= limit)
+      offsets.push_back(offset);
+  });
+  const auto isInside = [&](const Cell& cell) {
+    return geometry.contains(cell) && lumen.inside()[geometry.index(cell)] != 0;
   };
   std::vector<std::uint8_t> away(region.voxels.size(), 0);
   for (std::uint32_t i = 0; i < region.voxels.size(); ++i) {
     if (region.wide[i] != 0) continue;
-    const auto at = region.voxels.place(i);
+    const Cell at = region.voxels.cell(i);
     away[i] = std::none_of(offsets.begin(), offsets.end(),
-                           [&](const auto& offset) { return isInside(at, offset); });
+                           [&](const Cell& offset) { return isInside(at + offset); });
   }
   return away;
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <limits>
 #include <numbers>
 #include <queue>
 #include <utility>
@@ -20,49 +18,7 @@ enum State : std::uint8_t { kTaken = 0, kFree = 1, kInGroup = 2 };
 constexpr double kCoverDepths = 1.5, kCoverVoxels = 2;  // what a way covers; TEASAR's scale, offset
 constexpr std::size_t kChord = 5;  // voxels: a way along the grid is longer than its vessel
 constexpr std::size_t kCheckEvery = 1 << 14;  // voxels: well below 100 ms
-constexpr float kFar = std::numeric_limits<float>::infinity();
-
-/// Whether a face of the voxel is shared with one that is not bright.
-bool isRim(const VoxelSet& set, std::uint32_t i, const std::function<bool(std::size_t)>& isBright) {
-  const auto at = set.place(i);
-  std::size_t stride = 1;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (at[a] > 0 && !isBright(set.index(i) - stride)) return true;
-    if (at[a] + 1 < set.geometry().size[a] && !isBright(set.index(i) + stride)) return true;
-    stride *= static_cast<std::size_t>(set.geometry().size[a]);
-  }
-  return false;
-}
-
 }  // namespace
-
-// Every voxel learns of the nearest rim voxel from its neighbours, by the way there.
-std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
-                            const Progress& progress) {
-  const auto half = static_cast<float>(0.5 * set.geometry().voxelSize());
-  std::vector<float> depths(set.size(), kFar);
-  std::vector<Eigen::Vector3f> fromRim(set.size());
-  std::deque<std::uint32_t> queue;
-  for (std::uint32_t i = 0; i < set.size(); ++i)
-    if (isRim(set, i, isBright)) {
-      fromRim[i].setZero();
-      depths[i] = half;
-      queue.push_back(i);
-    }
-  for (; !queue.empty(); queue.pop_front()) {
-    if (queue.front() % kCheckEvery == 0) progress.check();
-    const Eigen::Vector3f here = fromRim[queue.front()];
-    set.eachBeside(queue.front(), [&](std::uint32_t j, const Eigen::Vector3d& way) {
-      const Eigen::Vector3f there = here + way.cast<float>();
-      const float depth = half + there.norm();
-      if (!(depth < depths[j])) return;
-      depths[j] = depth;
-      fromRim[j] = there;
-      queue.push_back(j);
-    });
-  }
-  return depths;
-}
 
 // A step costs its length by the square of the depth: in the middle it is cheap.
 void Skeleton::spread(std::uint32_t root, const Progress& progress) {

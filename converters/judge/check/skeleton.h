@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,12 +18,6 @@ struct SkeletonWay {
   double length = 0;        ///< mm, from the end voxels' far sides
   double radius = 0;  ///< mm: of the cylinder of its length and volume, as far as depths allow
 };
-
-/// mm from each voxel to the nearest place that is not bright, as `isBright(index)` tells for the
-/// neighbours of the set's voxels. What lies beyond the volume counts as bright. Infinite where all
-/// is bright. Throws Error(Cancelled).
-std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
-                            const Progress& progress);
 
 /// Splits connected groups of voxels into ways, as TEASAR does (Sato, Bitter, Bender, Kaufman,
 /// Nakajima: TEASAR: tree-structure extraction algorithm for accurate and robust skeletons, 2000):

@@ -36,17 +36,17 @@ public:
       if (region.isSac[i]) m_inside.push_back(i);
   }
 
-  [[nodiscard]] double radiusAt(std::size_t place) const {
-    return static_cast<double>(m_region.depth[place]) - kRim * m_geometry.voxelSize();
+  [[nodiscard]] double radiusOf(float depth) const {
+    return static_cast<double>(depth) - kRim * m_geometry.voxelSize();
   }
 
   /// The greatest ball that reaches a place on the wall.
   [[nodiscard]] std::optional<SacBall> greatestFor(const Vector3d& wall, double least) const {
     std::optional<SacBall> best;
     for (const std::size_t i : m_inside) {
-      const double radius = radiusAt(i);
+      const double radius = radiusOf(m_region.depth[i]);
       if (radius < (best ? best->radius : least) || (best && radius == best->radius)) continue;
-      const Vector3d at = m_geometry.worldFromIndex(m_region.box.index(m_region.box.cell(i)));
+      const Vector3d at = m_geometry.position(m_region.box.cell(i));
       if ((at - wall).norm() <= kNearby * radius) best = SacBall{at, radius};
     }
     return best;
@@ -73,8 +73,8 @@ std::vector<SacBall> furtherCentres(const TrackContext& context, const SacRegion
     }
   };
   for (const SacBall& node : nodes) {
-    const auto place = region.box.at(geometry.indexFromWorld(node.centre));
-    const double inscribed = place ? cover.radiusAt(*place) : 0;
+    const auto depth = region.depthAt(geometry.indexFromWorld(node.centre));
+    const double inscribed = depth ? cover.radiusOf(*depth) : 0;
     if (inscribed > 0) cast(node, inscribed);
   }
   std::vector<SacBall> centres;
@@ -102,8 +102,8 @@ bool isStraightWay(const VolumeGeometry& geometry, const SacRegion& region, cons
   const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / half)));
   for (int i = 0; i <= steps; ++i) {
     const Vector3d p = a + (b - a) * (static_cast<double>(i) / steps);
-    const auto place = region.box.at(geometry.indexFromWorld(p));
-    if (!place || !(region.depth[*place] > 0)) return false;
+    const auto depth = region.depthAt(geometry.indexFromWorld(p));
+    if (!depth || !(*depth > 0)) return false;
   }
   return true;
 }

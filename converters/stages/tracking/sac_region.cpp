@@ -2,11 +2,12 @@
 #include "converters/stages/tracking/sac_region.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
 #include <utility>
+
+#include "converters/voxels/depth.h"
 
 namespace lumen::convert {
 namespace {
@@ -31,94 +32,18 @@ constexpr std::size_t kOften = 4095;
 
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 
-const std::array<Vector3i, 6> kFaces = {Vector3i(-1, 0, 0), Vector3i(1, 0, 0),  Vector3i(0, -1, 0),
-                                        Vector3i(0, 1, 0),  Vector3i(0, 0, -1), Vector3i(0, 0, 1)};
-
-/// Squared distances along one line to the nearest place, f being the squared distance that each
-/// place has already (P. Felzenszwalb, D. Huttenlocher, "Distance transforms of sampled functions",
-/// 2012).
-class LineTransform {
-public:
-  void apply(std::vector<double>& f, double spacing) {
-    m_parabola.clear();
-    m_from.clear();
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      if (f[i] == kNoPlace) continue;
-      double from = -kNoPlace;
-      while (!m_parabola.empty()) {
-        from = meeting(f, m_parabola.back(), i, spacing);
-        if (from > m_from.back()) break;
-        m_parabola.pop_back();
-        m_from.pop_back();
-        from = -kNoPlace;
-      }
-      m_parabola.push_back(i);
-      m_from.push_back(from);
-    }
-    if (m_parabola.empty()) return;
-    m_out.resize(f.size());
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      while (k + 1 < m_parabola.size() && m_from[k + 1] < static_cast<double>(i)) ++k;
-      const double along = (static_cast<double>(i) - static_cast<double>(m_parabola[k])) * spacing;
-      m_out[i] = along * along + f[m_parabola[k]];
-    }
-    std::swap(f, m_out);
-  }
-
-private:
-  /// Where the parabola of a later place takes over from that of an earlier one.
-  static double meeting(const std::vector<double>& f, std::size_t a, std::size_t b,
-                        double spacing) {
-    const double p = static_cast<double>(a), q = static_cast<double>(b), s2 = spacing * spacing;
-    return ((f[b] / s2 + q * q) - (f[a] / s2 + p * p)) / (2 * (q - p));
-  }
-  std::vector<std::size_t> m_parabola;
-  std::vector<double> m_from, m_out;
-};
-
-/// mm from each voxel of a box to the nearest one whose mark is `target`.
-std::vector<float> distanceTo(const TrackContext& context, const VoxelBox& box,
-                              const std::vector<std::uint8_t>& mark, std::uint8_t target) {
-  const Vector3d& spacing = context.volume.geometry().spacing;
-  std::vector<double> squared(mark.size());
-  for (std::size_t i = 0; i < mark.size(); ++i) squared[i] = mark[i] == target ? 0 : kNoPlace;
-  LineTransform transform;
-  std::vector<double> line;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vector3i across = box.size;
-    across[axis] = 1;
-    Vector3i unit = Vector3i::Zero();
-    unit[axis] = 1;
-    const std::size_t stride = box.place(unit);
-    const VoxelBox lines{Vector3i::Zero(), across};
-    line.resize(static_cast<std::size_t>(box.size[axis]));
-    for (std::size_t l = 0; l < lines.count(); ++l) {
-      if ((l & kOften) == 0) context.progress.check();
-      const std::size_t start = box.place(lines.cell(l));
-      for (std::size_t i = 0; i < line.size(); ++i) line[i] = squared[start + i * stride];
-      transform.apply(line, spacing[axis]);
-      for (std::size_t i = 0; i < line.size(); ++i) squared[start + i * stride] = line[i];
-    }
-  }
-  std::vector<float> out(squared.size());
-  std::transform(squared.begin(), squared.end(), out.begin(),
-                 [](double d) { return static_cast<float>(std::sqrt(d)); });
-  return out;
-}
-
 /// Marks with `reached` what is joined to the places in `queue` by faces of voxels marked `open`.
-void flood(const VoxelBox& box, std::vector<std::uint8_t>& mark, std::uint8_t open,
+void flood(const CellBox& box, std::vector<std::uint8_t>& mark, std::uint8_t open,
            std::uint8_t reached, std::vector<std::size_t> queue) {
   std::erase_if(queue, [&](std::size_t place) { return mark[place] != open; });
   for (const std::size_t place : queue) mark[place] = reached;
   while (!queue.empty()) {
-    const Vector3i cell = box.cell(queue.back());
+    const Cell cell = box.cell(queue.back());
     queue.pop_back();
-    for (const Vector3i& step : kFaces) {
-      const Vector3i next = cell + step;
-      if (!box.holds(next)) continue;
-      const std::size_t place = box.place(next);
+    for (const Cell& step : kFaceSteps) {
+      const Cell next = cell + step;
+      if (!box.contains(next)) continue;
+      const std::size_t place = box.index(next);
       if (mark[place] != open) continue;
       mark[place] = reached;
       queue.push_back(place);
@@ -126,7 +51,7 @@ void flood(const VoxelBox& box, std::vector<std::uint8_t>& mark, std::uint8_t op
   }
 }
 
-VoxelBox boxAround(const VolumeGeometry& geometry, std::span<const SacBall> balls) {
+CellBox boxAround(const VolumeGeometry& geometry, std::span<const SacBall> balls) {
   Vector3d low = Vector3d::Constant(kNoPlace), high = Vector3d::Constant(-kNoPlace);
   for (const SacBall& ball : balls) {
     const Vector3d at = geometry.indexFromWorld(ball.centre);
@@ -134,32 +59,26 @@ VoxelBox boxAround(const VolumeGeometry& geometry, std::span<const SacBall> ball
     low = low.cwiseMin(at - half);
     high = high.cwiseMax(at + half);
   }
-  VoxelBox box;
-  for (int a = 0; a < 3; ++a) {
-    const double last = geometry.size[static_cast<std::size_t>(a)] - 1;
-    box.low[a] = static_cast<int>(std::clamp(std::floor(low[a]), 0.0, last));
-    box.size[a] = static_cast<int>(std::clamp(std::ceil(high[a]), 0.0, last)) - box.low[a] + 1;
-  }
-  return box;
+  return geometry.cellsAround(low, high);
 }
 
 /// 1 where the volume is lumen, holes within it included, else 0.
 std::vector<std::uint8_t> lumenIn(const TrackContext& context, double wallLevel,
-                                  const VoxelBox& box) {
+                                  const CellBox& box) {
   constexpr std::uint8_t kDark = 0, kLumen = 1, kOpen = 2;
   const float sign = context.options.dark ? -1.0F : 1.0F;
   std::vector<std::uint8_t> mark(box.count(), kDark);
   std::vector<float> row(static_cast<std::size_t>(box.size.x()));
   for (std::size_t start = 0; start < mark.size(); start += row.size()) {
     context.progress.check();
-    context.volume.sampleLine(box.index(box.cell(start)), Vector3d::UnitX(), row);
+    context.volume.sampleLine(box.cell(start).cast<double>(), Vector3d::UnitX(), row);
     for (std::size_t i = 0; i < row.size(); ++i)
       if (sign * (row[i] - static_cast<float>(wallLevel)) > 0) mark[start + i] = kLumen;
   }
   std::vector<std::size_t> rim;
   for (std::size_t place = 0; place < mark.size(); ++place) {
-    const Vector3i cell = box.cell(place);
-    if ((cell.array() == 0).any() || (cell.array() == box.size.array() - 1).any())
+    const Cell cell = box.cell(place);
+    if ((cell.array() == box.low.array()).any() || (cell.array() == box.high().array()).any())
       rim.push_back(place);
   }
   flood(box, mark, kDark, kOpen, std::move(rim));
@@ -173,15 +92,14 @@ std::vector<std::size_t> deepestIn(const VolumeGeometry& geometry, const SacRegi
   std::vector<std::size_t> out;
   for (const SacBall& ball : balls) {
     const SacBall half{ball.centre, 0.5 * ball.radius / kSacReach};
-    const VoxelBox near = boxAround(geometry, {&half, 1});
     std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < near.count(); ++i) {
-      const Vector3d index = near.index(near.cell(i));
-      const auto place = region.box.at(index);
-      if (!place || (geometry.worldFromIndex(index) - ball.centre).norm() > 0.5 * ball.radius)
-        continue;
-      if (!best || region.depth[*place] > region.depth[*best]) best = place;
-    }
+    boxAround(geometry, {&half, 1}).forEach([&](const Cell& cell) {
+      if (!region.box.contains(cell) ||
+          (geometry.position(cell) - ball.centre).norm() > 0.5 * ball.radius)
+        return;
+      const std::size_t place = region.box.index(cell);
+      if (!best || region.depth[place] > region.depth[*best]) best = place;
+    });
     if (best) out.push_back(*best);
   }
   return out;
@@ -194,11 +112,11 @@ bool isInReach(std::span<const SacBall> balls, const Vector3d& p) {
 }
 
 /// The sum of the steps from a cell to those beside it that are in no lumen.
-Vector3d outsideOf(const SacRegion& region, const Vector3i& cell) {
+Vector3d outsideOf(const SacRegion& region, const Cell& cell) {
   Vector3d sum = Vector3d::Zero();
-  for (const Vector3i& step : kFaces) {
-    const Vector3i next = cell + step;
-    if (region.box.holds(next) && region.depth[region.box.place(next)] == 0)
+  for (const Cell& step : kFaceSteps) {
+    const Cell next = cell + step;
+    if (region.box.contains(next) && region.depth[region.box.index(next)] == 0)
       sum += step.cast<double>();
   }
   return sum;
@@ -242,33 +160,6 @@ void addWall(const TrackContext& context, const Vector3d& at, const Vector3d& wa
 
 }  // namespace
 
-std::size_t VoxelBox::count() const {
-  return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]);
-}
-
-std::size_t VoxelBox::place(const Vector3i& cell) const {
-  return (std::size_t(cell[2]) * std::size_t(size[1]) + std::size_t(cell[1])) *
-             std::size_t(size[0]) +
-         std::size_t(cell[0]);
-}
-
-Vector3i VoxelBox::cell(std::size_t place) const {
-  const std::size_t row = place / std::size_t(size[0]);
-  return {static_cast<int>(place % std::size_t(size[0])),
-          static_cast<int>(row % std::size_t(size[1])),
-          static_cast<int>(row / std::size_t(size[1]))};
-}
-
-std::optional<std::size_t> VoxelBox::at(const Vector3d& index) const {
-  Vector3i cell;
-  for (int a = 0; a < 3; ++a) {
-    const double nearest = std::round(index[a]) - low[a];
-    if (!(nearest >= 0 && nearest < size[a])) return {};
-    cell[a] = static_cast<int>(nearest);
-  }
-  return place(cell);
-}
-
 double leastPassage(std::span<const SacBall> balls) {
   double least = kNoPlace;
   for (const SacBall& ball : balls) least = std::min(least, ball.radius);
@@ -284,19 +175,19 @@ std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
   region.box = boxAround(geometry, balls);
   if (region.box.count() > kMostInBox) return {};
   region.isSac = lumenIn(context, wallLevel, region.box);
-  region.depth = distanceTo(context, region.box, region.isSac, 0);
+  region.depth = distancesTo(region.box, geometry.spacing, region.isSac, 0, context.progress);
   const double coarsest = geometry.spacing.maxCoeff();
   const double half = std::max(leastPassage(balls), coarsest);
   std::vector<std::uint8_t> core(region.isSac.size(), kNone);
   for (std::size_t i = 0; i < core.size(); ++i) {
     if ((i & kOften) == 0) context.progress.check();
     if (!region.isSac[i]) continue;
-    const Vector3d p = geometry.worldFromIndex(region.box.index(region.box.cell(i)));
+    const Vector3d p = geometry.position(region.box.cell(i));
     region.isSac[i] = isInReach(balls, p) && !inVessel(p);
     if (region.isSac[i] && region.depth[i] > half) core[i] = kDeep;
   }
   flood(region.box, core, kDeep, kJoined, deepestIn(geometry, region, balls));
-  const auto fromCore = distanceTo(context, region.box, core, kJoined);
+  const auto fromCore = distancesTo(region.box, geometry.spacing, core, kJoined, context.progress);
   bool isEmpty = true;
   for (std::size_t i = 0; i < core.size(); ++i) {
     region.isSac[i] = region.isSac[i] && fromCore[i] < half + kCorner * coarsest;
@@ -312,10 +203,10 @@ SacWall wallOf(const TrackContext& context, const SacRegion& region) {
   for (std::size_t i = 0; i < region.isSac.size(); ++i) {
     if ((i & kOften) == 0) context.progress.check();
     if (!region.isSac[i]) continue;
-    const Vector3i cell = region.box.cell(i);
+    const Cell cell = region.box.cell(i);
     const Vector3d outside = outsideOf(region, cell);
     if ((outside.array() == 0).all()) continue;
-    const Vector3d at = region.box.index(cell), way = downhill(context, at);
+    const Vector3d at = cell.cast<double>(), way = downhill(context, at);
     if (way.dot(outside) > 0) addWall(context, at, way, values, wall);
   }
   return wall;

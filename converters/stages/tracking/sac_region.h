@@ -13,31 +13,20 @@
 #include <Eigen/Core>
 
 #include "converters/stages/tracking/node_fit.h"
+#include "converters/voxels/cell_box.h"
 
 namespace lumen::convert {
 
-/// A box of a volume's voxels, x fastest.
-struct VoxelBox {
-  Eigen::Vector3i low = Eigen::Vector3i::Zero(), size = Eigen::Vector3i::Zero();
-
-  [[nodiscard]] std::size_t count() const;
-  [[nodiscard]] bool holds(const Eigen::Vector3i& cell) const {
-    return (cell.array() >= 0).all() && (cell.array() < size.array()).all();
-  }
-  [[nodiscard]] std::size_t place(const Eigen::Vector3i& cell) const;
-  [[nodiscard]] Eigen::Vector3i cell(std::size_t place) const;
-  /// Of a cell, in the volume's index space.
-  [[nodiscard]] Eigen::Vector3d index(const Eigen::Vector3i& cell) const {
-    return (cell + low).cast<double>();
-  }
-  /// The cell whose voxel is nearest to an index position; empty if the box has none there.
-  [[nodiscard]] std::optional<std::size_t> at(const Eigen::Vector3d& index) const;
-};
-
 struct SacRegion {
-  VoxelBox box;
+  CellBox box;
   std::vector<float> depth;         ///< mm from the nearest voxel outside of any lumen; there 0
   std::vector<std::uint8_t> isSac;  ///< 1: of the sac, and no vessel's
+
+  /// The depth at the voxel nearest to a place in index space; empty outside of the box.
+  [[nodiscard]] std::optional<float> depthAt(const Eigen::Vector3d& index) const {
+    const auto cell = box.nearest(index);
+    return cell ? std::optional(depth[box.index(*cell)]) : std::nullopt;
+  }
 };
 
 /// A ball around a click that lies in the sac, mm, LPS.

@@ -154,8 +154,8 @@ std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& reg
 /// Drops points that are deeper in a region's lumen than any wall.
 void dropWithin(const VolumeGeometry& geometry, const SacRegion& region, TrackedNode& node) {
   std::erase_if(node.points, [&](const formats::Vec3f& p) {
-    const auto place = region.box.at(geometry.indexFromWorld(toEigen(p)));
-    return place && region.depth[*place] > kWithin * geometry.voxelSize();
+    const auto depth = region.depthAt(geometry.indexFromWorld(toEigen(p)));
+    return depth && *depth > kWithin * geometry.voxelSize();
   });
 }
 

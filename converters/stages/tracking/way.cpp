@@ -15,10 +15,19 @@ namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-using Then = VoxelSearch::Then;
 
 /// Passes of smoothing of a way along lattice edges.
 constexpr int kSmoothing = 6;
+
+/// The price of a millimetre at a voxel.
+struct PriceAt {
+  const TrackContext& context;
+  const LumenLevels& levels;
+  float operator()(const Cell& cell) const {
+    const double value = context.volume.sample(cell.cast<double>());
+    return static_cast<float>(lumenPrice(levels, value));
+  }
+};
 
 Way smoothed(const TrackContext& context, const LumenLevels& levels, std::vector<Vector3d> points) {
   for (int pass = 0; pass < kSmoothing; ++pass) {
@@ -34,7 +43,7 @@ Way smoothed(const TrackContext& context, const LumenLevels& levels, std::vector
     const Vector3d middle = 0.5 * (points[i] + points[i - 1]);
     const double value = context.volume.sample(geometry.indexFromWorld(middle));
     way.length += step;
-    if (VoxelSearch::price(levels, value) >= VoxelSearch::kBeyondWall) way.outside += step;
+    if (lumenPrice(levels, value) >= kBeyondWallPrice) way.outside += step;
   }
   way.points = std::move(points);
   return way;
@@ -47,7 +56,7 @@ enum class Stretch : std::uint8_t { Own, Other, Beyond, Closed };
 /// The stretches of the ways of a search, and their lengths.
 class Stretches {
 public:
-  Stretches(VoxelSearch& search, const Outset& outset)
+  Stretches(CubeSearch& search, const Outset& outset)
       : m_search(search),
         m_outset(outset),
         m_isOther(search.count(), false),
@@ -88,7 +97,7 @@ private:
     return (m_search.position(voxel) - m_outset.place).dot(m_outset.direction);
   }
 
-  VoxelSearch& m_search;
+  CubeSearch& m_search;
   const Outset& m_outset;
   std::vector<bool> m_isOther;
   std::vector<Stretch> m_stretch;
@@ -96,7 +105,7 @@ private:
 };
 
 /// Voxels at the front of a search, in groups that touch; each in the order of their cost.
-std::vector<std::vector<std::size_t>> groupsOf(const VoxelSearch& search,
+std::vector<std::vector<std::size_t>> groupsOf(const CubeSearch& search,
                                                const std::vector<std::size_t>& front) {
   std::vector<std::vector<std::size_t>> groups;
   for (const std::size_t voxel : front) {
@@ -146,32 +155,33 @@ LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> n
 
 std::optional<Way> findWay(const TrackContext& context, const LumenLevels& levels,
                            const Vector3d& start, std::span<const Goal> goals, double reach) {
-  VoxelSearch search(context, levels, start, reach);
+  CubeSearch search(context.volume.geometry(), start, reach);
   if (!search.isPossible()) return {};
   std::unordered_map<std::size_t, std::size_t> goalAt;  // the one of least surcharge in a voxel
   for (std::size_t g = 0; g < goals.size(); ++g) {
     const std::size_t at = search.voxelAt(goals[g].position);
-    if (at == VoxelSearch::kNowhere) continue;
+    if (at == CubeSearch::kNowhere) continue;
     const auto [there, isNew] = goalAt.emplace(at, g);
     if (!isNew && goals[g].surcharge < goals[there->second].surcharge) there->second = g;
   }
   if (goalAt.empty()) return {};
   double best = std::numeric_limits<double>::infinity();
   std::size_t bestVoxel = 0, bestGoal = 0;
-  search.run(false, [&](std::size_t voxel, double cost) {
-    if (cost >= best) return Then::Stop;
+  const auto visit = [&](std::size_t voxel, double cost) {
+    if (cost >= best) return SearchStep::Stop;
     const auto goal = goalAt.find(voxel);
-    if (goal == goalAt.end()) return Then::GoOn;
+    if (goal == goalAt.end()) return SearchStep::GoOn;
     const double whole = cost + goals[goal->second].surcharge;
     if (whole < best) {
       best = whole;
       bestVoxel = voxel;
       bestGoal = goal->second;
     }
-    return Then::GoOn;
-  });
+    return SearchStep::GoOn;
+  };
+  search.run(PriceAt{context, levels}, CheapestPaths::kFar, visit, context.progress);
   if (!std::isfinite(best)) return {};
-  Way way = smoothed(context, levels, search.wayTo(bestVoxel));
+  Way way = smoothed(context, levels, search.pathTo(bestVoxel));
   way.goal = bestGoal;
   return way;
 }
@@ -179,24 +189,26 @@ std::optional<Way> findWay(const TrackContext& context, const LumenLevels& level
 WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, const Outset& outset,
                       double distance) {
   WaysOnward onward;
-  VoxelSearch search(context, levels, outset.place, distance);
+  CubeSearch search(context.volume.geometry(), outset.place, distance);
   if (!search.isPossible()) return onward;
   Stretches stretches(search, outset);
   std::vector<std::size_t> front;
-  search.run(true, [&](std::size_t voxel, double) {
+  const auto visit = [&](std::size_t voxel, double) {
     const Stretch there = stretches.at(voxel);
-    if (there == Stretch::Closed) return Then::GoNoFurther;
+    if (there == Stretch::Closed) return SearchStep::GoNoFurther;
     const double length = stretches.lengthTo(voxel);
     if (there != Stretch::Other)
       onward.visible = std::max(onward.visible, std::min(length, distance));
-    if (length < distance) return Then::GoOn;
+    if (length < distance) return SearchStep::GoOn;
     onward.isAll = false;
     if (there == Stretch::Own || (there == Stretch::Beyond && stretches.isAhead(voxel)))
       front.push_back(voxel);
-    return Then::GoNoFurther;
-  });
+    return SearchStep::GoNoFurther;
+  };
+  search.run(PriceAt{context, levels}, static_cast<float>(kBeyondWallPrice), visit,
+             context.progress);
   for (const auto& group : groupsOf(search, front)) {
-    onward.ways.push_back(smoothed(context, levels, search.wayTo(group.front())));
+    onward.ways.push_back(smoothed(context, levels, search.pathTo(group.front())));
     onward.ways.back().breadth = breadthOf(group.size(), context.volume.geometry());
   }
   return onward;

@@ -9,8 +9,9 @@
 
 #include <Eigen/Core>
 
+#include "converters/stages/tracking/lumen_price.h"
 #include "converters/stages/tracking/node_fit.h"
-#include "converters/stages/tracking/voxel_search.h"
+#include "converters/voxels/cube_search.h"
 
 namespace lumen::convert {
 

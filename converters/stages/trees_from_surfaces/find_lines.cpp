@@ -6,11 +6,10 @@
 #include <functional>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
 #include "converters/stages/trees_from_surfaces/inside_voxels.h"
 #include "converters/stages/trees_from_surfaces/vessel_lines.h"
 #include "converters/stages/trees_from_surfaces/vessel_ways.h"
+#include "converters/voxels/depth.h"
 #include "converters/voxels/voxel_set.h"
 
 namespace lumen::convert {
@@ -29,10 +28,10 @@ public:
   LineFinder(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress)
       : m_lumen(lumen),
         m_set(grid, insideVoxels(lumen.surface().mesh, grid, progress)),
-        m_depths(m_set.size()),
+        m_depths(depths(progress)),
         m_isOpen(
             [&lumen](const Vector3d& a, const Vector3d& b) { return lumen.tree().isFree(a, b); }),
-        m_ways((measure(progress), m_set), m_depths, m_isOpen, progress),
+        m_ways(m_set, m_depths, m_isOpen, progress),
         m_progress(progress) {}
 
   VesselLines find() {
@@ -58,14 +57,12 @@ public:
   }
 
 private:
-  void measure(Progress& progress) {
+  std::vector<float> depths(Progress& progress) const {
     progress.begin("depth", 0);
-    tbb::parallel_for(
-        std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()), [&](std::uint32_t i) {
-          if (i % 1024 == 0) progress.check();
-          m_depths[i] = static_cast<float>(m_lumen.tree().nearest(m_set.position(i)).distance);
-        });
+    std::vector<float> depths = depthsBy(
+        m_set, [&](const Vector3d& at) { return m_lumen.tree().nearest(at).distance; }, progress);
     progress.end();
+    return depths;
   }
 
   /// For each flat end the nearest voxel inside, or kNone.
@@ -80,9 +77,7 @@ private:
         const Vector3d near(std::round(at.x()) + k % 5 - 2, std::round(at.y()) + k / 5 % 5 - 2,
                             std::round(at.z()) + k / 25 - 2);
         if (!grid.containsIndex(near)) continue;
-        const auto index = static_cast<std::size_t>(
-            near.x() + grid.size[0] * (near.y() + grid.size[1] * near.z()));
-        const std::uint32_t voxel = m_set.find(index);
+        const std::uint32_t voxel = m_set.find(grid.index(near.cast<int>()));
         if (voxel == VoxelSet::kNone) continue;
         const double away = (near - at).squaredNorm();
         if (best != kNone && away >= least) continue;
