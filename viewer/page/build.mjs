@@ -24,11 +24,20 @@ const result = await build({
   logLevel: "warning",
   metafile: true,
 });
-await build({ absWorkingDir: here, entryPoints: ["src/page.css"], outdir, bundle: true, minify: true, logLevel: "warning" });
+await build({
+  absWorkingDir: here,
+  entryPoints: ["src/page.css"],
+  outdir,
+  bundle: true,
+  minify: true,
+  logLevel: "warning",
+});
 copyFileSync(join(here, "src/index.html"), join(outdir, "index.html"));
 const size = statSync(join(outdir, "page.js")).size;
 console.log(`page.js: ${size} bytes`);
 if (result.warnings.length > 0 || size > kMostBytes) {
-  console.error(size > kMostBytes ? `page.js is larger than ${kMostBytes} bytes` : "esbuild warned, see above");
+  console.error(
+    size > kMostBytes ? `page.js is larger than ${kMostBytes} bytes` : "esbuild warned, see above",
+  );
   process.exit(1);
 }

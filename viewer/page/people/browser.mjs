@@ -17,7 +17,8 @@ export function story(name, steps) {
       await steps(Object.assign(t, { pages }));
     } catch (error) {
       for (const [i, page] of pages.entries())
-        if (!page.isClosed()) await picture(page, `failed-${name.replaceAll(/[^a-z]+/gi, "-")}-${i + 1}`).catch(() => undefined);
+        if (!page.isClosed())
+          await picture(page, `failed-${name.replaceAll(/[^a-z]+/gi, "-")}-${i + 1}`).catch(() => undefined);
       throw error;
     }
   });
@@ -29,7 +30,13 @@ export async function startBrowser(t) {
     executablePath: kChromium,
     timeout: kPatience,
     // root, as on a machine that only tests, has no sandbox; /dev/shm is small in containers
-    args: ["--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--force-color-profile=srgb"],
+    args: [
+      "--no-sandbox",
+      "--disable-dev-shm-usage",
+      "--enable-unsafe-swiftshader",
+      "--use-angle=swiftshader",
+      "--force-color-profile=srgb",
+    ],
   });
   t.after(() => browser.close());
   return browser;
@@ -37,20 +44,33 @@ export async function startBrowser(t) {
 
 /** A page whose mistakes fail the test at its end: what it throws, what its policy refuses, what it warns of. */
 export async function openPage(t, browser, address, { prepare = () => undefined, ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "dark", acceptDownloads: true, ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1280, height: 800 },
+    colorScheme: "dark",
+    acceptDownloads: true,
+    ...options,
+  });
   await prepare(context);
-  const page = await context.newPage(), mistakes = [];
+  const page = await context.newPage(),
+    mistakes = [];
   t.pages.push(page);
   page.setDefaultTimeout(kPatience);
   page.on("pageerror", error => mistakes.push(String(error)));
-  page.on("console", message => { if (["error", "warning"].includes(message.type()) && !isOfTheDriver(message.text())) mistakes.push(message.text()); });
-  t.after(() => { if (mistakes.length > 0) throw new Error(`the page complained:\n${mistakes.join("\n")}`); });
+  page.on("console", message => {
+    if (["error", "warning"].includes(message.type()) && !isOfTheDriver(message.text()))
+      mistakes.push(message.text());
+  });
+  t.after(() => {
+    if (mistakes.length > 0) throw new Error(`the page complained:\n${mistakes.join("\n")}`);
+  });
   await page.goto(address, { timeout: kPatience });
   await page.locator("body[data-ready]").waitFor();
   return page;
 }
 // software WebGL says so, and that reading pixels back is slow; a refusal by the server is logged as such
-const isOfTheDriver = text => /GPU stall|swiftshader|GL Driver Message/i.test(text) || /Failed to load resource.*(400|404|409)/.test(text);
+const isOfTheDriver = text =>
+  /GPU stall|swiftshader|GL Driver Message/i.test(text) ||
+  /Failed to load resource.*(400|404|409)/.test(text);
 
 /** Until nothing works any more, and the list of vessels is that of the document as it is. */
 export async function settled(page) {
@@ -59,12 +79,16 @@ export async function settled(page) {
   await frames(page, 3);
 }
 
-/** Waits for as many pictures of the browser. */
+/** Waits for N pictures of the browser. */
 export async function frames(page, count = 2) {
-  await page.evaluate(n => new Promise(resolve => {
-    const next = k => (k === 0 ? resolve() : requestAnimationFrame(() => next(k - 1)));
-    next(n);
-  }), count);
+  await page.evaluate(
+    n =>
+      new Promise(resolve => {
+        const next = k => (k === 0 ? resolve() : requestAnimationFrame(() => next(k - 1)));
+        next(n);
+      }),
+    count,
+  );
 }
 
 /** Keeps a picture for people to look at. */
@@ -74,19 +98,22 @@ export async function picture(page, name) {
   await page.screenshot({ path: join(kPictures, `${name}.png`), timeout: kPatience });
 }
 
-/** What an element looks like: width, height and RGBA bytes. */
+/** The picture of an element: width, height and RGBA bytes. */
 export async function pixels(page, selector) {
   await frames(page, 3);
   const png = await page.locator(selector).screenshot({ timeout: kPatience });
   const blank = await page.context().browser().newPage();
   try {
     const { width, height, data } = await blank.evaluate(async text => {
-      const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0)), bitmap = await createImageBitmap(new Blob([bytes]));
-      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), context = canvas.getContext("2d");
+      const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0)),
+        bitmap = await createImageBitmap(new Blob([bytes]));
+      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height),
+        context = canvas.getContext("2d");
       context.drawImage(bitmap, 0, 0);
       const rgba = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
       let binary = "";
-      for (let i = 0; i < rgba.length; i += 8192) binary += String.fromCharCode(...rgba.subarray(i, i + 8192));
+      for (let i = 0; i < rgba.length; i += 8192)
+        binary += String.fromCharCode(...rgba.subarray(i, i + 8192));
       return { width: bitmap.width, height: bitmap.height, data: btoa(binary) };
     }, png.toString("base64"));
     return { width, height, data: Buffer.from(data, "base64") };

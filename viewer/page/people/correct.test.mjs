@@ -6,10 +6,11 @@ import { frames, openPage, picture, settled, startBrowser, story } from "./brows
 import { clickIn, document, kissing, lookAt, placeIn, placeSeed, vessel, vessels } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
-const position = async page => (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number);
+const position = async page =>
+  (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number);
 const away = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
 
-/** Does something that takes one step, and waits until the page shows that it is done. */
+/** Performs one step, and waits until the page shows that it is done. */
 async function step(page, act) {
   const title = await page.locator("#undo").getAttribute("title");
   await act();
@@ -27,23 +28,29 @@ async function undo(page) {
 /** The middle node of a vessel is the cursor's, and the crosshair is there. */
 async function toMiddle(page, label) {
   await vessel(page, label).locator(".name").dblclick();
-  await page.locator("#edit-name").filter({ hasText: `${label}, cursor at node` }).waitFor();
+  await page
+    .locator("#edit-name")
+    .filter({ hasText: `${label}, cursor at node` })
+    .waitFor();
   await frames(page);
 }
 
 const press = (page, id) => () => page.locator(`#edit-${id}:enabled`).click();
 
 story("every correction can be made and undone", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
   kissing(file);
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")), page = await openPage(t, browser, server.address);
+  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
+    page = await openPage(t, browser, server.address);
   await vessel(page, "root2").waitFor();
   await settled(page);
-  const original = await document(page), undone = async what => {
-    await undo(page);
-    assert.deepEqual(await vessels(page), ["root", "root2"], `after undoing ${what}`);
-    assert.deepEqual(await document(page), original, `after undoing ${what}`);
-  };
+  const original = await document(page),
+    undone = async what => {
+      await undo(page);
+      assert.deepEqual(await vessels(page), ["root", "root2"], `after undoing ${what}`);
+      assert.deepEqual(await document(page), original, `after undoing ${what}`);
+    };
 
   await toMiddle(page, "root");
   await step(page, press(page, "reverse"));
@@ -59,11 +66,19 @@ story("every correction can be made and undone", async t => {
   await toMiddle(page, "root2");
   await step(page, press(page, "split"));
   assert.deepEqual(await vessels(page), ["root", "root2", "root2-2"]);
-  assert.equal(await vessel(page, "root2-2").getAttribute("aria-level"), "2", "what was split off hangs on the rest");
+  assert.equal(
+    await vessel(page, "root2-2").getAttribute("aria-level"),
+    "2",
+    "what was split off hangs on the rest",
+  );
   await vessel(page, "root2-2").locator(".name").click();
   await step(page, press(page, "root"));
   assert.equal(await vessel(page, "root2-2").getAttribute("aria-level"), "1");
-  assert.equal(await vessel(page, "root2").getAttribute("aria-level"), "2", "the tree begins at its other end now");
+  assert.equal(
+    await vessel(page, "root2").getAttribute("aria-level"),
+    "2",
+    "the tree begins at its other end now",
+  );
   await picture(page, "10-new-root");
   await undo(page);
   await vessel(page, "root2-2").locator(".name").click();
@@ -82,7 +97,11 @@ story("every correction can be made and undone", async t => {
 
   await toMiddle(page, "root");
   await step(page, () => page.keyboard.press("Shift+X"));
-  assert.equal(await vessel(page, "root-2").getAttribute("aria-level"), "1", "what was cut off is a tree of its own");
+  assert.equal(
+    await vessel(page, "root-2").getAttribute("aria-level"),
+    "1",
+    "what was cut off is a tree of its own",
+  );
   await vessel(page, "root-2").locator(".name").click();
   await page.locator("#edit-target").selectOption({ label: "root" });
   await step(page, press(page, "join"));
@@ -110,10 +129,12 @@ story("every correction can be made and undone", async t => {
 });
 
 story("a seed is moved, and a vessel is tracked through several clicks", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
   kissing(file);
   const truth = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches[0].points[0].position;
-  const server = await view(t, file("volume.nrrd")), page = await openPage(t, browser, server.address);
+  const server = await view(t, file("volume.nrrd")),
+    page = await openPage(t, browser, server.address);
   await settled(page);
   await placeSeed(page, truth);
   const link = page.locator("#seed-list .item .link").first();
@@ -154,10 +175,12 @@ story("a seed is moved, and a vessel is tracked through several clicks", async t
 });
 
 story("an aneurysm is a chain of clicks", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
   lumen("phantom", "aneurysm", file("volume.nrrd"), "--seeds", file("seeds.json"));
   const [vesselSeed, sac] = JSON.parse(readFileSync(file("seeds.json"), "utf8")).branches;
-  const server = await view(t, file("volume.nrrd")), page = await openPage(t, browser, server.address);
+  const server = await view(t, file("volume.nrrd")),
+    page = await openPage(t, browser, server.address);
   await settled(page);
   await placeSeed(page, vesselSeed.points[0].position);
   await page.locator("#seed-list .item").first().waitFor();

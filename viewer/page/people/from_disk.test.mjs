@@ -9,41 +9,60 @@ import { lumen, makeFolder } from "./lumen.mjs";
 
 /** The native library's distance and node at a position. */
 function blobSays(model, position) {
-  const { status, stdout, stderr } = spawnSync(process.env.LUMEN_ASK_BLOB, [model, ...position], { encoding: "utf8" });
+  const { status, stdout, stderr } = spawnSync(process.env.LUMEN_ASK_BLOB, [model, ...position], {
+    encoding: "utf8",
+  });
   assert.equal(status, 0, stderr);
   const [distance, node] = stdout.trim().split(" ").map(Number);
   return { distance, node };
 }
 
 story("the page from disk, with the network off, probes what libblob answers", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t), asked = [];
+  const file = makeFolder(t),
+    browser = await startBrowser(t),
+    asked = [];
   kissing(file);
   lumen("view", file("volume.nrrd"), file("vessels.lumen"), "--html", file("page.html"), "--html-volume");
   const address = pathToFileURL(file("page.html")).href;
   const page = await openPage(t, browser, address, {
     offline: true,
-    prepare: context => context.route("**", route => {
-      if (route.request().url() !== address && !route.request().url().startsWith("data:")) asked.push(route.request().url());
-      return route.continue();
-    }),
+    prepare: context =>
+      context.route("**", route => {
+        if (route.request().url() !== address && !route.request().url().startsWith("data:"))
+          asked.push(route.request().url());
+        return route.continue();
+      }),
   });
-  page.on("request", request => { if (!/^(file|data|blob):/.test(request.url())) asked.push(request.url()); });
+  page.on("request", request => {
+    if (!/^(file|data|blob):/.test(request.url())) asked.push(request.url());
+  });
   await vessel(page, "root").waitFor();
   await page.locator("#probe-distance[data-mm]").waitFor({ state: "attached" });
   await settled(page);
   await picture(page, "3-from-disk");
 
-  let inside = 0, outside = 0;
+  let inside = 0,
+    outside = 0;
   for (const name of ["axial", "coronal", "sagittal"]) {
     const box = await page.locator(`#view-${name}`).boundingBox();
-    for (const [u, v] of [[0.5, 0.5], [0.52, 0.47], [0.3, 0.6], [0.71, 0.44]]) {
+    for (const [u, v] of [
+      [0.5, 0.5],
+      [0.52, 0.47],
+      [0.3, 0.6],
+      [0.71, 0.44],
+    ]) {
       await page.mouse.move(box.x + u * box.width, box.y + v * box.height);
       await frames(page, 3);
-      const position = (await page.locator("#probe-position").getAttribute("data-mm")).split(" "), said = blobSays(file("vessels.lumen"), position);
+      const position = (await page.locator("#probe-position").getAttribute("data-mm")).split(" "),
+        answer = blobSays(file("vessels.lumen"), position);
       const shown = Number(await page.locator("#probe-distance").getAttribute("data-mm"));
-      assert.ok(Math.abs(shown - said.distance) <= 1e-6, `${shown} mm at ${position} where libblob says ${said.distance}`);
-      assert.equal(Number(await page.locator("#probe-node").getAttribute("data-node")), said.node);
-      if (shown < 0) ++inside; else ++outside;
+      assert.ok(
+        Math.abs(shown - answer.distance) <= 1e-6,
+        `${shown} mm at ${position} where libblob says ${answer.distance}`,
+      );
+      assert.equal(Number(await page.locator("#probe-node").getAttribute("data-node")), answer.node);
+      if (shown < 0) ++inside;
+      else ++outside;
     }
   }
   assert.ok(inside > 0 && outside > 0, `${inside} points in the lumen, ${outside} outside of it`);

@@ -14,13 +14,20 @@ async function pointedAt(page, box, x, y) {
   return (await page.locator("#probe-position").getAttribute("data-mm")).split(" ").map(Number);
 }
 
-/** Where in a slice a position is, in pixels of the page; the slice may lie before or behind it. */
+/** The pixel of the page at which a slice shows a position, which may lie before or behind the slice. */
 export async function placeIn(page, view, position) {
-  const box = await page.locator(`#view-${view}`).boundingBox(), x = Math.round(box.width / 2), y = Math.round(box.height / 2), step = 50;
+  const box = await page.locator(`#view-${view}`).boundingBox(),
+    x = Math.round(box.width / 2),
+    y = Math.round(box.height / 2),
+    step = 50;
   const origin = await pointedAt(page, box, x, y);
-  const right = subtract(await pointedAt(page, box, x + step, y), origin), down = subtract(await pointedAt(page, box, x, y + step), origin);
+  const right = subtract(await pointedAt(page, box, x + step, y), origin),
+    down = subtract(await pointedAt(page, box, x, y + step), origin);
   const wanted = subtract(position, origin);
-  return { x: box.x + x + (step * dot(wanted, right)) / dot(right, right), y: box.y + y + (step * dot(wanted, down)) / dot(down, down) };
+  return {
+    x: box.x + x + (step * dot(wanted, right)) / dot(right, right),
+    y: box.y + y + (step * dot(wanted, down)) / dot(down, down),
+  };
 }
 
 export async function clickIn(page, view, position, options = {}) {
@@ -47,28 +54,41 @@ export async function placeSeed(page, position) {
 export const vessels = page => page.locator("#tree-list [role=treeitem] .name").allTextContents();
 
 /** The row of a vessel in the list. */
-export const vessel = (page, label) => page.locator("#tree-list [role=treeitem]").filter({ has: page.locator(".name", { hasText: new RegExp(`^${label}$`) }) });
+export const vessel = (page, label) =>
+  page
+    .locator("#tree-list [role=treeitem]")
+    .filter({ has: page.locator(".name", { hasText: new RegExp(`^${label}$`) }) });
 
 /** Drops a file onto the page. */
 export async function drop(page, name, bytes) {
-  const transfer = await page.evaluateHandle(([file, text]) => {
-    const data = new DataTransfer();
-    data.items.add(new File([Uint8Array.from(atob(text), c => c.charCodeAt(0))], file));
-    return data;
-  }, [name, Buffer.from(bytes).toString("base64")]);
-  for (const type of ["dragenter", "dragover", "drop"]) await page.dispatchEvent("#views", type, { dataTransfer: transfer });
+  const transfer = await page.evaluateHandle(
+    ([file, text]) => {
+      const data = new DataTransfer();
+      data.items.add(new File([Uint8Array.from(atob(text), c => c.charCodeAt(0))], file));
+      return data;
+    },
+    [name, Buffer.from(bytes).toString("base64")],
+  );
+  for (const type of ["dragenter", "dragover", "drop"])
+    await page.dispatchEvent("#views", type, { dataTransfer: transfer });
 }
 
 /** Waits for a message and gives its text. */
-export async function told(page, pattern, severity = "") {
-  const toast = page.locator(`#toasts .toast${severity === "" ? "" : `.${severity}`}`).filter({ hasText: pattern }).last();
+export async function reported(page, pattern, severity = "") {
+  const toast = page
+    .locator(`#toasts .toast${severity === "" ? "" : `.${severity}`}`)
+    .filter({ hasText: pattern })
+    .last();
   await toast.waitFor();
   return toast.locator("span").textContent();
 }
 
 /** The bytes of the document's case, as a download. */
 export async function document(page) {
-  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#export").selectOption("lumen")]);
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    page.locator("#export").selectOption("lumen"),
+  ]);
   return readFileSync(await download.path());
 }
 

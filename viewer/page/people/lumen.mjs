@@ -16,26 +16,43 @@ export function makeFolder(test) {
 
 /** Runs a command to its end and gives its JSON answer, if it has one. */
 export function lumen(...words) {
-  const { status, stdout, stderr, error } = spawnSync(kLumen, [...words, "--quiet", "--json"], { encoding: "utf8", maxBuffer: 1e9 });
-  if (error !== undefined || status !== 0) throw new Error(`lumen ${words.join(" ")}: ${error?.message ?? `exit code ${status}\n${stderr}`}`);
+  const { status, stdout, stderr, error } = spawnSync(kLumen, [...words, "--quiet", "--json"], {
+    encoding: "utf8",
+    maxBuffer: 1e9,
+  });
+  if (error !== undefined || status !== 0)
+    throw new Error(`lumen ${words.join(" ")}: ${error?.message ?? `exit code ${status}\n${stderr}`}`);
   return stdout.trim() === "" ? null : JSON.parse(stdout);
 }
 
 /** `lumen view` until the test is over or `stop` is called. */
 export async function view(test, ...files) {
-  const child = spawn(kLumen, ["view", "--no-browser", "--json", ...files], { stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(kLumen, ["view", "--no-browser", "--json", ...files], {
+    stdio: ["ignore", "pipe", "pipe"],
+  });
   const ended = new Promise(resolve => child.once("exit", resolve));
-  let out = "", told = "";
-  child.stderr.on("data", data => { told += data; });
-  const stop = async () => { child.kill("SIGINT"); await ended; return told; };
+  let out = "",
+    printed = "";
+  child.stderr.on("data", data => {
+    printed += data;
+  });
+  const stop = async () => {
+    child.kill("SIGINT");
+    await ended;
+    return printed;
+  };
   test.after(stop);
   const address = await new Promise((resolve, reject) => {
     child.stdout.on("data", data => {
       out += data;
-      try { resolve(JSON.parse(out).address); } catch { /* not all of it is here yet */ }
+      try {
+        resolve(JSON.parse(out).address);
+      } catch {
+        /* not all of it is here yet */
+      }
     });
     child.once("error", reject);
-    child.once("exit", code => reject(new Error(`lumen view ended with ${code}:\n${told}`)));
+    child.once("exit", code => reject(new Error(`lumen view ended with ${code}:\n${printed}`)));
   });
   return { address, stop };
 }

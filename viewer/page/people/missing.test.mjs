@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the check finds missing is a place to click, and a vessel after that.
+// A vessel that the check finds missing is a place to click, and then a vessel.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { find, openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
@@ -11,7 +11,11 @@ const places = page => page.locator("#missing-list .item");
 async function check(page) {
   await page.locator("#check-about").filter({ hasNotText: "check again" }).waitFor();
   await page.keyboard.press("k");
-  await page.locator("#check-about").filter({ hasText: "the wall is off" }).filter({ hasNotText: "check again" }).waitFor();
+  await page
+    .locator("#check-about")
+    .filter({ hasText: "the wall is off" })
+    .filter({ hasNotText: "check again" })
+    .waitFor();
   await settled(page);
 }
 
@@ -23,41 +27,53 @@ function half(file, name) {
   lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("one.json"));
 }
 
-story("a click on a ring in the 3D view places a seed in what is missing, and tracking leaves less of it", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
-  half(file, "bifurcation");
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")), page = await openPage(t, browser, server.address);
-  await settled(page);
-  await check(page);
-  const before = await places(page).count();
-  assert.ok(before > 0, "the second vessel is missing");
-  await picture(page, "2-missing");
+story(
+  "a click on a ring in the 3D view places a seed in what is missing, and tracking leaves less of it",
+  async t => {
+    const file = makeFolder(t),
+      browser = await startBrowser(t);
+    half(file, "bifurcation");
+    const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
+      page = await openPage(t, browser, server.address);
+    await settled(page);
+    await check(page);
+    const before = await places(page).count();
+    assert.ok(before > 0, "the second vessel is missing");
+    await picture(page, "2-missing");
 
-  const pink = (r, g, b) => r > 150 && r > 1.5 * g && b > 1.05 * g && r > 1.3 * b; // the mark, lit and shaded
-  const box = await page.locator("#view-scene").boundingBox(), { at, count } = find(await pixels(page, "#view-scene"), pink);
-  assert.ok(count > 20, `${count} pixels of the mark`);
-  await page.mouse.click(box.x + at.x, box.y + at.y);
-  await page.locator("#seed-list .item").first().waitFor();
-  await page.mouse.click(box.x + at.x, box.y + at.y);
-  await picture(page, "2-seed-there");
-  assert.equal(await page.locator("#seed-list .item").count(), 1, "a second click on the same ring places no second seed");
+    const pink = (r, g, b) => r > 150 && r > 1.5 * g && b > 1.05 * g && r > 1.3 * b; // the mark, lit and shaded
+    const box = await page.locator("#view-scene").boundingBox(),
+      { at, count } = find(await pixels(page, "#view-scene"), pink);
+    assert.ok(count > 20, `${count} pixels of the mark`);
+    await page.mouse.click(box.x + at.x, box.y + at.y);
+    await page.locator("#seed-list .item").first().waitFor();
+    await page.mouse.click(box.x + at.x, box.y + at.y);
+    await picture(page, "2-seed-there");
+    assert.equal(
+      await page.locator("#seed-list .item").count(),
+      1,
+      "a second click on the same ring places no second seed",
+    );
 
-  await page.keyboard.press("t");
-  await page.locator("#tree-list [role=treeitem]").nth(1).waitFor();
-  await settled(page);
-  await page.locator("#check-about").filter({ hasText: "check again" }).waitFor();
-  await page.keyboard.press("k");
-  await page.locator("#check-about").filter({ hasNotText: "check again" }).waitFor();
-  await settled(page);
-  const after = await places(page).count();
-  assert.ok(after < before, `${before} places before, ${after} after`);
-  await picture(page, "2-tracked");
-});
+    await page.keyboard.press("t");
+    await page.locator("#tree-list [role=treeitem]").nth(1).waitFor();
+    await settled(page);
+    await page.locator("#check-about").filter({ hasText: "check again" }).waitFor();
+    await page.keyboard.press("k");
+    await page.locator("#check-about").filter({ hasNotText: "check again" }).waitFor();
+    await settled(page);
+    const after = await places(page).count();
+    assert.ok(after < before, `${before} places before, ${after} after`);
+    await picture(page, "2-tracked");
+  },
+);
 
 story("a click on a ring in a slice does the same", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
   half(file, "kissing");
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")), page = await openPage(t, browser, server.address);
+  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
+    page = await openPage(t, browser, server.address);
   await settled(page);
   await check(page);
   const before = await places(page).count();
@@ -71,7 +87,11 @@ story("a click on a ring in a slice does the same", async t => {
   await page.locator("#tree-list [role=treeitem]").nth(1).waitFor();
   await settled(page);
   await page.locator("#check").click();
-  await page.locator("#check-about").filter({ hasText: "the wall is off" }).filter({ hasNotText: "check again" }).waitFor();
+  await page
+    .locator("#check-about")
+    .filter({ hasText: "the wall is off" })
+    .filter({ hasNotText: "check again" })
+    .waitFor();
   const after = await places(page).count();
   assert.ok(after < before, `${before} places before, ${after} after`);
 });

@@ -1,24 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes wrong: broken files, hostile names, work that is given up, files and documents that others change.
+// Mistakes: broken files, hostile names, cancelled work, files and documents that others change.
 import assert from "node:assert/strict";
 import { copyFileSync, readFileSync, utimesSync, writeFileSync } from "node:fs";
 import { openPage, picture, settled, startBrowser, story } from "./browser.mjs";
-import { document, drop, kissing, told, vessel, vessels } from "./hand.mjs";
+import { document, drop, kissing, reported, vessel, vessels } from "./hand.mjs";
 import { lumen, makeFolder, view } from "./lumen.mjs";
 
 story("a broken file that is dropped is named with its fault, and changes nothing", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
   kissing(file);
-  const server = await view(t, file("vessels.lumen")), page = await openPage(t, browser, server.address);
+  const server = await view(t, file("vessels.lumen")),
+    page = await openPage(t, browser, server.address);
   await vessel(page, "root").waitFor();
   await settled(page);
-  const before = await document(page), cut = before.subarray(0, before.length >> 1);
-  const broken = [["half.lumen", cut, /half\.lumen/], ["noise.nrrd", "NRRD0004\ntype: float\ndimension: 3\nsizes: 99999 99999 99999\nencoding: raw\n\n", /noise\.nrrd/],
-    ["what.xyz", "hello", /what\.xyz/], ["empty.stl", "", /empty\.stl/]];
+  const before = await document(page),
+    cut = before.subarray(0, before.length >> 1);
+  const broken = [
+    ["half.lumen", cut, /half\.lumen/],
+    [
+      "noise.nrrd",
+      "NRRD0004\ntype: float\ndimension: 3\nsizes: 99999 99999 99999\nencoding: raw\n\n",
+      /noise\.nrrd/,
+    ],
+    ["what.xyz", "hello", /what\.xyz/],
+    ["empty.stl", "", /empty\.stl/],
+  ];
   for (const [name, bytes, pattern] of broken) {
     await drop(page, name, bytes);
-    const text = await told(page, pattern, "error");
-    assert.ok(text.length > name.length + 10 && !text.includes(file("").slice(0, 5)), `it says what is wrong, without a path: ${text}`);
+    const text = await reported(page, pattern, "error");
+    assert.ok(
+      text.length > name.length + 10 && !text.includes(file("").slice(0, 5)),
+      `it says what is wrong, without a path: ${text}`,
+    );
     await settled(page);
   }
   await picture(page, "4-broken-files");
@@ -44,7 +58,9 @@ story("a broken file that is dropped is named with its fault, and changes nothin
 });
 
 story("a vessel whose name is markup has that name, and nothing else happens", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t), name = "<img src=x onerror=document.title='taken'>";
+  const file = makeFolder(t),
+    browser = await startBrowser(t),
+    name = "<img src=x onerror=document.title='taken'>";
   lumen("phantom", "kissing", file("volume.nrrd"), "--seeds", file("seeds.json"));
   const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
   seeds.branches[0].label = name;
@@ -67,9 +83,11 @@ story("a vessel whose name is markup has that name, and nothing else happens", a
 });
 
 story("long work that is cancelled has changed nothing", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
   lumen("phantom", "patient", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  const server = await view(t, file("volume.nrrd"), file("seeds.json")), page = await openPage(t, browser, server.address);
+  const server = await view(t, file("volume.nrrd"), file("seeds.json")),
+    page = await openPage(t, browser, server.address);
   await settled(page);
   await page.locator("#seed-list .item").nth(39).waitFor({ state: "attached" }); // forty seeds take a while
   const seeds = await page.locator("#seed-list .item").allTextContents();
@@ -77,7 +95,8 @@ story("long work that is cancelled has changed nothing", async t => {
     await page.locator("#track-all:enabled").click();
     await page.locator("#progress").waitFor();
     await picture(page, `5-working-${by}`);
-    if (by === "button") await page.locator("#cancel").click(); else await page.keyboard.press("Escape");
+    if (by === "button") await page.locator("#cancel").click();
+    else await page.keyboard.press("Escape");
     await page.locator("#progress").waitFor({ state: "hidden" });
     await page.locator("#track-all:enabled").waitFor();
     await settled(page);
@@ -92,9 +111,12 @@ story("long work that is cancelled has changed nothing", async t => {
 });
 
 story("two pages on one document see each other's changes", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
   kissing(file);
-  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")), one = await openPage(t, browser, server.address), other = await openPage(t, browser, server.address);
+  const server = await view(t, file("volume.nrrd"), file("vessels.lumen")),
+    one = await openPage(t, browser, server.address),
+    other = await openPage(t, browser, server.address);
   await settled(one);
   await settled(other);
   await vessel(one, "root2").locator(".name").click();
@@ -118,16 +140,18 @@ story("two pages on one document see each other's changes", async t => {
   await vessel(other, "root2").waitFor();
 });
 
-story("a file that another program writes is told, and not overwritten unasked", async t => {
-  const file = makeFolder(t), browser = await startBrowser(t);
+story("a change of the file by another program is reported, and not overwritten unasked", async t => {
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
   kissing(file);
   copyFileSync(file("vessels.lumen"), file("copy.lumen"));
-  const server = await view(t, file("vessels.lumen")), page = await openPage(t, browser, server.address);
+  const server = await view(t, file("vessels.lumen")),
+    page = await openPage(t, browser, server.address);
   await vessel(page, "root").waitFor();
   await settled(page);
   lumen("fit", file("copy.lumen"), file("vessels.lumen"), "--accuracy", "0.5");
   utimesSync(file("vessels.lumen"), new Date(), new Date(Date.now() + 5000));
-  await told(page, /vessels\.lumen/, "warning");
+  await reported(page, /vessels\.lumen/, "warning");
   await page.locator("#file-list .changed").waitFor(); // the section opens by itself
   await picture(page, "9-changed-on-disk");
   const theirs = readFileSync(file("vessels.lumen"));

@@ -6,9 +6,14 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const kSkipped = 77;
-const here = dirname(fileURLToPath(import.meta.url)), page = dirname(here);
-const needed = [[process.env.CHROMIUM ?? "/usr/bin/chromium", "apt install chromium"], [join(page, "node_modules/playwright-core"), "npm ci in viewer/page"],
-  [join(page, "dist/page.js"), "npm run build in viewer/page"], [join(page, "dist/blob.wasm"), "the target viewer_page, which needs what libblob/wasm/README.md names"]];
+const here = dirname(fileURLToPath(import.meta.url)),
+  page = dirname(here);
+const needed = [
+  [process.env.CHROMIUM ?? "/usr/bin/chromium", "apt install chromium"],
+  [join(page, "node_modules/playwright-core"), "npm ci in viewer/page"],
+  [join(page, "dist/page.js"), "npm run build in viewer/page"],
+  [join(page, "dist/blob.wasm"), "the target viewer_page, which needs what libblob/wasm/README.md names"],
+];
 for (const [path, remedy] of needed)
   if (!existsSync(path)) {
     console.log(`skipped: ${path} is missing (${remedy})`);

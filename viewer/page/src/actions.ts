@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What buttons and keys do. */
+/** Actions of buttons and keys. */
 import type { Flight } from "./flight";
 import type { App, Tool } from "./model";
 import type { SceneView } from "./scene_view";
@@ -9,15 +9,28 @@ import { Refused } from "./source";
 import { askYes, h } from "./ui";
 
 export class Actions {
-  flight: Flight | null = null;
+  constructor(
+    private readonly app: App,
+    private readonly scene: SceneView,
+    private readonly slices: SliceView[],
+    readonly flight: Flight,
+  ) {}
 
-  constructor(private readonly app: App, private readonly scene: SceneView, private readonly slices: SliceView[]) {}
-
-  tool(tool: Tool): void { this.app.store.set({ tool, pending: [] }); }
-  undo(): Promise<boolean> { return this.app.perform({ op: "undo" }); }
-  redo(): Promise<boolean> { return this.app.perform({ op: "redo" }); }
-  track(labels: string[] | null): Promise<boolean> { return this.app.perform({ op: "track", labels }); }
-  check(): Promise<boolean> { return this.app.perform({ op: "check" }); }
+  tool(tool: Tool): void {
+    this.app.store.set({ tool, pending: [] });
+  }
+  undo(): Promise<boolean> {
+    return this.app.perform({ op: "undo" });
+  }
+  redo(): Promise<boolean> {
+    return this.app.perform({ op: "redo" });
+  }
+  track(labels: string[] | null): Promise<boolean> {
+    return this.app.perform({ op: "track", labels });
+  }
+  check(): Promise<boolean> {
+    return this.app.perform({ op: "check" });
+  }
   async compare(): Promise<void> {
     if (await this.app.perform({ op: "compare" })) this.app.store.set({ colourBy: "compare" });
   }
@@ -25,18 +38,30 @@ export class Actions {
   /** To the file that it came from; a case without one is downloaded. */
   async save(): Promise<void> {
     const { state } = this.app.store.get();
-    if (!state.hasCase) { this.app.say("There is no case to save yet: track a vessel first.", "warning"); return; }
+    if (!state.hasCase) {
+      this.app.say("There is no case to save yet: track a vessel first.", "warning");
+      return;
+    }
     if (state.saveAs === null) this.download("lumen");
-    else await this.saveFile(); // which tells where to
+    else await this.saveFile(); // the message names the file
   }
   private async saveFile(): Promise<void> {
     const { source, store, say } = this.app;
     try {
       await source.perform({ op: "save" }, store.get().state.revision);
     } catch (error) {
-      const text = error instanceof Error ? error.message : String(error), { files, saveAs } = store.get().state;
-      if (!(error instanceof Refused) || error.status !== 409 || !files.some(f => f.name === saveAs && f.changed)) { say(text, "error"); return; }
-      if (await askYes("Overwrite the file?", text, "Overwrite")) await this.app.perform({ op: "save", force: true });
+      const text = error instanceof Error ? error.message : String(error),
+        { files, saveAs } = store.get().state;
+      if (
+        !(error instanceof Refused) ||
+        error.status !== 409 ||
+        !files.some(f => f.name === saveAs && f.changed)
+      ) {
+        say(text, "error");
+        return;
+      }
+      if (await askYes("Overwrite the file?", text, "Overwrite"))
+        await this.app.perform({ op: "save", force: true });
     }
   }
   download(format: string): void {
@@ -57,7 +82,10 @@ export class Actions {
         this.app.say(`Opening ${file.name}…`);
         await this.app.source.open(file.name, as, file);
       } catch (error) {
-        this.app.say(error instanceof Refused || error instanceof Error ? error.message : String(error), "error");
+        this.app.say(
+          error instanceof Refused || error instanceof Error ? error.message : String(error),
+          "error",
+        );
       }
     }
   }
@@ -67,30 +95,46 @@ export class Actions {
   }
 
   fly(): void {
-    if (this.flight?.running === true) { this.flight.stop(); return; }
+    if (this.flight.running) {
+      this.flight.stop();
+      return;
+    }
     const { layout } = this.app.store.get();
     if (layout !== "four" && layout !== "rows" && layout !== "scene") this.app.store.set({ layout: "four" });
-    this.flight?.start();
+    this.flight.start();
     this.scene.element.focus();
   }
   fit(): void {
     this.scene.fit();
     for (const slice of this.slices) slice.fit();
   }
-  lookFrom(side: "A" | "P" | "L" | "R" | "S" | "I"): void { this.scene.camera.lookFrom(side); this.scene.moved(); }
-  parallel(): void { this.scene.camera.isParallel = !this.scene.camera.isParallel; this.scene.moved(); }
+  lookFrom(side: "A" | "P" | "L" | "R" | "S" | "I"): void {
+    this.scene.camera.lookFrom(side);
+    this.scene.moved();
+  }
+  parallel(): void {
+    this.scene.camera.isParallel = !this.scene.camera.isParallel;
+    this.scene.moved();
+  }
   theme(): void {
     const theme = this.app.store.get().theme === "dark" ? "light" : "dark";
     this.app.store.set({ theme });
-    try { localStorage.setItem("lumen-theme", theme); } catch { /* a page from disk may keep nothing */ }
+    try {
+      localStorage.setItem("lumen-theme", theme);
+    } catch {
+      /* a page from disk may keep nothing */
+    }
   }
-  help(): void { openHelp(this.app.source.live); }
+  help(): void {
+    openHelp(this.app.source.live);
+  }
 
   picture(): void {
     const over = [...document.querySelectorAll<HTMLCanvasElement>("canvas.over")];
     this.app.stage.picture(over, "#07090c").toBlob(blob => {
       if (blob === null) return;
-      const address = URL.createObjectURL(blob), link = h("a", { href: address, download: `${this.app.store.get().state.title || "lumen"}.png` });
+      const address = URL.createObjectURL(blob),
+        link = h("a", { href: address, download: `${this.app.store.get().state.title || "lumen"}.png` });
       document.body.append(link);
       link.click();
       link.remove();

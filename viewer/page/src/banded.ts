@@ -9,11 +9,13 @@ export const kBand = 9;
 export function solveBanded(size: number, lower: Float64Array, b: Float64Array): boolean {
   const last = kBand - 1;
   for (let i = 0; i < size; ++i) {
-    const row = kBand * i, from = Math.max(0, i - last);
+    const row = kBand * i,
+      from = Math.max(0, i - last);
     for (let j = from; j <= i; ++j) {
       let sum = lower[row + last - (i - j)];
       const other = kBand * j;
-      for (let k = Math.max(from, j - last); k < j; ++k) sum -= lower[row + last - (i - k)] * lower[other + last - (j - k)];
+      for (let k = Math.max(from, j - last); k < j; ++k)
+        sum -= lower[row + last - (i - k)] * lower[other + last - (j - k)];
       if (j < i) lower[row + last - (i - j)] = sum / lower[other + last];
       else if (sum > 0) lower[row + last] = Math.sqrt(sum);
       else return false;
@@ -26,7 +28,8 @@ export function solveBanded(size: number, lower: Float64Array, b: Float64Array):
   }
   for (let i = size - 1; i >= 0; --i) {
     let sum = b[i];
-    for (let k = i + 1; k <= Math.min(size - 1, i + last); ++k) sum -= lower[kBand * k + last - (k - i)] * b[k];
+    for (let k = i + 1; k <= Math.min(size - 1, i + last); ++k)
+      sum -= lower[kBand * k + last - (k - i)] * b[k];
     b[i] = sum / lower[kBand * i + last];
   }
   return true;

@@ -22,26 +22,37 @@ export class OrbitCamera {
   height = 1;
   private reach = 500;
 
-  get camera(): PerspectiveCamera | OrthographicCamera { return this.isParallel && this.flight === null ? this.parallel : this.perspective; }
+  get camera(): PerspectiveCamera | OrthographicCamera {
+    return this.isParallel && this.flight === null ? this.parallel : this.perspective;
+  }
   /** From the target to the eye. */
   get back(): Vec3 {
     const c = Math.cos(this.elevation);
     return [c * Math.sin(this.azimuth), -c * Math.cos(this.azimuth), Math.sin(this.elevation)];
   }
-  get right(): Vec3 { return [Math.cos(this.azimuth), Math.sin(this.azimuth), 0]; }
-  get up(): Vec3 { return cross(this.back, this.right); }
-  get eye(): Vec3 { return this.flight?.eye ?? along(this.target, this.back, this.distance); }
-  get mmPerPixel(): number { return (2 * this.distance * Math.tan((kAngle * Math.PI) / 360)) / Math.max(this.height, 1); }
+  get right(): Vec3 {
+    return [Math.cos(this.azimuth), Math.sin(this.azimuth), 0];
+  }
+  get up(): Vec3 {
+    return cross(this.back, this.right);
+  }
+  get eye(): Vec3 {
+    return this.flight?.eye ?? along(this.target, this.back, this.distance);
+  }
+  get mmPerPixel(): number {
+    return (2 * this.distance * Math.tan((kAngle * Math.PI) / 360)) / Math.max(this.height, 1);
+  }
 
   /** Shows a box as a whole, as it is seen from here. */
   fit(low: Vec3, high: Vec3): void {
     this.target = scale(add(low, high), 0.5);
     const radius = Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2 || 1;
-    const slope = Math.tan((kAngle * Math.PI) / 360), aspect = this.width / Math.max(this.height, 1);
+    const slope = Math.tan((kAngle * Math.PI) / 360),
+      aspect = this.width / Math.max(this.height, 1);
     this.reach = 2 * radius;
     this.distance = 0;
     for (let k = 0; k < 8; ++k) {
-      const corner = sub([0, 1, 2].map(a => ((k >> a) & 1) === 1 ? high[a] : low[a]) as Vec3, this.target);
+      const corner = sub([0, 1, 2].map(a => (((k >> a) & 1) === 1 ? high[a] : low[a])) as Vec3, this.target);
       const across = Math.max(Math.abs(dot(corner, this.up)), Math.abs(dot(corner, this.right)) / aspect);
       this.distance = Math.max(this.distance, (kMargin * across) / slope + dot(corner, this.back));
     }
@@ -50,14 +61,19 @@ export class OrbitCamera {
   update(width: number, height: number): PerspectiveCamera | OrthographicCamera {
     this.width = width;
     this.height = height;
-    const camera = this.camera, eye = new Vector3(...this.eye);
+    const camera = this.camera,
+      eye = new Vector3(...this.eye);
     if (camera instanceof PerspectiveCamera) {
       camera.fov = this.flight === null ? kAngle : 80;
       camera.aspect = width / height;
-      camera.near = this.flight === null ? Math.max(this.distance - this.reach, this.distance / 200, 0.02) : 0.02;
+      camera.near =
+        this.flight === null ? Math.max(this.distance - this.reach, this.distance / 200, 0.02) : 0.02;
     } else {
       const h = (this.mmPerPixel * height) / 2;
-      camera.top = h; camera.bottom = -h; camera.right = (h * width) / height; camera.left = -camera.right;
+      camera.top = h;
+      camera.bottom = -h;
+      camera.right = (h * width) / height;
+      camera.left = -camera.right;
       camera.near = this.distance - this.reach;
     }
     camera.far = this.distance + this.reach;
@@ -79,7 +95,9 @@ export class OrbitCamera {
   }
   /** Nearer (below 1) or farther; keeps the point under the pointer in place. */
   zoom(factor: number, x = this.width / 2, y = this.height / 2): void {
-    const s = this.mmPerPixel * (1 - factor), dx = x - this.width / 2, dy = this.height / 2 - y;
+    const s = this.mmPerPixel * (1 - factor),
+      dx = x - this.width / 2,
+      dy = this.height / 2 - y;
     this.target = along(along(this.target, this.right, dx * s), this.up, dy * s);
     this.distance = Math.min(20 * this.reach, Math.max(0.5, this.distance * factor));
   }
@@ -102,5 +120,7 @@ export class OrbitCamera {
     return { x: ((v.x + 1) * this.width) / 2, y: ((1 - v.y) * this.height) / 2, depth: 0 };
   }
   /** The direction in space of a step of pixels. */
-  inSpace(dx: number, dy: number): Vec3 { return unit(along(scale(this.right, dx), this.up, -dy)); }
+  inSpace(dx: number, dy: number): Vec3 {
+    return unit(along(scale(this.right, dx), this.up, -dy));
+  }
 }

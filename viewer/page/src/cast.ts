@@ -1,8 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Ray casting: maximum-intensity projection and a shaded volume, at a resolution that the graphics can bear. Blocks
  * whose greatest value cannot show are stepped over. */
-import { BackSide, BoxGeometry, GLSL3, LinearFilter, Matrix4, Mesh, NoBlending, OrthographicCamera, PlaneGeometry, RGBAFormat, Scene,
-  ShaderMaterial, Vector2, Vector3, Vector4, WebGLRenderTarget, type Camera, type WebGLRenderer } from "three";
+import {
+  BackSide,
+  BoxGeometry,
+  GLSL3,
+  LinearFilter,
+  Matrix4,
+  Mesh,
+  NoBlending,
+  OrthographicCamera,
+  PlaneGeometry,
+  RGBAFormat,
+  Scene,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+  Vector4,
+  WebGLRenderTarget,
+  type Camera,
+  type WebGLRenderer,
+} from "three";
 import { kBlock, type Reduced, type Volume } from "./volume";
 import { castTextures } from "./volume_texture";
 
@@ -82,7 +100,12 @@ uniform sampler2D picture;
 void main() { result = vec4(texture(picture, at).rgb + vec3(0.027, 0.035, 0.047) * (1.0 - texture(picture, at).a), 1.0); }`;
 
 export class Caster {
-  private readonly target = new WebGLRenderTarget(1, 1, { format: RGBAFormat, minFilter: LinearFilter, magFilter: LinearFilter, depthBuffer: false });
+  private readonly target = new WebGLRenderTarget(1, 1, {
+    format: RGBAFormat,
+    minFilter: LinearFilter,
+    magFilter: LinearFilter,
+    depthBuffer: false,
+  });
   private readonly scene = new Scene();
   private readonly copyScene = new Scene();
   private readonly copyCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
@@ -91,33 +114,71 @@ export class Caster {
   private readonly fromTexture: Matrix4;
   private readonly toTexture: Matrix4;
 
-  constructor(volume: Volume, private readonly reduced: Reduced) {
+  constructor(
+    volume: Volume,
+    private readonly reduced: Reduced,
+  ) {
     this.textures = castTextures(reduced);
     this.toTexture = new Matrix4().fromArray(volume.toTexture());
     this.fromTexture = this.toTexture.clone().invert();
     this.material = new ShaderMaterial({
-      glslVersion: GLSL3, vertexShader: `uniform mat4 fromTexture;${kVertex}`, fragmentShader: kFragment, side: BackSide, depthTest: false, depthWrite: false,
+      glslVersion: GLSL3,
+      vertexShader: `uniform mat4 fromTexture;${kVertex}`,
+      fragmentShader: kFragment,
+      side: BackSide,
+      depthTest: false,
+      depthWrite: false,
       blending: NoBlending,
-      uniforms: { voxels: { value: this.textures.voxels }, blocks: { value: this.textures.blocks }, eye: { value: new Vector3() },
-        forward: { value: new Vector3() }, size: { value: new Vector3(...reduced.size) }, blockCount: { value: new Vector3(...reduced.blocks.size) },
-        window: { value: new Vector2() }, shaded: { value: 0 }, step: { value: 1 }, clip: { value: new Vector4() }, fromTexture: { value: this.fromTexture } },
+      uniforms: {
+        voxels: { value: this.textures.voxels },
+        blocks: { value: this.textures.blocks },
+        eye: { value: new Vector3() },
+        forward: { value: new Vector3() },
+        size: { value: new Vector3(...reduced.size) },
+        blockCount: { value: new Vector3(...reduced.blocks.size) },
+        window: { value: new Vector2() },
+        shaded: { value: 0 },
+        step: { value: 1 },
+        clip: { value: new Vector4() },
+        fromTexture: { value: this.fromTexture },
+      },
     });
     const box = new Mesh(new BoxGeometry(1, 1, 1).translate(0.5, 0.5, 0.5), this.material);
     box.frustumCulled = false;
     // a left-handed frame would show the near sides instead
     if (this.fromTexture.determinant() < 0) this.material.side = 0;
     this.scene.add(box);
-    const quad = new Mesh(new PlaneGeometry(2, 2), new ShaderMaterial({ glslVersion: GLSL3, depthTest: false, depthWrite: false,
-      vertexShader: "out vec2 at; void main() { at = 0.5 + 0.5 * position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }",
-      fragmentShader: kCopy, uniforms: { picture: { value: this.target.texture } } }));
+    const quad = new Mesh(
+      new PlaneGeometry(2, 2),
+      new ShaderMaterial({
+        glslVersion: GLSL3,
+        depthTest: false,
+        depthWrite: false,
+        vertexShader:
+          "out vec2 at; void main() { at = 0.5 + 0.5 * position.xy; gl_Position = vec4(position.xy, 0.0, 1.0); }",
+        fragmentShader: kCopy,
+        uniforms: { picture: { value: this.target.texture } },
+      }),
+    );
     quad.frustumCulled = false;
     this.copyScene.add(quad);
   }
 
   /** Draws over the whole viewport, as the ground for what follows. `share`: of the resolution. */
-  draw(renderer: WebGLRenderer, camera: Camera, parallel: boolean, size: [number, number], share: number, window: [number, number],
-    shaded: boolean, clip: Vector4, step: number): void {
-    const u = this.material.uniforms, { low, high } = this.reduced, f = 1 / Math.max(high - low, 1e-9);
+  draw(
+    renderer: WebGLRenderer,
+    camera: Camera,
+    parallel: boolean,
+    size: [number, number],
+    share: number,
+    window: [number, number],
+    shaded: boolean,
+    clip: Vector4,
+    step: number,
+  ): void {
+    const u = this.material.uniforms,
+      { low, high } = this.reduced,
+      f = 1 / Math.max(high - low, 1e-9);
     this.target.setSize(Math.max(1, Math.round(size[0] * share)), Math.max(1, Math.round(size[1] * share)));
     (u.window.value as Vector2).set((window[0] - low) * f, (window[1] - low) * f);
     u.shaded.value = shaded ? 1 : 0;
@@ -128,7 +189,8 @@ export class Caster {
     else (u.forward.value as Vector3).set(0, 0, 0);
     // a plane transforms with the inverse transposed, which for a row of four is the product with the way back
     (u.clip.value as Vector4).copy(clip).applyMatrix4(this.fromTexture.clone().transpose());
-    const viewport = renderer.getViewport(new Vector4()), scissor = renderer.getScissor(new Vector4());
+    const viewport = renderer.getViewport(new Vector4()),
+      scissor = renderer.getScissor(new Vector4());
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0x000000, 0);
     renderer.clear();

@@ -1,25 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What the colours of the surface mean. */
+/** The meaning of the surface's colours. */
 import { usualRange, type MapName } from "./colour";
 import type { ColourBy, View } from "./model";
 
-export interface Colouring { mapped: boolean; range: [number, number]; map: MapName; title: string; unit: string }
+export interface Colouring {
+  mapped: boolean;
+  range: [number, number];
+  map: MapName;
+  title: string;
+  unit: string;
+}
 
 export const kColourTitles: Record<ColourBy, string> = {
-  branch: "Branch", radius: "Radius", confidence: "Confidence", error: "Error of fit", root: "Distance from root", compare: "Distance to truth",
+  branch: "Branch",
+  radius: "Radius",
+  confidence: "Confidence",
+  error: "Error of fit",
+  root: "Distance from root",
+  compare: "Distance to truth",
 };
 
 /** The numbers of the nodes (or vertices) that a choice shows; null: none are there. */
-export function numbersOf(view: View, by: ColourBy): { nodes: ArrayLike<number> } | { vertices: Float32Array } | null {
+export function numbersOf(
+  view: View,
+  by: ColourBy,
+): { nodes: ArrayLike<number> } | { vertices: Float32Array } | null {
   const { tree, surface } = view;
   if (tree === null || surface === null) return null;
   switch (by) {
-    case "radius": return { vertices: surface.radius };
-    case "confidence": return tree.inlierRate === null ? null : { nodes: tree.inlierRate };
-    case "error": return tree.error === null ? null : { nodes: tree.error };
-    case "root": return { nodes: tree.rootDistance };
-    case "compare": return view.distance?.length !== surface.radius.length ? null : { vertices: view.distance };
-    default: return null;
+    case "radius":
+      return { vertices: surface.radius };
+    case "confidence":
+      return tree.inlierRate === null ? null : { nodes: tree.inlierRate };
+    case "error":
+      return tree.error === null ? null : { nodes: tree.error };
+    case "root":
+      return { nodes: tree.rootDistance };
+    case "compare":
+      return view.distance?.length !== surface.radius.length ? null : { vertices: view.distance };
+    default:
+      return null;
   }
 }
 
@@ -35,7 +55,8 @@ function rangeOf(view: View): [number, number] {
   let range = kept.get(key);
   if (range === undefined) {
     if (view.colourBy === "confidence") range = [0, 1];
-    else range = usualRange("nodes" in numbers ? numbers.nodes : numbers.vertices, view.colourBy === "compare");
+    else
+      range = usualRange("nodes" in numbers ? numbers.nodes : numbers.vertices, view.colourBy === "compare");
     kept.set(key, range);
   }
   return range;
@@ -43,8 +64,13 @@ function rangeOf(view: View): [number, number] {
 
 export function colouring(view: View): Colouring {
   const mapped = view.colourBy !== "branch" && numbersOf(view, view.colourBy) !== null;
-  return { mapped, range: rangeOf(view), map: view.colourBy === "compare" ? "diverging" : "sequential", title: kColourTitles[view.colourBy],
-    unit: view.colourBy === "confidence" || view.colourBy === "branch" ? "" : "mm" };
+  return {
+    mapped,
+    range: rangeOf(view),
+    map: view.colourBy === "compare" ? "diverging" : "sequential",
+    title: kColourTitles[view.colourBy],
+    unit: view.colourBy === "confidence" || view.colourBy === "branch" ? "" : "mm",
+  };
 }
 
 /** Puts the numbers of the present choice into the surface. */

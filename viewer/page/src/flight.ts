@@ -6,7 +6,11 @@ import type { Vec3 } from "./types";
 import { across, cross, distance, dot, mix, scale, sub, unit } from "./vec";
 
 /** Points of a way, smoothed a little, with their distance from its begin. */
-export interface Way { points: Vec3[]; nodes: number[]; at: number[] }
+export interface Way {
+  points: Vec3[];
+  nodes: number[];
+  at: number[];
+}
 
 export function wayOf(points: Vec3[], nodes: number[]): Way {
   const smooth = points.map((p, i): Vec3 => {
@@ -20,10 +24,12 @@ export function wayOf(points: Vec3[], nodes: number[]): Way {
 
 /** Index of the last point that lies before `s` mm, and the share of the way to the next. */
 export function locate(way: Way, s: number): { i: number; share: number } {
-  let low = 0, high = way.at.length - 1;
+  let low = 0,
+    high = way.at.length - 1;
   while (high - low > 1) {
     const half = (low + high) >> 1;
-    if (way.at[half] <= s) low = half; else high = half;
+    if (way.at[half] <= s) low = half;
+    else high = half;
   }
   const span = way.at[high] - way.at[low];
   return { i: low, share: span > 0 ? Math.min(1, Math.max(0, (s - way.at[low]) / span)) : 0 };
@@ -47,20 +53,40 @@ export class Flight {
   private up: Vec3 = [0, 0, 1];
   onChange: (() => void) | null = null;
 
-  constructor(private readonly app: App, private readonly scene: SceneView) {
-    app.store.watch(["tree"], () => { if (this.running) this.stop(); });
+  constructor(
+    private readonly app: App,
+    private readonly scene: SceneView,
+  ) {
+    app.store.watch(["tree"], () => {
+      if (this.running) this.stop();
+    });
   }
 
-  get running(): boolean { return this.way !== null; }
-  get paused(): boolean { return !this.playing; }
-  get share(): number { return this.way === null ? 0 : this.s / (this.way.at.at(-1)! || 1); }
+  get running(): boolean {
+    return this.way !== null;
+  }
+  get paused(): boolean {
+    return !this.playing;
+  }
+  get share(): number {
+    return this.way === null ? 0 : this.s / (this.way.at.at(-1)! || 1);
+  }
 
   start(): void {
     const { tree, selected, node } = this.app.store.get();
-    if (tree === null || selected < 0) { this.app.say("Select the vessel to fly into first.", "warning"); return; }
+    if (tree === null || selected < 0) {
+      this.app.say("Select the vessel to fly into first.", "warning");
+      return;
+    }
     const nodes = tree.wayTo(selected);
-    if (nodes.length < 3) { this.app.say("This vessel is too short for a flight.", "warning"); return; }
-    this.way = wayOf(nodes.map(n => tree.position(n)), nodes);
+    if (nodes.length < 3) {
+      this.app.say("This vessel is too short for a flight.", "warning");
+      return;
+    }
+    this.way = wayOf(
+      nodes.map(n => tree.position(n)),
+      nodes,
+    );
     const begin = nodes.indexOf(node);
     this.s = begin > 0 && begin < nodes.length - 3 ? this.way.at[begin] : 0;
     this.up = across(unit(sub(this.way.points[1], this.way.points[0])));
@@ -83,7 +109,12 @@ export class Flight {
     this.onChange?.();
   }
   /** To a share of the way, or by millimetres. */
-  seek(share: number): void { if (this.way !== null) { this.s = share * this.way.at.at(-1)!; this.show(); } }
+  seek(share: number): void {
+    if (this.way !== null) {
+      this.s = share * this.way.at.at(-1)!;
+      this.show();
+    }
+  }
   step(count: number): void {
     if (this.way === null) return;
     this.s = Math.min(this.way.at.at(-1)!, Math.max(0, this.s + count));
@@ -92,13 +123,26 @@ export class Flight {
   key(key: string): boolean {
     if (!this.running) return false;
     switch (key) {
-      case "ArrowUp": this.step(1); return true;
-      case "ArrowDown": this.step(-1); return true;
-      case " ": this.pause(); return true;
-      case "+": this.speed *= 1.4; return true;
-      case "-": this.speed /= 1.4; return true;
-      case "Escape": this.stop(); return true;
-      default: return false;
+      case "ArrowUp":
+        this.step(1);
+        return true;
+      case "ArrowDown":
+        this.step(-1);
+        return true;
+      case " ":
+        this.pause();
+        return true;
+      case "+":
+        this.speed *= 1.4;
+        return true;
+      case "-":
+        this.speed /= 1.4;
+        return true;
+      case "Escape":
+        this.stop();
+        return true;
+      default:
+        return false;
     }
   }
 
@@ -110,7 +154,10 @@ export class Flight {
       this.last = now;
       this.s += this.speed * dt * this.radiusHere();
       const end = this.way.at.at(-1)!;
-      if (this.s >= end) { this.s = end; this.playing = false; }
+      if (this.s >= end) {
+        this.s = end;
+        this.playing = false;
+      }
       this.show();
       this.run();
     });
@@ -124,15 +171,24 @@ export class Flight {
   private show(): void {
     const { tree } = this.app.store.get();
     if (this.way === null || tree === null) return;
-    const { i } = locate(this.way, this.s), node = this.way.nodes[i], r = tree.radius[node], end = this.way.at.at(-1)!;
-    const eye = pointAt(this.way, this.s), ahead = pointAt(this.way, Math.min(end, this.s + kAhead * r));
+    const { i } = locate(this.way, this.s),
+      node = this.way.nodes[i],
+      r = tree.radius[node],
+      end = this.way.at.at(-1)!;
+    const eye = pointAt(this.way, this.s),
+      ahead = pointAt(this.way, Math.min(end, this.s + kAhead * r));
     let d = sub(ahead, eye);
     if (dot(d, d) < 1e-8) d = sub(eye, pointAt(this.way, Math.max(0, this.s - r)));
     d = unit(d);
     // the up vector is carried along without turning about the way
     this.up = unit(sub(this.up, scale(d, dot(this.up, d))));
     if (!Number.isFinite(this.up[0])) this.up = unit(cross(d, across(d)));
-    this.scene.camera.flight = { eye, ahead: [eye[0] + d[0], eye[1] + d[1], eye[2] + d[2]], up: this.up, fade: kFadePerRadius / r };
+    this.scene.camera.flight = {
+      eye,
+      ahead: [eye[0] + d[0], eye[1] + d[1], eye[2] + d[2]],
+      up: this.up,
+      fade: kFadePerRadius / r,
+    };
     this.app.store.set({ crosshair: eye, node });
     this.app.stage.invalidate(this.scene);
     this.onChange?.();

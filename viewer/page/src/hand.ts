@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What clicks do with a tool: seeds, measurements, a node that is moved. */
+/** Clicks with a tool: seeds, measurements, a node that is moved. */
 import type { App, Measurement } from "./model";
 import { isShown } from "./model";
 import { angle, gaps, sectionAt } from "./measure";
@@ -13,16 +13,18 @@ import { brief } from "./ui";
 
 const kNearSeed = 8; // pixels within which a press takes hold of a seed
 
-const sentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1).replace(/\.$/, "")}.`;
+const sentence = (text: string): string =>
+  `${text.charAt(0).toUpperCase()}${text.slice(1).replace(/\.$/, "")}.`;
 
 /** The clicks that the check proposes, of which the first has a radius. */
 function seedPoints(place: MissingVessel): Seed["points"] {
-  const points = place.clicks?.points ?? [place.position], radius = place.clicks === undefined ? place.radius_mm : place.clicks.radius;
+  const points = place.clicks?.points ?? [place.position],
+    radius = place.clicks === undefined ? place.radius_mm : place.clicks.radius;
   return points.map((position, i) => ({ position, radius: i === 0 ? radius : null }));
 }
 
 export class Hand {
-  /** What the next clicks make: a vessel of one click, one through several, or an aneurysm. */
+  /** The next clicks make a vessel of one click, a vessel through several clicks, or an aneurysm. */
   seedKind: "vessel" | "path" | "aneurysm" = "vessel";
   parent: string | null = null;
   private held: { seed: string; point: number; to: Vec3 } | { node: number; to: Vec3 } | null = null;
@@ -33,23 +35,32 @@ export class Hand {
 
   /** True: the press was used. */
   press(p: Vec3, slice: SliceView | null, hit: Hit | null = null): boolean {
-    const { store } = this.app, { tool, pending } = store.get();
+    const { store } = this.app,
+      { tool, pending } = store.get();
     switch (tool) {
       case "seed":
         if (slice !== null && this.holdSeed(p, slice)) return true;
         store.set({ crosshair: p });
         this.placing = this.placing.then(() => this.placeSeed(p));
         return true;
-      case "distance": case "angle": {
-        const points = [...pending, p], enough = tool === "distance" ? 2 : 3;
+      case "distance":
+      case "angle": {
+        const points = [...pending, p],
+          enough = tool === "distance" ? 2 : 3;
         if (points.length < enough) store.set({ pending: points });
         else this.measured(tool, points);
         return true;
       }
-      case "section": this.section(p, hit); return true;
-      case "touch": this.touch(p, hit); return true;
-      case "move": return slice !== null && this.holdNode(p);
-      default: return false;
+      case "section":
+        this.section(p, hit);
+        return true;
+      case "touch":
+        this.touch(p, hit);
+        return true;
+      case "move":
+        return slice !== null && this.holdNode(p);
+      default:
+        return false;
     }
   }
   drag(p: Vec3, slice: SliceView): boolean {
@@ -60,11 +71,18 @@ export class Hand {
     return true;
   }
   release(): boolean {
-    const held = this.held, { tree } = this.app.store.get();
+    const held = this.held,
+      { tree } = this.app.store.get();
     if (held === null) return false;
     this.held = null;
     this.app.store.set({ pending: [] });
-    if ("node" in held) void this.app.perform({ op: "move", node: held.node, position: held.to, radius: tree!.radius[held.node] });
+    if ("node" in held)
+      void this.app.perform({
+        op: "move",
+        node: held.node,
+        position: held.to,
+        radius: tree!.radius[held.node],
+      });
     else void this.app.perform({ op: "seedMove", label: held.seed, point: held.point, position: held.to });
     return true;
   }
@@ -74,7 +92,10 @@ export class Hand {
   private holdSeed(p: Vec3, slice: SliceView): boolean {
     for (const seed of this.app.store.get().state.seeds)
       for (const [i, point] of seed.points.entries())
-        if (!seed.tracked && distance(point.position, p) < Math.max(kNearSeed * slice.mmPerPixel, 0.5 * (point.radius ?? 0))) {
+        if (
+          !seed.tracked &&
+          distance(point.position, p) < Math.max(kNearSeed * slice.mmPerPixel, 0.5 * (point.radius ?? 0))
+        ) {
           this.held = { seed: seed.label, point: i, to: point.position };
           return true;
         }
@@ -82,16 +103,35 @@ export class Hand {
   }
 
   private async placeSeed(p: Vec3): Promise<void> {
-    const { app } = this, { store, source } = app;
-    if (!source.live) { app.say("This page is one file: seeds are placed in lumen view.", "warning"); return; }
+    const { app } = this,
+      { store, source } = app;
+    if (!source.live) {
+      app.say("This page is one file: seeds are placed in lumen view.", "warning");
+      return;
+    }
     const { volume, state } = store.get();
-    if (volume !== null && !volume.holds(p)) { app.say("That is outside of the volume.", "warning"); return; }
-    if (!state.hasVolume) { app.say("Seeds are placed in a volume: open one first.", "warning"); return; }
+    if (volume !== null && !volume.holds(p)) {
+      app.say("This place is outside of the volume.", "warning");
+      return;
+    }
+    if (!state.hasVolume) {
+      app.say("Seeds are placed in a volume: open one first.", "warning");
+      return;
+    }
     let snap: Snap | null = null;
-    try { snap = await source.snap(p); } catch (error) { app.say(error instanceof Error ? error.message : String(error), "error"); return; }
+    try {
+      snap = await source.snap(p);
+    } catch (error) {
+      app.say(error instanceof Error ? error.message : String(error), "error");
+      return;
+    }
     const point = snap.found ? snap.position : p;
     if (store.get().crosshair === p) store.set({ crosshair: point }); // unless the user has gone elsewhere meanwhile
-    if (!snap.found) app.say(`${sentence(snap.reason ?? "no vessel was found near there")} The seed stays where you clicked.`, "warning");
+    if (!snap.found)
+      app.say(
+        `${sentence(snap.reason ?? "no vessel was found near there")} The seed stays where you clicked.`,
+        "warning",
+      );
     else app.say(`On the axis of a vessel, radius ${brief(snap.radius)} mm.`);
     const made = { position: point, radius: snap.found ? snap.radius : null };
     if (this.seedKind === "vessel") await this.addSeed([made], "vessel");
@@ -110,14 +150,21 @@ export class Hand {
     this.app.store.set({ pending: [], clicks: [] });
   }
   private async addSeed(points: Seed["points"], kind: string): Promise<void> {
-    await this.app.perform({ op: "seedAdd", kind, points, ...(this.parent === null ? {} : { parent: this.parent }) });
+    await this.app.perform({
+      op: "seedAdd",
+      kind,
+      points,
+      ...(this.parent === null ? {} : { parent: this.parent }),
+    });
   }
 
   /** A place that the check reports: its seed, with the vessel that it leaves. */
   takePlace(index: number): void {
-    const { state } = this.app.store.get(), place = state.check?.missing_vessels?.[index];
+    const { state } = this.app.store.get(),
+      place = state.check?.missing_vessels?.[index];
     if (place === undefined) return;
-    const points = seedPoints(place), same = (p: Vec3): boolean => distance(p, points[0].position) < 1e-6;
+    const points = seedPoints(place),
+      same = (p: Vec3): boolean => distance(p, points[0].position) < 1e-6;
     this.app.store.set({ crosshair: place.position });
     if (this.app.source.live && !state.seeds.some(seed => same(seed.points[0].position)))
       void this.app.perform({ op: "seedAdd", kind: "vessel", points }).then(done => {
@@ -129,53 +176,86 @@ export class Hand {
 
   private add(kind: Measurement["kind"], points: Vec3[], text: string, detail: string): void {
     const { store } = this.app;
-    store.set({ pending: [], measurements: [...store.get().measurements, { id: this.nextId++, kind, points, text, detail }] });
+    store.set({
+      pending: [],
+      measurements: [...store.get().measurements, { id: this.nextId++, kind, points, text, detail }],
+    });
   }
   private measured(kind: "distance" | "angle", points: Vec3[]): void {
-    if (kind === "distance") this.add(kind, points, `${brief(distance(points[0], points[1]))} mm`, "distance");
+    if (kind === "distance")
+      this.add(kind, points, `${brief(distance(points[0], points[1]))} mm`, "distance");
     else this.add(kind, points, `${angle(points[0], points[1], points[2]).toFixed(1)}°`, "angle");
   }
   /** Keeps what the probe shows. */
   keepProbe(p: Vec3): void {
-    const view = this.app.store.get(), a = probe(view, p), branch = a.wall === null || view.tree === null ? "" : view.tree.branches[view.tree.branch[a.wall.node]]?.label ?? "";
-    const texts = [Number.isFinite(a.value) ? `value ${brief(a.value)}` : "", a.wall === null ? "" : `wall ${a.wall.distance.toFixed(3)} mm`, branch].filter(x => x !== "");
+    const view = this.app.store.get(),
+      a = probe(view, p),
+      branch =
+        a.wall === null || view.tree === null
+          ? ""
+          : (view.tree.branches[view.tree.branch[a.wall.node]]?.label ?? "");
+    const texts = [
+      Number.isFinite(a.value) ? `value ${brief(a.value)}` : "",
+      a.wall === null ? "" : `wall ${a.wall.distance.toFixed(3)} mm`,
+      branch,
+    ].filter(x => x !== "");
     this.add("probe", [p], texts[0] ?? "", texts.join(", "));
   }
 
   private nodeAt(p: Vec3, hit: Hit | null): number {
-    const view = this.app.store.get(), { tree } = view;
+    const view = this.app.store.get(),
+      { tree } = view;
     if (tree === null) return -1;
     if (hit !== null && hit.node >= 0 && hit.node < tree.count) return hit.node;
     return tree.nearest(p, b => isShown(view, b));
   }
   section(p: Vec3, hit: Hit | null = null): void {
-    const { blob, tree } = this.app.store.get(), node = this.nodeAt(p, hit);
-    if (tree === null || blob === null || node < 0) { this.app.say("A section needs a case with models: fit it first.", "warning"); return; }
+    const { blob, tree } = this.app.store.get(),
+      node = this.nodeAt(p, hit);
+    if (tree === null || blob === null || node < 0) {
+      this.app.say("A section needs a case with models: fit it first.", "warning");
+      return;
+    }
     goToNode(this.app, node);
     const s = sectionAt(blob, tree, node);
-    this.add("section", s.outline, `⌀ ${brief(s.diameter)} mm, ${brief(s.area)} mm²`,
-      `${tree.branches[tree.branch[node]].label}: widths ${brief(s.least)} to ${brief(s.greatest)} mm, circumference ${brief(s.perimeter)} mm`);
+    this.add(
+      "section",
+      s.outline,
+      `⌀ ${brief(s.diameter)} mm, ${brief(s.area)} mm²`,
+      `${tree.branches[tree.branch[node]].label}: widths ${brief(s.least)} to ${brief(s.greatest)} mm, circumference ${brief(s.perimeter)} mm`,
+    );
   }
   private touch(p: Vec3, hit: Hit | null): void {
-    const { tree, blob } = this.app.store.get(), node = this.nodeAt(p, hit);
+    const { tree, blob } = this.app.store.get(),
+      node = this.nodeAt(p, hit);
     if (tree === null || node < 0) return;
-    const branch = tree.branch[node], [gap] = gaps(tree, blob, 1, branch);
+    const branch = tree.branch[node],
+      [gap] = gaps(tree, blob, 1, branch);
     select(this.app, branch);
     if (gap === undefined) this.app.say(`No other vessel comes near ${tree.branches[branch].label}.`);
     else this.showGap(gap.from, gap.to, gap.gap, tree.branches[gap.a].label, tree.branches[gap.b].label);
   }
   showGap(from: Vec3, to: Vec3, gap: number, a: string, b: string): void {
     this.app.store.set({ crosshair: from });
-    this.add("touch", [from, to], gap > 0 ? `gap ${brief(gap)} mm` : `overlap ${brief(-gap)} mm`, `${a} and ${b}`);
+    this.add(
+      "touch",
+      [from, to],
+      gap > 0 ? `gap ${brief(gap)} mm` : `overlap ${brief(-gap)} mm`,
+      `${a} and ${b}`,
+    );
   }
 
   // ---- nodes
 
   private holdNode(p: Vec3): boolean {
-    const view = this.app.store.get(), { tree, selected } = view;
+    const view = this.app.store.get(),
+      { tree, selected } = view;
     if (tree === null || !this.app.source.live) return false;
     const node = tree.nearest(p, b => (selected >= 0 ? b === selected : isShown(view, b)));
-    if (node < 0 || distance(tree.position(node), p) > 2 * tree.radius[node]) { this.app.say("There is no node near there; select its vessel first.", "warning"); return true; }
+    if (node < 0 || distance(tree.position(node), p) > 2 * tree.radius[node]) {
+      this.app.say("There is no node near there; select its vessel first.", "warning");
+      return true;
+    }
     goToNode(this.app, node);
     this.held = { node, to: tree.position(node) };
     return true;

@@ -5,25 +5,142 @@ import { h } from "./ui";
 type Group = [string, [string, string][], "live"?];
 
 const kGroups: Group[] = [
-  ["Everywhere", [["?", "This page"], ["Ctrl+Z, Ctrl+Shift+Z", "Undo, redo"], ["Ctrl+S", "Save"], ["Ctrl+O", "Open files, or drop them on the page"], ["Ctrl+P", "Save a picture of the views"],
-    ["1 to 6", "Layout: four, 3D and slices, 3D, axial, coronal, sagittal"], ["Shift+L", "Light or dark"], ["B", "Strip under the views"], ["Esc", "Give up what was begun; end a flight; cancel work"], ["Tab", "To the next view, list or button"]]],
-  ["Tools", [["N", "Navigate"], ["S", "Seed"], ["V", "Move a node"], ["P", "Probe"], ["D", "Distance"], ["A", "Angle"], ["X", "Cross-section"], ["G", "Gap to the nearest vessel"], ["W", "Guidewire"]]],
-  ["Slices", [["Click, drag", "Crosshair, or what the tool does"], ["Wheel, Page up and down", "Through the slices"], ["Ctrl+wheel, + and -", "Zoom"], ["Shift+drag, middle", "Move"], ["Right drag", "Window and level"],
-    ["Ctrl+drag, Ctrl+← →", "Turn the planes"], ["Arrows", "Crosshair by a voxel, with Shift by five"], ["Enter", "Click at the crosshair"], ["0, double click", "Fit"]]],
-  ["3D view", [["Drag, arrows", "Turn"], ["Shift+drag, Shift+arrows", "Move"], ["Wheel, + and -", "Nearer, farther"], ["Click, Enter", "Select the vessel there, or the tool"], ["Double click", "Turn about this point"], ["C", "Clip at the crosshair"], ["M", "Projection, volume, or neither"], ["0", "Fit"]]],
-  ["Vessels", [["/", "Search"], ["↑ ↓", "Select in the list"], ["Space", "Show or hide"], ["H", "Show or hide the selected"], ["O", "The selected alone"], ["Shift+H", "Show all"], ["F2", "Rename"], ["[ and ]", "Cursor along the vessel"], ["Q", "Slices across the vessel, or patient axes"], ["F", "Flight through the vessel: ↑ ↓ go, Space stops, + and - speed"]]],
-  ["Work", [["T", "Track all seeds that are placed"], ["K", "Check against the volume"], ["Enter", "Finish a vessel of several clicks"], ["Delete", "Delete the selected vessel"], ["Shift+X", "Cut it at the cursor"], ["Shift+Delete", "Delete it with all that leave it"], ["Ctrl+Enter", "Fit all models anew"]], "live"],
-  ["Guidewire", [["Enter", "Place it, in the 3D view"], ["↑ ↓, wheel", "Push, pull"], ["← →", "Turn"], ["Drag the wire", "Along it pushes, across it turns"], ["Delete", "Remove"]]],
+  [
+    "Everywhere",
+    [
+      ["?", "This page"],
+      ["Ctrl+Z, Ctrl+Shift+Z", "Undo, redo"],
+      ["Ctrl+S", "Save"],
+      ["Ctrl+O", "Open files, or drop them on the page"],
+      ["Ctrl+P", "Save a picture of the views"],
+      ["1 to 6", "Layout: four, 3D and slices, 3D, axial, coronal, sagittal"],
+      ["Shift+L", "Light or dark"],
+      ["B", "Strip under the views"],
+      ["Esc", "Give up what was begun; end a flight; cancel work"],
+      ["Tab", "To the next view, list or button"],
+    ],
+  ],
+  [
+    "Tools",
+    [
+      ["N", "Navigate"],
+      ["S", "Seed"],
+      ["V", "Move a node"],
+      ["P", "Probe"],
+      ["D", "Distance"],
+      ["A", "Angle"],
+      ["X", "Cross-section"],
+      ["G", "Gap to the nearest vessel"],
+      ["W", "Guidewire"],
+    ],
+  ],
+  [
+    "Slices",
+    [
+      ["Click, drag", "Crosshair, or what the tool does"],
+      ["Wheel, Page up and down", "Through the slices"],
+      ["Ctrl+wheel, + and -", "Zoom"],
+      ["Shift+drag, middle", "Move"],
+      ["Right drag", "Window and level"],
+      ["Ctrl+drag, Ctrl+← →", "Turn the planes"],
+      ["Arrows", "Crosshair by a voxel, with Shift by five"],
+      ["Enter", "Click at the crosshair"],
+      ["0, double click", "Fit"],
+    ],
+  ],
+  [
+    "3D view",
+    [
+      ["Drag, arrows", "Turn"],
+      ["Shift+drag, Shift+arrows", "Move"],
+      ["Wheel, + and -", "Nearer, farther"],
+      ["Click, Enter", "Select the vessel there, or the tool"],
+      ["Double click", "Turn about this point"],
+      ["C", "Clip at the crosshair"],
+      ["M", "Projection, volume, or neither"],
+      ["0", "Fit"],
+    ],
+  ],
+  [
+    "Vessels",
+    [
+      ["/", "Search"],
+      ["↑ ↓", "Select in the list"],
+      ["Space", "Show or hide"],
+      ["H", "Show or hide the selected"],
+      ["O", "The selected alone"],
+      ["Shift+H", "Show all"],
+      ["F2", "Rename"],
+      ["[ and ]", "Cursor along the vessel"],
+      ["Q", "Slices across the vessel, or patient axes"],
+      ["F", "Flight through the vessel: ↑ ↓ go, Space stops, + and - speed"],
+    ],
+  ],
+  [
+    "Work",
+    [
+      ["T", "Track all seeds that are placed"],
+      ["K", "Check against the volume"],
+      ["Enter", "Finish a vessel of several clicks"],
+      ["Delete", "Delete the selected vessel"],
+      ["Shift+X", "Cut it at the cursor"],
+      ["Shift+Delete", "Delete it with all that leave it"],
+      ["Ctrl+Enter", "Fit all models anew"],
+    ],
+    "live",
+  ],
+  [
+    "Guidewire",
+    [
+      ["Enter", "Place it, in the 3D view"],
+      ["↑ ↓, wheel", "Push, pull"],
+      ["← →", "Turn"],
+      ["Drag the wire", "Along it pushes, across it turns"],
+      ["Delete", "Remove"],
+    ],
+  ],
 ];
 
 export function openHelp(live: boolean): void {
   if (document.getElementById("help-page") !== null) return;
-  const dialog = h("dialog", { class: "dialog help", id: "help-page", "aria-label": "Help" },
-    h("div", { class: "paneltop" }, h("h2", {}, "Help"), h("button", { type: "button", class: "button", "aria-label": "Close the help", onclick: () => dialog.close() }, "×")),
-    h("p", {}, "Positions are in millimetres, LPS: L left, R right, A front, P back, S head, I feet, of the patient. Slices are seen from the feet, from the front and from the left. Distances to the wall are negative in the lumen."),
-    h("div", { class: "columns" }, ...kGroups.filter(g => live || g[2] !== "live").map(([title, keys]) => h("section", {}, h("h3", {}, title),
-      h("dl", {}, ...keys.flatMap(([key, text]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, text)]))))),
-    h("p", { class: "hint" }, "Not a medical device: not for clinical use."));
+  const dialog = h(
+    "dialog",
+    { class: "dialog help", id: "help-page", "aria-label": "Help" },
+    h(
+      "div",
+      { class: "paneltop" },
+      h("h2", {}, "Help"),
+      h(
+        "button",
+        { type: "button", class: "button", "aria-label": "Close the help", onclick: () => dialog.close() },
+        "×",
+      ),
+    ),
+    h(
+      "p",
+      {},
+      "Positions are in millimetres, LPS: L left, R right, A front, P back, S head, I feet, of the patient. Slices are seen from the feet, from the front and from the left. Distances to the wall are negative in the lumen.",
+    ),
+    h(
+      "div",
+      { class: "columns" },
+      ...kGroups
+        .filter(g => live || g[2] !== "live")
+        .map(([title, keys]) =>
+          h(
+            "section",
+            {},
+            h("h3", {}, title),
+            h(
+              "dl",
+              {},
+              ...keys.flatMap(([key, text]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, text)]),
+            ),
+          ),
+        ),
+    ),
+    h("p", { class: "hint" }, "Not a medical device: not for clinical use."),
+  );
   dialog.addEventListener("close", () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();

@@ -12,14 +12,22 @@ const kLayouts: Layout[] = ["four", "rows", "scene", "axial", "coronal", "sagitt
 
 function typing(e: KeyboardEvent): boolean {
   const t = e.target as HTMLElement;
-  return t.closest("dialog") !== null || t.isContentEditable || t instanceof HTMLTextAreaElement || t instanceof HTMLSelectElement ||
-    (t instanceof HTMLInputElement && !["checkbox", "range", "color", "button"].includes(t.type));
+  return (
+    t.closest("dialog") !== null ||
+    t.isContentEditable ||
+    t instanceof HTMLTextAreaElement ||
+    t instanceof HTMLSelectElement ||
+    (t instanceof HTMLInputElement && !["checkbox", "range", "color", "button"].includes(t.type))
+  );
 }
 
 export function listenToKeys(app: App, actions: Actions, hand: Hand): void {
   document.addEventListener("keydown", e => {
     if (e.defaultPrevented) return;
-    const handled = e.ctrlKey || e.metaKey ? withControl(e, app, actions) : !e.altKey && !typing(e) && plain(e, app, actions, hand);
+    const handled =
+      e.ctrlKey || e.metaKey
+        ? withControl(e, app, actions)
+        : !e.altKey && !typing(e) && plain(e, app, actions, hand);
     if (handled) e.preventDefault();
   });
 }
@@ -27,48 +35,124 @@ export function listenToKeys(app: App, actions: Actions, hand: Hand): void {
 function withControl(e: KeyboardEvent, app: App, actions: Actions): boolean {
   const { live } = app.source;
   switch (e.key.toLowerCase()) {
-    case "z": if (typing(e)) return false; if (live) void (e.shiftKey ? actions.redo() : actions.undo()); return live;
-    case "y": if (typing(e)) return false; if (live) void actions.redo(); return live;
-    case "s": if (live) void actions.save(); return true;
-    case "o": if (live) actions.open(); return live;
-    case "p": actions.picture(); return true;
-    case "enter": if (live) void app.perform({ op: "fit" }); return live;
-    default: return false;
+    case "z":
+      if (typing(e)) return false;
+      if (live) void (e.shiftKey ? actions.redo() : actions.undo());
+      return live;
+    case "y":
+      if (typing(e)) return false;
+      if (live) void actions.redo();
+      return live;
+    case "s":
+      if (live) void actions.save();
+      return true;
+    case "o":
+      if (live) actions.open();
+      return live;
+    case "p":
+      actions.picture();
+      return true;
+    case "enter":
+      if (live) void app.perform({ op: "fit" });
+      return live;
+    default:
+      return false;
   }
 }
 
 function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolean {
-  const { store, source } = app, { selected, node } = store.get(), key = e.shiftKey ? `Shift+${e.key.toUpperCase()}` : e.key.toLowerCase();
-  const onVessel = (act: () => void): boolean => { if (selected >= 0) act(); return selected >= 0; };
-  const working = (act: () => void): boolean => { if (source.live) act(); return source.live; };
+  const { store, source } = app,
+    { selected, node } = store.get(),
+    key = e.shiftKey ? `Shift+${e.key.toUpperCase()}` : e.key.toLowerCase();
+  const onVessel = (act: () => void): boolean => {
+    if (selected >= 0) act();
+    return selected >= 0;
+  };
+  const working = (act: () => void): boolean => {
+    if (source.live) act();
+    return source.live;
+  };
   const tool = kTools.find(t => t.key.toLowerCase() === key && (source.live || t.live !== true));
-  if (tool !== undefined) { actions.tool(tool.tool); return true; }
+  if (tool !== undefined) {
+    actions.tool(tool.tool);
+    return true;
+  }
   const layout = /^[1-6]$/.test(key) ? kLayouts[Number(key) - 1] : undefined;
-  if (layout !== undefined) { store.set({ layout }); return true; }
+  if (layout !== undefined) {
+    store.set({ layout });
+    return true;
+  }
   switch (key) {
-    case "?": case "Shift+?": actions.help(); return true;
-    case "/": document.getElementById("tree-search")?.focus(); return true;
-    case "0": actions.fit(); return true;
-    case "b": store.set({ strip: !store.get().strip }); return true;
-    case "c": store.set({ clip: { ...store.get().clip, on: !store.get().clip.on } }); return true;
-    case "m": store.set({ cast: ({ off: "mip", mip: "volume", volume: "off" } as const)[store.get().cast] }); return true;
-    case "f": actions.fly(); return true;
-    case "h": return onVessel(() => toggleHidden(app, selected));
-    case "o": return onVessel(() => toggleSolo(app, selected));
-    case "Shift+H": showAll(app); return true;
-    case "Shift+L": actions.theme(); return true;
-    case "q": if (store.get().planes === "vessel") resetPlanes(app); else followVessel(app); return true;
-    case "[": case "{": case "Shift+{": stepAlong(app, e.shiftKey ? -10 : -1); return true;
-    case "]": case "}": case "Shift+}": stepAlong(app, e.shiftKey ? 10 : 1); return true;
-    case "f2": return onVessel(() => void renameBranch(app, selected));
-    case "t": return working(() => void actions.track(null));
-    case "k": return working(() => void actions.check());
-    case "delete": return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected })));
-    case "Shift+DELETE": return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected, hanging: "go" })));
-    case "Shift+X": return working(() => onVessel(() => { if (node >= 0) void app.perform({ op: "cut", node }); }));
-    case "enter": return working(() => void hand.finish());
-    case "escape": return giveUp(app, actions, hand);
-    default: return false;
+    case "?":
+    case "Shift+?":
+      actions.help();
+      return true;
+    case "/":
+      document.getElementById("tree-search")?.focus();
+      return true;
+    case "0":
+      actions.fit();
+      return true;
+    case "b":
+      store.set({ strip: !store.get().strip });
+      return true;
+    case "c":
+      store.set({ clip: { ...store.get().clip, on: !store.get().clip.on } });
+      return true;
+    case "m":
+      store.set({ cast: ({ off: "mip", mip: "volume", volume: "off" } as const)[store.get().cast] });
+      return true;
+    case "f":
+      actions.fly();
+      return true;
+    case "h":
+      return onVessel(() => toggleHidden(app, selected));
+    case "o":
+      return onVessel(() => toggleSolo(app, selected));
+    case "Shift+H":
+      showAll(app);
+      return true;
+    case "Shift+L":
+      actions.theme();
+      return true;
+    case "q":
+      if (store.get().planes === "vessel") resetPlanes(app);
+      else followVessel(app);
+      return true;
+    case "[":
+    case "{":
+    case "Shift+{":
+      stepAlong(app, e.shiftKey ? -10 : -1);
+      return true;
+    case "]":
+    case "}":
+    case "Shift+}":
+      stepAlong(app, e.shiftKey ? 10 : 1);
+      return true;
+    case "f2":
+      return onVessel(() => void renameBranch(app, selected));
+    case "t":
+      return working(() => void actions.track(null));
+    case "k":
+      return working(() => void actions.check());
+    case "delete":
+      return working(() => onVessel(() => void app.perform({ op: "delete", branch: selected })));
+    case "Shift+DELETE":
+      return working(() =>
+        onVessel(() => void app.perform({ op: "delete", branch: selected, hanging: "go" })),
+      );
+    case "Shift+X":
+      return working(() =>
+        onVessel(() => {
+          if (node >= 0) void app.perform({ op: "cut", node });
+        }),
+      );
+    case "enter":
+      return working(() => void hand.finish());
+    case "escape":
+      return giveUp(app, actions, hand);
+    default:
+      return false;
   }
 }
 

@@ -18,7 +18,8 @@ import { listenToScene } from "./scene_input";
 import { SceneView } from "./scene_view";
 import { makeShell, toast, type Shell } from "./shell";
 import { listenToSlice } from "./slice_input";
-import { SliceView, type SliceName } from "./slice_view";
+import type { SliceName } from "./slice_frame";
+import { SliceView } from "./slice_view";
 import { Refused, type Source } from "./source";
 import { EmbeddedSource } from "./source_embedded";
 import { ServerSource } from "./source_server";
@@ -32,15 +33,24 @@ import { WireTool } from "./wire_tool";
 import { workPanel } from "./work_panel";
 
 function makeApp(source: Source, shell: Shell): App {
-  const store = newStore(), performer = new Performer(store, source);
+  const store = newStore(),
+    performer = new Performer(store, source);
   const app: App = {
-    store, source, stage: new Stage(shell.canvas), say: (text, severity) => toast(shell, text, severity),
+    store,
+    source,
+    stage: new Stage(shell.canvas),
+    say: (text, severity) => toast(shell, text, severity),
     perform: async operation => {
       try {
         await performer.perform(operation);
         return true;
       } catch (error) {
-        app.say(error instanceof Refused ? error.message : `That could not be done: ${error instanceof Error ? error.message : String(error)}`, "error");
+        app.say(
+          error instanceof Refused
+            ? error.message
+            : `The operation failed: ${error instanceof Error ? error.message : String(error)}`,
+          "error",
+        );
         return false;
       }
     },
@@ -49,36 +59,68 @@ function makeApp(source: Source, shell: Shell): App {
 }
 
 async function start(): Promise<void> {
-  const source = EmbeddedSource.find() ?? new ServerSource(), state = source.state(); // asked for before the graphics, which take their time
-  const shell = makeShell(), app = makeApp(source, shell), tools = new Tools(app);
-  const slices = (["axial", "coronal", "sagittal"] as SliceName[]).map(name => new SliceView(name, shell[name], app)), scene = new SceneView(shell.scene, app);
+  const source = EmbeddedSource.find() ?? new ServerSource();
+  const state = source.state(); // the request is on its way while the graphics start
+  const shell = makeShell();
+  const app = makeApp(source, shell);
+  const slices = (["axial", "coronal", "sagittal"] as SliceName[]).map(
+      name => new SliceView(name, shell[name], app),
+    ),
+    scene = new SceneView(shell.scene, app);
   for (const view of [...slices, scene]) app.stage.add(view);
-  const actions = new Actions(app, scene, slices), hand = new Hand(app), flight = new Flight(app, scene), wire = new WireTool(app);
-  tools.hand = hand;
-  actions.flight = tools.flight = flight;
-  tools.wire = wire;
+  const hand = new Hand(app);
+  const flight = new Flight(app, scene);
+  const wire = new WireTool(app);
+  const actions = new Actions(app, scene, slices, flight);
+  const tools = new Tools(app, hand, flight, wire);
   for (const slice of slices) listenToSlice(slice, app, tools);
   listenToScene(scene, app, tools);
   makeBar(shell.bar, app, actions);
   new TreePanel(shell.left, app);
-  shell.right.append(...libraryPanel(app), ...workPanel(app, actions, hand), ...displayPanel(app, actions), new MeshLayer(app, scene).panel, ...measurePanel(app, actions, hand, wire));
+  shell.right.append(
+    ...libraryPanel(app),
+    ...workPanel(app, actions, hand),
+    ...displayPanel(app, actions),
+    new MeshLayer(app, scene).panel,
+    ...measurePanel(app, actions, hand, wire),
+  );
   new Strip(shell.strip, app, actions, flight);
   new ProbeLine(shell.probe, app, tools);
   new LocalModel(app, scene);
   legend(shell.legend, app);
   listenToKeys(app, actions, hand);
   applyLayout(app, shell);
-  const loader = new Loader(app, slices, scene), watcher = new Watcher(app, shell, loader, actions);
+  const loader = new Loader(app, slices, scene),
+    watcher = new Watcher(app, shell, loader, actions);
   app.store.watch(["crosshair", "frame", "planes", "tree", "window", "layout", "interpolate"], view => {
-    for (const slice of slices) { slice.texture?.interpolate(view.interpolate); app.stage.invalidate(slice); }
+    for (const slice of slices) {
+      slice.texture?.interpolate(view.interpolate);
+      app.stage.invalidate(slice);
+    }
   });
-  app.store.watch(["surface", "hidden", "solo", "selected", "colours", "layers", "measurements", "pending", "clicks", "state"], () => {
-    for (const slice of slices) app.stage.invalidateOver(slice);
-  });
+  app.store.watch(
+    [
+      "surface",
+      "hidden",
+      "solo",
+      "selected",
+      "colours",
+      "layers",
+      "measurements",
+      "pending",
+      "clicks",
+      "state",
+    ],
+    () => {
+      for (const slice of slices) app.stage.invalidateOver(slice);
+    },
+  );
   await watcher.begin(state);
 }
 
 start().catch((error: unknown) => {
   const text = error instanceof Error ? error.message : String(error);
-  document.body.append(h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)));
+  document.body.append(
+    h("div", { class: "fatal", role: "alert" }, h("h1", {}, "The viewer cannot start"), h("p", {}, text)),
+  );
 });

@@ -11,87 +11,283 @@ import type { WireTool } from "./wire_tool";
 const kMostGaps = 40;
 
 export function measurePanel(app: App, actions: Actions, hand: Hand, wire: WireTool): HTMLElement[] {
-  return [measureSection(app, hand), gapSection(app, hand), wireSection(app, wire), compareSection(app, actions)];
+  return [
+    measureSection(app, hand),
+    gapSection(app, hand),
+    wireSection(app, wire),
+    compareSection(app, actions),
+  ];
 }
 
 function measureSection(app: App, hand: Hand): HTMLElement {
-  const { store } = app, list = h("ul", { class: "list", id: "measure-list", "aria-label": "Measurements" });
-  const clear = button({ text: "Clear", label: "Remove all measurements", id: "measure-clear", class: "button text" }, () => store.set({ measurements: [], pending: [] }));
-  const here = button({ text: "Section at cursor", label: "Diameter and area at the cursor of the selected vessel", id: "measure-section", class: "button text" }, () => hand.section(store.get().crosshair));
-  const keep = button({ text: "Probe crosshair", label: "Keep what the probe shows at the crosshair", id: "measure-probe", class: "button text" }, () => hand.keepProbe(store.get().crosshair));
+  const { store } = app,
+    list = h("ul", { class: "list", id: "measure-list", "aria-label": "Measurements" });
+  const clear = button(
+    { text: "Clear", label: "Remove all measurements", id: "measure-clear", class: "button text" },
+    () => store.set({ measurements: [], pending: [] }),
+  );
+  const here = button(
+    {
+      text: "Section at cursor",
+      label: "Diameter and area at the cursor of the selected vessel",
+      id: "measure-section",
+      class: "button text",
+    },
+    () => hand.section(store.get().crosshair),
+  );
+  const keep = button(
+    {
+      text: "Probe crosshair",
+      label: "Keep what the probe shows at the crosshair",
+      id: "measure-probe",
+      class: "button text",
+    },
+    () => hand.keepProbe(store.get().crosshair),
+  );
   store.watch(["measurements"], view => {
     clear.disabled = view.measurements.length === 0;
-    list.replaceChildren(...view.measurements.map(m => h("li", { class: "row item" }, h("button", { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, m.points[0]) }, m.text),
-      h("span", { class: "note", title: m.detail }, m.detail),
-      button({ icon: "close", label: "Remove this measurement", class: "button" }, () => store.set({ measurements: store.get().measurements.filter(x => x !== m) })))));
-    if (view.measurements.length === 0) list.append(h("li", { class: "hint" }, "Distance (D), angle (A), section (X), gap (G), probe (P, then click keeps)."));
+    list.replaceChildren(
+      ...view.measurements.map(m =>
+        h(
+          "li",
+          { class: "row item" },
+          h(
+            "button",
+            { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, m.points[0]) },
+            m.text,
+          ),
+          h("span", { class: "note", title: m.detail }, m.detail),
+          button({ icon: "close", label: "Remove this measurement", class: "button" }, () =>
+            store.set({ measurements: store.get().measurements.filter(x => x !== m) }),
+          ),
+        ),
+      ),
+    );
+    if (view.measurements.length === 0)
+      list.append(
+        h(
+          "li",
+          { class: "hint" },
+          "Distance (D), angle (A), section (X), gap (G), probe (P, then click keeps).",
+        ),
+      );
   });
-  return section("section-measure", "Measure", true, list, h("div", { class: "row wrap" }, here, keep, clear));
+  return section(
+    "section-measure",
+    "Measure",
+    true,
+    list,
+    h("div", { class: "row wrap" }, here, keep, clear),
+  );
 }
 
 function gapSection(app: App, hand: Hand): HTMLElement {
-  const { store } = app, list = h("ul", { class: "list", id: "gap-list", "aria-label": "Vessels that touch or nearly touch" });
+  const { store } = app,
+    list = h("ul", { class: "list", id: "gap-list", "aria-label": "Vessels that touch or nearly touch" });
   const find = (): void => {
     const { tree, blob } = store.get();
     if (tree === null) return;
     const found = gaps(tree, blob, kMostGaps);
-    list.replaceChildren(...found.map(g => h("li", { class: "row item" },
-      h("button", { type: "button", class: "link", title: "Show and measure it", onclick: () => hand.showGap(g.from, g.to, g.gap, tree.branches[g.a].label, tree.branches[g.b].label) },
-        `${tree.branches[g.a].label} – ${tree.branches[g.b].label}`), h("span", { class: g.gap <= 0 ? "note low" : "note" }, `${brief(g.gap)} mm`))));
+    list.replaceChildren(
+      ...found.map(g =>
+        h(
+          "li",
+          { class: "row item" },
+          h(
+            "button",
+            {
+              type: "button",
+              class: "link",
+              title: "Show and measure it",
+              onclick: () =>
+                hand.showGap(g.from, g.to, g.gap, tree.branches[g.a].label, tree.branches[g.b].label),
+            },
+            `${tree.branches[g.a].label} – ${tree.branches[g.b].label}`,
+          ),
+          h("span", { class: g.gap <= 0 ? "note low" : "note" }, `${brief(g.gap)} mm`),
+        ),
+      ),
+    );
     if (found.length === 0) list.append(h("li", { class: "hint" }, "No two vessels come near each other."));
   };
   store.watch(["tree", "blob"], () => list.replaceChildren());
-  return section("section-gaps", "Vessels that touch", false, h("div", { class: "row" }, button({ text: "Find", label: "Find where vessels come near each other", id: "gap-find", class: "button text" }, find)), list);
+  return section(
+    "section-gaps",
+    "Vessels that touch",
+    false,
+    h(
+      "div",
+      { class: "row" },
+      button(
+        {
+          text: "Find",
+          label: "Find where vessels come near each other",
+          id: "gap-find",
+          class: "button text",
+        },
+        find,
+      ),
+    ),
+    list,
+  );
 }
 
 function wireSection(app: App, wire: WireTool): HTMLElement {
   const about = h("p", { class: "hint", id: "wire-about" });
-  const place = button({ icon: "wire", text: "Place", label: "Place the wire at the root of the selected vessel", id: "wire-place", class: "button primary" }, () => { app.store.set({ tool: "wire" }); wire.place(); });
-  const remove = button({ text: "Remove", label: "Remove the wire", id: "wire-remove", class: "button text" }, () => wire.remove());
+  const place = button(
+    {
+      icon: "wire",
+      text: "Place",
+      label: "Place the wire at the root of the selected vessel",
+      id: "wire-place",
+      class: "button primary",
+    },
+    () => {
+      app.store.set({ tool: "wire" });
+      wire.place();
+    },
+  );
+  const remove = button(
+    { text: "Remove", label: "Remove the wire", id: "wire-remove", class: "button text" },
+    () => wire.remove(),
+  );
   const hold = (id: string, text: string, label: string, act: () => void): HTMLButtonElement => {
     const b = button({ text, label, id, class: "button text" }, act);
     let timer = 0;
-    b.addEventListener("pointerdown", () => { timer = window.setInterval(act, 50); });
-    for (const end of ["pointerup", "pointerleave", "blur"]) b.addEventListener(end, () => window.clearInterval(timer));
+    b.addEventListener("pointerdown", () => {
+      timer = window.setInterval(act, 50);
+    });
+    for (const end of ["pointerup", "pointerleave", "blur"])
+      b.addEventListener(end, () => window.clearInterval(timer));
     return b;
   };
-  const controls = h("div", { class: "row" }, hold("wire-push", "Push", "Push the wire (arrow up)", () => wire.push(0.5)), hold("wire-pull", "Pull", "Pull the wire (arrow down)", () => wire.push(-0.5)),
-    hold("wire-left", "↺", "Turn the wire to the left (arrow left)", () => wire.twist(-0.1)), hold("wire-right", "↻", "Turn the wire to the right (arrow right)", () => wire.twist(0.1)), remove);
-  const stiff = slider("wire-stiffness", "Stiffness of the wire", [3.5, 6, 0.1], Math.log10(wire.options.young), value => { wire.options.young = 10 ** value; if (wire.now !== null) wire.now.options.young = wire.options.young; });
-  const tip = slider("wire-tip", "Bend of the tip, degrees", [0, 120, 5], 45, value => { wire.options.tipAngle = (value * Math.PI) / 180; if (wire.now !== null) wire.now.options.tipAngle = wire.options.tipAngle; });
-  const tell = (): void => {
-    const w = wire.now, { tree } = app.store.get();
+  const controls = h(
+    "div",
+    { class: "row" },
+    hold("wire-push", "Push", "Push the wire (arrow up)", () => wire.push(0.5)),
+    hold("wire-pull", "Pull", "Pull the wire (arrow down)", () => wire.push(-0.5)),
+    hold("wire-left", "↺", "Turn the wire to the left (arrow left)", () => wire.twist(-0.1)),
+    hold("wire-right", "↻", "Turn the wire to the right (arrow right)", () => wire.twist(0.1)),
+    remove,
+  );
+  const stiff = slider(
+    "wire-stiffness",
+    "Stiffness of the wire",
+    [3.5, 6, 0.1],
+    Math.log10(wire.options.young),
+    value => {
+      wire.options.young = 10 ** value;
+      if (wire.now !== null) wire.now.options.young = wire.options.young;
+    },
+  );
+  const tip = slider("wire-tip", "Bend of the tip, degrees", [0, 120, 5], 45, value => {
+    wire.options.tipAngle = (value * Math.PI) / 180;
+    if (wire.now !== null) wire.now.options.tipAngle = wire.options.tipAngle;
+  });
+  const report = (): void => {
+    const w = wire.now,
+      { tree } = app.store.get();
     controls.hidden = w === null;
     delete about.dataset.nodes;
     delete about.dataset.vessels;
-    if (w === null || tree === null) { about.textContent = "A guidewire that is pushed through the lumen and turned: drag it in the 3D view, or use the arrow keys there."; return; }
+    if (w === null || tree === null) {
+      about.textContent =
+        "A guidewire that is pushed through the lumen and turned: drag it in the 3D view, or use the arrow keys there.";
+      return;
+    }
     about.textContent = `${brief(w.inserted)} mm in, tip in ${tree.branches[tree.branch[w.cursorOf(0)]]?.label ?? "–"}, ${w.contacts} points touch; ${w.options.count} points, ${wire.cost.toFixed(1)} ms a step.`;
-    // for whoever reads them by program: of every point from the tip to the entry its node, and the vessels in that order
-    const nodes = Array.from({ length: w.free }, (_, i) => w.cursorOf(i)), vessels = new Set(nodes.map(n => tree.branches[tree.branch[n]]?.label ?? "–"));
+    // for programs: the node of every point from the tip to the entry, and the vessels in that order
+    const nodes = Array.from({ length: w.free }, (_, i) => w.cursorOf(i)),
+      vessels = new Set(nodes.map(n => tree.branches[tree.branch[n]]?.label ?? "–"));
     about.dataset.nodes = nodes.join(" ");
     about.dataset.vessels = JSON.stringify([...vessels]);
   };
-  wire.onChange = tell;
-  app.store.watch(["tree", "blob"], view => { place.disabled = view.blob === null; tell(); });
-  return section("section-wire", "Guidewire", false, about, h("div", { class: "row" }, place), controls, h("label", { class: "line" }, "Stiffness", stiff), h("label", { class: "line" }, "Tip", tip));
+  wire.onChange = report;
+  app.store.watch(["tree", "blob"], view => {
+    place.disabled = view.blob === null;
+    report();
+  });
+  return section(
+    "section-wire",
+    "Guidewire",
+    false,
+    about,
+    h("div", { class: "row" }, place),
+    controls,
+    h("label", { class: "line" }, "Stiffness", stiff),
+    h("label", { class: "line" }, "Tip", tip),
+  );
 }
 
-const kFigures: [string, string, string][] = [["overlap", "Overlap", "share"], ["average_inside_mm", "Centerline, average", "mm"], ["assd_mm", "Centerline, symmetric", "mm"],
-  ["radius_bias_mm", "Radius, bias", "mm"], ["radius_rms_mm", "Radius, rms", "mm"], ["missed_mm", "Missed", "mm"], ["false_mm", "False", "mm"]];
+const kFigures: [string, string, string][] = [
+  ["overlap", "Overlap", "share"],
+  ["average_inside_mm", "Centerline, average", "mm"],
+  ["assd_mm", "Centerline, symmetric", "mm"],
+  ["radius_bias_mm", "Radius, bias", "mm"],
+  ["radius_rms_mm", "Radius, rms", "mm"],
+  ["missed_mm", "Missed", "mm"],
+  ["false_mm", "False", "mm"],
+];
 
 function compareSection(app: App, actions: Actions): HTMLElement {
-  const { store } = app, table = h("dl", { id: "figures" }), hint = h("p", { class: "hint" });
-  const run = button({ icon: "compare", text: "Compare", label: "Compare the case with the truth", id: "compare", class: "button text" }, () => void actions.compare());
-  const open = button({ text: "Open truth…", label: "Open a second case or the truth", id: "open-truth", class: "button text" }, () => actions.open("truth"));
+  const { store } = app,
+    table = h("dl", { id: "figures" }),
+    hint = h("p", { class: "hint" });
+  const run = button(
+    {
+      icon: "compare",
+      text: "Compare",
+      label: "Compare the case with the truth",
+      id: "compare",
+      class: "button text",
+    },
+    () => void actions.compare(),
+  );
+  const open = button(
+    { text: "Open truth…", label: "Open a second case or the truth", id: "open-truth", class: "button text" },
+    () => actions.open("truth"),
+  );
   store.watch(["state", "figures", "distance"], view => {
-    const f = view.figures, wall = f?.wall_distance_mm as { median?: number; p90?: number; max?: number } | undefined;
-    hint.textContent = view.state.hasTruth ? (f === null ? "Compare to see distances as colour." : "Colours: distance of the surface to the truth’s; red is outside.") : "Open a second case or the truth beside this one.";
+    const f = view.figures,
+      wall = f?.wall_distance_mm as { median?: number; p90?: number; max?: number } | undefined;
+    hint.textContent = view.state.hasTruth
+      ? f === null
+        ? "Compare to see distances as colour."
+        : "Colours: distance of the surface to the truth’s; red is outside."
+      : "Open a second case or the truth beside this one.";
     run.disabled = !view.state.hasTruth || !view.state.hasCase || view.state.job !== null;
-    const rows = f === null ? [] : [...kFigures.filter(([key]) => typeof f[key] === "number").map(([key, title, unit]) => [title, unit === "share" ? `${(100 * (f[key] as number)).toFixed(1)} %` : `${(f[key] as number).toFixed(3)} mm`]),
-      ...(wall === undefined ? [] : [["Wall, median", `${wall.median?.toFixed(3) ?? "–"} mm`], ["Wall, 90 %", `${wall.p90?.toFixed(3) ?? "–"} mm`], ["Wall, greatest", `${wall.max?.toFixed(3) ?? "–"} mm`]])];
+    const rows =
+      f === null
+        ? []
+        : [
+            ...kFigures
+              .filter(([key]) => typeof f[key] === "number")
+              .map(([key, title, unit]) => [
+                title,
+                unit === "share"
+                  ? `${(100 * (f[key] as number)).toFixed(1)} %`
+                  : `${(f[key] as number).toFixed(3)} mm`,
+              ]),
+            ...(wall === undefined
+              ? []
+              : [
+                  ["Wall, median", `${wall.median?.toFixed(3) ?? "–"} mm`],
+                  ["Wall, 90 %", `${wall.p90?.toFixed(3) ?? "–"} mm`],
+                  ["Wall, greatest", `${wall.max?.toFixed(3) ?? "–"} mm`],
+                ]),
+          ];
     table.replaceChildren(...rows.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)]));
   });
-  const box = section("section-compare", "Compare", false, hint, table, app.source.live ? h("div", { class: "row end" }, open, run) : null);
-  store.watch(["distance"], view => { if (view.distance !== null) box.open = true; });
+  const box = section(
+    "section-compare",
+    "Compare",
+    false,
+    hint,
+    table,
+    app.source.live ? h("div", { class: "row end" }, open, run) : null,
+  );
+  store.watch(["distance"], view => {
+    if (view.distance !== null) box.open = true;
+  });
   return box;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What the page shows: one value that panels and views watch. */
+/** The page's model: one value that panels and views watch. */
 import type { Model } from "../../../libblob/wasm/blob.mjs";
 import { branchColour, type Rgb } from "./colour";
 import type { Source } from "./source";
@@ -11,13 +11,32 @@ import { kEmptyState, type Seed, type State, type Vec3 } from "./types";
 import type { Frame } from "./vec";
 import type { Volume } from "./volume";
 
-export type Tool = "navigate" | "seed" | "probe" | "distance" | "angle" | "section" | "touch" | "wire" | "move";
+export type Tool =
+  | "navigate"
+  | "seed"
+  | "probe"
+  | "distance"
+  | "angle"
+  | "section"
+  | "touch"
+  | "wire"
+  | "move";
 export type ColourBy = "branch" | "radius" | "confidence" | "error" | "root" | "compare";
 export type Cast = "off" | "mip" | "volume";
 export type Layout = "four" | "scene" | "rows" | "axial" | "coronal" | "sagittal";
 export type Planes = "patient" | "vessel" | "free";
 
-export interface Layers { surface: boolean; lines: boolean; nodes: boolean; points: boolean; local: boolean; contours: boolean; seeds: boolean; slices: boolean; places: boolean }
+export interface Layers {
+  surface: boolean;
+  lines: boolean;
+  nodes: boolean;
+  points: boolean;
+  local: boolean;
+  contours: boolean;
+  seeds: boolean;
+  slices: boolean;
+  places: boolean;
+}
 
 export interface Measurement {
   id: number;
@@ -45,7 +64,7 @@ export interface View {
   allOpacity: number;
   /** Chosen by the user. */
   colours: ReadonlyMap<string, Rgb>;
-  /** Of each name its number in the walk of colours: a vessel keeps its colour when the list changes. */
+  /** Index of each name in the list of colours: a vessel keeps its colour when the list of vessels changes. */
   colourNumbers: ReadonlyMap<string, number>;
 
   crosshair: Vec3;
@@ -80,13 +99,51 @@ export interface View {
 export const kPatientFrame: Frame = { right: [1, 0, 0], up: [0, -1, 0], normal: [0, 0, -1] };
 
 export const kInitial: View = {
-  state: kEmptyState, tree: null, treeRevision: 0, surface: null, volume: null, volumeReady: 0, blob: null,
-  selected: -1, hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1, colours: new Map(), colourNumbers: new Map(),
-  crosshair: [0, 0, 0], node: -1, planes: "patient", frame: kPatientFrame,
-  window: [0, 1], cast: "off",
-  layers: { surface: true, lines: true, nodes: false, points: false, local: false, contours: true, seeds: true, slices: false, places: true },
-  colourBy: "branch", clip: { on: false, flip: false }, interpolate: true, tool: "navigate", layout: "four", theme: "dark", strip: true,
-  measurements: [], pending: [], clicks: [], job: null, lost: false, distance: null, figures: null,
+  state: kEmptyState,
+  tree: null,
+  treeRevision: 0,
+  surface: null,
+  volume: null,
+  volumeReady: 0,
+  blob: null,
+  selected: -1,
+  hidden: new Set(),
+  solo: null,
+  opacity: new Map(),
+  allOpacity: 1,
+  colours: new Map(),
+  colourNumbers: new Map(),
+  crosshair: [0, 0, 0],
+  node: -1,
+  planes: "patient",
+  frame: kPatientFrame,
+  window: [0, 1],
+  cast: "off",
+  layers: {
+    surface: true,
+    lines: true,
+    nodes: false,
+    points: false,
+    local: false,
+    contours: true,
+    seeds: true,
+    slices: false,
+    places: true,
+  },
+  colourBy: "branch",
+  clip: { on: false, flip: false },
+  interpolate: true,
+  tool: "navigate",
+  layout: "four",
+  theme: "dark",
+  strip: true,
+  measurements: [],
+  pending: [],
+  clicks: [],
+  job: null,
+  lost: false,
+  distance: null,
+  figures: null,
 };
 
 export interface App {
@@ -95,7 +152,7 @@ export interface App {
   stage: Stage;
   /** Tells the user in a line that goes away, and to assistive technology. */
   say: (text: string, severity?: "note" | "warning" | "error") => void;
-  /** Does something to the document; tells what is refused. Gives whether it was done. */
+  /** Changes the document and reports a refusal. True if it was done. */
   perform: (operation: { op: string; [key: string]: unknown }) => Promise<boolean>;
 }
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Where a vessel is narrower or wider than its surroundings: radius against a reference that tapers as the vessel does. */
+/** Places where a vessel is narrower or wider than a reference that tapers as the vessel does. */
 
-export interface Place { kind: "stenosis" | "dilation"; from: number; to: number; at: number; share: number }
+export interface Place {
+  kind: "stenosis" | "dilation";
+  from: number;
+  to: number;
+  at: number;
+  share: number;
+}
 
 const kStenosis = 0.3; // of the diameter missing: below that nobody calls it one
 const kDilation = 0.5; // of the diameter more: the usual bound between ectasia and aneurysm
@@ -10,7 +16,10 @@ const kReach = 8; // reference radii on either side from which the reference is 
 
 /** The reference at each sample: the median of the radii within kReach times the vessel's own median radius. */
 export function reference(s: ArrayLike<number>, r: ArrayLike<number>): Float64Array {
-  const n = s.length, out = new Float64Array(n), all = Float64Array.from(r).sort(), reach = kReach * (all[n >> 1] ?? 0);
+  const n = s.length,
+    out = new Float64Array(n),
+    all = Float64Array.from(r).sort(),
+    reach = kReach * (all[n >> 1] ?? 0);
   for (let i = 0, low = 0, high = 0; i < n; ++i) {
     while (s[low] < s[i] - reach) ++low;
     while (high < n && s[high] <= s[i] + reach) ++high;
@@ -22,20 +31,27 @@ export function reference(s: ArrayLike<number>, r: ArrayLike<number>): Float64Ar
 
 /** Runs of samples beyond the bounds; `share` is the part of the diameter that is missing or too much. */
 export function findPlaces(s: ArrayLike<number>, r: ArrayLike<number>): Place[] {
-  const n = s.length, places: Place[] = [];
+  const n = s.length,
+    places: Place[] = [];
   if (n < 5) return places;
-  const ref = reference(s, r), deviation = Float64Array.from({ length: n }, (_, i) => r[i] / ref[i] - 1);
+  const ref = reference(s, r),
+    deviation = Float64Array.from({ length: n }, (_, i) => r[i] / ref[i] - 1);
   for (let i = 0; i < n; ++i) {
     const kind = deviation[i] < -kStenosis ? "stenosis" : deviation[i] > kDilation ? "dilation" : null;
     if (kind === null) continue;
-    let end = i, at = i;
-    while (end + 1 < n && (kind === "stenosis" ? deviation[end + 1] < -kStenosis : deviation[end + 1] > kDilation)) {
+    let end = i,
+      at = i;
+    while (
+      end + 1 < n &&
+      (kind === "stenosis" ? deviation[end + 1] < -kStenosis : deviation[end + 1] > kDilation)
+    ) {
       ++end;
       if (Math.abs(deviation[end]) > Math.abs(deviation[at])) at = end;
     }
     // an end that peters out is no stenosis: the vessel must go on beyond it
     const margin = kLeast * ref[at];
-    if (s[i] - s[0] > margin && s[n - 1] - s[end] > margin) places.push({ kind, from: i, to: end, at, share: Math.abs(deviation[at]) });
+    if (s[i] - s[0] > margin && s[n - 1] - s[end] > margin)
+      places.push({ kind, from: i, to: end, at, share: Math.abs(deviation[at]) });
     i = end;
   }
   return places;

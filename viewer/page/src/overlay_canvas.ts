@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /** The canvas, as large as its view and cleared, to be drawn on in CSS pixels. */
-export function clearedContext(canvas: HTMLCanvasElement, width: number, height: number): CanvasRenderingContext2D {
+export function clearedContext(
+  canvas: HTMLCanvasElement,
+  width: number,
+  height: number,
+): CanvasRenderingContext2D {
   const ratio = window.devicePixelRatio;
   if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
     canvas.width = Math.round(width * ratio);

@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The look of walls and tubes: light from the eye, a darker rim, a colour of their own or of a map, one clip plane. */
-import { DataTexture, DoubleSide, FrontSide, GLSL3, LinearFilter, RGBAFormat, ShaderMaterial, Vector2, Vector3, Vector4 } from "three";
+import {
+  DataTexture,
+  DoubleSide,
+  FrontSide,
+  GLSL3,
+  LinearFilter,
+  RGBAFormat,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+  Vector4,
+} from "three";
 import { mapTable, type MapName } from "./colour";
 
 const kVertex = `
@@ -74,7 +85,15 @@ function table(name: MapName): DataTexture {
   return texture;
 }
 
-export interface Look { own: [number, number, number]; alpha: number; mapped: boolean; range: [number, number]; map: MapName; lit: boolean; clip: Vector4 }
+export interface Look {
+  own: [number, number, number];
+  alpha: number;
+  mapped: boolean;
+  range: [number, number];
+  map: MapName;
+  lit: boolean;
+  clip: Vector4;
+}
 
 /** Cuts nothing away; a plane of three.js that nobody set would be (0, 0, 0, 1), and cut everything. */
 export const kNoClip = new Vector4(0, 0, 0, 0);
@@ -85,15 +104,27 @@ export const kFade = { value: 0 };
 export class PartMaterial extends ShaderMaterial {
   constructor(hasValue: boolean) {
     super({
-      glslVersion: GLSL3, vertexShader: kVertex, fragmentShader: kFragment, defines: hasValue ? { HAS_VALUE: "" } : {},
-      uniforms: { own: { value: new Vector3(1, 1, 1) }, alpha: { value: 1 }, mapped: { value: 0 }, range: { value: new Vector2(0, 1) },
-        map: { value: table("sequential") }, lit: { value: 0 }, fade: kFade, clip: { value: new Vector4(0, 0, 0, 0) } },
+      glslVersion: GLSL3,
+      vertexShader: kVertex,
+      fragmentShader: kFragment,
+      defines: hasValue ? { HAS_VALUE: "" } : {},
+      uniforms: {
+        own: { value: new Vector3(1, 1, 1) },
+        alpha: { value: 1 },
+        mapped: { value: 0 },
+        range: { value: new Vector2(0, 1) },
+        map: { value: table("sequential") },
+        lit: { value: 0 },
+        fade: kFade,
+        clip: { value: new Vector4(0, 0, 0, 0) },
+      },
     });
     this.side = DoubleSide;
   }
 
   look(look: Look): void {
-    const u = this.uniforms, clear = look.alpha < 1;
+    const u = this.uniforms,
+      clear = look.alpha < 1;
     (u.own.value as Vector3).set(...look.own);
     u.alpha.value = look.alpha;
     u.mapped.value = look.mapped ? 1 : 0;
@@ -101,7 +132,10 @@ export class PartMaterial extends ShaderMaterial {
     u.map.value = table(look.map);
     u.lit.value = look.lit ? 1 : 0;
     (u.clip.value as Vector4).copy(look.clip);
-    if (this.transparent !== clear) { this.transparent = clear; this.needsUpdate = true; }
+    if (this.transparent !== clear) {
+      this.transparent = clear;
+      this.needsUpdate = true;
+    }
     this.depthWrite = !clear;
     this.side = clear ? FrontSide : DoubleSide;
   }

@@ -13,26 +13,44 @@ import { vertexNormals } from "./surface";
 import { dot, sub } from "./vec";
 
 describe("findPlaces", () => {
-  const s = Array.from({ length: 81 }, (_, i) => i / 2), at = (radius: (s: number) => number): ReturnType<typeof findPlaces> => findPlaces(s, s.map(radius));
+  const s = Array.from({ length: 81 }, (_, i) => i / 2),
+    at = (radius: (s: number) => number): ReturnType<typeof findPlaces> => findPlaces(s, s.map(radius));
   it("marksAStenosisWithTheShareThatIsMissing", () => {
     const places = at(x => (Math.abs(x - 20) < 1.1 ? 1 : 2));
     expect(places.map(p => p.kind)).toEqual(["stenosis"]);
     expect(places[0].share).toBeCloseTo(0.5, 6);
     expect([s[places[0].from], s[places[0].to]]).toEqual([19, 21]);
   });
-  it("marksADilation", () => { expect(at(x => (Math.abs(x - 20) < 2 ? 4 : 2)).map(p => p.kind)).toEqual(["dilation"]); });
-  it("doesNotMarkATaper", () => { expect(at(x => 3 - 0.05 * x)).toEqual([]); });
-  it("doesNotMarkAnEndThatPetersOut", () => { expect(at(x => (x > 38.4 ? 0.5 : 2))).toEqual([]); });
+  it("marksADilation", () => {
+    expect(at(x => (Math.abs(x - 20) < 2 ? 4 : 2)).map(p => p.kind)).toEqual(["dilation"]);
+  });
+  it("doesNotMarkATaper", () => {
+    expect(at(x => 3 - 0.05 * x)).toEqual([]);
+  });
+  it("doesNotMarkAnEndThatPetersOut", () => {
+    expect(at(x => (x > 38.4 ? 0.5 : 2))).toEqual([]);
+  });
 });
 describe("marchTetrahedra", () => {
   it("givesABallsAreaAndKeepsToItsSurface", () => {
-    const n = 25, step = 0.25, value = new Float64Array(n ** 3), r = 2;
-    for (let k = 0, at = 0; k < n; ++k) for (let j = 0; j < n; ++j) for (let i = 0; i < n; ++i, ++at) value[at] = Math.hypot(-3 + i * step, -3 + j * step, -3 + k * step) - r;
+    const n = 25,
+      step = 0.25,
+      value = new Float64Array(n ** 3),
+      r = 2;
+    for (let k = 0, at = 0; k < n; ++k)
+      for (let j = 0; j < n; ++j)
+        for (let i = 0; i < n; ++i, ++at)
+          value[at] = Math.hypot(-3 + i * step, -3 + j * step, -3 + k * step) - r;
     const p = marchTetrahedra(value, n, [-3, -3, -3], step);
-    for (let i = 0; i < p.length; i += 3) expect(Math.abs(Math.hypot(p[i], p[i + 1], p[i + 2]) - r)).toBeLessThan(0.02);
+    for (let i = 0; i < p.length; i += 3)
+      expect(Math.abs(Math.hypot(p[i], p[i + 1], p[i + 2]) - r)).toBeLessThan(0.02);
     let area = 0;
     for (let i = 0; i < p.length; i += 9) {
-      const [a, b, c] = [0, 3, 6].map(o => [p[i + o], p[i + o + 1], p[i + o + 2]] as [number, number, number]), u = sub(b, a), v = sub(c, a);
+      const [a, b, c] = [0, 3, 6].map(
+          o => [p[i + o], p[i + o + 1], p[i + o + 2]] as [number, number, number],
+        ),
+        u = sub(b, a),
+        v = sub(c, a);
       area += 0.5 * Math.sqrt(dot(u, u) * dot(v, v) - dot(u, v) ** 2);
     }
     expect(Math.abs(area / (4 * Math.PI * r * r) - 1)).toBeLessThan(0.02);
@@ -40,44 +58,82 @@ describe("marchTetrahedra", () => {
 });
 describe("vertexNormals", () => {
   it("pointOutOfATetrahedron", () => {
-    const normal = vertexNormals(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]), new Uint32Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]));
+    const normal = vertexNormals(
+      new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
+      new Uint32Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]),
+    );
     expect(Array.from(normal.slice(0, 3))).toEqual([-1, -1, -1]);
   });
 });
 describe("straighten", () => {
   it("stepsEvenlyWithASideThatStaysAcross", () => {
-    const tree = sampleTree(), straight = straighten(tree, 0, 21);
+    const tree = sampleTree(),
+      straight = straighten(tree, 0, 21);
     expect(straight.at.at(-1)).toBe(10);
     expect(straight.way[5][2]).toBeCloseTo(2.5, 9);
-    for (const side of straight.side) { expect(side[2]).toBeCloseTo(0, 9); expect(dot(side, straight.side[0])).toBeCloseTo(1, 9); }
+    for (const side of straight.side) {
+      expect(side[2]).toBeCloseTo(0, 9);
+      expect(dot(side, straight.side[0])).toBeCloseTo(1, 9);
+    }
   });
 });
 describe("wayOf", () => {
   it("findsPointsByLength", () => {
-    const way = wayOf([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0]], [0, 1, 2, 3]);
+    const way = wayOf(
+      [
+        [0, 0, 0],
+        [1, 0, 0],
+        [2, 0, 0],
+        [3, 0, 0],
+      ],
+      [0, 1, 2, 3],
+    );
     expect(pointAt(way, 1.25)).toEqual([1.25, 0, 0]);
     expect(locate(way, 99)).toEqual({ i: 2, share: 1 });
   });
 });
-describe("niceLength", () => { it("isOneTwoOrFive", () => { expect([niceLength(0.1, 100), niceLength(0.03, 100), niceLength(0.7, 100)].map(x => Number(x.toPrecision(3)))).toEqual([10, 2, 50]); }); });
-describe("colours", () => {
-  it("comeBackFromHex", () => { expect(toHex(fromHex("#1668c7"))).toBe("#1668c7"); });
-  it("differBetweenNeighbours", () => {
-    for (let i = 0; i < 40; ++i) expect(Math.hypot(...[0, 1, 2].map(k => branchColour(i)[k] - branchColour(i + 1)[k]))).toBeGreaterThan(0.15);
+describe("niceLength", () => {
+  it("isOneTwoOrFive", () => {
+    expect(
+      [niceLength(0.1, 100), niceLength(0.03, 100), niceLength(0.7, 100)].map(x => Number(x.toPrecision(3))),
+    ).toEqual([10, 2, 50]);
   });
-  it("beginAndEndAsTheMap", () => { expect(mapColour("sequential", -1)).toEqual([0.267, 0.005, 0.329]); expect(mapColour("sequential", 2)).toEqual([0.993, 0.906, 0.144]); });
+});
+describe("colours", () => {
+  it("comeBackFromHex", () => {
+    expect(toHex(fromHex("#1668c7"))).toBe("#1668c7");
+  });
+  it("differBetweenNeighbours", () => {
+    for (let i = 0; i < 40; ++i)
+      expect(Math.hypot(...[0, 1, 2].map(k => branchColour(i)[k] - branchColour(i + 1)[k]))).toBeGreaterThan(
+        0.15,
+      );
+  });
+  it("beginAndEndAsTheMap", () => {
+    expect(mapColour("sequential", -1)).toEqual([0.267, 0.005, 0.329]);
+    expect(mapColour("sequential", 2)).toEqual([0.993, 0.906, 0.144]);
+  });
 });
 describe("usualRange", () => {
-  it("leavesOutNoNumbersAndExtremes", () => { expect(usualRange([...Array.from({ length: 200 }, (_, i) => i), NaN, 1e9])).toEqual([2, 198]); });
-  it("isSymmetricIfAsked", () => { expect(usualRange([-1, 0, 3], true)).toEqual([-3, 3]); });
+  it("leavesOutNoNumbersAndExtremes", () => {
+    expect(usualRange([...Array.from({ length: 200 }, (_, i) => i), NaN, 1e9])).toEqual([2, 198]);
+  });
+  it("isSymmetricIfAsked", () => {
+    expect(usualRange([-1, 0, 3], true)).toEqual([-3, 3]);
+  });
 });
 describe("fromBase64", () => {
-  it("givesTheBytes", () => { expect(Array.from(fromBase64("AAEC/w=="))).toEqual([0, 1, 2, 255]); });
-  it("passesOverWhiteSpace", () => { expect(Array.from(fromBase64("AAEC\n/w=="))).toEqual([0, 1, 2, 255]); });
+  it("givesTheBytes", () => {
+    expect(Array.from(fromBase64("AAEC/w=="))).toEqual([0, 1, 2, 255]);
+  });
+  it("passesOverWhiteSpace", () => {
+    expect(Array.from(fromBase64("AAEC\n/w=="))).toEqual([0, 1, 2, 255]);
+  });
 });
 describe("Store", () => {
   it("tellsOnlyWhoWatchesTheKey", () => {
-    const store = new Store({ a: 1, b: 1 }), seen: string[] = [];
+    const store = new Store({ a: 1, b: 1 }),
+      seen: string[] = [];
     store.watch(["a"], v => seen.push(`a${v.a}`));
     store.watch(["b"], v => seen.push(`b${v.b}`));
     store.set({ a: 2, b: 1 });
@@ -93,7 +149,9 @@ describe("Store", () => {
   });
   it("throwsWhereWatchersNeverEnd", () => {
     const store = new Store({ a: 0 });
-    store.watch(["a"], v => { if (v.a > 0) store.set({ a: v.a + 1 }); });
+    store.watch(["a"], v => {
+      if (v.a > 0) store.set({ a: v.a + 1 });
+    });
     expect(() => store.set({ a: 1 })).toThrow(/without end/);
   });
 });

@@ -5,7 +5,9 @@ import { Performer } from "./performer";
 import type { Source } from "./source";
 import { Store } from "./store";
 
-beforeAll(() => { globalThis.window ??= globalThis as never; });
+beforeAll(() => {
+  globalThis.window ??= globalThis as never;
+});
 
 /** A document that counts its revisions and tells them late. */
 function slowDocument(store: Store<View>): { source: Source; asked: [string, number][] } {
@@ -20,16 +22,27 @@ function slowDocument(store: Store<View>): { source: Source; asked: [string, num
   return { source: { perform } as unknown as Source, asked };
 }
 
-const storeAt = (revision: number): Store<View> => new Store<View>({ ...kInitial, state: { ...kInitial.state, revision }, treeRevision: revision });
+const storeAt = (revision: number): Store<View> =>
+  new Store<View>({ ...kInitial, state: { ...kInitial.state, revision }, treeRevision: revision });
 
 test("two undos at once are two undos, each of the state that the one before it left", async () => {
-  const store = storeAt(7), { source, asked } = slowDocument(store), performer = new Performer(store, source);
+  const store = storeAt(7),
+    { source, asked } = slowDocument(store),
+    performer = new Performer(store, source);
   await Promise.all([performer.perform({ op: "undo" }), performer.perform({ op: "undo" })]);
-  expect(asked).toEqual([["undo", 7], ["undo", 8]]);
+  expect(asked).toEqual([
+    ["undo", 7],
+    ["undo", 8],
+  ]);
 });
 
 test("an index is meant for the tree that was shown when it was named", async () => {
-  const store = storeAt(7), { source, asked } = slowDocument(store), performer = new Performer(store, source);
+  const store = storeAt(7),
+    { source, asked } = slowDocument(store),
+    performer = new Performer(store, source);
   await Promise.all([performer.perform({ op: "undo" }), performer.perform({ op: "delete", branch: 1 })]);
-  expect(asked).toEqual([["undo", 7], ["delete", 7]]);
+  expect(asked).toEqual([
+    ["undo", 7],
+    ["delete", 7],
+  ]);
 });

@@ -13,14 +13,21 @@ const kOfTheTree = new Set(["delete", "cut", "join", "merge", "reverse", "root",
 export class Performer {
   private last: Promise<unknown> = Promise.resolve();
 
-  constructor(private readonly store: Store<View>, private readonly source: Source) {}
+  constructor(
+    private readonly store: Store<View>,
+    private readonly source: Source,
+  ) {}
 
   /** Done when the page has the state that followed; throws what the server refuses. */
   perform(operation: Operation): Promise<void> {
-    const seen = this.store.get().treeRevision, before = this.last;
+    const seen = this.store.get().treeRevision,
+      before = this.last;
     const turn = (async (): Promise<void> => {
-      await before.catch(() => undefined); // whoever asked for that was told
-      const { revision } = await this.source.perform(operation, kOfTheTree.has(operation.op) ? seen : this.store.get().state.revision);
+      await before.catch(() => undefined); // its caller gets the error
+      const { revision } = await this.source.perform(
+        operation,
+        kOfTheTree.has(operation.op) ? seen : this.store.get().state.revision,
+      );
       if (revision !== undefined) await this.reached(revision);
     })();
     this.last = turn;
@@ -30,9 +37,15 @@ export class Performer {
   private reached(revision: number): Promise<void> {
     return new Promise(resolve => {
       let end: (() => void) | null = null;
-      const done = (): void => { window.clearTimeout(timer); end?.(); resolve(); };
+      const done = (): void => {
+        window.clearTimeout(timer);
+        end?.();
+        resolve();
+      };
       const timer = window.setTimeout(done, kLongest);
-      end = this.store.watch(["state"], ({ state }) => { if (state.revision >= revision) queueMicrotask(done); });
+      end = this.store.watch(["state"], ({ state }) => {
+        if (state.revision >= revision) queueMicrotask(done);
+      });
     });
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What is at a point: libblob's answer and the volume's value. */
+/** The probe at a point: libblob's answer and the volume's value. */
 import { Flags, NOWHERE, type Batch, type Model } from "../../../libblob/wasm/blob.mjs";
 import type { View } from "./model";
 import type { Vec3 } from "./types";
@@ -21,7 +21,12 @@ function batchOf(model: Model): Batch {
 }
 
 /** One query; `cursor` is the node that the point belongs to, if that is known. 0.01 ms or so. */
-export function ask(model: Model, p: Vec3, cursor = NOWHERE, flags = 0): { distance: number; normal: Vec3; node: number; inside: boolean } {
+export function ask(
+  model: Model,
+  p: Vec3,
+  cursor = NOWHERE,
+  flags = 0,
+): { distance: number; normal: Vec3; node: number; inside: boolean } {
   const one = batchOf(model);
   one.points.set(p);
   one.cursors[0] = cursor;
@@ -31,17 +36,34 @@ export function ask(model: Model, p: Vec3, cursor = NOWHERE, flags = 0): { dista
 }
 
 export function probe(view: View, p: Vec3, cursor = NOWHERE): Answer {
-  return { position: p, value: view.volume?.sample(p) ?? NaN, wall: view.blob === null ? null : ask(view.blob, p, cursor) };
+  return {
+    position: p,
+    value: view.volume?.sample(p) ?? NaN,
+    wall: view.blob === null ? null : ask(view.blob, p, cursor),
+  };
 }
 
-/** How far it is from a point in the lumen to the wall along a direction, in mm; `most` if there is none before.
+/** Distance from a point in the lumen to the wall along a direction, in mm; `most` if there is no wall before.
  * The sign of the distance changes at the wall: halving between samples a quarter of the radius apart. */
-export function toWall(model: Model, from: Vec3, direction: Vec3, node: number, radius: number, most: number, flags = 0): number {
-  let low = 0, cursor = node, high = most;
+export function toWall(
+  model: Model,
+  from: Vec3,
+  direction: Vec3,
+  node: number,
+  radius: number,
+  most: number,
+  flags = 0,
+): number {
+  let low = 0,
+    cursor = node,
+    high = most;
   const step = Math.max(radius / 4, most / 200);
   for (let t = step; ; t += step) {
     const s = ask(model, along(from, direction, Math.min(t, most)), cursor, flags);
-    if (!s.inside) { high = Math.min(t, most); break; }
+    if (!s.inside) {
+      high = Math.min(t, most);
+      break;
+    }
     if (t >= most) return most;
     low = t;
     cursor = s.node;
@@ -49,7 +71,8 @@ export function toWall(model: Model, from: Vec3, direction: Vec3, node: number, 
   const kHalvings = 16;
   for (let i = 0; i < kHalvings; ++i) {
     const t = (low + high) / 2;
-    if (ask(model, along(from, direction, t), cursor, flags).inside) low = t; else high = t;
+    if (ask(model, along(from, direction, t), cursor, flags).inside) low = t;
+    else high = t;
   }
   return (low + high) / 2;
 }

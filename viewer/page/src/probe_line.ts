@@ -5,31 +5,76 @@ import { probe, type Answer } from "./probe";
 import type { Tools } from "./tools";
 import { brief, h } from "./ui";
 
-const kTitles = { position: "mm", value: "Value", distance: "Wall", normal: "Normal", node: "Node", branch: "Vessel" };
+const kTitles = {
+  position: "mm",
+  value: "Value",
+  distance: "Wall",
+  normal: "Normal",
+  node: "Node",
+  branch: "Vessel",
+};
 
 export class ProbeLine {
-  private readonly fields = Object.fromEntries(Object.keys(kTitles).map(name => [name, h("span", { id: `probe-${name}`, class: `field ${name}` })])) as Record<keyof typeof kTitles, HTMLElement>;
+  private readonly fields = Object.fromEntries(
+    Object.keys(kTitles).map(name => [name, h("span", { id: `probe-${name}`, class: `field ${name}` })]),
+  ) as Record<keyof typeof kTitles, HTMLElement>;
   private pointing = false;
 
-  constructor(element: HTMLElement, private readonly app: App, tools: Tools) {
-    for (const [name, title] of Object.entries(kTitles)) element.append(h("span", { class: "pair" }, h("span", { class: "title" }, title), this.fields[name as keyof typeof kTitles]));
-    tools.onProbe(answer => { this.pointing = answer !== null; if (answer !== null) this.show(answer); else this.rest(); });
-    app.store.watch(["crosshair", "blob", "volumeReady"], () => { if (!this.pointing) this.rest(); });
+  constructor(
+    element: HTMLElement,
+    private readonly app: App,
+    tools: Tools,
+  ) {
+    for (const [name, title] of Object.entries(kTitles))
+      element.append(
+        h(
+          "span",
+          { class: "pair" },
+          h("span", { class: "title" }, title),
+          this.fields[name as keyof typeof kTitles],
+        ),
+      );
+    tools.onProbe(answer => {
+      this.pointing = answer !== null;
+      if (answer !== null) this.show(answer);
+      else this.rest();
+    });
+    app.store.watch(["crosshair", "blob", "volumeReady"], () => {
+      if (!this.pointing) this.rest();
+    });
   }
 
-  private rest(): void { const view = this.app.store.get(); this.show(probe(view, view.crosshair)); }
+  private rest(): void {
+    const view = this.app.store.get();
+    this.show(probe(view, view.crosshair));
+  }
 
   private show(a: Answer): void {
-    const { tree } = this.app.store.get(), branch = a.wall === null ? undefined : tree?.branches[tree.branch[a.wall.node]];
+    const { tree } = this.app.store.get(),
+      branch = a.wall === null ? undefined : tree?.branches[tree.branch[a.wall.node]];
     const texts: Record<keyof typeof kTitles, string> = {
-      position: a.position.map(x => x.toFixed(2)).join("  "), value: brief(a.value), distance: a.wall === null ? "–" : `${a.wall.distance >= 0 ? "+" : "−"}${Math.abs(a.wall.distance).toFixed(3)} mm`,
-      normal: a.wall === null ? "–" : a.wall.normal.map(x => x.toFixed(2)).join(" "), node: a.wall === null ? "–" : String(a.wall.node), branch: branch?.label ?? "–",
+      position: a.position.map(x => x.toFixed(2)).join("  "),
+      value: brief(a.value),
+      distance:
+        a.wall === null
+          ? "–"
+          : `${a.wall.distance >= 0 ? "+" : "−"}${Math.abs(a.wall.distance).toFixed(3)} mm`,
+      normal: a.wall === null ? "–" : a.wall.normal.map(x => x.toFixed(2)).join(" "),
+      node: a.wall === null ? "–" : String(a.wall.node),
+      branch: branch?.label ?? "–",
     };
-    for (const name of Object.keys(kTitles) as (keyof typeof kTitles)[]) this.fields[name].textContent = texts[name];
-    // for whoever reads them by program: all digits
+    for (const name of Object.keys(kTitles) as (keyof typeof kTitles)[])
+      this.fields[name].textContent = texts[name];
+    // all digits, for programs
     const { position, distance, node } = this.fields;
     position.dataset.mm = a.position.join(" ");
-    if (a.wall !== null) { distance.dataset.mm = String(a.wall.distance); node.dataset.node = String(a.wall.node); } else { delete distance.dataset.mm; delete node.dataset.node; }
+    if (a.wall !== null) {
+      distance.dataset.mm = String(a.wall.distance);
+      node.dataset.node = String(a.wall.node);
+    } else {
+      delete distance.dataset.mm;
+      delete node.dataset.node;
+    }
     distance.classList.toggle("inside", a.wall?.inside === true);
   }
 }

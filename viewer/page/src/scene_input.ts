@@ -25,13 +25,28 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
     ++pointers;
     const { x, y } = place(e);
     const grabbed = e.button === 0 && !e.shiftKey && tools.grabInScene(scene, x, y);
-    drag = { kind: grabbed ? "tool" : e.button === 1 || (e.button === 0 && e.shiftKey) || pointers > 1 ? "pan" : e.button === 2 ? "window" : "turn", x, y, far: 0 };
+    drag = {
+      kind: grabbed
+        ? "tool"
+        : e.button === 1 || (e.button === 0 && e.shiftKey) || pointers > 1
+          ? "pan"
+          : e.button === 2
+            ? "window"
+            : "turn",
+      x,
+      y,
+      far: 0,
+    };
     e.preventDefault();
   });
   element.addEventListener("pointermove", e => {
     const { x, y } = place(e);
-    if (drag === null) { tools.hoverScene(scene, x, y); return; }
-    const dx = x - drag.x, dy = y - drag.y;
+    if (drag === null) {
+      tools.hoverScene(scene, x, y);
+      return;
+    }
+    const dx = x - drag.x,
+      dy = y - drag.y;
     if (drag.kind === "tool") tools.dragInScene(scene, x, y);
     else if (drag.far + Math.hypot(dx, dy) > kClick) {
       if (drag.kind === "turn") camera.turn(dx * kTurn, dy * kTurn);
@@ -44,19 +59,30 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
   const end = (e: PointerEvent): void => {
     pointers = Math.max(0, pointers - 1);
     if (drag?.kind === "tool") tools.releaseInScene();
-    else if (drag !== null && drag.kind !== "window" && drag.far <= kClick && e.type === "pointerup") tools.clickInScene(scene, drag.x, drag.y, 1);
+    else if (drag !== null && drag.kind !== "window" && drag.far <= kClick && e.type === "pointerup")
+      tools.clickInScene(scene, drag.x, drag.y, 1);
     drag = null;
   };
   element.addEventListener("pointerup", end);
   element.addEventListener("pointercancel", end);
   element.addEventListener("pointerleave", () => tools.leave());
   element.addEventListener("contextmenu", e => e.preventDefault());
-  element.addEventListener("dblclick", e => { const { x, y } = place(e); tools.centreInScene(scene, x, y); });
-  element.addEventListener("wheel", e => {
+  element.addEventListener("dblclick", e => {
     const { x, y } = place(e);
-    if (!tools.wheelInScene(Math.sign(e.deltaY))) { camera.zoom(kZoomStep ** e.deltaY, x, y); scene.moved(); }
-    e.preventDefault();
-  }, { passive: false });
+    tools.centreInScene(scene, x, y);
+  });
+  element.addEventListener(
+    "wheel",
+    e => {
+      const { x, y } = place(e);
+      if (!tools.wheelInScene(Math.sign(e.deltaY))) {
+        camera.zoom(kZoomStep ** e.deltaY, x, y);
+        scene.moved();
+      }
+      e.preventDefault();
+    },
+    { passive: false },
+  );
   element.addEventListener("keydown", e => {
     if (e.altKey || e.metaKey || e.ctrlKey || !sceneKey(scene, tools, e)) return;
     scene.moved();
@@ -66,21 +92,38 @@ export function listenToScene(scene: SceneView, app: App, tools: Tools): void {
 }
 
 function sceneKey(scene: SceneView, tools: Tools, e: KeyboardEvent): boolean {
-  const { camera } = scene, step = 0.1, pixels = 25;
+  const { camera } = scene,
+    step = 0.1,
+    pixels = 25;
   if (tools.keyInScene(e.key)) return true;
   const go = (x: number, y: number): boolean => {
-    if (e.shiftKey) camera.pan(x * pixels, y * pixels); else camera.turn(x * step, y * step);
+    if (e.shiftKey) camera.pan(x * pixels, y * pixels);
+    else camera.turn(x * step, y * step);
     return true;
   };
   switch (e.key) {
-    case "ArrowLeft": return go(-1, 0);
-    case "ArrowRight": return go(1, 0);
-    case "ArrowUp": return go(0, -1);
-    case "ArrowDown": return go(0, 1);
-    case "+": case "=": camera.zoom(0.85); return true;
-    case "-": camera.zoom(1 / 0.85); return true;
-    case "0": scene.fit(); return true;
-    case "Enter": tools.clickInScene(scene, camera.width / 2, camera.height / 2, 1); return true;
-    default: return false;
+    case "ArrowLeft":
+      return go(-1, 0);
+    case "ArrowRight":
+      return go(1, 0);
+    case "ArrowUp":
+      return go(0, -1);
+    case "ArrowDown":
+      return go(0, 1);
+    case "+":
+    case "=":
+      camera.zoom(0.85);
+      return true;
+    case "-":
+      camera.zoom(1 / 0.85);
+      return true;
+    case "0":
+      scene.fit();
+      return true;
+    case "Enter":
+      tools.clickInScene(scene, camera.width / 2, camera.height / 2, 1);
+      return true;
+    default:
+      return false;
   }
 }

@@ -7,15 +7,29 @@ import { drawMeasurements, drawScaleBar, drawWire, label, wirePoints } from "./s
 import type { Vec3 } from "./types";
 import { dot } from "./vec";
 
-const kAxes: [Vec3, string, string][] = [[[1, 0, 0], "L", "#e2605c"], [[-1, 0, 0], "R", "#e2605c"], [[0, 1, 0], "P", "#5ad1a0"],
-  [[0, -1, 0], "A", "#5ad1a0"], [[0, 0, 1], "S", "#6aa5ff"], [[0, 0, -1], "I", "#6aa5ff"]];
+const kAxes: [Vec3, string, string][] = [
+  [[1, 0, 0], "L", "#e2605c"],
+  [[-1, 0, 0], "R", "#e2605c"],
+  [[0, 1, 0], "P", "#5ad1a0"],
+  [[0, -1, 0], "A", "#5ad1a0"],
+  [[0, 0, 1], "S", "#6aa5ff"],
+  [[0, 0, -1], "I", "#6aa5ff"],
+];
 
 /** Six letters around a point: those that face the viewer are brighter. */
 function drawCompass(c: CanvasRenderingContext2D, camera: OrbitCamera, height: number): void {
-  const x = 40, y = height - 40, size = 24;
-  const arms = kAxes.map(([d, letter, colour]) => ({ letter, colour, x: dot(d, camera.right), y: -dot(d, camera.up), near: dot(d, camera.back) }));
+  const x = 40,
+    y = height - 40,
+    size = 24;
+  const arms = kAxes.map(([d, letter, colour]) => ({
+    letter,
+    colour,
+    x: dot(d, camera.right),
+    y: -dot(d, camera.up),
+    near: dot(d, camera.back),
+  }));
   for (const arm of arms.sort((a, b) => a.near - b.near)) {
-    c.globalAlpha = 0.35 + 0.65 * (arm.near + 1) / 2;
+    c.globalAlpha = 0.35 + (0.65 * (arm.near + 1)) / 2;
     c.strokeStyle = arm.colour;
     c.lineWidth = 1.5;
     c.beginPath();
@@ -38,7 +52,12 @@ function drawPoints(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View
   c.strokeStyle = "rgb(255 255 255 / 0.7)";
   c.lineWidth = 1;
   c.beginPath();
-  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+  for (const [dx, dy] of [
+    [1, 0],
+    [-1, 0],
+    [0, 1],
+    [0, -1],
+  ]) {
     c.moveTo(cross.x + 4 * dx, cross.y + 4 * dy);
     c.lineTo(cross.x + 10 * dx, cross.y + 10 * dy);
   }
@@ -47,7 +66,8 @@ function drawPoints(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View
 
 /** The centerline of the selected vessel, also through walls. Here, because a line costs nothing where the scene does. */
 function drawSelected(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
-  const { tree, selected } = view, branch = tree?.branches[selected];
+  const { tree, selected } = view,
+    branch = tree?.branches[selected];
   if (tree === null || branch === undefined || !isShown(view, selected)) return;
   c.strokeStyle = toCss(colourOf(view, selected).map(x => 0.3 * x + 0.7) as [number, number, number], 0.95);
   c.lineWidth = 1.5;
@@ -63,7 +83,13 @@ function drawSelected(c: CanvasRenderingContext2D, camera: OrbitCamera, view: Vi
   c.stroke();
 }
 
-export function drawSceneOverlay(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View, width: number, height: number): void {
+export function drawSceneOverlay(
+  c: CanvasRenderingContext2D,
+  camera: OrbitCamera,
+  view: View,
+  width: number,
+  height: number,
+): void {
   const project = (p: Vec3): { x: number; y: number; depth: number } | null => camera.project(p);
   if (camera.flight !== null) {
     label(c, "Flight", 8, 12, "#e8edf4");
@@ -76,5 +102,11 @@ export function drawSceneOverlay(c: CanvasRenderingContext2D, camera: OrbitCamer
   drawCompass(c, camera, height);
   drawScaleBar(c, camera.mmPerPixel, width, height);
   const branch = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined;
-  label(c, `3D${view.cast === "mip" ? "  projection" : view.cast === "volume" ? "  volume" : ""}${branch === undefined ? "" : `  ${branch.label}`}`, 8, 12, "#e8edf4");
+  label(
+    c,
+    `3D${view.cast === "mip" ? "  projection" : view.cast === "volume" ? "  volume" : ""}${branch === undefined ? "" : `  ${branch.label}`}`,
+    8,
+    12,
+    "#e8edf4",
+  );
 }

@@ -38,30 +38,68 @@ export class SceneView implements StageView {
   private touched = false; // the camera is no longer where all is shown
   texture: VolumeTexture | null = null;
 
-  constructor(readonly element: HTMLElement, readonly app: App) {
+  constructor(
+    readonly element: HTMLElement,
+    readonly app: App,
+  ) {
     this.over = element.querySelector("canvas")!;
     this.scene.add(this.lines, this.points, this.marks, this.extra, this.planes.group);
     const { store, stage } = app;
-    const all = (keys: (keyof View)[], call: (view: View) => void): void => { store.watch(keys, view => { call(view); stage.invalidate(this); }); };
+    const all = (keys: (keyof View)[], call: (view: View) => void): void => {
+      store.watch(keys, view => {
+        call(view);
+        stage.invalidate(this);
+      });
+    };
     all(["surface"], view => this.setSurface(view));
     all(["tree"], view => this.setTubes(view));
     all(["tree", "layers", "hidden", "solo", "colours"], view => this.setLines(view));
     all(["tree", "layers", "hidden", "solo", "colours"], view => this.setPoints(view));
     all(["state", "layers", "crosshair"], view => this.setMarks(view));
-    all(["surface", "tree", "layers", "hidden", "solo", "colours", "opacity", "allOpacity", "colourBy", "clip",
-      "distance", "window", "cast", "volumeReady", "theme"], view => this.setLooks(view));
-    store.watch(["selected", "crosshair", "frame", "node", "measurements", "pending", "clicks", "tool"], view => { this.setLooks(view); this.marked(); });
+    all(
+      [
+        "surface",
+        "tree",
+        "layers",
+        "hidden",
+        "solo",
+        "colours",
+        "opacity",
+        "allOpacity",
+        "colourBy",
+        "clip",
+        "distance",
+        "window",
+        "cast",
+        "volumeReady",
+        "theme",
+      ],
+      view => this.setLooks(view),
+    );
+    store.watch(
+      ["selected", "crosshair", "frame", "node", "measurements", "pending", "clicks", "tool"],
+      view => {
+        this.setLooks(view);
+        this.marked();
+      },
+    );
   }
 
   private replace(group: Group, objects: Object3D[]): void {
-    for (const old of group.children as Mesh[]) { old.geometry?.dispose(); (old.material as PartMaterial | undefined)?.dispose(); }
+    for (const old of group.children as Mesh[]) {
+      old.geometry?.dispose();
+      (old.material as PartMaterial | undefined)?.dispose();
+    }
     group.clear();
     if (objects.length > 0) group.add(...objects);
   }
 
   private setSurface(view: View): void {
     if (view.surface === this.surface) return;
-    for (const wall of this.walls) { this.scene.remove(wall); wall.material.dispose(); }
+    for (const wall of this.walls) {
+      this.scene.remove(wall);
+      wall.material.dispose();
+    }
     this.surface?.dispose();
     this.surface = view.surface;
     this.walls = (view.surface?.parts ?? []).map(part => {
@@ -74,24 +112,40 @@ export class SceneView implements StageView {
   }
 
   private setTubes(view: View): void {
-    for (const tube of this.tubes) { this.scene.remove(tube); tube.dispose(); tube.geometry.dispose(); }
+    for (const tube of this.tubes) {
+      this.scene.remove(tube);
+      tube.dispose();
+      tube.geometry.dispose();
+    }
     this.tubes = view.tree === null ? [] : cylinders(view.tree, this.app.stage.software ? 6 : 20);
     if (this.tubes.length > 0) this.scene.add(...this.tubes);
     if (!this.fitted) this.fit();
   }
-  private setLines(view: View): void { this.replace(this.lines, view.tree !== null && view.layers.lines ? [centerlines(view)] : []); }
+  private setLines(view: View): void {
+    this.replace(this.lines, view.tree !== null && view.layers.lines ? [centerlines(view)] : []);
+  }
   private setPoints(view: View): void {
     const points = view.tree !== null && view.layers.points ? wallPoints(view) : null;
     this.replace(this.points, points === null ? [] : [points]);
   }
 
   private setMarks(view: View): void {
-    const marks: Object3D[] = [], least = Math.max(view.volume?.spacing[0] ?? 0, view.tree?.voxelSize ?? 0, 0.1);
+    const marks: Object3D[] = [],
+      least = Math.max(view.volume?.spacing[0] ?? 0, view.tree?.voxelSize ?? 0, 0.1);
     if (view.layers.seeds)
-      for (const seed of view.state.seeds) for (const point of seed.points)
-        marks.push(ball(point.position, Math.max(point.radius ?? 0, 1.5 * least), seed.tracked ? [0.49, 0.83, 0.66] : [1, 0.82, 0.4], seed.tracked ? 0.5 : 0.9));
+      for (const seed of view.state.seeds)
+        for (const point of seed.points)
+          marks.push(
+            ball(
+              point.position,
+              Math.max(point.radius ?? 0, 1.5 * least),
+              seed.tracked ? [0.49, 0.83, 0.66] : [1, 0.82, 0.4],
+              seed.tracked ? 0.5 : 0.9,
+            ),
+          );
     if (view.layers.places)
-      for (const place of view.state.check?.missing_vessels ?? []) marks.push(ball(place.position, Math.max(2 * place.radius_mm, 1.5 * least), [1, 0.48, 0.56], 0.75));
+      for (const place of view.state.check?.missing_vessels ?? [])
+        marks.push(ball(place.position, Math.max(2 * place.radius_mm, 1.5 * least), [1, 0.48, 0.56], 0.75));
     this.replace(this.marks, marks);
   }
 
@@ -103,30 +157,54 @@ export class SceneView implements StageView {
   }
 
   private setLooks(view: View): void {
-    const clip = this.clip(view), { mapped, range, map } = colouring(view), asTubes = view.surface === null || view.layers.nodes;
+    const clip = this.clip(view),
+      { mapped, range, map } = colouring(view),
+      asTubes = view.surface === null || view.layers.nodes;
     if (view.tree !== null && this.tubes.length === view.tree.branches.length)
       this.tubes.forEach((tube, branch) => {
         const alpha = opacityOf(view, branch);
-        tube.visible = asTubes && isShown(view, branch) && alpha > 0 && (view.layers.nodes || view.layers.surface);
-        (tube.material as PartMaterial).look({ own: colourOf(view, branch), alpha, mapped: false, range, map, lit: branch === view.selected, clip });
+        tube.visible =
+          asTubes && isShown(view, branch) && alpha > 0 && (view.layers.nodes || view.layers.surface);
+        (tube.material as PartMaterial).look({
+          own: colourOf(view, branch),
+          alpha,
+          mapped: false,
+          range,
+          map,
+          lit: branch === view.selected,
+          clip,
+        });
       });
     for (const wall of this.walls) {
-      const branch = wall.userData.branch as number, alpha = branch < 0 ? view.allOpacity : opacityOf(view, branch);
+      const branch = wall.userData.branch as number,
+        alpha = branch < 0 ? view.allOpacity : opacityOf(view, branch);
       wall.visible = view.layers.surface && !view.layers.nodes && isShown(view, branch) && alpha > 0;
       const own: [number, number, number] = branch < 0 ? [0.75, 0.72, 0.68] : colourOf(view, branch);
-      wall.material.look({ own, alpha, mapped, range, map, lit: branch === view.selected && branch >= 0, clip });
+      wall.material.look({
+        own,
+        alpha,
+        mapped,
+        range,
+        map,
+        lit: branch === view.selected && branch >= 0,
+        clip,
+      });
       wall.renderOrder = alpha < 1 ? 2 : 0;
     }
-    for (const child of this.points.children) ((child as Mesh).material as PartMaterial).uniforms.clip.value = clip;
+    for (const child of this.points.children)
+      ((child as Mesh).material as PartMaterial).uniforms.clip.value = clip;
     this.planes.update(view, this.texture);
   }
 
   /** Shows everything that there is. */
   fit(): void {
-    const { tree, volume } = this.app.store.get(), box = tree?.box() ?? null;
+    const { tree, volume } = this.app.store.get(),
+      box = tree?.box() ?? null;
     if (box !== null) this.camera.fit(box.low, box.high);
     else if (volume !== null) {
-      const corners = volume.corners(), pick = (f: (...x: number[]) => number): Vec3 => [0, 1, 2].map(a => f(...corners.map(c => c[a]))) as Vec3;
+      const corners = volume.corners(),
+        pick = (f: (...x: number[]) => number): Vec3 =>
+          [0, 1, 2].map(a => f(...corners.map(c => c[a]))) as Vec3;
       this.camera.fit(pick(Math.min), pick(Math.max));
     } else return;
     this.fitted = true;
@@ -138,7 +216,10 @@ export class SceneView implements StageView {
   private marked(): void {
     const { stage } = this.app;
     stage.invalidateOver(this);
-    if (!stage.software) { stage.invalidate(this); return; }
+    if (!stage.software) {
+      stage.invalidate(this);
+      return;
+    }
     window.clearTimeout(this.marking);
     this.marking = window.setTimeout(() => stage.invalidate(this), kStill);
   }
@@ -147,19 +228,33 @@ export class SceneView implements StageView {
   moved(): void {
     this.touched = true;
     window.clearTimeout(this.moving);
-    this.moving = window.setTimeout(() => { this.moving = 0; this.app.stage.invalidate(this); }, kStill);
+    this.moving = window.setTimeout(() => {
+      this.moving = 0;
+      this.app.stage.invalidate(this);
+    }, kStill);
     this.app.stage.invalidate(this);
   }
 
   draw(renderer: WebGLRenderer, width: number, height: number): void {
-    const view = this.app.store.get(), software = this.app.stage.software, resized = width !== this.camera.width || height !== this.camera.height;
+    const view = this.app.store.get(),
+      software = this.app.stage.software,
+      resized = width !== this.camera.width || height !== this.camera.height;
     this.camera.update(width, height);
     if (!this.fitted || (resized && !this.touched)) this.fit();
     const camera = this.camera.update(width, height);
     if (view.cast !== "off" && this.caster !== null) {
       const share = this.moving !== 0 ? (software ? 0.22 : 0.6) : software ? 0.5 : 1;
-      this.caster.draw(renderer, camera, this.camera.isParallel && this.camera.flight === null, [width, height], share, view.window, view.cast === "volume",
-        this.clip(view), this.moving !== 0 || software ? 1 : 0.6);
+      this.caster.draw(
+        renderer,
+        camera,
+        this.camera.isParallel && this.camera.flight === null,
+        [width, height],
+        share,
+        view.window,
+        view.cast === "volume",
+        this.clip(view),
+        this.moving !== 0 || software ? 1 : 0.6,
+      );
     }
     kFade.value = this.camera.flight === null ? 0 : this.camera.flight.fade;
     renderer.render(this.scene, camera);

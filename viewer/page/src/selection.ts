@@ -1,38 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What is selected and where the cursor along it is; the same from list, views, plot and keys. */
+/** The selected vessel and the cursor along it; list, views, plot and keys share them. */
 import { isShown, type App } from "./model";
-import { vesselFrame } from "./slice_view";
+import { vesselFrame } from "./slice_frame";
 import type { Vec3 } from "./types";
 
 /** Selects a branch, or none (-1). */
 export function select(app: App, branch: number): void {
-  const { store } = app, { tree, selected } = store.get();
+  const { store } = app,
+    { tree, selected } = store.get();
   if (tree === null || branch === selected) return;
-  store.set({ selected: branch, node: branch < 0 ? -1 : tree.branches[branch].firstNode + (tree.branches[branch].nodeCount >> 1) });
+  store.set({
+    selected: branch,
+    node: branch < 0 ? -1 : tree.branches[branch].firstNode + (tree.branches[branch].nodeCount >> 1),
+  });
 }
 
 /** Puts cursor and crosshair on a node of the tree, and turns the planes with it if they follow the vessel. */
 export function goToNode(app: App, node: number): void {
-  const { store } = app, { tree, planes } = store.get();
+  const { store } = app,
+    { tree, planes } = store.get();
   if (tree === null || node < 0 || node >= tree.count) return;
   const branch = tree.branch[node];
-  store.set({ selected: branch, node, crosshair: tree.position(node), ...(planes === "vessel" ? { frame: vesselFrame(store.get(), node) } : {}) });
+  store.set({
+    selected: branch,
+    node,
+    crosshair: tree.position(node),
+    ...(planes === "vessel" ? { frame: vesselFrame(store.get(), node) } : {}),
+  });
 }
 
 /** Puts the crosshair anywhere. */
-export function goTo(app: App, p: Vec3): void { app.store.set({ crosshair: p }); }
+export function goTo(app: App, p: Vec3): void {
+  app.store.set({ crosshair: p });
+}
 
 /** Steps along the selected vessel. */
 export function stepAlong(app: App, count: number): void {
   const { tree, selected, node } = app.store.get();
   if (tree === null || selected < 0) return;
   const { firstNode, nodeCount } = tree.branches[selected];
-  goToNode(app, Math.min(firstNode + nodeCount - 1, Math.max(firstNode, (node < 0 ? firstNode : node) + count)));
+  goToNode(
+    app,
+    Math.min(firstNode + nodeCount - 1, Math.max(firstNode, (node < 0 ? firstNode : node) + count)),
+  );
 }
 
 /** Planes across and along the selected vessel; with none selected, the nearest of those shown. */
 export function followVessel(app: App): void {
-  const { store } = app, view = store.get();
+  const { store } = app,
+    view = store.get();
   if (view.tree === null) return;
   const node = view.node >= 0 ? view.node : view.tree.nearest(view.crosshair, b => isShown(view, b));
   if (node < 0) return;
@@ -41,18 +57,26 @@ export function followVessel(app: App): void {
 }
 
 export function toggleHidden(app: App, branch: number): void {
-  const { store } = app, view = store.get(), label = view.tree?.branches[branch]?.label;
+  const { store } = app,
+    view = store.get(),
+    label = view.tree?.branches[branch]?.label;
   if (label === undefined) return;
   const hidden = new Set(view.hidden);
   if (!hidden.delete(label)) hidden.add(label);
   store.set({ hidden, ...(view.solo !== null ? { solo: null } : {}) });
 }
 export function toggleSolo(app: App, branch: number): void {
-  const { store } = app, view = store.get(), label = view.tree?.branches[branch]?.label ?? null;
+  const { store } = app,
+    view = store.get(),
+    label = view.tree?.branches[branch]?.label ?? null;
   store.set({ solo: view.solo === label ? null : label });
 }
-export function showAll(app: App): void { app.store.set({ hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1 }); }
+export function showAll(app: App): void {
+  app.store.set({ hidden: new Set(), solo: null, opacity: new Map(), allOpacity: 1 });
+}
 export function setOpacity(app: App, branch: number, value: number): void {
-  const { store } = app, view = store.get(), label = view.tree?.branches[branch]?.label;
+  const { store } = app,
+    view = store.get(),
+    label = view.tree?.branches[branch]?.label;
   if (label !== undefined) store.set({ opacity: new Map(view.opacity).set(label, value) });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The page's frame: bar, panels, views. What fills them is elsewhere. */
+/** The page's frame: bar, panels and views, still empty. */
 import { h } from "./ui";
 
 export interface Shell {
@@ -23,11 +23,24 @@ export interface Shell {
 }
 
 function viewElement(id: string, label: string, help: string): HTMLElement {
-  return h("section", { class: "view", id: `view-${id}`, role: "application", "aria-roledescription": "view", "aria-label": `${label}. ${help}`, tabindex: 0, "data-view": id },
-    h("canvas", { class: "over", "aria-hidden": "true" }), h("div", { class: "viewtools" }));
+  return h(
+    "section",
+    {
+      class: "view",
+      id: `view-${id}`,
+      role: "application",
+      "aria-roledescription": "view",
+      "aria-label": `${label}. ${help}`,
+      tabindex: 0,
+      "data-view": id,
+    },
+    h("canvas", { class: "over", "aria-hidden": "true" }),
+    h("div", { class: "viewtools" }),
+  );
 }
 
-const kSliceHelp = "Arrow keys move the crosshair, page up and down step through slices, plus and minus zoom.";
+const kSliceHelp =
+  "Arrow keys move the crosshair, page up and down step through slices, plus and minus zoom.";
 
 export function makeShell(): Shell {
   const shell: Shell = {
@@ -53,18 +66,32 @@ export function makeShell(): Shell {
   shell.views.append(shell.canvas, shell.axial, shell.scene, shell.coronal, shell.sagittal, shell.empty);
   document.body.append(
     h("a", { class: "skip", href: "#tree-list" }, "To the list of vessels"),
-    shell.bar, h("div", { class: "work" }, shell.left, h("div", { class: "middle" }, shell.views, shell.strip), shell.right),
-    h("footer", { class: "foot" }, shell.probe, shell.progress, shell.status), shell.toasts, shell.drop);
+    shell.bar,
+    h(
+      "div",
+      { class: "work" },
+      shell.left,
+      h("div", { class: "middle" }, shell.views, shell.strip),
+      shell.right,
+    ),
+    h("footer", { class: "foot" }, shell.probe, shell.progress, shell.status),
+    shell.toasts,
+    shell.drop,
+  );
   return shell;
 }
 
 const kShown = 6000; // ms that a note stays; errors stay until they are closed
 
 export function toast(shell: Shell, text: string, severity: "note" | "warning" | "error" = "note"): void {
-  for (const old of shell.toasts.children) if (old.firstElementChild?.textContent === text) old.remove(); // said again: once is enough
+  for (const old of shell.toasts.children) if (old.firstElementChild?.textContent === text) old.remove(); // a repeated message shows once
   const close = (): void => element.remove();
-  const element = h("div", { class: `toast ${severity}`, role: severity === "error" ? "alert" : "status" }, h("span", {}, text),
-    h("button", { type: "button", class: "button", "aria-label": "Close this message", onclick: close }, "×"));
+  const element = h(
+    "div",
+    { class: `toast ${severity}`, role: severity === "error" ? "alert" : "status" },
+    h("span", {}, text),
+    h("button", { type: "button", class: "button", "aria-label": "Close this message", onclick: close }, "×"),
+  );
   shell.toasts.append(element);
   while (shell.toasts.childElementCount > 5) shell.toasts.firstElementChild!.remove();
   if (severity !== "error") window.setTimeout(close, severity === "warning" ? 2 * kShown : kShown);

@@ -8,7 +8,11 @@ import type { Vec3 } from "./types";
 import { along, dot, rotate, sub, type Frame } from "./vec";
 
 export function turnFrame(frame: Frame, axis: Vec3, angle: number): Frame {
-  return { right: rotate(frame.right, axis, angle), up: rotate(frame.up, axis, angle), normal: rotate(frame.normal, axis, angle) };
+  return {
+    right: rotate(frame.right, axis, angle),
+    up: rotate(frame.up, axis, angle),
+    normal: rotate(frame.normal, axis, angle),
+  };
 }
 
 /** Turns the shared planes about an axis; they are then neither the patient's nor the vessel's. */
@@ -21,13 +25,16 @@ const kWindowStep = 1 / 300; // of the window for a pixel
 const kZoomStep = 1.0015; // for a unit of the wheel
 
 export function shiftWindow(app: App, dx: number, dy: number): void {
-  const [low, high] = app.store.get().window, width = Math.max(high - low, 1e-6);
-  const wider = width * Math.exp(dx * kWindowStep * 2), level = (low + high) / 2 + dy * kWindowStep * width;
+  const [low, high] = app.store.get().window,
+    width = Math.max(high - low, 1e-6);
+  const wider = width * Math.exp(dx * kWindowStep * 2),
+    level = (low + high) / 2 + dy * kWindowStep * width;
   app.store.set({ window: [level - wider / 2, level + wider / 2] });
 }
 
 export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
-  const element = slice.element, { store, stage } = app;
+  const element = slice.element,
+    { store, stage } = app;
   let drag: { kind: "tool" | "window" | "pan" | "turn"; x: number; y: number; angle: number } | null = null;
   const place = (e: MouseEvent): { x: number; y: number } => {
     const box = element.getBoundingClientRect();
@@ -41,8 +48,16 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
     if ((e.target as HTMLElement).closest("button, input, select") !== null) return;
     element.focus({ preventScroll: true });
     element.setPointerCapture(e.pointerId);
-    const { x, y } = place(e), left = e.button === 0;
-    const kind = e.button === 1 || (left && e.shiftKey) ? "pan" : e.button === 2 ? "window" : left && (e.ctrlKey || e.metaKey) ? "turn" : "tool";
+    const { x, y } = place(e),
+      left = e.button === 0;
+    const kind =
+      e.button === 1 || (left && e.shiftKey)
+        ? "pan"
+        : e.button === 2
+          ? "window"
+          : left && (e.ctrlKey || e.metaKey)
+            ? "turn"
+            : "tool";
     drag = { kind, x, y, angle: angleAt(x, y) };
     if (kind === "tool") tools.pressInSlice(slice, slice.toPosition(x, y));
     e.preventDefault();
@@ -51,7 +66,8 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
     const { x, y } = place(e);
     tools.hover(slice.toPosition(x, y), slice);
     if (drag === null) return;
-    const dx = x - drag.x, dy = y - drag.y;
+    const dx = x - drag.x,
+      dy = y - drag.y;
     if (drag.kind === "pan") slice.panBy(dx, dy);
     else if (drag.kind === "window") shiftWindow(app, dx, dy);
     else if (drag.kind === "turn") {
@@ -61,18 +77,25 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
     } else tools.dragInSlice(slice, slice.toPosition(x, y));
     drag = { ...drag, x, y };
   });
-  const end = (): void => { if (drag?.kind === "tool") tools.releaseInSlice(slice); drag = null; };
+  const end = (): void => {
+    if (drag?.kind === "tool") tools.releaseInSlice(slice);
+    drag = null;
+  };
   element.addEventListener("pointerup", end);
   element.addEventListener("pointercancel", end);
   element.addEventListener("pointerleave", () => tools.leave());
   element.addEventListener("contextmenu", e => e.preventDefault());
   element.addEventListener("dblclick", () => slice.fit());
-  element.addEventListener("wheel", e => {
-    const { x, y } = place(e);
-    if (e.ctrlKey || e.metaKey) slice.zoomBy(kZoomStep ** e.deltaY, x, y);
-    else slice.step(-Math.sign(e.deltaY));
-    e.preventDefault();
-  }, { passive: false });
+  element.addEventListener(
+    "wheel",
+    e => {
+      const { x, y } = place(e);
+      if (e.ctrlKey || e.metaKey) slice.zoomBy(kZoomStep ** e.deltaY, x, y);
+      else slice.step(-Math.sign(e.deltaY));
+      e.preventDefault();
+    },
+    { passive: false },
+  );
   element.addEventListener("keydown", e => {
     if (!sliceKey(slice, app, tools, e)) return;
     e.preventDefault();
@@ -81,27 +104,56 @@ export function listenToSlice(slice: SliceView, app: App, tools: Tools): void {
   });
 }
 
-/** What a key does in a slice; false: nothing. */
+/** Handles a key in a slice; false if it has no meaning there. */
 function sliceKey(slice: SliceView, app: App, tools: Tools, e: KeyboardEvent): boolean {
-  const { store } = app, f = slice.frame, { crosshair, volume } = store.get();
+  const { store } = app,
+    f = slice.frame,
+    { crosshair, volume } = store.get();
   if (e.altKey || e.metaKey) return false;
   const each = (e.shiftKey ? 5 : 1) * (volume === null ? 0.5 : Math.min(...volume.spacing));
-  const go = (d: Vec3, s: number): boolean => { slice.moveCrosshair(d, s * each); return true; };
-  const turn = (angle: number): boolean => { turnPlanes(app, f.normal, angle); return true; };
+  const go = (d: Vec3, s: number): boolean => {
+    slice.moveCrosshair(d, s * each);
+    return true;
+  };
+  const turn = (angle: number): boolean => {
+    turnPlanes(app, f.normal, angle);
+    return true;
+  };
   switch (e.key) {
-    case "ArrowLeft": return e.ctrlKey ? turn(0.05) : go(f.right, -1);
-    case "ArrowRight": return e.ctrlKey ? turn(-0.05) : go(f.right, 1);
-    case "ArrowUp": return go(f.up, 1);
-    case "ArrowDown": return go(f.up, -1);
-    case "PageUp": slice.step(e.shiftKey ? 5 : 1); return true;
-    case "PageDown": slice.step(e.shiftKey ? -5 : -1); return true;
-    case "+": case "=": slice.zoomBy(0.8); return true;
-    case "-": slice.zoomBy(1.25); return true;
-    case "0": slice.fit(); return true;
-    case "Enter": case " ": tools.pressInSlice(slice, crosshair); tools.releaseInSlice(slice); return true;
-    default: return false;
+    case "ArrowLeft":
+      return e.ctrlKey ? turn(0.05) : go(f.right, -1);
+    case "ArrowRight":
+      return e.ctrlKey ? turn(-0.05) : go(f.right, 1);
+    case "ArrowUp":
+      return go(f.up, 1);
+    case "ArrowDown":
+      return go(f.up, -1);
+    case "PageUp":
+      slice.step(e.shiftKey ? 5 : 1);
+      return true;
+    case "PageDown":
+      slice.step(e.shiftKey ? -5 : -1);
+      return true;
+    case "+":
+    case "=":
+      slice.zoomBy(0.8);
+      return true;
+    case "-":
+      slice.zoomBy(1.25);
+      return true;
+    case "0":
+      slice.fit();
+      return true;
+    case "Enter":
+    case " ":
+      tools.pressInSlice(slice, crosshair);
+      tools.releaseInSlice(slice);
+      return true;
+    default:
+      return false;
   }
 }
 
 /** The part of a position that lies in a slice's plane, at the depth of the crosshair. */
-export const ontoSlice = (slice: SliceView, p: Vec3, depthOf: Vec3): Vec3 => along(p, slice.frame.normal, dot(sub(depthOf, p), slice.frame.normal));
+export const ontoSlice = (slice: SliceView, p: Vec3, depthOf: Vec3): Vec3 =>
+  along(p, slice.frame.normal, dot(sub(depthOf, p), slice.frame.normal));

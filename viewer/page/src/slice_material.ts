@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One plane through the volume, drawn on the whole viewport. */
-import { GLSL3, Matrix4, Mesh, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, Vector2, Vector3, type WebGLRenderer } from "three";
+import {
+  GLSL3,
+  Matrix4,
+  Mesh,
+  OrthographicCamera,
+  PlaneGeometry,
+  Scene,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+  type WebGLRenderer,
+} from "three";
 import type { Vec3 } from "./types";
 import type { Frame } from "./vec";
 import type { Volume } from "./volume";
@@ -34,10 +45,20 @@ export class SliceMaterial {
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
   private readonly material = new ShaderMaterial({
-    glslVersion: GLSL3, vertexShader: kVertex, fragmentShader: kFragment, depthTest: false, depthWrite: false,
+    glslVersion: GLSL3,
+    vertexShader: kVertex,
+    fragmentShader: kFragment,
+    depthTest: false,
+    depthWrite: false,
     uniforms: {
-      voxels: { value: null }, toTexture: { value: new Matrix4() }, centre: { value: new Vector3() }, right: { value: new Vector3() },
-      up: { value: new Vector3() }, window: { value: new Vector2() }, channels: { value: new Vector2(255, 0) }, ready: { value: 0 },
+      voxels: { value: null },
+      toTexture: { value: new Matrix4() },
+      centre: { value: new Vector3() },
+      right: { value: new Vector3() },
+      up: { value: new Vector3() },
+      window: { value: new Vector2() },
+      channels: { value: new Vector2(255, 0) },
+      ready: { value: 0 },
     },
   });
 
@@ -48,9 +69,15 @@ export class SliceMaterial {
   }
 
   /** `halfWidth` and `halfHeight` in mm. */
-  draw(renderer: WebGLRenderer, texture: VolumeTexture, plane: { centre: Vec3; frame: Frame; halfWidth: number; halfHeight: number },
-    window: [number, number], ready: number): void {
-    const u = this.material.uniforms, volume: Volume = texture.volume;
+  draw(
+    renderer: WebGLRenderer,
+    texture: VolumeTexture,
+    plane: { centre: Vec3; frame: Frame; halfWidth: number; halfHeight: number },
+    window: [number, number],
+    ready: number,
+  ): void {
+    const u = this.material.uniforms,
+      volume: Volume = texture.volume;
     u.voxels.value = texture.texture;
     (u.toTexture.value as Matrix4).fromArray(volume.toTexture());
     (u.centre.value as Vector3).set(...plane.centre);

@@ -2,41 +2,59 @@
 /** Lines and letters over a slice. */
 import { toCss } from "./colour";
 import { colourOf, isShown, type View } from "./model";
-import type { SliceView } from "./slice_view";
+import type { Pixel, SliceProjection } from "./slice_frame";
 import type { Surface } from "./surface";
 import type { MissingVessel, Vec3 } from "./types";
 import { dot, orientation, scale } from "./vec";
 
-interface Cut { surface: Surface; key: string; parts: (number[] | null)[] }
-const cuts = new WeakMap<SliceView, Cut>();
+interface Cut {
+  surface: Surface;
+  key: string;
+  parts: (number[] | null)[];
+}
+const cuts = new WeakMap<SliceProjection, Cut>();
 
-/** The surface's outlines in the slice, kept until plane or surface change; null of parts whose tree of boxes is not built
- * yet, for which a picture need not wait. */
-function outlines(slice: SliceView, surface: Surface): (number[] | null)[] {
-  const { normal } = slice.frame, origin = slice.centre(), key = [...normal, dot(normal, origin)].map(x => x.toFixed(5)).join();
+/** The surface's outlines in the slice, kept until plane or surface change. Null for a part whose bounding-volume
+ * hierarchy is not built yet: a picture does not wait for it. */
+function outlines(slice: SliceProjection, surface: Surface): (number[] | null)[] {
+  const { normal } = slice.frame,
+    origin = slice.centre(),
+    key = [...normal, dot(normal, origin)].map(x => x.toFixed(5)).join();
   let cut = cuts.get(slice);
   if (cut?.surface !== surface || cut.key !== key) {
     cut = { surface, key, parts: surface.parts.map(() => null) };
     cuts.set(slice, cut);
   }
   const { parts } = cut;
-  surface.parts.forEach((part, i) => { if (part.bvh !== null) parts[i] ??= surface.cut(part, normal, origin); });
+  surface.parts.forEach((part, i) => {
+    if (part.bvh !== null) parts[i] ??= surface.cut(part, normal, origin);
+  });
   return parts;
 }
 
 type Context = CanvasRenderingContext2D;
 
-function drawOutlines(c: Context, slice: SliceView, view: View): void {
+function drawOutlines(c: Context, slice: SliceProjection, view: View): void {
   const { surface } = view;
   if (surface === null || !view.layers.contours) return;
-  const parts = outlines(slice, surface), map = slice.toPixels(), x = map.x.by, y = map.y.by, o = { x: map.x.offset, y: map.y.offset };
+  const parts = outlines(slice, surface),
+    map = slice.toPixels(),
+    x = map.x.by,
+    y = map.y.by,
+    o = { x: map.x.offset, y: map.y.offset };
   surface.parts.forEach((part, i) => {
     const points = parts[i];
     if (points === null || points.length === 0 || !isShown(view, part.branch)) return;
     c.beginPath();
     for (let k = 0; k < points.length; k += 6) {
-      c.moveTo(o.x + points[k] * x[0] + points[k + 1] * x[1] + points[k + 2] * x[2], o.y + points[k] * y[0] + points[k + 1] * y[1] + points[k + 2] * y[2]);
-      c.lineTo(o.x + points[k + 3] * x[0] + points[k + 4] * x[1] + points[k + 5] * x[2], o.y + points[k + 3] * y[0] + points[k + 4] * y[1] + points[k + 5] * y[2]);
+      c.moveTo(
+        o.x + points[k] * x[0] + points[k + 1] * x[1] + points[k + 2] * x[2],
+        o.y + points[k] * y[0] + points[k + 1] * y[1] + points[k + 2] * y[2],
+      );
+      c.lineTo(
+        o.x + points[k + 3] * x[0] + points[k + 4] * x[1] + points[k + 5] * x[2],
+        o.y + points[k + 3] * y[0] + points[k + 4] * y[1] + points[k + 5] * y[2],
+      );
     }
     c.strokeStyle = toCss(colourOf(view, part.branch), part.branch === view.selected ? 1 : 0.8);
     c.lineWidth = part.branch === view.selected ? 2 : 1.2;
@@ -44,11 +62,14 @@ function drawOutlines(c: Context, slice: SliceView, view: View): void {
   });
 }
 
-function drawLines(c: Context, slice: SliceView, view: View): void {
+function drawLines(c: Context, slice: SliceProjection, view: View): void {
   const { tree } = view;
   if (tree === null || !view.layers.lines) return;
-  const near = 2 * slice.mmPerPixel + (tree.voxelSize || 0.5), { x, y, depth } = slice.toPixels(), p = tree.centre;
-  const on = (row: { by: Vec3; offset: number }, k: number): number => p[k] * row.by[0] + p[k + 1] * row.by[1] + p[k + 2] * row.by[2] + row.offset;
+  const near = 2 * slice.mmPerPixel + (tree.voxelSize || 0.5),
+    { x, y, depth } = slice.toPixels(),
+    p = tree.centre;
+  const on = (row: { by: Vec3; offset: number }, k: number): number =>
+    p[k] * row.by[0] + p[k + 1] * row.by[1] + p[k + 2] * row.by[2] + row.offset;
   for (const branch of tree.branches) {
     if (!isShown(view, branch.index)) continue;
     c.fillStyle = toCss(colourOf(view, branch.index), 0.9);
@@ -57,16 +78,26 @@ function drawLines(c: Context, slice: SliceView, view: View): void {
   }
 }
 
-/** A ring; fainter as the point is farther from the plane, not at all beyond `reach` mm. */
-function ring(c: Context, slice: SliceView, p: Vec3, radius: number, colour: string, reach: number, filled = false): void {
-  const at = slice.toPixel(p), far = Math.abs(at.depth);
+/** A ring, fainter with distance from the plane and absent beyond `reach` mm. */
+function ring(
+  c: Context,
+  slice: SliceProjection,
+  p: Vec3,
+  radius: number,
+  colour: string,
+  reach: number,
+  filled = false,
+): void {
+  const at = slice.toPixel(p),
+    far = Math.abs(at.depth);
   if (far > reach) return;
-  c.globalAlpha = 1 - 0.75 * far / reach;
+  c.globalAlpha = 1 - (0.75 * far) / reach;
   c.strokeStyle = c.fillStyle = colour;
   c.lineWidth = 1.5;
   c.beginPath();
   c.arc(at.x, at.y, Math.max(radius, 3), 0, 2 * Math.PI);
-  if (filled) c.fill(); else c.stroke();
+  if (filled) c.fill();
+  else c.stroke();
   c.globalAlpha = 1;
 }
 
@@ -74,12 +105,13 @@ export const kPlaceRing = 7; // pixels
 /** mm from a slice within which a missing vessel is marked in it. */
 export const placeReach = (place: MissingVessel): number => Math.max(3, place.length_mm / 2);
 
-function drawSeeds(c: Context, slice: SliceView, view: View): void {
+function drawSeeds(c: Context, slice: SliceProjection, view: View): void {
   const pixel = slice.mmPerPixel;
   if (view.layers.seeds)
     for (const seed of view.state.seeds) {
       seed.points.forEach((point, i) => {
-        const r = point.radius ?? 0, reach = Math.max(r, 4 * pixel, 1.5);
+        const r = point.radius ?? 0,
+          reach = Math.max(r, 4 * pixel, 1.5);
         if (r > 0) ring(c, slice, point.position, r / pixel, seed.tracked ? "#7dd3a8" : "#ffd166", reach);
         ring(c, slice, point.position, 3, seed.tracked ? "#7dd3a8" : "#ffd166", reach, true);
         const at = slice.toPixel(point.position);
@@ -93,7 +125,14 @@ function drawSeeds(c: Context, slice: SliceView, view: View): void {
     }
 }
 
-export function label(c: Context, text: string, x: number, y: number, colour: string, align: CanvasTextAlign = "left"): void {
+export function label(
+  c: Context,
+  text: string,
+  x: number,
+  y: number,
+  colour: string,
+  align: CanvasTextAlign = "left",
+): void {
   c.font = "500 11px system-ui, sans-serif";
   c.textAlign = align;
   c.textBaseline = "middle";
@@ -105,10 +144,19 @@ export function label(c: Context, text: string, x: number, y: number, colour: st
 }
 
 /** Measured points and the lines between them, in a slice or a projection. */
-export function drawMeasurements(c: Context, view: View, project: (p: Vec3) => { x: number; y: number; depth: number } | null, reach: number): void {
-  const groups = [...view.measurements.map(m => ({ points: m.points, text: m.text, kind: m.kind as string })),
+export function drawMeasurements(
+  c: Context,
+  view: View,
+  project: (p: Vec3) => Pixel | null,
+  reach: number,
+): void {
+  const groups = [
+    ...view.measurements.map(m => ({ points: m.points, text: m.text, kind: m.kind as string })),
     ...(view.pending.length > 0 ? [{ points: view.pending, text: "", kind: "pending" }] : []),
-    ...(view.clicks.length > 0 ? [{ points: view.clicks.map(click => click.position), text: "", kind: "pending" }] : [])];
+    ...(view.clicks.length > 0
+      ? [{ points: view.clicks.map(click => click.position), text: "", kind: "pending" }]
+      : []),
+  ];
   for (const { points, text, kind } of groups) {
     const pixels = points.map(project);
     if (pixels.every(p => p === null || Math.abs(p.depth) > reach)) continue;
@@ -117,17 +165,30 @@ export function drawMeasurements(c: Context, view: View, project: (p: Vec3) => {
     c.lineWidth = 1.5;
     c.setLineDash(pixels.some(p => p !== null && Math.abs(p.depth) > reach / 4) ? [4, 3] : []);
     c.beginPath();
-    shown.forEach((p, i) => { if (i === 0) c.moveTo(p.x, p.y); else c.lineTo(p.x, p.y); });
+    shown.forEach((p, i) => {
+      if (i === 0) c.moveTo(p.x, p.y);
+      else c.lineTo(p.x, p.y);
+    });
     if (kind === "section" && shown.length > 2) c.closePath();
     c.stroke();
     c.setLineDash([]);
-    if (kind !== "section") for (const p of shown) { c.beginPath(); c.arc(p.x, p.y, 3, 0, 2 * Math.PI); c.fill(); }
+    if (kind !== "section")
+      for (const p of shown) {
+        c.beginPath();
+        c.arc(p.x, p.y, 3, 0, 2 * Math.PI);
+        c.fill();
+      }
     const last = shown.at(-1);
     if (last !== undefined && text !== "") label(c, text, last.x + 8, last.y - 8, "#ffe08a");
   }
 }
 
-export function drawWire(c: Context, points: Float64Array | null, project: (p: Vec3) => { x: number; y: number; depth: number } | null, reach: number): void {
+export function drawWire(
+  c: Context,
+  points: Float64Array | null,
+  project: (p: Vec3) => Pixel | null,
+  reach: number,
+): void {
   if (points === null) return;
   c.strokeStyle = "#f5f7ff";
   c.lineWidth = 2;
@@ -143,42 +204,62 @@ export function drawWire(c: Context, points: Float64Array | null, project: (p: V
   c.stroke();
 }
 
-function drawCrosshair(c: Context, slice: SliceView, view: View, width: number, height: number): void {
-  const p = slice.toPixel(view.crosshair), gap = 9;
-  const colours: Record<string, [string, string]> = { // of the planes that the lines stand for: [across, up]
-    axial: ["#5ad1a0", "#f2c14e"], coronal: ["#e2605c", "#f2c14e"], sagittal: ["#e2605c", "#5ad1a0"] };
+function drawCrosshair(c: Context, slice: SliceProjection, view: View, width: number, height: number): void {
+  const p = slice.toPixel(view.crosshair),
+    gap = 9;
+  const colours: Record<string, [string, string]> = {
+    // of the planes that the lines stand for: [across, up]
+    axial: ["#5ad1a0", "#f2c14e"],
+    coronal: ["#e2605c", "#f2c14e"],
+    sagittal: ["#e2605c", "#5ad1a0"],
+  };
   const [h, v] = colours[slice.name];
   c.lineWidth = 1;
   c.globalAlpha = 0.75;
   c.strokeStyle = h;
   c.beginPath();
-  c.moveTo(0, p.y); c.lineTo(p.x - gap, p.y); c.moveTo(p.x + gap, p.y); c.lineTo(width, p.y);
+  c.moveTo(0, p.y);
+  c.lineTo(p.x - gap, p.y);
+  c.moveTo(p.x + gap, p.y);
+  c.lineTo(width, p.y);
   c.stroke();
   c.strokeStyle = v;
   c.beginPath();
-  c.moveTo(p.x, 0); c.lineTo(p.x, p.y - gap); c.moveTo(p.x, p.y + gap); c.lineTo(p.x, height);
+  c.moveTo(p.x, 0);
+  c.lineTo(p.x, p.y - gap);
+  c.moveTo(p.x, p.y + gap);
+  c.lineTo(p.x, height);
   c.stroke();
   c.globalAlpha = 1;
 }
 
-/** A length of 1, 2 or 5 times a power of ten that takes at most `most` pixels. */
+/** The longest length of 1, 2 or 5 times a power of ten with at most `most` pixels. */
 export function niceLength(mmPerPixel: number, most: number): number {
-  const longest = most * mmPerPixel, power = 10 ** Math.floor(Math.log10(longest)), share = longest / power;
+  const longest = most * mmPerPixel,
+    power = 10 ** Math.floor(Math.log10(longest)),
+    share = longest / power;
   return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
 }
 
 export function drawScaleBar(c: Context, mmPerPixel: number, width: number, height: number): void {
-  const mm = niceLength(mmPerPixel, Math.min(140, width / 3)), pixels = mm / mmPerPixel, x = width - 14, y = height - 12;
+  const mm = niceLength(mmPerPixel, Math.min(140, width / 3)),
+    pixels = mm / mmPerPixel,
+    x = width - 14,
+    y = height - 12;
   c.strokeStyle = "#e8edf4";
   c.lineWidth = 1.5;
   c.beginPath();
-  c.moveTo(x - pixels, y - 4); c.lineTo(x - pixels, y); c.lineTo(x, y); c.lineTo(x, y - 4);
+  c.moveTo(x - pixels, y - 4);
+  c.lineTo(x - pixels, y);
+  c.lineTo(x, y);
+  c.lineTo(x, y - 4);
   c.stroke();
   label(c, mm >= 10 ? `${mm / 10} cm` : `${mm} mm`, x - pixels / 2, y - 9, "#e8edf4", "center");
 }
 
-function drawMarks(c: Context, slice: SliceView, width: number, height: number): void {
-  const { right, up } = slice.frame, colour = "#c9d4e3";
+function drawMarks(c: Context, slice: SliceProjection, width: number, height: number): void {
+  const { right, up } = slice.frame,
+    colour = "#c9d4e3";
   c.save();
   c.font = "600 12px system-ui, sans-serif";
   label(c, orientation(right), width - 8, height / 2, colour, "right");
@@ -188,10 +269,12 @@ function drawMarks(c: Context, slice: SliceView, width: number, height: number):
   c.restore();
 }
 
-/** What the slice is and where: the one coordinate in patient axes, or the distance along the vessel. */
-function title(slice: SliceView, view: View): string {
-  const name = { axial: "Axial", coronal: "Coronal", sagittal: "Sagittal" }[slice.name], n = slice.frame.normal;
-  if (view.planes === "vessel") return { axial: "Cross-section", coronal: "Along vessel, A", sagittal: "Along vessel, B" }[slice.name];
+/** The name of the slice and its coordinate along the patient axis that it crosses. */
+function title(slice: SliceProjection, view: View): string {
+  const name = { axial: "Axial", coronal: "Coronal", sagittal: "Sagittal" }[slice.name],
+    n = slice.frame.normal;
+  if (view.planes === "vessel")
+    return { axial: "Cross-section", coronal: "Along vessel, A", sagittal: "Along vessel, B" }[slice.name];
   const axis = [0, 1, 2].find(a => Math.abs(n[a]) > 0.9999);
   if (axis === undefined) return `${name}, oblique`;
   const x = view.crosshair[axis];
@@ -200,8 +283,14 @@ function title(slice: SliceView, view: View): string {
 
 export const wirePoints: { points: Float64Array | null; radius: number } = { points: null, radius: 0.2 };
 
-export function drawSliceOverlay(c: Context, slice: SliceView, view: View, width: number, height: number): void {
-  const project = (p: Vec3): { x: number; y: number; depth: number } => slice.toPixel(p);
+export function drawSliceOverlay(
+  c: Context,
+  slice: SliceProjection,
+  view: View,
+  width: number,
+  height: number,
+): void {
+  const project = (p: Vec3): Pixel => slice.toPixel(p);
   drawOutlines(c, slice, view);
   drawLines(c, slice, view);
   drawSeeds(c, slice, view);
@@ -212,4 +301,3 @@ export function drawSliceOverlay(c: Context, slice: SliceView, view: View, width
   drawScaleBar(c, slice.mmPerPixel, width, height);
   label(c, title(slice, view), 8, 12, "#e8edf4");
 }
-

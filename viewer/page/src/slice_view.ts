@@ -2,28 +2,18 @@
 /** One of three linked slices: the plane through the crosshair, seen along an axis of the shared frame. */
 import { clearedContext } from "./overlay_canvas";
 import type { WebGLRenderer } from "three";
-import type { App, View } from "./model";
+import type { App } from "./model";
+import { frameOf, type Pixel, type SliceName, type SliceProjection } from "./slice_frame";
 import { drawSliceOverlay } from "./slice_overlay";
 import { SliceMaterial } from "./slice_material";
 import type { StageView } from "./stage";
 import type { Vec3 } from "./types";
-import { add, along, cross, dot, scale, sub, unit, type Frame } from "./vec";
+import { add, along, dot, scale, sub, type Frame } from "./vec";
 import type { VolumeTexture } from "./volume_texture";
-
-export type SliceName = "axial" | "coronal" | "sagittal";
-
-/** What a slice shows in terms of the shared frame, whose own plane is the axial one. */
-export function frameOf(name: SliceName, shared: Frame): Frame {
-  const { right, up, normal } = shared; // patient: right = L, up = A, normal = I (towards the viewer, who is at the feet)
-  if (name === "axial") return shared;
-  const head = scale(normal, -1);
-  if (name === "coronal") return { right, up: head, normal: cross(right, head) };
-  return { right: scale(up, -1), up: head, normal: cross(scale(up, -1), head) };
-}
 
 const kAcross = 7; // radii of the vessel that half a section shows
 
-export class SliceView implements StageView {
+export class SliceView implements StageView, SliceProjection {
   private readonly material = new SliceMaterial();
   readonly over: HTMLCanvasElement;
   /** mm that half the height shows; null: fit. */
@@ -33,51 +23,82 @@ export class SliceView implements StageView {
   private height = 1;
   texture: VolumeTexture | null = null;
 
-  constructor(readonly name: SliceName, readonly element: HTMLElement, readonly app: App) {
+  constructor(
+    readonly name: SliceName,
+    readonly element: HTMLElement,
+    readonly app: App,
+  ) {
     this.over = element.querySelector("canvas")!;
   }
 
-  get frame(): Frame { return frameOf(this.name, this.app.store.get().frame); }
-
-  /** Half the height, mm: such that all of the volume or tree fits, until somebody zooms. */
-  half(): number {
-    if (this.halfHeight !== null) return this.halfHeight;
-    const { volume, tree, planes, node } = this.app.store.get(), frame = this.frame;
-    const box = volume === null ? tree?.box() ?? null : null;
-    const corners = volume?.corners() ?? (box === null ? [] : [0, 1, 2, 3, 4, 5, 6, 7].map(k =>
-      [0, 1, 2].map(a => ((k >> a) & 1) === 1 ? box.high[a] : box.low[a]) as Vec3));
-    if (corners.length === 0) return 50;
-    const spread = (d: Vec3): number => { const x = corners.map(c => dot(c, d)); return (Math.max(...x) - Math.min(...x)) / 2; };
-    const all = Math.max(spread(frame.up), spread(frame.right) * this.height / Math.max(this.width, 1));
-    if (planes !== "vessel" || tree === null || node < 0) return 1.04 * all;
-    return Math.min(all, Math.max(kAcross * tree.branches[tree.branch[node]].median, 10 * (tree.voxelSize || 0.1)));
+  get frame(): Frame {
+    return frameOf(this.name, this.app.store.get().frame);
   }
 
-  get mmPerPixel(): number { return (2 * this.half()) / Math.max(this.height, 1); }
+  /** Half the height, mm. Without zoom, all of the volume or tree fits. */
+  half(): number {
+    if (this.halfHeight !== null) return this.halfHeight;
+    const { volume, tree, planes, node } = this.app.store.get(),
+      frame = this.frame;
+    const box = volume === null ? (tree?.box() ?? null) : null;
+    const corners =
+      volume?.corners() ??
+      (box === null
+        ? []
+        : [0, 1, 2, 3, 4, 5, 6, 7].map(
+            k => [0, 1, 2].map(a => (((k >> a) & 1) === 1 ? box.high[a] : box.low[a])) as Vec3,
+          ));
+    if (corners.length === 0) return 50;
+    const spread = (d: Vec3): number => {
+      const x = corners.map(c => dot(c, d));
+      return (Math.max(...x) - Math.min(...x)) / 2;
+    };
+    const all = Math.max(spread(frame.up), (spread(frame.right) * this.height) / Math.max(this.width, 1));
+    if (planes !== "vessel" || tree === null || node < 0) return 1.04 * all;
+    return Math.min(
+      all,
+      Math.max(kAcross * tree.branches[tree.branch[node]].median, 10 * (tree.voxelSize || 0.1)),
+    );
+  }
 
-  /** The point in the middle of the view. Where the whole volume is shown, its middle; else the crosshair, panned. */
+  get mmPerPixel(): number {
+    return (2 * this.half()) / Math.max(this.height, 1);
+  }
+
+  /** The point in the middle of the view: the middle of the volume where all of it is shown, else the crosshair; panned. */
   centre(): Vec3 {
-    const { crosshair, volume, tree, planes } = this.app.store.get(), f = this.frame;
+    const { crosshair, volume, tree, planes } = this.app.store.get(),
+      f = this.frame;
     const box = tree?.box() ?? null;
     const middle = volume?.centre() ?? (box === null ? crosshair : scale(add(box.low, box.high), 0.5));
-    const base = planes === "vessel" ? crosshair : along(middle, f.normal, dot(sub(crosshair, middle), f.normal));
+    const base =
+      planes === "vessel" ? crosshair : along(middle, f.normal, dot(sub(crosshair, middle), f.normal));
     return along(along(base, f.right, this.pan[0]), f.up, this.pan[1]);
   }
 
-  /** Pixel to position in the plane, and back. */
+  /** Position in the plane of a pixel. */
   toPosition(x: number, y: number): Vec3 {
-    const f = this.frame, s = this.mmPerPixel;
+    const f = this.frame,
+      s = this.mmPerPixel;
     return along(along(this.centre(), f.right, (x - this.width / 2) * s), f.up, (this.height / 2 - y) * s);
   }
-  toPixel(p: Vec3): { x: number; y: number; depth: number } {
+  toPixel(p: Vec3): Pixel {
     const { x, y, depth } = this.toPixels();
     return { x: dot(p, x.by) + x.offset, y: dot(p, y.by) + y.offset, depth: dot(p, depth.by) + depth.offset };
   }
-  /** The same as an affine map, for many points. */
-  toPixels(): Record<"x" | "y" | "depth", { by: Vec3; offset: number }> {
-    const f = this.frame, s = 1 / this.mmPerPixel, centre = this.centre();
-    const row = (d: Vec3, origin: number): { by: Vec3; offset: number } => ({ by: d, offset: origin - dot(centre, d) });
-    return { x: row(scale(f.right, s), this.width / 2), y: row(scale(f.up, -s), this.height / 2), depth: row(f.normal, 0) };
+  toPixels(): ReturnType<SliceProjection["toPixels"]> {
+    const f = this.frame,
+      s = 1 / this.mmPerPixel,
+      centre = this.centre();
+    const row = (d: Vec3, origin: number): { by: Vec3; offset: number } => ({
+      by: d,
+      offset: origin - dot(centre, d),
+    });
+    return {
+      x: row(scale(f.right, s), this.width / 2),
+      y: row(scale(f.up, -s), this.height / 2),
+      depth: row(f.normal, 0),
+    };
   }
 
   draw(renderer: WebGLRenderer, width: number, height: number): void {
@@ -86,8 +107,13 @@ export class SliceView implements StageView {
     const view = this.app.store.get();
     if (this.texture === null || view.volume === null) return;
     const halfHeight = this.half();
-    this.material.draw(renderer, this.texture, { centre: this.centre(), frame: this.frame, halfWidth: halfHeight * width / height, halfHeight },
-      view.window, view.volumeReady / view.volume.size[2]);
+    this.material.draw(
+      renderer,
+      this.texture,
+      { centre: this.centre(), frame: this.frame, halfWidth: (halfHeight * width) / height, halfHeight },
+      view.window,
+      view.volumeReady / view.volume.size[2],
+    );
   }
 
   drawOver(width: number, height: number): void {
@@ -98,7 +124,9 @@ export class SliceView implements StageView {
   zoomBy(factor: number, x = this.width / 2, y = this.height / 2): void {
     const before = this.toPosition(x, y);
     this.halfHeight = Math.min(2000, Math.max(0.2, this.half() * factor));
-    const after = this.toPosition(x, y), f = this.frame, d = sub(before, after);
+    const after = this.toPosition(x, y),
+      f = this.frame,
+      d = sub(before, after);
     this.pan = [this.pan[0] + dot(d, f.right), this.pan[1] + dot(d, f.up)];
     this.app.stage.invalidate(this);
   }
@@ -112,33 +140,27 @@ export class SliceView implements StageView {
     this.pan = [0, 0];
     this.app.stage.invalidate(this);
   }
-  /** Steps through the volume by as many voxels: to the head, to the front, to the left. */
+  /** Steps through the volume by a number of voxels: to the head, to the front, to the left. */
   step(count: number): void {
-    const { volume, tree } = this.app.store.get(), f = this.frame, upwards = this.name === "axial" ? -1 : 1; // it is seen from the feet
+    const { volume, tree } = this.app.store.get(),
+      f = this.frame,
+      upwards = this.name === "axial" ? -1 : 1; // the view is from the feet
     const each = volume === null ? Math.max(tree?.voxelSize ?? 0, 0.1) : Math.min(...volume.spacing);
     this.moveCrosshair(f.normal, upwards * count * each);
   }
   /** Moves the crosshair along a direction, but not out of the volume. */
   moveCrosshair(direction: Vec3, mm: number): void {
-    const { volume, crosshair } = this.app.store.get(), to = along(crosshair, direction, mm);
+    const { volume, crosshair } = this.app.store.get(),
+      to = along(crosshair, direction, mm);
     if (volume !== null && volume.holds(crosshair) && !volume.holds(to)) return;
     this.app.store.set({ crosshair: to });
     this.reveal(to);
   }
   /** Brings a point into the middle where it would be out of sight. */
   reveal(p: Vec3): void {
-    const { x, y } = this.toPixel(p), margin = 12;
+    const { x, y } = this.toPixel(p),
+      margin = 12;
     if (x > margin && y > margin && x < this.width - margin && y < this.height - margin) return;
     this.panBy(this.width / 2 - x, this.height / 2 - y);
   }
-}
-
-/** The shared frame across a vessel at a node: the axial plane becomes its cross-section. */
-export function vesselFrame(view: View, node: number): Frame {
-  const tree = view.tree!, axis = unit(tree.axis(node)), normal = scale(axis, axis[2] > 0 ? -1 : 1); // seen from the feet
-  // the patient's front stays up as far as it can, so that neighbouring sections are not turned against each other
-  let up = sub([0, -1, 0], scale(normal, dot([0, -1, 0], normal)));
-  if (Math.hypot(...up) < 0.3) up = sub([0, 0, 1], scale(normal, dot([0, 0, 1], normal)));
-  up = unit(up);
-  return { right: cross(up, normal), up, normal };
 }

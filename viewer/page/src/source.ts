@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Where the page has its data from: the server, or the page itself. */
+/** The source of the page's data: the server, or the page itself. */
 import type { Event, Operation, Snap, State } from "./types";
 
 /** Called as bytes arrive: all received so far are in `bytes`, up to `received`. */
 export type Received = (bytes: Uint8Array, received: number) => void;
 
-export interface Answer { revision?: number; job?: number }
+export interface Answer {
+  revision?: number;
+  job?: number;
+}
 
 /** The document has changed, or the request is wrong: the sentence is for people. */
 export class Refused extends Error {
-  constructor(readonly status: number, message: string) { super(message); }
+  constructor(
+    readonly status: number,
+    message: string,
+  ) {
+    super(message);
+  }
 }
 
 export interface Source {
@@ -17,7 +25,12 @@ export interface Source {
   readonly live: boolean;
   state(): Promise<State>;
   /** The bytes of a pack or file; null if there is none. */
-  bytes(name: string, query?: Record<string, string>, received?: Received, signal?: AbortSignal): Promise<Uint8Array | null>;
+  bytes(
+    name: string,
+    query?: Record<string, string>,
+    received?: Received,
+    signal?: AbortSignal,
+  ): Promise<Uint8Array | null>;
   listen(listener: (event: Event) => void): void;
   perform(operation: Operation, revision: number): Promise<Answer>;
   snap(position: number[]): Promise<Snap>;

@@ -5,7 +5,8 @@ import { kEmptyState, type Event, type Snap, type State } from "./types";
 
 /** Bytes of base64, without the limits of atob on one long string. Throws on what is no base64. */
 export function fromBase64(text: string): Uint8Array {
-  const clean = /\s/.test(text) ? text.replace(/\s+/g, "") : text, kStep = 1 << 20; // characters, a multiple of 4
+  const clean = /\s/.test(text) ? text.replace(/\s+/g, "") : text,
+    kStep = 1 << 20; // characters, a multiple of 4
   const padding = clean.endsWith("==") ? 2 : clean.endsWith("=") ? 1 : 0;
   const bytes = new Uint8Array((clean.length / 4) * 3 - padding);
   for (let at = 0, out = 0; at < clean.length; at += kStep) {
@@ -16,11 +17,16 @@ export function fromBase64(text: string): Uint8Array {
 }
 
 async function inflated(bytes: Uint8Array): Promise<Uint8Array> {
-  const stream = new globalThis.Blob([bytes as BufferSource]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const stream = new globalThis.Blob([bytes as BufferSource])
+    .stream()
+    .pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-interface Embedded { state: Partial<State>; parts: Record<string, string> }
+interface Embedded {
+  state: Partial<State>;
+  parts: Record<string, string>;
+}
 
 export class EmbeddedSource implements Source {
   readonly live = false;
@@ -37,20 +43,44 @@ export class EmbeddedSource implements Source {
     this.parts = new Map(Object.entries(embedded.parts));
   }
 
-  state(): Promise<State> { return Promise.resolve({ ...kEmptyState, ...this.state0 }); }
-  async bytes(name: string, query: Record<string, string> = {}, received?: Received): Promise<Uint8Array | null> {
-    const key = "id" in query ? `${name}?id=${query.id}` : name, text = this.parts.get(key);
+  state(): Promise<State> {
+    return Promise.resolve({ ...kEmptyState, ...this.state0 });
+  }
+  async bytes(
+    name: string,
+    query: Record<string, string> = {},
+    received?: Received,
+  ): Promise<Uint8Array | null> {
+    const key = "id" in query ? `${name}?id=${query.id}` : name,
+      text = this.parts.get(key);
     if (text === undefined) return null;
     const bytes = await inflated(fromBase64(text));
     if (name === "volume") this.parts.delete(key); // it is asked for once, and is large
     received?.(bytes, bytes.length);
     return bytes;
   }
-  listen(listener: (event: Event) => void): void { void listener; }
-  private refuse(): never { throw new Refused(404, "This page is one file without a server: it shows and measures, and edits nothing."); }
-  perform(): Promise<Answer> { return Promise.reject(new Refused(404, "This page is one file: nothing in it can be edited.")); }
-  snap(): Promise<Snap> { return Promise.resolve({ found: false, position: [0, 0, 0], radius: 0, direction: [0, 0, 1] }); }
-  open(): Promise<void> { return Promise.reject(new Refused(404, "This page is one file: open others with lumen view.")); }
-  cancel(): Promise<void> { return Promise.resolve(); }
-  download(): string { return this.refuse(); }
+  listen(listener: (event: Event) => void): void {
+    void listener;
+  }
+  private refuse(): never {
+    throw new Refused(
+      404,
+      "This page is one file without a server: it shows and measures, and edits nothing.",
+    );
+  }
+  perform(): Promise<Answer> {
+    return Promise.reject(new Refused(404, "This page is one file: nothing in it can be edited."));
+  }
+  snap(): Promise<Snap> {
+    return Promise.resolve({ found: false, position: [0, 0, 0], radius: 0, direction: [0, 0, 1] });
+  }
+  open(): Promise<void> {
+    return Promise.reject(new Refused(404, "This page is one file: open others with lumen view."));
+  }
+  cancel(): Promise<void> {
+    return Promise.resolve();
+  }
+  download(): string {
+    return this.refuse();
+  }
 }

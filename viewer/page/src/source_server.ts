@@ -14,15 +14,19 @@ async function refusal(response: Response): Promise<Refused> {
   let text = `The server answered ${response.status}.`;
   try {
     text = ((await response.json()) as { error?: string }).error ?? text;
-  } catch { /* no sentence came: the number has to do */ }
+  } catch {
+    /* no sentence came: the number has to do */
+  }
   return new Refused(response.status, text);
 }
 
 /** Reads a body into one buffer of the announced length, telling what has arrived. */
 async function receive(response: Response, received?: Received): Promise<Uint8Array> {
   const announced = Number(response.headers.get("Content-Length") ?? 0);
-  if (received === undefined || response.body === null || !(announced > 0)) return new Uint8Array(await response.arrayBuffer());
-  const bytes = new Uint8Array(announced), reader = response.body.getReader();
+  if (received === undefined || response.body === null || !(announced > 0))
+    return new Uint8Array(await response.arrayBuffer());
+  const bytes = new Uint8Array(announced),
+    reader = response.body.getReader();
   let size = 0;
   for (;;) {
     const { done, value } = await reader.read();
@@ -45,7 +49,12 @@ export class ServerSource implements Source {
     return (await response.json()) as State;
   }
 
-  async bytes(name: string, query: Record<string, string> = {}, received?: Received, signal?: AbortSignal): Promise<Uint8Array | null> {
+  async bytes(
+    name: string,
+    query: Record<string, string> = {},
+    received?: Received,
+    signal?: AbortSignal,
+  ): Promise<Uint8Array | null> {
     const response = await fetch(withQuery(name, query), { signal });
     if (response.status === 404) return null;
     if (!response.ok) throw await refusal(response);
@@ -55,8 +64,12 @@ export class ServerSource implements Source {
   listen(listener: (event: Event) => void): void {
     const events = new EventSource("events");
     let lost = 0;
-    const parse = (e: MessageEvent): Record<string, unknown> => JSON.parse(String(e.data)) as Record<string, unknown>;
-    events.addEventListener("open", () => { window.clearTimeout(lost); listener({ type: "back" }); });
+    const parse = (e: MessageEvent): Record<string, unknown> =>
+      JSON.parse(String(e.data)) as Record<string, unknown>;
+    events.addEventListener("open", () => {
+      window.clearTimeout(lost);
+      listener({ type: "back" });
+    });
     events.addEventListener("error", () => {
       window.clearTimeout(lost);
       lost = window.setTimeout(() => listener({ type: "lost" }), kSilence);
@@ -66,7 +79,11 @@ export class ServerSource implements Source {
       events.addEventListener(type, e => listener({ type, ...parse(e) } as Event));
   }
 
-  private async post(path: string, body: BodyInit, type = "application/json"): Promise<Record<string, unknown>> {
+  private async post(
+    path: string,
+    body: BodyInit,
+    type = "application/json",
+  ): Promise<Record<string, unknown>> {
     const response = await fetch(path, { method: "POST", body, headers: { "Content-Type": type } });
     if (!response.ok) throw await refusal(response);
     const text = await response.text();
@@ -82,7 +99,9 @@ export class ServerSource implements Source {
   async open(name: string, as: "auto" | "truth", file: globalThis.Blob): Promise<void> {
     await this.post(withQuery("file", { name, as }), file, "application/octet-stream");
   }
-  async cancel(job: number): Promise<void> { await this.post("cancel", JSON.stringify({ job })); }
+  async cancel(job: number): Promise<void> {
+    await this.post("cancel", JSON.stringify({ job }));
+  }
   download(format: string, options: Record<string, string> = {}): string {
     return withQuery("save", { format, ...options });
   }

@@ -6,7 +6,7 @@ export interface StageView {
   readonly element: HTMLElement;
   /** Draws into the current viewport of that size in CSS pixels. */
   draw(renderer: WebGLRenderer, width: number, height: number): void;
-  /** What lies over it: lines and letters on a 2D canvas. */
+  /** Draws lines and letters over it, on a 2D canvas. */
   drawOver?(width: number, height: number): void;
 }
 
@@ -19,7 +19,7 @@ export class Stage {
   private readonly views: StageView[] = [];
   private readonly dirty = new Set<StageView>();
   private readonly dirtyOver = new Set<StageView>();
-  private clearAll = true; // also what lies between views
+  private clearAll = true; // also the space between views
   private scheduled = false;
   private readonly frames: (() => void)[] = [];
   private readonly afterwards: (() => void)[] = [];
@@ -31,10 +31,20 @@ export class Stage {
 
   /** Throws if there is no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement) {
-    const context = canvas.getContext("webgl2", { antialias: true, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
-    if (context === null) throw new Error("This browser has no WebGL 2, which the viewer draws with. Switch on hardware acceleration, or start Chromium with --enable-unsafe-swiftshader.");
+    const context = canvas.getContext("webgl2", {
+      antialias: true,
+      alpha: false,
+      preserveDrawingBuffer: true,
+      powerPreference: "high-performance",
+    });
+    if (context === null)
+      throw new Error(
+        "This browser has no WebGL 2, which the viewer draws with. Switch on hardware acceleration, or start Chromium with --enable-unsafe-swiftshader.",
+      );
     const info = context.getExtension("WEBGL_debug_renderer_info");
-    const name = String(context.getParameter(info === null ? context.RENDERER : info.UNMASKED_RENDERER_WEBGL));
+    const name = String(
+      context.getParameter(info === null ? context.RENDERER : info.UNMASKED_RENDERER_WEBGL),
+    );
     this.software = /swiftshader|llvmpipe|software|basic render/i.test(name);
     this.renderer = new WebGLRenderer({ canvas, context, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
@@ -51,12 +61,14 @@ export class Stage {
 
   /** Draws a view, or all of them, with the next frame. */
   invalidate(view?: StageView): void {
-    if (view === undefined) { for (const each of this.views) this.dirty.add(each); this.clearAll = true; }
-    else this.dirty.add(view);
+    if (view === undefined) {
+      for (const each of this.views) this.dirty.add(each);
+      this.clearAll = true;
+    } else this.dirty.add(view);
     this.schedule();
   }
 
-  /** Draws only what lies over a view, or over all of them. */
+  /** Draws only the overlay of a view, or of all views. */
   invalidateOver(view?: StageView): void {
     for (const each of view === undefined ? this.views : [view]) this.dirtyOver.add(each);
     this.schedule();
@@ -83,15 +95,22 @@ export class Stage {
   private frame(): void {
     this.scheduled = false;
     for (const call of this.frames.splice(0)) call();
-    const begin = performance.now(), views = [...this.dirty], all = this.canvas.getBoundingClientRect();
+    const begin = performance.now(),
+      views = [...this.dirty],
+      all = this.canvas.getBoundingClientRect();
     this.dirty.clear();
-    if (this.clearAll) { this.renderer.setScissorTest(false); this.renderer.setClearColor(0x1c222b, 1); this.renderer.clear(); }
+    if (this.clearAll) {
+      this.renderer.setScissorTest(false);
+      this.renderer.setClearColor(0x1c222b, 1);
+      this.renderer.clear();
+    }
     this.clearAll = false;
     this.renderer.setScissorTest(true); // uploads reset it
     for (const view of views) {
       const box = view.element.getBoundingClientRect();
       if (box.width < 1 || box.height < 1) continue;
-      const y = all.bottom - box.bottom, x = box.left - all.left;
+      const y = all.bottom - box.bottom,
+        x = box.left - all.left;
       this.renderer.setViewport(x, y, box.width, box.height);
       this.renderer.setScissor(x, y, box.width, box.height);
       this.renderer.setClearColor(new Color(0x07090c), 1);
@@ -117,15 +136,17 @@ export class Stage {
     for (const call of this.afterwards.splice(0)) call();
   }
 
-  /** Calls when the first picture is there: what can wait for it, should. */
+  /** Calls back when the first picture is there, for work that can wait for it. */
   afterFirstPicture(call: () => void): void {
     if (this.seen) call();
     else this.afterwards.push(call);
   }
 
-  /** The picture of all views as they are, with what lies over them. */
+  /** The picture of all views with their overlays. */
   picture(over: HTMLCanvasElement[], background: string): HTMLCanvasElement {
-    const out = document.createElement("canvas"), all = this.canvas.getBoundingClientRect(), ratio = this.canvas.width / all.width;
+    const out = document.createElement("canvas"),
+      all = this.canvas.getBoundingClientRect(),
+      ratio = this.canvas.width / all.width;
     out.width = this.canvas.width;
     out.height = this.canvas.height;
     const c = out.getContext("2d")!;
@@ -134,7 +155,14 @@ export class Stage {
     c.drawImage(this.canvas, 0, 0);
     for (const layer of over) {
       const box = layer.getBoundingClientRect();
-      if (box.width > 0) c.drawImage(layer, (box.left - all.left) * ratio, (box.top - all.top) * ratio, box.width * ratio, box.height * ratio);
+      if (box.width > 0)
+        c.drawImage(
+          layer,
+          (box.left - all.left) * ratio,
+          (box.top - all.top) * ratio,
+          box.width * ratio,
+          box.height * ratio,
+        );
     }
     return out;
   }

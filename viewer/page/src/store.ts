@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-/** One object of values that views watch. Setting tells those who watch a key that changed, once, in the same turn. */
+/** One object of values that views watch. Setting a value calls the watchers of changed keys once, in the same turn. */
 
 export class Store<T extends object> {
   private readonly listeners: { keys: Set<keyof T>; call: (value: T) => void }[] = [];
   private changed = new Set<keyof T>();
-  private telling = false;
+  private notifying = false;
 
   constructor(private value: T) {}
 
-  get(): Readonly<T> { return this.value; }
+  get(): Readonly<T> {
+    return this.value;
+  }
 
   set(patch: Partial<T>): void {
     for (const key of Object.keys(patch) as (keyof T)[])
       if (!Object.is(this.value[key], patch[key])) this.changed.add(key);
     this.value = { ...this.value, ...patch };
-    if (!this.telling) this.tell();
+    if (!this.notifying) this.notify();
   }
 
   /** Calls at once, and then whenever one of the keys has changed. Gives what ends it. */
@@ -28,8 +30,8 @@ export class Store<T extends object> {
     };
   }
 
-  private tell(): void {
-    this.telling = true;
+  private notify(): void {
+    this.notifying = true;
     const kMostRounds = 50; // watchers may set values; more rounds than this are a loop
     try {
       for (let round = 0; this.changed.size > 0; ++round) {
@@ -40,7 +42,7 @@ export class Store<T extends object> {
           if ([...listener.keys].some(key => changed.has(key))) listener.call(this.value);
       }
     } finally {
-      this.telling = false;
+      this.notifying = false;
     }
   }
 }

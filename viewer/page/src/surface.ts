@@ -6,19 +6,47 @@ import { MeshBVH } from "three-mesh-bvh";
 import type { Pack } from "./pack";
 import type { Vec3 } from "./types";
 
-export interface Part { name: string; branch: number; first: number; count: number; geometry: BufferGeometry; box: Box3; bvh: MeshBVH | null }
+export interface Part {
+  name: string;
+  branch: number;
+  first: number;
+  count: number;
+  geometry: BufferGeometry;
+  box: Box3;
+  bvh: MeshBVH | null;
+}
 
-export interface Hit { part: number; branch: number; point: Vec3; distance: number; vertex: number; node: number }
+export interface Hit {
+  part: number;
+  branch: number;
+  point: Vec3;
+  distance: number;
+  vertex: number;
+  node: number;
+}
 
 /** Sums of the triangles' normals, weighted by area, at each vertex; not of unit length: the shader sees to it. */
 export function vertexNormals(position: Float32Array, triangle: Uint32Array): Float32Array {
-  const normal = new Float32Array(position.length), p = position;
+  const normal = new Float32Array(position.length),
+    p = position;
   for (let t = 0; t < triangle.length; t += 3) {
-    const a = 3 * triangle[t], b = 3 * triangle[t + 1], c = 3 * triangle[t + 2];
-    const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];
-    const vx = p[c] - p[a], vy = p[c + 1] - p[a + 1], vz = p[c + 2] - p[a + 2];
-    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    for (const v of [a, b, c]) { normal[v] += x; normal[v + 1] += y; normal[v + 2] += z; }
+    const a = 3 * triangle[t],
+      b = 3 * triangle[t + 1],
+      c = 3 * triangle[t + 2];
+    const ux = p[b] - p[a],
+      uy = p[b + 1] - p[a + 1],
+      uz = p[b + 2] - p[a + 2];
+    const vx = p[c] - p[a],
+      vy = p[c + 1] - p[a + 1],
+      vz = p[c + 2] - p[a + 2];
+    const x = uy * vz - uz * vy,
+      y = uz * vx - ux * vz,
+      z = ux * vy - uy * vx;
+    for (const v of [a, b, c]) {
+      normal[v] += x;
+      normal[v + 1] += y;
+      normal[v + 2] += z;
+    }
   }
   return normal;
 }
@@ -56,22 +84,29 @@ export class Surface {
     this.level = Number(pack.meta.level ?? 0);
     this.levels = Number(pack.meta.levels ?? 1);
     const vertices = this.position.length / 3;
-    for (const v of this.triangle) if (v >= vertices) throw new Error("A triangle of the surface names a vertex that does not exist.");
+    for (const v of this.triangle)
+      if (v >= vertices) throw new Error("A triangle of the surface names a vertex that does not exist.");
     const position = new BufferAttribute(this.position, 3);
     const normal = new BufferAttribute(packed(vertexNormals(this.position, this.triangle)), 4, true);
     this.value = new BufferAttribute(new Float32Array(vertices), 1);
-    this.parts = (pack.meta.parts as Omit<Part, "geometry" | "box" | "bvh">[]).filter(part => part.count > 0).map(part => {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", position);
-      geometry.setAttribute("normal", normal);
-      geometry.setAttribute("value", this.value);
-      geometry.setIndex(new BufferAttribute(this.triangle.subarray(3 * part.first, 3 * (part.first + part.count)), 1));
-      return { ...part, geometry, box: this.boxOf(part), bvh: null };
-    });
+    this.parts = (pack.meta.parts as Omit<Part, "geometry" | "box" | "bvh">[])
+      .filter(part => part.count > 0)
+      .map(part => {
+        const geometry = new BufferGeometry();
+        geometry.setAttribute("position", position);
+        geometry.setAttribute("normal", normal);
+        geometry.setAttribute("value", this.value);
+        geometry.setIndex(
+          new BufferAttribute(this.triangle.subarray(3 * part.first, 3 * (part.first + part.count)), 1),
+        );
+        return { ...part, geometry, box: this.boxOf(part), bvh: null };
+      });
   }
 
   private boxOf(part: { first: number; count: number }): Box3 {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], p = this.position;
+    const low = [Infinity, Infinity, Infinity],
+      high = [-Infinity, -Infinity, -Infinity],
+      p = this.position;
     for (let i = 3 * part.first; i < 3 * (part.first + part.count); ++i)
       for (let a = 0, v = 3 * this.triangle[i]; a < 3; ++a, ++v) {
         if (p[v] < low[a]) low[a] = p[v];
@@ -91,7 +126,9 @@ export class Surface {
     this.value.needsUpdate = true;
   }
 
-  tree(part: Part): MeshBVH { return (part.bvh ??= new MeshBVH(part.geometry)); }
+  tree(part: Part): MeshBVH {
+    return (part.bvh ??= new MeshBVH(part.geometry));
+  }
 
   /** Builds the tree of one part that has none; true if more are missing. */
   buildNext(): boolean {
@@ -108,12 +145,22 @@ export class Surface {
       if (!shown(part.branch)) return;
       const { box } = part;
       if (ray.intersectBox(box, target) === null) return;
-      if (best !== null && !box.containsPoint(ray.origin) && target.distanceTo(ray.origin) > best.distance) return;
-      for (const hit of this.tree(part).raycast(ray, DoubleSide).sort((a, b) => a.distance - b.distance)) {
+      if (best !== null && !box.containsPoint(ray.origin) && target.distanceTo(ray.origin) > best.distance)
+        return;
+      for (const hit of this.tree(part)
+        .raycast(ray, DoubleSide)
+        .sort((a, b) => a.distance - b.distance)) {
         const point = hit.point.toArray() as Vec3;
         if (!beyond(point)) continue;
         if (best === null || hit.distance < best.distance)
-          best = { part: index, branch: part.branch, point, distance: hit.distance, vertex: hit.face!.a, node: this.node[hit.face!.a] };
+          best = {
+            part: index,
+            branch: part.branch,
+            point,
+            distance: hit.distance,
+            vertex: hit.face!.a,
+            node: this.node[hit.face!.a],
+          };
         break;
       }
     });
@@ -122,16 +169,21 @@ export class Surface {
 
   /** Segments in which a part meets a plane: x y z of both ends, one after the other. */
   cut(part: Part, normal: Vec3, origin: Vec3): number[] {
-    const plane = new Plane().setFromNormalAndCoplanarPoint(new Vector3(...normal), new Vector3(...origin)), out: number[] = [];
+    const plane = new Plane().setFromNormalAndCoplanarPoint(new Vector3(...normal), new Vector3(...origin)),
+      out: number[] = [];
     if (!plane.intersectsBox(part.box)) return out;
     this.tree(part).shapecast({
       intersectsBounds: box => plane.intersectsBox(box),
       intersectsTriangle: triangle => {
-        const ends: number[] = [], corners = [triangle.a, triangle.b, triangle.c], d = corners.map(c => plane.distanceToPoint(c));
+        const ends: number[] = [],
+          corners = [triangle.a, triangle.b, triangle.c],
+          d = corners.map(c => plane.distanceToPoint(c));
         for (let i = 0; i < 3; ++i) {
           const j = (i + 1) % 3;
           if (d[i] < 0 === d[j] < 0) continue;
-          const s = d[i] / (d[i] - d[j]), a = corners[i], b = corners[j];
+          const s = d[i] / (d[i] - d[j]),
+            a = corners[i],
+            b = corners[j];
           ends.push(a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), a.z + s * (b.z - a.z));
         }
         if (ends.length === 6) out.push(...ends);
@@ -141,5 +193,7 @@ export class Surface {
     return out;
   }
 
-  dispose(): void { for (const part of this.parts) part.geometry.dispose(); }
+  dispose(): void {
+    for (const part of this.parts) part.geometry.dispose();
+  }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What the pointer does, by the tool that is chosen. */
+/** Actions of the pointer with the chosen tool. */
 import type { Flight } from "./flight";
 import type { Hand } from "./hand";
 import { isShown, opacityOf, type App, type Tool } from "./model";
@@ -13,50 +13,74 @@ import { kPlaceRing, placeReach } from "./slice_overlay";
 import { along, dot, length, sub, cross } from "./vec";
 import type { WireTool } from "./wire_tool";
 
-export interface Picked extends Hit { seed: string | null; place: number }
+export interface Picked extends Hit {
+  seed: string | null;
+  place: number;
+}
 
 export class Tools {
-  hand: Hand | null = null;
-  flight: Flight | null = null;
-  wire: WireTool | null = null;
   private readonly listeners: ((answer: Answer | null) => void)[] = [];
   private pending: (() => void) | null = null;
 
-  constructor(private readonly app: App) {}
+  constructor(
+    private readonly app: App,
+    private readonly hand: Hand,
+    private readonly flight: Flight,
+    private readonly wire: WireTool,
+  ) {}
 
-  get tool(): Tool { return this.app.store.get().tool; }
-  choose(tool: Tool): void { this.app.store.set({ tool, pending: [] }); }
-  onProbe(call: (answer: Answer | null) => void): void { this.listeners.push(call); }
+  get tool(): Tool {
+    return this.app.store.get().tool;
+  }
+  choose(tool: Tool): void {
+    this.app.store.set({ tool, pending: [] });
+  }
+  onProbe(call: (answer: Answer | null) => void): void {
+    this.listeners.push(call);
+  }
 
   // ---- slices
 
   pressInSlice(slice: SliceView, p: Vec3): void {
-    const { store } = this.app, place = this.tool === "navigate" || this.tool === "seed" ? this.placeAt(slice, p) : -1;
-    if (place >= 0) { this.hand?.takePlace(place); return; }
-    if (this.tool === "navigate" || this.tool === "probe" || this.tool === "wire") { goTo(this.app, p); return; }
-    if (this.hand?.press(p, slice) !== true) store.set({ crosshair: p });
+    const { store } = this.app,
+      place = this.tool === "navigate" || this.tool === "seed" ? this.placeAt(slice, p) : -1;
+    if (place >= 0) {
+      this.hand.takePlace(place);
+      return;
+    }
+    if (this.tool === "navigate" || this.tool === "probe" || this.tool === "wire") {
+      goTo(this.app, p);
+      return;
+    }
+    if (!this.hand.press(p, slice)) store.set({ crosshair: p });
   }
   /** The place that the check names whose ring is there, or -1. */
   private placeAt(slice: SliceView, p: Vec3): number {
-    const { state, layers } = this.app.store.get(), at = slice.toPixel(p);
+    const { state, layers } = this.app.store.get(),
+      at = slice.toPixel(p);
     if (!layers.places) return -1;
     return (state.check?.missing_vessels ?? []).findIndex(place => {
       const ring = slice.toPixel(place.position);
-      return Math.abs(ring.depth) < placeReach(place) && Math.hypot(ring.x - at.x, ring.y - at.y) <= kPlaceRing;
+      return (
+        Math.abs(ring.depth) < placeReach(place) && Math.hypot(ring.x - at.x, ring.y - at.y) <= kPlaceRing
+      );
     });
   }
   dragInSlice(slice: SliceView, p: Vec3): void {
-    if (this.hand?.drag(p, slice) === true) return;
+    if (this.hand.drag(p, slice)) return;
     if (this.tool === "navigate" || this.tool === "probe") goTo(this.app, p);
   }
   releaseInSlice(slice: SliceView): void {
-    if (this.hand?.release() === true || this.tool !== "navigate") return;
+    if (this.hand.release() || this.tool !== "navigate") return;
     const view = this.app.store.get(); // a click on a vessel selects it
     if (view.tree === null) return;
     const node = view.tree.nearest(view.crosshair, b => isShown(view, b));
     if (node < 0) return;
     const away = length(sub(view.tree.position(node), view.crosshair));
-    if (away <= 1.15 * view.tree.radius[node]) { select(this.app, view.tree.branch[node]); if (view.planes !== "vessel") this.app.store.set({ node }); }
+    if (away <= 1.15 * view.tree.radius[node]) {
+      select(this.app, view.tree.branch[node]);
+      if (view.planes !== "vessel") this.app.store.set({ node });
+    }
     this.app.stage.invalidate(slice);
   }
 
@@ -64,76 +88,135 @@ export class Tools {
 
   hover(p: Vec3, slice: SliceView | null, cursor?: number): void {
     void slice;
-    this.tell(() => {
+    this.schedule(() => {
       const answer = probe(this.app.store.get(), p, cursor);
       for (const listener of this.listeners) listener(answer);
     });
   }
-  leave(): void { this.tell(() => { for (const listener of this.listeners) listener(null); }); }
-  private tell(call: () => void): void { // once a frame
+  leave(): void {
+    this.schedule(() => {
+      for (const listener of this.listeners) listener(null);
+    });
+  }
+  private schedule(call: () => void): void {
+    // once a frame
     const scheduled = this.pending !== null;
     this.pending = call;
-    if (!scheduled) requestAnimationFrame(() => { const last = this.pending; this.pending = null; last?.(); });
+    if (!scheduled)
+      requestAnimationFrame(() => {
+        const last = this.pending;
+        this.pending = null;
+        last?.();
+      });
   }
 
   // ---- 3D
 
-  /** What a ray through a pixel meets first: a seed, a place that the check names, or a wall. */
+  /** The first thing on the ray through a pixel: a seed, a place that the check names, or a wall. */
   pick(scene: SceneView, x: number, y: number): Picked | null {
-    const view = this.app.store.get(), { camera } = scene, marks = this.pickMark(scene, x, y);
-    const beyond = (p: Vec3): boolean => !view.clip.on || (view.clip.flip ? -1 : 1) * dot(view.frame.normal, sub(p, view.crosshair)) <= 0;
+    const view = this.app.store.get(),
+      { camera } = scene,
+      marks = this.pickMark(scene, x, y);
+    const beyond = (p: Vec3): boolean =>
+      !view.clip.on || (view.clip.flip ? -1 : 1) * dot(view.frame.normal, sub(p, view.crosshair)) <= 0;
     const shown = (b: number): boolean => b < 0 || (isShown(view, b) && opacityOf(view, b) > 0.05);
-    const hit = view.surface !== null && view.layers.surface && !view.layers.nodes ? view.surface.pick(camera.ray(x, y), shown, beyond) : this.pickTube(scene, x, y);
+    const hit =
+      view.surface !== null && view.layers.surface && !view.layers.nodes
+        ? view.surface.pick(camera.ray(x, y), shown, beyond)
+        : this.pickTube(scene, x, y);
     if (marks !== null && (hit === null || marks.distance < hit.distance + 3)) return marks;
     return hit === null ? null : { ...hit, seed: null, place: -1 };
   }
 
   private pickMark(scene: SceneView, x: number, y: number): Picked | null {
-    const view = this.app.store.get(), kReach = 10; // pixels
-    let best: Picked | null = null, least = kReach;
+    const view = this.app.store.get(),
+      kReach = 10; // pixels
+    let best: Picked | null = null,
+      least = kReach;
     const consider = (p: Vec3, seed: string | null, place: number): void => {
-      const at = scene.camera.project(p), away = at === null ? Infinity : Math.hypot(at.x - x, at.y - y);
+      const at = scene.camera.project(p),
+        away = at === null ? Infinity : Math.hypot(at.x - x, at.y - y);
       if (away >= least) return;
       least = away;
-      best = { part: -1, branch: -1, point: p, distance: length(sub(p, scene.camera.eye)), vertex: -1, node: -1, seed, place };
+      best = {
+        part: -1,
+        branch: -1,
+        point: p,
+        distance: length(sub(p, scene.camera.eye)),
+        vertex: -1,
+        node: -1,
+        seed,
+        place,
+      };
     };
-    if (view.layers.seeds) for (const seed of view.state.seeds) if (!seed.tracked) for (const point of seed.points) consider(point.position, seed.label, -1);
-    if (view.layers.places) (view.state.check?.missing_vessels ?? []).forEach((place, i) => consider(place.position, null, i));
+    if (view.layers.seeds)
+      for (const seed of view.state.seeds)
+        if (!seed.tracked) for (const point of seed.points) consider(point.position, seed.label, -1);
+    if (view.layers.places)
+      (view.state.check?.missing_vessels ?? []).forEach((place, i) => consider(place.position, null, i));
     return best;
   }
 
   /** The node whose ball a ray passes nearest the eye: where there is no surface. */
   private pickTube(scene: SceneView, x: number, y: number): Hit | null {
-    const view = this.app.store.get(), { tree } = view;
+    const view = this.app.store.get(),
+      { tree } = view;
     if (tree === null || scene.camera.flight !== null) return null;
-    const ray = scene.camera.ray(x, y), o = ray.origin.toArray() as Vec3, d = ray.direction.toArray() as Vec3, loose = 3 * scene.camera.mmPerPixel;
+    const ray = scene.camera.ray(x, y),
+      o = ray.origin.toArray() as Vec3,
+      d = ray.direction.toArray() as Vec3,
+      loose = 3 * scene.camera.mmPerPixel;
     let best: Hit | null = null;
     for (let i = 0; i < tree.count; ++i) {
       if (!isShown(view, tree.branch[i])) continue;
-      const c = sub(tree.position(i), o), t = dot(c, d);
-      if (t > 0 && length(cross(c, d)) < Math.max(tree.radius[i], loose) && (best === null || t < best.distance))
-        best = { part: -1, branch: tree.branch[i], point: along(o, d, t - tree.radius[i]), distance: t, vertex: -1, node: i };
+      const c = sub(tree.position(i), o),
+        t = dot(c, d);
+      if (
+        t > 0 &&
+        length(cross(c, d)) < Math.max(tree.radius[i], loose) &&
+        (best === null || t < best.distance)
+      )
+        best = {
+          part: -1,
+          branch: tree.branch[i],
+          point: along(o, d, t - tree.radius[i]),
+          distance: t,
+          vertex: -1,
+          node: i,
+        };
     }
     return best;
   }
 
   clickInScene(scene: SceneView, x: number, y: number, clicks: number): void {
     const hit = this.pick(scene, x, y);
-    if (hit !== null && hit.place >= 0) { this.hand?.takePlace(hit.place); return; }
+    if (hit !== null && hit.place >= 0) {
+      this.hand.takePlace(hit.place);
+      return;
+    }
     if (this.tool !== "navigate" && this.tool !== "probe" && this.tool !== "wire") {
       const p = hit?.point ?? this.brightest(scene, x, y);
-      if (p !== null && this.hand?.press(p, null, hit) === true) { this.hand.release(); return; }
+      if (p !== null && this.hand.press(p, null, hit)) {
+        this.hand.release();
+        return;
+      }
     }
     if (hit === null) {
       const p = this.app.store.get().cast === "off" ? null : this.brightest(scene, x, y);
-      if (p !== null) goTo(this.app, p); else if (clicks === 1) select(this.app, -1);
+      if (p !== null) goTo(this.app, p);
+      else if (clicks === 1) select(this.app, -1);
       return;
     }
     if (hit.branch >= 0) {
       select(this.app, hit.branch);
       const { tree } = this.app.store.get();
-      if (tree !== null && hit.node < tree.count && hit.node >= 0 && tree.branch[hit.node] === hit.branch) goToNode(this.app, hit.node);
-      else if (tree !== null) goToNode(this.app, tree.nearest(hit.point, b => b === hit.branch));
+      if (tree !== null && hit.node < tree.count && hit.node >= 0 && tree.branch[hit.node] === hit.branch)
+        goToNode(this.app, hit.node);
+      else if (tree !== null)
+        goToNode(
+          this.app,
+          tree.nearest(hit.point, b => b === hit.branch),
+        );
     } else goTo(this.app, hit.point);
   }
 
@@ -141,40 +224,70 @@ export class Tools {
   brightest(scene: SceneView, x: number, y: number): Vec3 | null {
     const { volume, window } = this.app.store.get();
     if (volume === null) return null;
-    const ray = scene.camera.ray(x, y), o = ray.origin.toArray() as Vec3, d = ray.direction.toArray() as Vec3, step = Math.min(...volume.spacing) / 2;
-    const corners = volume.corners().map(c => dot(sub(c, o), d)), from = Math.max(0, Math.min(...corners)), to = Math.max(...corners);
-    let most = window[0] + 0.25 * (window[1] - window[0]), best: Vec3 | null = null;
+    const ray = scene.camera.ray(x, y),
+      o = ray.origin.toArray() as Vec3,
+      d = ray.direction.toArray() as Vec3,
+      step = Math.min(...volume.spacing) / 2;
+    const corners = volume.corners().map(c => dot(sub(c, o), d)),
+      from = Math.max(0, Math.min(...corners)),
+      to = Math.max(...corners);
+    let most = window[0] + 0.25 * (window[1] - window[0]),
+      best: Vec3 | null = null;
     for (let t = from; t < to; t += step) {
-      const p = along(o, d, t), v = volume.sample(p);
-      if (v > most) { most = v; best = p; }
+      const p = along(o, d, t),
+        v = volume.sample(p);
+      if (v > most) {
+        most = v;
+        best = p;
+      }
     }
     return best;
   }
 
   hoverScene(scene: SceneView, x: number, y: number): void {
-    this.tell(() => {
+    this.schedule(() => {
       const hit = this.pick(scene, x, y);
-      const answer = hit === null || hit.branch < -1 ? null : probe(this.app.store.get(), hit.point, hit.node >= 0 ? hit.node : undefined);
+      const answer =
+        hit === null || hit.branch < -1
+          ? null
+          : probe(this.app.store.get(), hit.point, hit.node >= 0 ? hit.node : undefined);
       for (const listener of this.listeners) listener(answer);
       scene.element.classList.toggle("over-vessel", hit !== null);
-      scene.element.classList.toggle("over-wire", this.tool === "wire" && this.wire?.isNear(scene, x, y) === true);
+      scene.element.classList.toggle("over-wire", this.tool === "wire" && this.wire.isNear(scene, x, y));
     });
   }
 
   centreInScene(scene: SceneView, x: number, y: number): void {
     const hit = this.pick(scene, x, y);
-    if (hit === null) { scene.fit(); return; }
+    if (hit === null) {
+      scene.fit();
+      return;
+    }
     scene.camera.target = hit.point;
     scene.moved();
   }
 
-  grabInScene(scene: SceneView, x: number, y: number): boolean { return this.tool === "wire" && this.wire?.grab(scene, x, y) === true; }
-  dragInScene(scene: SceneView, x: number, y: number): void { this.wire?.dragTo(scene, x, y); }
-  releaseInScene(): void { this.wire?.letGo(); }
+  grabInScene(scene: SceneView, x: number, y: number): boolean {
+    return this.tool === "wire" && this.wire.grab(scene, x, y);
+  }
+  dragInScene(scene: SceneView, x: number, y: number): void {
+    this.wire.dragTo(scene, x, y);
+  }
+  releaseInScene(): void {
+    this.wire.letGo();
+  }
   wheelInScene(direction: number): boolean {
-    if (this.flight?.running === true) { this.flight.step(-direction); return true; }
-    if (this.tool === "wire" && this.wire?.active === true) { this.wire.push(-direction); return true; }
+    if (this.flight.running) {
+      this.flight.step(-direction);
+      return true;
+    }
+    if (this.tool === "wire" && this.wire.active) {
+      this.wire.push(-direction);
+      return true;
+    }
     return false;
   }
-  keyInScene(key: string): boolean { return this.flight?.key(key) === true || (this.tool === "wire" && this.wire?.key(key) === true); }
+  keyInScene(key: string): boolean {
+    return this.flight.key(key) || (this.tool === "wire" && this.wire.key(key));
+  }
 }

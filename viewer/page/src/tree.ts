@@ -6,7 +6,7 @@ import { at, distance } from "./vec";
 
 export interface Branch extends BranchRecord {
   index: number;
-  /** mm along its own nodes, as `lumen info` tells it. */
+  /** mm along its own nodes, as `lumen info` reports it. */
   length: number;
   median: number;
   least: number;
@@ -16,8 +16,13 @@ export interface Branch extends BranchRecord {
 }
 
 function median(values: number[]): number {
-  const sorted = [...values].sort((a, b) => a - b), half = sorted.length >> 1;
-  return sorted.length === 0 ? NaN : sorted.length % 2 === 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+  const sorted = [...values].sort((a, b) => a - b),
+    half = sorted.length >> 1;
+  return sorted.length === 0
+    ? NaN
+    : sorted.length % 2 === 1
+      ? sorted[half]
+      : (sorted[half - 1] + sorted[half]) / 2;
 }
 
 export class Tree {
@@ -56,19 +61,33 @@ export class Tree {
     this.voxelSize = typeof pack.meta.voxelSize === "number" ? pack.meta.voxelSize : 0;
     this.reachable = (pack.meta.reachable ?? null) as Tree["reachable"];
     this.count = this.radius.length;
-    this.branches = (pack.meta.branches as BranchRecord[]).map((record, index) => this.describe(record, index));
+    this.branches = (pack.meta.branches as BranchRecord[]).map((record, index) =>
+      this.describe(record, index),
+    );
   }
 
   private describe(record: BranchRecord, index: number): Branch {
     const radii = Array.from(this.radius.subarray(record.firstNode, record.firstNode + record.nodeCount));
     let length = 0;
-    for (let i = record.firstNode + 1; i < record.firstNode + record.nodeCount; ++i) length += distance(this.position(i - 1), this.position(i));
-    return { ...record, index, length, median: median(radii), least: Math.min(...radii), greatest: Math.max(...radii),
-      parentBranch: record.parentNode < 0 ? -1 : this.branch[record.parentNode] };
+    for (let i = record.firstNode + 1; i < record.firstNode + record.nodeCount; ++i)
+      length += distance(this.position(i - 1), this.position(i));
+    return {
+      ...record,
+      index,
+      length,
+      median: median(radii),
+      least: Math.min(...radii),
+      greatest: Math.max(...radii),
+      parentBranch: record.parentNode < 0 ? -1 : this.branch[record.parentNode],
+    };
   }
 
-  position(node: number): Vec3 { return at(this.centre, node); }
-  axis(node: number): Vec3 { return at(this.direction, node); }
+  position(node: number): Vec3 {
+    return at(this.centre, node);
+  }
+  axis(node: number): Vec3 {
+    return at(this.direction, node);
+  }
 
   /** Nodes of a branch, from the node that it leaves its parent at. */
   nodesOf(record: BranchRecord): number[] {
@@ -78,18 +97,26 @@ export class Tree {
 
   /** Nodes from the root to the end of a branch: the way of a tool. */
   wayTo(branch: number): number[] {
-    const record = this.branches[branch], way: number[] = [];
-    for (let node = record.firstNode + record.nodeCount - 1; node >= 0; node = this.parent[node]) way.push(node);
+    const record = this.branches[branch],
+      way: number[] = [];
+    for (let node = record.firstNode + record.nodeCount - 1; node >= 0; node = this.parent[node])
+      way.push(node);
     return way.reverse();
   }
 
   /** The node whose centre is nearest in terms of power |x - c|^2 - r^2. */
   nearest(p: Vec3, among: (branch: number) => boolean = () => true): number {
-    let best = -1, least = Infinity;
+    let best = -1,
+      least = Infinity;
     for (let i = 0; i < this.count; ++i) {
-      const x = this.centre[3 * i] - p[0], y = this.centre[3 * i + 1] - p[1], z = this.centre[3 * i + 2] - p[2];
+      const x = this.centre[3 * i] - p[0],
+        y = this.centre[3 * i + 1] - p[1],
+        z = this.centre[3 * i + 2] - p[2];
       const power = x * x + y * y + z * z - this.radius[i] * this.radius[i];
-      if (power < least && among(this.branch[i])) { least = power; best = i; }
+      if (power < least && among(this.branch[i])) {
+        least = power;
+        best = i;
+      }
     }
     return best;
   }
@@ -99,7 +126,8 @@ export class Tree {
   /** The box of all nodes' balls; null if there is no node. */
   box(): { low: Vec3; high: Vec3 } | null {
     if (this.count === 0 || this.whole !== null) return this.whole;
-    const low: Vec3 = [Infinity, Infinity, Infinity], high: Vec3 = [-Infinity, -Infinity, -Infinity];
+    const low: Vec3 = [Infinity, Infinity, Infinity],
+      high: Vec3 = [-Infinity, -Infinity, -Infinity];
     for (let i = 0; i < this.count; ++i)
       for (let a = 0; a < 3; ++a) {
         low[a] = Math.min(low[a], this.centre[3 * i + a] - this.radius[i]);
@@ -110,7 +138,8 @@ export class Tree {
 
   /** Branches in the order of a walk from the roots, each with its depth. */
   outline(): { branch: number; depth: number }[] {
-    const children = this.branches.map((): number[] => []), result: { branch: number; depth: number }[] = [];
+    const children = this.branches.map((): number[] => []),
+      result: { branch: number; depth: number }[] = [];
     const roots: number[] = [];
     for (const b of this.branches) (b.parentBranch < 0 ? roots : children[b.parentBranch]).push(b.index);
     const stack = roots.reverse().map(branch => ({ branch, depth: 0 }));

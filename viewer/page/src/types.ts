@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What the server and the page tell each other, as ../../README.md has it. Lengths in mm, positions in LPS. */
+/** Messages between server and page (../../README.md). Lengths in mm, positions in LPS. */
 
 export type Vec3 = [number, number, number];
 
@@ -36,10 +36,25 @@ export interface CheckAnswer {
   dark_places?: { position: Vec3 }[];
 }
 
-export interface FileEntry { id: number | string; kind: string; name: string; changed: boolean; /** Not dropped: it can be read again. */ named: boolean }
+export interface FileEntry {
+  id: number | string;
+  kind: string;
+  name: string;
+  changed: boolean;
+  /** Not dropped: it can be read again. */ named: boolean;
+}
 
-/** Of the parts of the document; those of packs are their ETags. */
-export interface Revisions { case: number; surface: number; volume: number; seeds: number; meshes?: number; truth?: number; distance?: number; library?: number }
+/** Revisions of the parts of the document; those of packs are their ETags. */
+export interface Revisions {
+  case: number;
+  surface: number;
+  volume: number;
+  seeds: number;
+  meshes?: number;
+  truth?: number;
+  distance?: number;
+  library?: number;
+}
 
 export interface State {
   revision: number;
@@ -57,7 +72,7 @@ export interface State {
   saveAs: string | null;
   /** Names of files that hold what an earlier program did not save. */
   unsavedBefore: string[];
-  /** Of the library. */
+  /** Index in the library. */
   openCase: number | null;
   job: { job: number; name: string } | null;
   check: CheckAnswer | null;
@@ -71,12 +86,36 @@ export interface State {
 export const kEmptyState: State = {
   revision: 0,
   revisions: { case: 0, surface: 0, volume: 0, seeds: 0 },
-  title: "", files: [], hasVolume: false, hasCase: false, hasTruth: false, meshes: [], seeds: [],
-  undo: null, redo: null, unsaved: false, saveAs: null, unsavedBefore: [], openCase: null, job: null, check: null, checkIsOld: false, figures: null, formats: [],
+  title: "",
+  files: [],
+  hasVolume: false,
+  hasCase: false,
+  hasTruth: false,
+  meshes: [],
+  seeds: [],
+  undo: null,
+  redo: null,
+  unsaved: false,
+  saveAs: null,
+  unsavedBefore: [],
+  openCase: null,
+  job: null,
+  check: null,
+  checkIsOld: false,
+  figures: null,
+  formats: [],
 };
 
-export interface LibraryCase { name: string; branches: number | null; length: number | null; error: string | null }
-export interface Library { name: string; cases: LibraryCase[] }
+export interface LibraryCase {
+  name: string;
+  branches: number | null;
+  length: number | null;
+  error: string | null;
+}
+export interface Library {
+  name: string;
+  cases: LibraryCase[];
+}
 
 export interface BranchRecord {
   label: string;
@@ -98,4 +137,10 @@ export type Event =
 
 export type Operation = { op: string; [key: string]: unknown };
 
-export interface Snap { found: boolean; position: Vec3; radius: number; direction: Vec3; reason?: string }
+export interface Snap {
+  found: boolean;
+  position: Vec3;
+  radius: number;
+  direction: Vec3;
+  reason?: string;
+}

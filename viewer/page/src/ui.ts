@@ -5,7 +5,11 @@ type Attributes = Record<string, string | number | boolean | ((e: Event) => void
 type Child = Node | string | null | undefined;
 
 /** An element with attributes ("class", "aria-label", "onclick": function, ...) and children. */
-export function h<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (value === undefined || value === false) continue;
@@ -16,21 +20,47 @@ export function h<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Att
   return element;
 }
 
-const kIcons: Record<string, string> = { // paths on a grid of 16, drawn as lines
-  open: "M2 4h4l1.5 2H14v7H2z", save: "M3 2h8l2 2v10H3zM5 2v4h5V2M5 14v-4h6v4", undo: "M6 4L3 7l3 3M3 7h6a4 4 0 0 1 0 8H7", redo: "M10 4l3 3-3 3M13 7H7a4 4 0 0 0 0 8h2",
-  navigate: "M8 2v12M2 8h12M8 5.5a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5", seed: "M8 14s4-4 4-7.5A4 4 0 0 0 4 6.5C4 10 8 14 8 14zM8 5v3M6.5 6.5h3",
-  probe: "M13 3l-1.5-1.5L9 4l3 3 2.5-2.5zM10 5.5L4 11.5V13H2.5L2 14M4 13h1.5l6-6", distance: "M2 11L11 2l3 3-9 9zM5 8l1.5 1.5M7.5 5.5L9 7M10 3l1.5 1.5",
-  angle: "M13 13H3L11 3M7 13a5 5 0 0 0-1-3.800", section: "M8 3c4 0 6 2 6 5s-2 5-6 5-6-2-6-5 2-5 6-5M2 8h12", touch: "M5.5 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8M10.5 4a4 4 0 1 1 0 8 4 4 0 0 1 0-8",
-  wire: "M2 13c3 0 3-4 6-5s3-4 6-4M12 2.5L14 4l-1.5 2", move: "M8 2v12M2 8h12M8 2L6.5 3.5M8 2l1.5 1.5M8 14l-1.5-1.5M8 14l1.5-1.5M2 8l1.5-1.5M2 8l1.5 1.5M14 8l-1.5-1.5M14 8l-1.5 1.5",
-  eye: "M1.5 8S4 3.5 8 3.5 14.5 8 14.5 8 12 12.5 8 12.5 1.5 8 1.5 8zM8 6a2 2 0 1 0 0 4 2 2 0 0 0 0-4", hidden: "M2 2l12 12M4 5C2.5 6.300 1.5 8 1.5 8S4 12.5 8 12.5c1 0 2-.3 2.800-.7M7 3.600c.3 0 .7-.1 1-.1 4 0 6.5 4.5 6.5 4.5s-.6 1-1.600 2.100",
-  solo: "M8 2l1.800 4 4.200.5-3.200 2.800.9 4.200L8 11.300l-3.700 2.200.9-4.200L2 6.5 6.200 6z", camera: "M2 5h3l1-2h4l1 2h3v8H2zM8 7a2 2 0 1 0 0 4 2 2 0 0 0 0-4", help: "M6 6a2 2 0 1 1 2.800 1.800C8.200 8.200 8 8.600 8 9.5M8 12v.3M8 1.5a6.5 6.5 0 1 0 0 13 6.5 6.5 0 0 0 0-13",
-  theme: "M8 2a6 6 0 1 0 0 12zM8 2a6 6 0 0 1 0 12", layout: "M2 2h5v5H2zM9 2h5v5H9zM2 9h5v5H2zM9 9h5v5H9z", fit: "M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4", flight: "M2 8l12-6-4 12-3-5z",
-  close: "M4 4l8 8M12 4l-8 8", check: "M3 8.5L6.5 12 13 4.5", play: "M4 3l9 5-9 5z", stop: "M4 4h8v8H4z", download: "M8 2v8M5 7l3 3 3-3M3 13h10", edit: "M3 13l1-3 7-7 2 2-7 7z", trash: "M3 4h10M6 4V2.5h4V4M4.5 4l.5 9.5h6l.5-9.5",
-  cut: "M5 3l6 7M11 3L5 10M4 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4M12 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4", more: "M3 8h.1M8 8h.1M13 8h.1", compare: "M6 3v10M10 3v10M2 5h4M2 11h4M10 5h4M10 11h4",
+const kIcons: Record<string, string> = {
+  // paths on a grid of 16, drawn as lines
+  open: "M2 4h4l1.5 2H14v7H2z",
+  save: "M3 2h8l2 2v10H3zM5 2v4h5V2M5 14v-4h6v4",
+  undo: "M6 4L3 7l3 3M3 7h6a4 4 0 0 1 0 8H7",
+  redo: "M10 4l3 3-3 3M13 7H7a4 4 0 0 0 0 8h2",
+  navigate: "M8 2v12M2 8h12M8 5.5a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5",
+  seed: "M8 14s4-4 4-7.5A4 4 0 0 0 4 6.5C4 10 8 14 8 14zM8 5v3M6.5 6.5h3",
+  probe: "M13 3l-1.5-1.5L9 4l3 3 2.5-2.5zM10 5.5L4 11.5V13H2.5L2 14M4 13h1.5l6-6",
+  distance: "M2 11L11 2l3 3-9 9zM5 8l1.5 1.5M7.5 5.5L9 7M10 3l1.5 1.5",
+  angle: "M13 13H3L11 3M7 13a5 5 0 0 0-1-3.800",
+  section: "M8 3c4 0 6 2 6 5s-2 5-6 5-6-2-6-5 2-5 6-5M2 8h12",
+  touch: "M5.5 4a4 4 0 1 0 0 8 4 4 0 0 0 0-8M10.5 4a4 4 0 1 1 0 8 4 4 0 0 1 0-8",
+  wire: "M2 13c3 0 3-4 6-5s3-4 6-4M12 2.5L14 4l-1.5 2",
+  move: "M8 2v12M2 8h12M8 2L6.5 3.5M8 2l1.5 1.5M8 14l-1.5-1.5M8 14l1.5-1.5M2 8l1.5-1.5M2 8l1.5 1.5M14 8l-1.5-1.5M14 8l-1.5 1.5",
+  eye: "M1.5 8S4 3.5 8 3.5 14.5 8 14.5 8 12 12.5 8 12.5 1.5 8 1.5 8zM8 6a2 2 0 1 0 0 4 2 2 0 0 0 0-4",
+  hidden:
+    "M2 2l12 12M4 5C2.5 6.300 1.5 8 1.5 8S4 12.5 8 12.5c1 0 2-.3 2.800-.7M7 3.600c.3 0 .7-.1 1-.1 4 0 6.5 4.5 6.5 4.5s-.6 1-1.600 2.100",
+  solo: "M8 2l1.800 4 4.200.5-3.200 2.800.9 4.200L8 11.300l-3.700 2.200.9-4.200L2 6.5 6.200 6z",
+  camera: "M2 5h3l1-2h4l1 2h3v8H2zM8 7a2 2 0 1 0 0 4 2 2 0 0 0 0-4",
+  help: "M6 6a2 2 0 1 1 2.800 1.800C8.200 8.200 8 8.600 8 9.5M8 12v.3M8 1.5a6.5 6.5 0 1 0 0 13 6.5 6.5 0 0 0 0-13",
+  theme: "M8 2a6 6 0 1 0 0 12zM8 2a6 6 0 0 1 0 12",
+  layout: "M2 2h5v5H2zM9 2h5v5H9zM2 9h5v5H2zM9 9h5v5H9z",
+  fit: "M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4",
+  flight: "M2 8l12-6-4 12-3-5z",
+  close: "M4 4l8 8M12 4l-8 8",
+  check: "M3 8.5L6.5 12 13 4.5",
+  play: "M4 3l9 5-9 5z",
+  stop: "M4 4h8v8H4z",
+  download: "M8 2v8M5 7l3 3 3-3M3 13h10",
+  edit: "M3 13l1-3 7-7 2 2-7 7z",
+  trash: "M3 4h10M6 4V2.5h4V4M4.5 4l.5 9.5h6l.5-9.5",
+  cut: "M5 3l6 7M11 3L5 10M4 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4M12 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4",
+  more: "M3 8h.1M8 8h.1M13 8h.1",
+  compare: "M6 3v10M10 3v10M2 5h4M2 11h4M10 5h4M10 11h4",
 };
 
 export function icon(name: string): SVGSVGElement {
-  const kSvg = "http://www.w3.org/2000/svg", svg = document.createElementNS(kSvg, "svg"), path = document.createElementNS(kSvg, "path");
+  const kSvg = "http://www.w3.org/2000/svg",
+    svg = document.createElementNS(kSvg, "svg"),
+    path = document.createElementNS(kSvg, "path");
   svg.setAttribute("viewBox", "0 0 16 16");
   svg.setAttribute("aria-hidden", "true");
   svg.classList.add("icon");
@@ -40,31 +70,81 @@ export function icon(name: string): SVGSVGElement {
 }
 
 /** A button with an icon, a label for assistive technology and a tip with its key. */
-export function button(options: { icon?: string; text?: string; label: string; key?: string; id?: string; class?: string; pressed?: boolean }, action: () => void): HTMLButtonElement {
-  const { label, key } = options, tip = key === undefined ? label : `${label}  (${key})`;
-  const element = h("button", { type: "button", id: options.id, class: options.class ?? "button", title: tip, "aria-label": label, "aria-keyshortcuts": key,
-    "aria-pressed": options.pressed === undefined ? undefined : String(options.pressed), onclick: action });
+export function button(
+  options: {
+    icon?: string;
+    text?: string;
+    label: string;
+    key?: string;
+    id?: string;
+    class?: string;
+    pressed?: boolean;
+  },
+  action: () => void,
+): HTMLButtonElement {
+  const { label, key } = options,
+    tip = key === undefined ? label : `${label}  (${key})`;
+  const element = h("button", {
+    type: "button",
+    id: options.id,
+    class: options.class ?? "button",
+    title: tip,
+    "aria-label": label,
+    "aria-keyshortcuts": key,
+    "aria-pressed": options.pressed === undefined ? undefined : String(options.pressed),
+    onclick: action,
+  });
   if (options.icon !== undefined) element.append(icon(options.icon));
   if (options.text !== undefined) element.append(h("span", {}, options.text));
   return element;
 }
 
-export function checkbox(id: string, text: string, tip: string, on: boolean, change: (on: boolean) => void): HTMLLabelElement {
+export function checkbox(
+  id: string,
+  text: string,
+  tip: string,
+  on: boolean,
+  change: (on: boolean) => void,
+): HTMLLabelElement {
   const box = h("input", { type: "checkbox", id });
   box.checked = on;
   box.addEventListener("change", () => change(box.checked));
   return h("label", { class: "check", title: tip }, box, h("span", {}, text));
 }
 
-export function select<T extends string>(id: string, label: string, options: [T, string][], value: T, change: (value: T) => void): HTMLSelectElement {
-  const element = h("select", { id, "aria-label": label, title: label }, ...options.map(([name, text]) => h("option", { value: name }, text)));
+export function select<T extends string>(
+  id: string,
+  label: string,
+  options: [T, string][],
+  value: T,
+  change: (value: T) => void,
+): HTMLSelectElement {
+  const element = h(
+    "select",
+    { id, "aria-label": label, title: label },
+    ...options.map(([name, text]) => h("option", { value: name }, text)),
+  );
   element.value = value;
   element.addEventListener("change", () => change(element.value as T));
   return element;
 }
 
-export function slider(id: string, label: string, range: [number, number, number], value: number, change: (value: number) => void): HTMLInputElement {
-  const element = h("input", { type: "range", id, "aria-label": label, title: label, min: range[0], max: range[1], step: range[2] });
+export function slider(
+  id: string,
+  label: string,
+  range: [number, number, number],
+  value: number,
+  change: (value: number) => void,
+): HTMLInputElement {
+  const element = h("input", {
+    type: "range",
+    id,
+    "aria-label": label,
+    title: label,
+    min: range[0],
+    max: range[1],
+    step: range[2],
+  });
   element.value = String(value);
   element.addEventListener("input", () => change(Number(element.value)));
   return element;
@@ -72,7 +152,12 @@ export function slider(id: string, label: string, range: [number, number, number
 
 /** A titled group of a panel; closes by its title. */
 export function section(id: string, title: string, open: boolean, ...children: Child[]): HTMLDetailsElement {
-  return h("details", { class: "section", id, open }, h("summary", {}, title), h("div", { class: "body" }, ...children));
+  return h(
+    "details",
+    { class: "section", id, open },
+    h("summary", {}, title),
+    h("div", { class: "body" }, ...children),
+  );
 }
 
 /** Three significant digits or so: what a person reads. */
@@ -88,11 +173,26 @@ export function askText(title: string, label: string, value: string): Promise<st
   return new Promise(resolve => {
     const input = h("input", { type: "text", id: "ask-text", value, maxlength: 200, "aria-label": label });
     input.value = value;
-    const dialog = h("dialog", { class: "dialog", "aria-label": title }, h("h2", {}, title),
-      h("form", { method: "dialog" }, h("label", {}, label, input),
-        h("div", { class: "row end" }, h("button", { type: "button", class: "button text", onclick: () => dialog.close("") }, "Cancel"),
-          h("button", { type: "submit", class: "button primary", value: "ok" }, "OK"))));
-    dialog.addEventListener("close", () => { resolve(dialog.returnValue === "ok" ? input.value : null); dialog.remove(); });
+    const dialog = h(
+      "dialog",
+      { class: "dialog", "aria-label": title },
+      h("h2", {}, title),
+      h(
+        "form",
+        { method: "dialog" },
+        h("label", {}, label, input),
+        h(
+          "div",
+          { class: "row end" },
+          h("button", { type: "button", class: "button text", onclick: () => dialog.close("") }, "Cancel"),
+          h("button", { type: "submit", class: "button primary", value: "ok" }, "OK"),
+        ),
+      ),
+    );
+    dialog.addEventListener("close", () => {
+      resolve(dialog.returnValue === "ok" ? input.value : null);
+      dialog.remove();
+    });
     document.body.append(dialog);
     dialog.showModal();
     input.select();
@@ -102,10 +202,26 @@ export function askText(title: string, label: string, value: string): Promise<st
 /** Asks whether to do something; false: no. */
 export function askYes(title: string, text: string, yes: string): Promise<boolean> {
   return new Promise(resolve => {
-    const dialog = h("dialog", { class: "dialog", "aria-label": title }, h("h2", {}, title), h("p", {}, text),
-      h("form", { method: "dialog" }, h("div", { class: "row end" }, h("button", { type: "submit", class: "button text", value: "" }, "Cancel"),
-        h("button", { type: "submit", class: "button primary", value: "ok", id: "ask-yes" }, yes))));
-    dialog.addEventListener("close", () => { resolve(dialog.returnValue === "ok"); dialog.remove(); });
+    const dialog = h(
+      "dialog",
+      { class: "dialog", "aria-label": title },
+      h("h2", {}, title),
+      h("p", {}, text),
+      h(
+        "form",
+        { method: "dialog" },
+        h(
+          "div",
+          { class: "row end" },
+          h("button", { type: "submit", class: "button text", value: "" }, "Cancel"),
+          h("button", { type: "submit", class: "button primary", value: "ok", id: "ask-yes" }, yes),
+        ),
+      ),
+    );
+    dialog.addEventListener("close", () => {
+      resolve(dialog.returnValue === "ok");
+      dialog.remove();
+    });
     document.body.append(dialog);
     dialog.showModal();
   });

@@ -4,16 +4,34 @@ import { across, cross, dot, length, orientation, rotate, segmentsNearest } from
 
 describe("orientation", () => {
   it("namesPatientSides", () => {
-    expect(["L", "R", "P", "A", "S", "I"]).toEqual([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]].map(d => orientation(d as [number, number, number])));
+    expect(["L", "R", "P", "A", "S", "I"]).toEqual(
+      [
+        [1, 0, 0],
+        [-1, 0, 0],
+        [0, 1, 0],
+        [0, -1, 0],
+        [0, 0, 1],
+        [0, 0, -1],
+      ].map(d => orientation(d as [number, number, number])),
+    );
   });
-  it("namesTheLargestFirstAndLeavesOutTheSmall", () => { expect(orientation([0.8, 0, -0.6])).toBe("LI"); expect(orientation([0.98, 0.2, 0])).toBe("L"); });
+  it("namesTheLargestFirstAndLeavesOutTheSmall", () => {
+    expect(orientation([0.8, 0, -0.6])).toBe("LI");
+    expect(orientation([0.98, 0.2, 0])).toBe("L");
+  });
 });
 describe("rotate", () => {
-  it("turnsAboutTheAxis", () => { rotate([1, 0, 0], [0, 0, 1], Math.PI / 2).forEach((x, i) => expect(x).toBeCloseTo([0, 1, 0][i], 12)); });
+  it("turnsAboutTheAxis", () => {
+    rotate([1, 0, 0], [0, 0, 1], Math.PI / 2).forEach((x, i) => expect(x).toBeCloseTo([0, 1, 0][i], 12));
+  });
 });
 describe("across", () => {
   it("isAUnitVectorAcross", () => {
-    for (const d of [[1, 0, 0], [0, 0.6, 0.8], [0.577, 0.577, 0.577]] as [number, number, number][]) {
+    for (const d of [
+      [1, 0, 0],
+      [0, 0.6, 0.8],
+      [0.577, 0.577, 0.577],
+    ] as [number, number, number][]) {
       expect(length(across(d))).toBeCloseTo(1, 12);
       expect(dot(across(d), d)).toBeCloseTo(0, 12);
     }
@@ -24,6 +42,12 @@ describe("segmentsNearest", () => {
     const r = segmentsNearest([-1, 0, 0], [1, 0, 0], [0, -1, 1], [0, 1, 1]);
     expect(r).toEqual({ s: 0.5, t: 0.5, distance: 1 });
   });
-  it("endsAtEnds", () => { expect(segmentsNearest([0, 0, 0], [1, 0, 0], [3, 0, 0], [4, 0, 0]).distance).toBe(2); });
+  it("endsAtEnds", () => {
+    expect(segmentsNearest([0, 0, 0], [1, 0, 0], [3, 0, 0], [4, 0, 0]).distance).toBe(2);
+  });
 });
-describe("cross", () => { it("isRightHanded", () => { expect(cross([1, 0, 0], [0, 1, 0])).toEqual([0, 0, 1]); }); });
+describe("cross", () => {
+  it("isRightHanded", () => {
+    expect(cross([1, 0, 0], [0, 1, 0])).toEqual([0, 0, 1]);
+  });
+});

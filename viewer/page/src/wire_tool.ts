@@ -32,17 +32,28 @@ export class WireTool {
     app.store.watch(["blob"], () => this.remove());
   }
 
-  get active(): boolean { return this.wire !== null; }
-  get now(): Wire | null { return this.wire; }
+  get active(): boolean {
+    return this.wire !== null;
+  }
+  get now(): Wire | null {
+    return this.wire;
+  }
 
   /** Places the wire at the root of the selected vessel's tree, or of the first one. */
   place(): void {
     const { tree, blob, selected } = this.app.store.get();
-    if (tree === null || blob === null) { this.app.say("The wire needs a case with models: fit it first.", "warning"); return; }
+    if (tree === null || blob === null) {
+      this.app.say("The wire needs a case with models: fit it first.", "warning");
+      return;
+    }
     this.remove();
-    const way = tree.wayTo(Math.max(0, selected)), root = way[0], next = way[Math.min(3, way.length - 1)];
-    const from = tree.position(root), to = tree.position(next);
-    const d: Vec3 = next === root ? tree.axis(root) : unit([to[0] - from[0], to[1] - from[1], to[2] - from[2]]);
+    const way = tree.wayTo(Math.max(0, selected)),
+      root = way[0],
+      next = way[Math.min(3, way.length - 1)];
+    const from = tree.position(root),
+      to = tree.position(next);
+    const d: Vec3 =
+      next === root ? tree.axis(root) : unit([to[0] - from[0], to[1] - from[1], to[2] - from[2]]);
     const all = way.length > 1 ? tree.rootDistance[way.at(-1)!] : 50;
     const spacing = Math.max(0.5, Math.min(4, (1.15 * all) / kWire.count), 0.25 * tree.radius[root]);
     const thin = Math.min(...way.map(n => tree.radius[n]));
@@ -61,22 +72,41 @@ export class WireTool {
 
   /** By keys and wheel. A key that is held down asks for more than the wire can do: it stops soon after the key does, and turns back at once. */
   push(steps: number): void {
-    const asked = steps * this.options.spacing * 2, most = kMostAhead * this.options.spacing;
+    const asked = steps * this.options.spacing * 2,
+      most = kMostAhead * this.options.spacing;
     if (asked * this.wanted < 0) this.wanted = 0;
     this.wanted = Math.min(most, Math.max(-most, this.wanted + asked));
     this.wake();
   }
-  twist(radians: number): void { this.turn += radians; this.wake(); }
+  twist(radians: number): void {
+    this.turn += radians;
+    this.wake();
+  }
   key(key: string): boolean {
-    if (key === "Enter" && this.wire === null) { this.place(); return true; }
+    if (key === "Enter" && this.wire === null) {
+      this.place();
+      return true;
+    }
     if (this.wire === null) return false;
     switch (key) {
-      case "ArrowUp": this.push(1); return true;
-      case "ArrowDown": this.push(-1); return true;
-      case "ArrowLeft": this.twist(-0.2); return true;
-      case "ArrowRight": this.twist(0.2); return true;
-      case "Delete": case "Escape": this.remove(); return true;
-      default: return false;
+      case "ArrowUp":
+        this.push(1);
+        return true;
+      case "ArrowDown":
+        this.push(-1);
+        return true;
+      case "ArrowLeft":
+        this.twist(-0.2);
+        return true;
+      case "ArrowRight":
+        this.twist(0.2);
+        return true;
+      case "Delete":
+      case "Escape":
+        this.remove();
+        return true;
+      default:
+        return false;
     }
   }
 
@@ -94,7 +124,8 @@ export class WireTool {
   private nearest(wire: Wire, scene: SceneView, x: number, y: number): { point: number; away: number } {
     let best = { point: 0, away: Infinity };
     for (let i = 0; i < wire.free; ++i) {
-      const p = scene.camera.project(wire.at(i)), away = p === null ? Infinity : Math.hypot(p.x - x, p.y - y);
+      const p = scene.camera.project(wire.at(i)),
+        away = p === null ? Infinity : Math.hypot(p.x - x, p.y - y);
       if (away < best.away) best = { point: i, away };
     }
     return best;
@@ -103,28 +134,41 @@ export class WireTool {
   dragTo(scene: SceneView, x: number, y: number): void {
     const { wire } = this;
     if (this.last === null || wire === null) return;
-    const kAround = 4, { point } = this.nearest(wire, scene, this.last.x, this.last.y), dx = x - this.last.x, dy = y - this.last.y;
-    const ahead = scene.camera.project(wire.at(Math.max(0, point - kAround))), behind = scene.camera.project(wire.at(Math.min(wire.options.count - 1, point + kAround)));
-    let ux = 0, uy = -1;
+    const kAround = 4,
+      { point } = this.nearest(wire, scene, this.last.x, this.last.y),
+      dx = x - this.last.x,
+      dy = y - this.last.y;
+    const ahead = scene.camera.project(wire.at(Math.max(0, point - kAround))),
+      behind = scene.camera.project(wire.at(Math.min(wire.options.count - 1, point + kAround)));
+    let ux = 0,
+      uy = -1;
     if (ahead !== null && behind !== null && Math.hypot(ahead.x - behind.x, ahead.y - behind.y) > 2) {
       const n = Math.hypot(ahead.x - behind.x, ahead.y - behind.y);
-      ux = (ahead.x - behind.x) / n; uy = (ahead.y - behind.y) / n;
+      ux = (ahead.x - behind.x) / n;
+      uy = (ahead.y - behind.y) / n;
     }
     this.wanted += (dx * ux + dy * uy) * Math.max(kPush, scene.camera.mmPerPixel);
     this.turn += (dx * -uy + dy * ux) * kTurn;
     this.last = { x, y };
     this.wake();
   }
-  letGo(): void { this.last = null; }
+  letGo(): void {
+    this.last = null;
+  }
 
-  private wake(): void { this.rest = kSettle; this.run(); }
+  private wake(): void {
+    this.rest = kSettle;
+    this.run();
+  }
   private run(): void {
     if (this.running || this.wire === null) return;
     this.running = true;
     requestAnimationFrame(() => {
       this.running = false;
       if (this.wire === null) return;
-      const begin = performance.now(), due = Math.round((begin - this.before) / kStep), steps = this.before === 0 ? 1 : Math.min(kMostSteps, Math.max(1, due));
+      const begin = performance.now(),
+        due = Math.round((begin - this.before) / kStep),
+        steps = this.before === 0 ? 1 : Math.min(kMostSteps, Math.max(1, due));
       this.before = begin;
       let moved = false;
       for (let k = 0; k < steps; ++k) moved = this.advance(this.wire) || moved;
@@ -134,13 +178,16 @@ export class WireTool {
       this.app.stage.invalidateOver();
       this.onChange?.();
       if (moved) this.rest = kSettle;
-      if (--this.rest > 0) this.run(); else this.before = 0;
+      if (--this.rest > 0) this.run();
+      else this.before = 0;
     });
   }
 
   /** One step with a part of what is wanted; false: nothing is. */
   private advance(wire: Wire): boolean {
-    const most = kMostPush * this.options.spacing, push = Math.min(most, Math.max(-most, this.wanted)), turn = Math.min(0.1, Math.max(-0.1, this.turn));
+    const most = kMostPush * this.options.spacing,
+      push = Math.min(most, Math.max(-most, this.wanted)),
+      turn = Math.min(0.1, Math.max(-0.1, this.turn));
     this.wanted -= push;
     this.turn -= turn;
     wire.step(push, turn);

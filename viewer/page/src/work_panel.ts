@@ -9,98 +9,281 @@ import type { MissingVessel, Seed } from "./types";
 import { askYes, brief, button, h, mm, section, select } from "./ui";
 
 export function workPanel(app: App, actions: Actions, hand: Hand): HTMLElement[] {
-  return app.source.live ? [seedSection(app, actions, hand), checkSection(app, actions, hand), editSection(app), fileSection(app)] : [];
+  return app.source.live
+    ? [seedSection(app, actions, hand), checkSection(app, actions, hand), editSection(app), fileSection(app)]
+    : [];
 }
 
 function seedSection(app: App, actions: Actions, hand: Hand): HTMLElement {
-  const { store } = app, list = h("ul", { class: "list", id: "seed-list", "aria-label": "Seeds" });
-  const kind = select("seed-kind", "What the next clicks are", [["vessel", "Vessel, one click"], ["path", "Vessel, several clicks"], ["aneurysm", "Aneurysm, several clicks"]] as ["vessel" | "path" | "aneurysm", string][], "vessel",
-    value => { hand.giveUp(); hand.seedKind = value; finish.hidden = value === "vessel"; });
-  const parent = h("select", { id: "seed-parent", "aria-label": "Parent of the next seed", title: "The vessel that it leaves; tracked ones are also joined where they meet" });
-  parent.addEventListener("change", () => { hand.parent = parent.value === "" ? null : parent.value; });
-  const finish = button({ icon: "check", text: "Finish", label: "Finish this vessel's clicks", key: "Enter", id: "seed-finish", class: "button text" }, () => void hand.finish());
+  const { store } = app,
+    list = h("ul", { class: "list", id: "seed-list", "aria-label": "Seeds" });
+  const kind = select(
+    "seed-kind",
+    "Meaning of the next clicks",
+    [
+      ["vessel", "Vessel, one click"],
+      ["path", "Vessel, several clicks"],
+      ["aneurysm", "Aneurysm, several clicks"],
+    ] as ["vessel" | "path" | "aneurysm", string][],
+    "vessel",
+    value => {
+      hand.giveUp();
+      hand.seedKind = value;
+      finish.hidden = value === "vessel";
+    },
+  );
+  const parent = h("select", {
+    id: "seed-parent",
+    "aria-label": "Parent of the next seed",
+    title: "The vessel that it leaves; tracked ones are also joined where they meet",
+  });
+  parent.addEventListener("change", () => {
+    hand.parent = parent.value === "" ? null : parent.value;
+  });
+  const finish = button(
+    {
+      icon: "check",
+      text: "Finish",
+      label: "Finish this vessel's clicks",
+      key: "Enter",
+      id: "seed-finish",
+      class: "button text",
+    },
+    () => void hand.finish(),
+  );
   finish.hidden = true;
-  store.watch(["clicks"], ({ clicks }) => { finish.disabled = clicks.length === 0; });
-  const all = button({ icon: "play", text: "Track all", label: "Track all seeds that are placed", key: "T", id: "track-all", class: "button primary" }, () => void actions.track(null));
+  store.watch(["clicks"], ({ clicks }) => {
+    finish.disabled = clicks.length === 0;
+  });
+  const all = button(
+    {
+      icon: "play",
+      text: "Track all",
+      label: "Track all seeds that are placed",
+      key: "T",
+      id: "track-all",
+      class: "button primary",
+    },
+    () => void actions.track(null),
+  );
   store.watch(["state"], ({ state }) => {
     const waiting = state.seeds.filter(s => !s.tracked);
     all.disabled = waiting.length === 0 || state.job !== null || !state.hasVolume;
     list.replaceChildren(...state.seeds.filter(s => !s.tracked).map(seed => seedRow(app, actions, seed)));
-    if (waiting.length === 0) list.append(h("li", { class: "hint" }, state.hasVolume ? "No seeds wait. Choose “Seed” (S) and click in a vessel, in a slice or in the projection." : "Seeds need a volume: open one, or drop it here."));
-    const labels = [...new Set([...state.seeds.map(s => s.label), ...(store.get().tree?.branches.map(b => b.label) ?? [])])];
-    parent.replaceChildren(h("option", { value: "" }, "Found by itself"), ...labels.map(label => h("option", { value: label }, label)));
+    if (waiting.length === 0)
+      list.append(
+        h(
+          "li",
+          { class: "hint" },
+          state.hasVolume
+            ? "No seeds wait. Choose “Seed” (S) and click in a vessel, in a slice or in the projection."
+            : "Seeds need a volume: open one, or drop it here.",
+        ),
+      );
+    const labels = [
+      ...new Set([...state.seeds.map(s => s.label), ...(store.get().tree?.branches.map(b => b.label) ?? [])]),
+    ];
+    parent.replaceChildren(
+      h("option", { value: "" }, "Found by itself"),
+      ...labels.map(label => h("option", { value: label }, label)),
+    );
     parent.value = hand.parent !== null && labels.includes(hand.parent) ? hand.parent : "";
     if (parent.value === "") hand.parent = null;
   });
-  return section("section-seeds", "Seeds and tracking", true, h("label", { class: "line" }, "Clicks", kind), h("label", { class: "line" }, "Parent", parent), finish, list, h("div", { class: "row end" }, all));
+  return section(
+    "section-seeds",
+    "Seeds and tracking",
+    true,
+    h("label", { class: "line" }, "Clicks", kind),
+    h("label", { class: "line" }, "Parent", parent),
+    finish,
+    list,
+    h("div", { class: "row end" }, all),
+  );
 }
 
 function seedRow(app: App, actions: Actions, seed: Seed): HTMLElement {
-  const radius = seed.points[0]?.radius ?? null, busy = app.store.get().state.job !== null;
-  const track = button({ icon: "play", label: `Track ${seed.label}`, class: "button" }, () => void actions.track([seed.label]));
+  const radius = seed.points[0]?.radius ?? null,
+    busy = app.store.get().state.job !== null;
+  const track = button(
+    { icon: "play", label: `Track ${seed.label}`, class: "button" },
+    () => void actions.track([seed.label]),
+  );
   track.disabled = busy;
-  return h("li", { class: "row item" }, h("button", { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, seed.points[0].position) }, seed.label),
-    h("span", { class: "note" }, `${seed.kind === "aneurysm" ? "aneurysm, " : ""}${seed.points.length > 1 ? `${seed.points.length} clicks, ` : ""}${radius === null ? "no radius" : `r ${brief(radius)} mm`}`),
-    track, button({ icon: "close", label: `Remove ${seed.label}`, class: "button" }, () => void app.perform({ op: "seedDelete", label: seed.label })));
+  return h(
+    "li",
+    { class: "row item" },
+    h(
+      "button",
+      { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, seed.points[0].position) },
+      seed.label,
+    ),
+    h(
+      "span",
+      { class: "note" },
+      `${seed.kind === "aneurysm" ? "aneurysm, " : ""}${seed.points.length > 1 ? `${seed.points.length} clicks, ` : ""}${radius === null ? "no radius" : `r ${brief(radius)} mm`}`,
+    ),
+    track,
+    button(
+      { icon: "close", label: `Remove ${seed.label}`, class: "button" },
+      () => void app.perform({ op: "seedDelete", label: seed.label }),
+    ),
+  );
 }
 
 function checkSection(app: App, actions: Actions, hand: Hand): HTMLElement {
-  const { store } = app, places = h("ul", { class: "list", id: "missing-list", "aria-label": "Vessels that may be missing" }), about = h("p", { class: "hint", id: "check-about" });
-  const run = button({ icon: "check", text: "Check", label: "Compare the case with its volume", key: "K", id: "check", class: "button text" }, () => void actions.check());
+  const { store } = app,
+    places = h("ul", { class: "list", id: "missing-list", "aria-label": "Vessels that may be missing" }),
+    about = h("p", { class: "hint", id: "check-about" });
+  const run = button(
+    {
+      icon: "check",
+      text: "Check",
+      label: "Compare the case with its volume",
+      key: "K",
+      id: "check",
+      class: "button text",
+    },
+    () => void actions.check(),
+  );
   store.watch(["state"], ({ state }) => {
     run.disabled = !state.hasCase || !state.hasVolume || state.job !== null;
-    const missing = state.check?.missing_vessels ?? [], wall = state.check?.wall?.offset_mm;
-    about.textContent = state.check === null ? "Tells where the wall leaves the volume's edges, and what looks like a vessel and is none."
-      : `${missing.length === 0 ? "Nothing bright is missing" : missing.length === 1 ? "One place looks like a vessel that is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
-        state.checkIsOld ? " The case has changed since: check again." : ""}`;
+    const missing = state.check?.missing_vessels ?? [],
+      wall = state.check?.wall?.offset_mm;
+    about.textContent =
+      state.check === null
+        ? "Tells where the wall leaves the volume's edges, and what looks like a vessel and is none."
+        : `${missing.length === 0 ? "Nothing bright is missing" : missing.length === 1 ? "One place looks like a vessel that is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
+            state.checkIsOld ? " The case has changed since: check again." : ""
+          }`;
     places.replaceChildren(...missing.map((m, i) => placeRow(app, hand, m, i)));
   });
   return section("section-check", "Check", true, about, places, h("div", { class: "row end" }, run));
 }
 
 function placeRow(app: App, hand: Hand, place: MissingVessel, index: number): HTMLElement {
-  return h("li", { class: "row item", id: `missing-${index}` }, h("button", { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, place.position) }, `Beside ${place.branch}`),
+  return h(
+    "li",
+    { class: "row item", id: `missing-${index}` },
+    h(
+      "button",
+      { type: "button", class: "link", title: "Show it", onclick: () => goTo(app, place.position) },
+      `Beside ${place.branch}`,
+    ),
     h("span", { class: "note" }, `${brief(place.length_mm)} mm long, r ${brief(place.radius_mm)}`),
-    button({ icon: "seed", label: `Place a seed beside ${place.branch}`, class: "button" }, () => hand.takePlace(index)));
+    button({ icon: "seed", label: `Place a seed beside ${place.branch}`, class: "button" }, () =>
+      hand.takePlace(index),
+    ),
+  );
 }
 
 function editSection(app: App): HTMLElement {
-  const { store } = app, name = h("p", { class: "hint", id: "edit-name" });
-  const act = (id: string, text: string, label: string, make: (view: View) => { op: string; [key: string]: unknown } | null, iconName?: string, key?: string): HTMLButtonElement =>
+  const { store } = app,
+    name = h("p", { class: "hint", id: "edit-name" });
+  const act = (
+    id: string,
+    text: string,
+    label: string,
+    make: (view: View) => { op: string; [key: string]: unknown } | null,
+    iconName?: string,
+    key?: string,
+  ): HTMLButtonElement =>
     button({ id: `edit-${id}`, text, label, icon: iconName, key, class: "button text" }, () => {
       const operation = make(store.get());
       if (operation !== null) void app.perform(operation);
     });
-  const target = h("select", { id: "edit-target", "aria-label": "Vessel to join to", title: "Vessel to join to" });
+  const target = h("select", {
+    id: "edit-target",
+    "aria-label": "Vessel to join to",
+    title: "Vessel to join to",
+  });
   const branch = (v: View): number => v.selected;
   const buttons = [
-    button({ id: "edit-rename", text: "Rename", label: "Rename", icon: "edit", key: "F2", class: "button text" }, () => void renameBranch(app, store.get().selected)),
-    act("delete", "Delete", "Delete the vessel", v => ({ op: "delete", branch: branch(v) }), "trash", "Delete"),
-    act("cut", "Cut here", "Cut the vessel before the cursor's node; what follows becomes a vessel of its own", v => (v.node < 0 ? null : { op: "cut", node: v.node }), "cut", "Shift+X"),
+    button(
+      { id: "edit-rename", text: "Rename", label: "Rename", icon: "edit", key: "F2", class: "button text" },
+      () => void renameBranch(app, store.get().selected),
+    ),
+    act(
+      "delete",
+      "Delete",
+      "Delete the vessel",
+      v => ({ op: "delete", branch: branch(v) }),
+      "trash",
+      "Delete",
+    ),
+    act(
+      "cut",
+      "Cut here",
+      "Cut the vessel before the cursor's node; what follows becomes a vessel of its own",
+      v => (v.node < 0 ? null : { op: "cut", node: v.node }),
+      "cut",
+      "Shift+X",
+    ),
     act("reverse", "Reverse", "Turn the vessel round", v => ({ op: "reverse", branch: branch(v) })),
     act("root", "Make root", "Let the tree begin at this vessel", v => ({ op: "root", branch: branch(v) })),
-    act("merge", "Merge", "Make it the continuation of its parent", v => ({ op: "merge", branch: branch(v) })),
-    act("kind", "Vessel ↔ sac", "Change between vessel and aneurysm", v => ({ op: "kind", branch: branch(v), kind: v.tree?.branches[v.selected].kind === "aneurysm" ? "vessel" : "aneurysm" })),
-    act("split", "Split here", "Cut the vessel at the cursor; what follows stays joined as a vessel of its own", v => (v.node < 0 ? null : { op: "cut", node: v.node, rest: "child" })),
-    act("prune", "Delete below", "Delete the vessel and all that leave it", v => ({ op: "delete", branch: branch(v), hanging: "go" }), undefined, "Shift+Delete"),
+    act("merge", "Merge", "Make it the continuation of its parent", v => ({
+      op: "merge",
+      branch: branch(v),
+    })),
+    act("kind", "Vessel ↔ sac", "Change between vessel and aneurysm", v => ({
+      op: "kind",
+      branch: branch(v),
+      kind: v.tree?.branches[v.selected].kind === "aneurysm" ? "vessel" : "aneurysm",
+    })),
+    act(
+      "split",
+      "Split here",
+      "Cut the vessel at the cursor; what follows stays joined as a vessel of its own",
+      v => (v.node < 0 ? null : { op: "cut", node: v.node, rest: "child" }),
+    ),
+    act(
+      "prune",
+      "Delete below",
+      "Delete the vessel and all that leave it",
+      v => ({ op: "delete", branch: branch(v), hanging: "go" }),
+      undefined,
+      "Shift+Delete",
+    ),
     act("fit", "Fit all", "Fit all models anew", () => ({ op: "fit" }), undefined, "Control+Enter"),
   ];
-  const join = act("join", "Join to", "Make its first node a child of the nearest node of the chosen vessel", v => {
-    const { tree } = v, to = Number(target.value);
-    if (tree === null || target.value === "") return null;
-    const first = tree.position(tree.branches[v.selected].firstNode);
-    return { op: "join", branch: branch(v), node: tree.nearest(first, b => b === to) };
-  });
-  const box = section("section-edit", "Correct", true, name, h("div", { class: "grid" }, ...buttons), h("div", { class: "row" }, join, target));
+  const join = act(
+    "join",
+    "Join to",
+    "Make its first node a child of the nearest node of the chosen vessel",
+    v => {
+      const { tree } = v,
+        to = Number(target.value);
+      if (tree === null || target.value === "") return null;
+      const first = tree.position(tree.branches[v.selected].firstNode);
+      return { op: "join", branch: branch(v), node: tree.nearest(first, b => b === to) };
+    },
+  );
+  const box = section(
+    "section-edit",
+    "Correct",
+    true,
+    name,
+    h("div", { class: "grid" }, ...buttons),
+    h("div", { class: "row" }, join, target),
+  );
   store.watch(["tree", "selected", "state", "node"], view => {
     const b = view.selected >= 0 ? view.tree?.branches[view.selected] : undefined;
     box.hidden = view.tree === null;
-    name.textContent = b === undefined ? "Select a vessel." : `${b.label}${view.node >= 0 ? `, cursor at node ${view.node - b.firstNode + 1} of ${b.nodeCount}` : ""}`;
-    for (const each of [...buttons, join]) each.disabled = (b === undefined && each.id !== "edit-fit") || view.state.job !== null;
+    name.textContent =
+      b === undefined
+        ? "Select a vessel."
+        : `${b.label}${view.node >= 0 ? `, cursor at node ${view.node - b.firstNode + 1} of ${b.nodeCount}` : ""}`;
+    for (const each of [...buttons, join])
+      each.disabled = (b === undefined && each.id !== "edit-fit") || view.state.job !== null;
   });
   store.watch(["tree", "selected"], view => {
     const before = target.value;
-    target.replaceChildren(h("option", { value: "" }, "choose a vessel"), ...(view.tree?.branches ?? []).filter(x => x.index !== view.selected).map(x => h("option", { value: x.index }, x.label)));
+    target.replaceChildren(
+      h("option", { value: "" }, "choose a vessel"),
+      ...(view.tree?.branches ?? [])
+        .filter(x => x.index !== view.selected)
+        .map(x => h("option", { value: x.index }, x.label)),
+    );
     target.value = before;
     if (target.selectedIndex < 0) target.value = "";
   });
@@ -108,15 +291,53 @@ function editSection(app: App): HTMLElement {
 }
 
 function fileSection(app: App): HTMLElement {
-  const list = h("ul", { class: "list", id: "file-list", "aria-label": "Open files" }), box = section("section-files", "Files", false, list);
+  const list = h("ul", { class: "list", id: "file-list", "aria-label": "Open files" }),
+    box = section("section-files", "Files", false, list);
   app.store.watch(["state"], ({ state }) => {
-    list.replaceChildren(...state.files.map(file => h("li", { class: "row item" }, h("span", { class: "filename", title: file.name }, file.name),
-      h("span", { class: file.changed ? "note changed" : "note" }, file.changed ? "changed on disk" : file.kind),
-      ...(file.changed && file.named ? [button({ text: "Reload", label: `Read ${file.name} again`, class: "button text" }, () => void app.perform({ op: "reload", id: file.id }))] : []),
-      button({ icon: "close", label: `Close ${file.name}`, class: "button" }, () => void app.perform({ op: "closeFile", id: file.id })))));
-    list.append(...state.unsavedBefore.map((name, index) => h("li", { class: "row item" }, h("span", { class: "filename", title: name }, name), h("span", { class: "note changed" }, "was not saved"),
-      button({ text: "Take", label: `Take what ${name} holds`, class: "button text" }, () => void app.perform({ op: "recover", index })),
-      button({ icon: "trash", label: `Delete ${name}`, class: "button" }, () => void forget(app, name, index)))));
+    list.replaceChildren(
+      ...state.files.map(file =>
+        h(
+          "li",
+          { class: "row item" },
+          h("span", { class: "filename", title: file.name }, file.name),
+          h(
+            "span",
+            { class: file.changed ? "note changed" : "note" },
+            file.changed ? "changed on disk" : file.kind,
+          ),
+          ...(file.changed && file.named
+            ? [
+                button(
+                  { text: "Reload", label: `Read ${file.name} again`, class: "button text" },
+                  () => void app.perform({ op: "reload", id: file.id }),
+                ),
+              ]
+            : []),
+          button(
+            { icon: "close", label: `Close ${file.name}`, class: "button" },
+            () => void app.perform({ op: "closeFile", id: file.id }),
+          ),
+        ),
+      ),
+    );
+    list.append(
+      ...state.unsavedBefore.map((name, index) =>
+        h(
+          "li",
+          { class: "row item" },
+          h("span", { class: "filename", title: name }, name),
+          h("span", { class: "note changed" }, "was not saved"),
+          button(
+            { text: "Take", label: `Take what ${name} holds`, class: "button text" },
+            () => void app.perform({ op: "recover", index }),
+          ),
+          button(
+            { icon: "trash", label: `Delete ${name}`, class: "button" },
+            () => void forget(app, name, index),
+          ),
+        ),
+      ),
+    );
     if (state.unsavedBefore.length > 0 || state.files.some(file => file.changed)) box.open = true;
     if (state.files.length === 0) list.append(h("li", { class: "hint" }, "No file is open."));
   });
@@ -124,5 +345,12 @@ function fileSection(app: App): HTMLElement {
 }
 
 async function forget(app: App, name: string, index: number): Promise<void> {
-  if (await askYes("Delete the file?", `${name} holds work that was not saved. Without it, that is gone.`, "Delete")) await app.perform({ op: "forget", index });
+  if (
+    await askYes(
+      "Delete the file?",
+      `${name} holds work that was not saved. Without it, that is gone.`,
+      "Delete",
+    )
+  )
+    await app.perform({ op: "forget", index });
 }
