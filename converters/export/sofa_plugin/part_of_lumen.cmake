@@ -36,4 +36,4 @@ if(EXISTS ${LUMEN_SOFA}/bin/runSofa AND NOT IS_SYMLINK ${LUMEN_SOFA}/bin/runSofa
   endif()
   set(LUMEN_SOFA ${links})
 endif()
-add_subdirectory(converters/export/sofa_plugin)
+add_subdirectory(sofa_plugin)

@@ -184,7 +184,7 @@ SiteReport writeSite(const fs::path& folder, Progress& progress) {
       folder / "site", formats::PendingFolder::Existing::Replace, placingCalls());
   if (!site) throw failed(site.error().message);
   SiteWriter writer(site->path(), report);
-  for (const SiteFile& file : siteFiles()) writer.add(file.name, file.bytes);
+  for (const EmbeddedText& file : siteFiles()) writer.add(std::string(file.name), file.bytes);
   const std::string first = writePages(folder, library, writer, progress);
   writer.endCases();
   flushAll(site->path());

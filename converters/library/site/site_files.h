@@ -2,16 +2,12 @@
 // The style sheet and the scripts of the site, which are built into the program: the files of those names beside this.
 #pragma once
 
-#include <string_view>
-#include <vector>
+#include <span>
+
+#include "converters/base/embedded_text.h"
 
 namespace lumen::convert {
 
-struct SiteFile {
-  const char* name;
-  std::string_view bytes;
-};
-
-const std::vector<SiteFile>& siteFiles();
+std::span<const EmbeddedText> siteFiles();
 
 }  // namespace lumen::convert
