@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <sstream>
 
 #include <draco/compression/decode.h>
 #include <meshoptimizer.h>
@@ -241,4 +242,45 @@ TEST(GltfMeshopt, RoundsMoreCoarselyOnlyWhereTwentyFourBitsDoNotSuffice) {
 }
 
 }  // namespace
+/// The reasons why the writer does not go through tinygltf's (docs/architecture.md, "Own code, and why"). A release in which
+/// one of these tests fails is a reason to look again.
+json writtenByTinygltf(const tinygltf::Model& model) {
+  std::ostringstream out;
+  tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, false);
+  return json::parse(out.str());
+}
+
+/// The buffer that meshopt's views decode to, which has a length and no bytes, and one of these views.
+tinygltf::Model fallbackBuffer() {
+  tinygltf::Model model;
+  model.asset.version = "2.0";
+  const tinygltf::Value extension(tinygltf::Value::Object{{"fallback", tinygltf::Value(true)}});
+  model.buffers.resize(1);
+  model.buffers[0].extensions["EXT_meshopt_compression"] = extension;
+  model.bufferViews.resize(1);
+  model.bufferViews[0].buffer = 0;
+  model.bufferViews[0].byteLength = 12;
+  model.bufferViews[0].extensions["EXT_meshopt_compression"] = extension;
+  return model;
+}
+
+TEST(TinygltfWriter, DropsExtensionsOfBuffersAndBufferViews) {
+  const json written = writtenByTinygltf(fallbackBuffer());
+  EXPECT_FALSE(written["buffers"][0].contains("extensions"));
+  EXPECT_FALSE(written["bufferViews"][0].contains("extensions"));
+}
+
+TEST(TinygltfWriter, GivesBytesToABufferThatHasNone) {
+  const json buffer = writtenByTinygltf(fallbackBuffer())["buffers"][0];
+  EXPECT_TRUE(buffer.contains("uri"));
+  EXPECT_EQ(buffer["byteLength"], 0);  // glTF asks for 1 or more
+}
+
+TEST(TinygltfWriter, ThrowsForANameThatIsNotUtf8) {
+  tinygltf::Model model = loadGltf(gltfOf(cappedTube({"a"})));
+  model.nodes[0].name = "\xff";
+  std::ostringstream out;
+  EXPECT_ANY_THROW(tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true));
+}
+
 }  // namespace lumen::convert
