@@ -26,16 +26,16 @@ namespace lumen::app {
 
 namespace {
 
-using convert::ColourBy, convert::View;
+using convert::ColorBy, convert::View;
 
 const std::map<std::string, View> kViews = {
     {"best", View::Best},        {"anterior", View::Anterior}, {"posterior", View::Posterior},
     {"left", View::Left},        {"right", View::Right},       {"superior", View::Superior},
     {"inferior", View::Inferior}};
-const std::map<std::string, ColourBy> kColours = {{"vessel", ColourBy::Vessel},
-                                                  {"branch", ColourBy::Branch},
-                                                  {"radius", ColourBy::Radius},
-                                                  {"confidence", ColourBy::Confidence}};
+const std::map<std::string, ColorBy> kColours = {{"vessel", ColorBy::None},
+                                                 {"branch", ColorBy::Branch},
+                                                 {"radius", ColorBy::Radius},
+                                                 {"confidence", ColorBy::Confidence}};
 constexpr int kLeastPixels = 16, kMostPixels = 4096;  // across and down: 1.6 GB of samples
 constexpr int kMostFrames = 360;                      // one for each degree
 

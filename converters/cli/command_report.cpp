@@ -46,7 +46,7 @@ DrawnView viewOf(const std::string& title, const convert::Picture& picture) {
   return {title, convert::encodePng(picture), picture.width, picture.height};
 }
 
-DrawnView drawn(const formats::Case& value, View view, convert::ColourBy colour, const char* title,
+DrawnView drawn(const formats::Case& value, View view, convert::ColorBy colour, const char* title,
                 Progress& progress) {
   convert::PictureOptions options;
   options.view = view;
@@ -139,10 +139,9 @@ private:
     addNames(facts);
     if (!facts.value.models || facts.value.tree.nodeCount() == 0) return facts;
     for (const auto& [view, title] : kSides)
-      facts.sides.push_back(drawn(facts.value, view, convert::ColourBy::Vessel, title, progress));
+      facts.sides.push_back(drawn(facts.value, view, convert::ColorBy::None, title, progress));
     if (!facts.value.tree.inlierRate.empty())
-      facts.confidence =
-          drawn(facts.value, View::Best, convert::ColourBy::Confidence, "", progress);
+      facts.confidence = drawn(facts.value, View::Best, convert::ColorBy::Confidence, "", progress);
     return facts;
   }
 

@@ -67,10 +67,10 @@ Legend legendOf(const ColorScale& scale) {
 }
 
 /// As colours of a mesh with a vertex at each node.
-Colours coloursOf(const formats::CenterlineTree& tree, ColourBy by) {
-  if (by == ColourBy::Vessel)
+Colours coloursOf(const formats::CenterlineTree& tree, ColorBy by) {
+  if (by == ColorBy::None)
     return {{tree.nodeCount(), Light(kVessel[0], kVessel[1], kVessel[2])}, {}};
-  if (by == ColourBy::Confidence && tree.inlierRate.empty())
+  if (by == ColorBy::Confidence && tree.inlierRate.empty())
     throw invalidInput(
         "--colour confidence: the case says of no node how much of its wall was found, as cases "
         "that were not tracked do "
@@ -80,10 +80,8 @@ Colours coloursOf(const formats::CenterlineTree& tree, ColourBy by) {
   nodes.radius = tree.radius;
   nodes.branch = tree.branch;
   nodes.confidence = tree.inlierRate;
-  const ColorScale scale = scaleOf(nodes, by == ColourBy::Branch   ? ColorBy::Branch
-                                          : by == ColourBy::Radius ? ColorBy::Radius
-                                                                   : ColorBy::Confidence);
-  return {lightOf(nodes, scale), by == ColourBy::Branch ? Legend{} : legendOf(scale)};
+  const ColorScale scale = scaleOf(nodes, by);
+  return {lightOf(nodes, scale), by == ColorBy::Branch ? Legend{} : legendOf(scale)};
 }
 
 Framing framingOf(const PictureOptions& options) {

@@ -10,16 +10,15 @@
 #include "converters/draw/picture/camera.h"
 #include "converters/draw/picture/trace.h"
 #include "converters/draw/picture/volume_behind.h"
+#include "converters/io/mesh/write_options.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
 
-enum class ColourBy : std::uint8_t { Vessel, Branch, Radius, Confidence };
-
 struct PictureOptions {
   View view = View::Best;
-  ColourBy colour = ColourBy::Vessel;
+  ColorBy colour = ColorBy::None;  ///< none: all vessels have that of a vessel
   int width = 1000, height = 800;  ///< pixels, each 16 or more
   double turn = 0;        ///< radians about the picture's upright axis: from in front to the left
   bool allTurns = false;  ///< scale and centre are those that hold the vessels at any turn

@@ -54,7 +54,7 @@ TEST(DrawCase, TellsWhatIsMissing) {
   empty.models.emplace();
   EXPECT_NE(refusal(empty, small()).find("has no node"), std::string::npos);
   PictureOptions confidence = small();
-  confidence.colour = ColourBy::Confidence;
+  confidence.colour = ColorBy::Confidence;
   EXPECT_NE(refusal(twoVessels(), confidence).find("expected vessel, branch or radius"),
             std::string::npos);
   Volume far = around();
@@ -84,7 +84,7 @@ TEST(DrawCase, OneNodeIsEnough) {
 
 TEST(DrawCase, BranchesHaveTheirOwnHues) {
   PictureOptions options = small();
-  options.colour = ColourBy::Branch;
+  options.colour = ColorBy::Branch;
   Progress progress;
   const Picture picture = drawCase(twoVessels(), options, nullptr, progress);
   // orange is red before blue, sky blue is not
@@ -137,7 +137,7 @@ TEST(DrawCase, AnyNumberOfThreadsGivesTheSameBytes) {
   Progress progress;
   PictureOptions options = small();
   options.turn = 0.3;
-  options.colour = ColourBy::Radius;
+  options.colour = ColorBy::Radius;
   const Picture many = drawCase(twoVessels(), options, &volume, progress);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(encodePng(many), encodePng(drawCase(twoVessels(), options, &volume, progress)));
