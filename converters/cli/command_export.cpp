@@ -15,7 +15,7 @@
 #include "converters/engine/reachable.h"
 #include "converters/engine/report.h"
 #include "converters/engine/surface_report.h"
-#include "converters/export/shared/target.h"
+#include "converters/export/export_case.h"
 #include "formats/case/atomic_file.h"
 #include "formats/container/printable.h"
 

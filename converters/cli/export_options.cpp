@@ -43,7 +43,8 @@ const std::map<std::string, convert::LengthUnit> kUnits = {{"mm", convert::Lengt
 const std::map<std::string, convert::Axes> kUp = {{"z", convert::Axes::Lps},
                                                   {"y", convert::Axes::Lsa}};
 
-void addSofaOptions(CLI::App& app, convert::SofaOptions& sofa) {
+void addSofaOptions(CLI::App& app, convert::ExportOptions& options) {
+  convert::SofaOptions& sofa = options.sofa;
   OptionGroup group(app, "SOFA");
   group.addChoice("--instrument", sofa.instrument, kInstruments,
                   "What is inserted, a guidewire within a catheter");
@@ -53,15 +54,16 @@ void addSofaOptions(CLI::App& app, convert::SofaOptions& sofa) {
   group.addChoice("--dialect", sofa.dialect, kDialects, "Version of SOFA");
   group.add("--step", sofa.step, "MM", "How far it advances in a time step of 0.01 s")
       ->check(numberIn({0.001, 1}));
-  app.add_option("--insert", sofa.insert, "Branch at whose beginning it is inserted [the root]")
+  app.add_option("--insert", options.insert, "Branch at whose beginning it is inserted [the root]")
       ->type_name("LABEL")
       ->group("SOFA");
 }
 
-void addGridOptions(CLI::App& app, convert::GridOptions& grid) {
+void addGridOptions(CLI::App& app, convert::ExportOptions& options) {
+  convert::GridOptions& grid = options.grid;
   OptionGroup group(app, "Grid");
   group
-      .add("--grid", grid.spacing, "MM",
+      .add("--grid", options.spacing, "MM",
            "Distance between the samples of a grid; 0: by the size of the vessels")
       ->check(kNotNegative);
   app.add_option_function<std::vector<std::string>>(
@@ -103,8 +105,6 @@ void addOptionalChoice(CLI::App& app, const std::string& name, std::optional<Val
 }
 
 void addSurfaceOptions(CLI::App& app, convert::ClosedSurfaceOptions& surface) {
-  // a wall of triangles is asked many times a step: half of the radius is what its curvature needs
-  surface.edge.share = 0.5;
   convert::EdgeLength& edge = surface.edge;
   app.add_option_function<std::string>(
          "--edge",
@@ -149,8 +149,8 @@ void addExportOptions(CLI::App& app, convert::ExportOptions& options) {
   addOptionalChoice(app, "--up", options.axes, kUp,
                     "The axis that looks up (superior), where the target leaves a choice");
   addSurfaceOptions(app, options.surface);
-  addGridOptions(app, options.grid);
-  addSofaOptions(app, options.sofa);
+  addGridOptions(app, options);
+  addSofaOptions(app, options);
 }
 
 convert::OptionTexts exportOptionTexts(const CLI::App& app, const convert::ExportTarget& target) {

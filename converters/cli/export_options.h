@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "converters/export/shared/target.h"
+#include "converters/export/export_case.h"
 
 namespace lumen::app {
 

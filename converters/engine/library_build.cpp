@@ -12,7 +12,7 @@
 #include "converters/cli/value_checks.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/report.h"
-#include "converters/export/shared/target.h"
+#include "converters/export/export_case.h"
 #include "converters/library/build.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"

@@ -24,7 +24,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/reachable.h"
 #include "converters/engine/surface_report.h"
-#include "converters/export/shared/target.h"
+#include "converters/export/export_case.h"
 #include "converters/io/mesh/write_gltf.h"
 #include "converters/library/change.h"
 #include "converters/library/record_of_case.h"

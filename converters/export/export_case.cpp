@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all targets share: is the case one that can be held, its frame, and the two files of every folder.
+#include "converters/export/export_case.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include "converters/base/error.h"
 #include "converters/export/shared/folder_texts.h"
-#include "converters/export/shared/target.h"
 
 namespace lumen::convert {
 
@@ -20,7 +20,7 @@ bool hasLength(const Branch& branch) {
          branch.nodeCount + (branch.parentNode >= 0 ? 1U : 0U) > 1;
 }
 
-void requireParts(const ExportTarget& target, const formats::Case& source) {
+void requireParts(const TargetRow& target, const formats::Case& source) {
   if (target.needsModels && !source.models)
     throw invalidInput(
         "this case has no models, so there is no wall to export; lumen fit makes them");
@@ -52,7 +52,7 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
   ExportFrame frame;
   frame.unit = choice(options.unit, target.units, "--unit", unitName, target.name);
   frame.axes = choice(options.axes, target.axes, "--up", upName, target.name);
-  ExportResult result = target.write({source, options, frame, progress});
+  ExportResult result = target.write({source, options, frame, progress}, options);
   result.files.push_back({"README.md", readmeOf(target, frame, result), "", ""});
   result.files.push_back(
       {"lumen-export.json", manifestOf(target, frame, source, texts, result), "", ""});

@@ -1,6 +1,7 @@
 lumen_test(flow_test
   LIBS lumen_export lumen_base
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/flow_pressure_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/network_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/oned_network_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/run_program_test.cpp)

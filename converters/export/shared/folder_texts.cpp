@@ -8,6 +8,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/sha256.h"
+#include "converters/export/shared/markdown_text.h"
 #include "converters/io/mesh/face_kind.h"
 #include "formats/case/binary_encode.h"
 #include "formats/container/printable.h"
@@ -26,16 +27,6 @@ std::string tuple(const Eigen::Vector3d& v) {
   text += numberText(v.x(), kDigits) + ", " + numberText(v.y(), kDigits) + ", " +
           numberText(v.z(), kDigits) + ")";
   return text;
-}
-
-/// As text in a cell of a table of Markdown, whatever a label holds.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : formats::printable(text)) {
-    if (c == '|' || c == '`' || c == '<' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out;
 }
 
 Json vectorJson(const Eigen::Vector3d& v) {
@@ -96,7 +87,7 @@ std::string endsTable(const ExportFrame& frame, const std::vector<NamedEnd>& end
                      " | direction, out of the vessel | radius, " + unit +
                      " |\n|---|---|---|---|\n";
   for (const NamedEnd& end : ends)
-    text += "| " + cell(end.name) + " | " + tuple(frame.position(end.position)) + " | " +
+    text += "| " + markdownText(end.name) + " | " + tuple(frame.position(end.position)) + " | " +
             tuple(frame.direction(end.direction)) + " | " +
             numberText(frame.length(end.radius), kDigits) + " |\n";
   return text;
@@ -104,7 +95,7 @@ std::string endsTable(const ExportFrame& frame, const std::vector<NamedEnd>& end
 
 }  // namespace
 
-std::string readmeOf(const ExportTarget& target, const ExportFrame& frame,
+std::string readmeOf(const TargetRow& target, const ExportFrame& frame,
                      const ExportResult& result) {
   std::string text = "# Vessels for " + std::string(target.title) + "\n\n" + result.start;
   text += "\n## Files\n\n" + filesTable(result);
@@ -112,12 +103,12 @@ std::string readmeOf(const ExportTarget& target, const ExportFrame& frame,
           " unless a file says otherwise. Axes are those of the patient: " +
           std::string(axesText(frame.axes)) + ", " + std::string(axesName(frame.axes)) +
           ".\nThe origin is that of the volume that the case was made from.\n";
-  for (const std::string& loss : result.losses) text += "\n" + cell(loss) + ".\n";
+  for (const std::string& loss : result.losses) text += "\n" + markdownText(loss) + ".\n";
   text += endsTable(frame, result.ends);
   return text + "\nMade by lumen " LUMEN_VERSION ".\n";
 }
 
-std::string manifestOf(const ExportTarget& target, const ExportFrame& frame,
+std::string manifestOf(const TargetRow& target, const ExportFrame& frame,
                        const formats::Case& source, const OptionTexts& options,
                        const ExportResult& result) {
   const Json json = {{"format", "lumen-export"},

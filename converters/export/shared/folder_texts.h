@@ -9,11 +9,10 @@
 namespace lumen::convert {
 
 /// README.md: title, how to start, files, units and frame, named ends.
-std::string readmeOf(const ExportTarget& target, const ExportFrame& frame,
-                     const ExportResult& result);
+std::string readmeOf(const TargetRow& target, const ExportFrame& frame, const ExportResult& result);
 
 /// lumen-export.json, spec/export.md: of all files of `result`. Equal folders give equal bytes.
-std::string manifestOf(const ExportTarget& target, const ExportFrame& frame,
+std::string manifestOf(const TargetRow& target, const ExportFrame& frame,
                        const formats::Case& source, const OptionTexts& options,
                        const ExportResult& result);
 

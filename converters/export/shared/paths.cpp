@@ -44,7 +44,10 @@ std::string pointElement(const std::string& name, const Eigen::Vector3d& v) {
 }
 
 std::string fileWord(const std::string& label) {
-  return lowerCase(openFoamWord(label));  // as stEVE makes the names of files
+  std::string word = lowerCase(openFoamWord(label));  // as stEVE makes the names of files
+  // programs take a name that begins with "-" for an option
+  if (word.front() == '-') word.front() = '_';
+  return word;
 }
 
 Eigen::Vector3d BranchPath::tangent(std::size_t k) const {

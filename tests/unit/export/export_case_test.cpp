@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/export/export_case.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
 #include "converters/base/progress.h"
-#include "converters/export/shared/target.h"
 
 namespace lumen::convert {
 
 namespace {
 
 /// A target that writes what it was given.
-ExportResult echo(const ExportInput& input) {
+ExportResult echo(const ExportInput& input, const ExportOptions& /*options*/) {
   ExportResult result;
   result.files = {{"place.txt", std::string(unitName(input.frame.unit)), "a unit", "cm"}};
   result.ends = {{"in|let", FaceKind::Inlet, {10, 20, 30}, {0, 0, 1}, 2}};
@@ -21,15 +22,15 @@ ExportResult echo(const ExportInput& input) {
 }
 
 ExportTarget target() {
-  return {.name = "echo",
-          .title = "Echo",
-          .files = {},
-          .units = {LengthUnit::Metre, LengthUnit::Centimetre},
-          .axes = {Axes::Lsa},
-          .holds = "",
-          .lacks = "",
-          .options = {},
-          .write = echo};
+  return {{.name = "echo",
+           .title = "Echo",
+           .files = {},
+           .units = {LengthUnit::Metre, LengthUnit::Centimetre},
+           .axes = {Axes::Lsa},
+           .holds = "",
+           .lacks = "",
+           .options = {}},
+          echo};
 }
 
 formats::Case twoNodes() {
@@ -100,6 +101,10 @@ TEST(ExportCase, TakesTheUnitThatIsChosenIfTheTargetReadsIt) {
   options.unit.reset();
   options.axes = Axes::Lps;
   EXPECT_EQ(errorOf(options, twoNodes()), "--up: found z, expected y, which is what echo reads");
+}
+
+TEST(ExportCase, HasEdgesOfHalfARadiusUnlessItIsAskedForOthers) {
+  EXPECT_EQ(ExportOptions().surface.edge.share, 0.5);
 }
 
 TEST(ExportCase, RefusesWhatIsNotThere) {

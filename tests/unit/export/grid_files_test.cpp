@@ -49,12 +49,12 @@ protected:
   }
   void TearDown() override { fs::remove_all(m_folder); }
 
-  ExportResult write(const formats::Case& source, const GridOptions& grid,
+  ExportResult write(const formats::Case& source, double spacing, const GridOptions& grid = {},
                      LengthUnit unit = LengthUnit::Millimetre) {
-    ExportOptions options;
-    options.grid = grid;
+    CommonOptions options;
+    options.spacing = spacing;
     Progress silent;
-    ExportResult result = exportGrid({source, options, {unit, Axes::Lps}, silent});
+    ExportResult result = exportGrid({source, options, {unit, Axes::Lps}, silent}, grid);
     for (const ExportFile& file : result.files)
       std::ofstream(m_folder / file.name, std::ios::binary) << file.bytes;
     return result;
@@ -100,8 +100,7 @@ void expectField(const Image& distance, const Image& branch, const VesselDistanc
 
 TEST_F(GridFiles, AreReadByItkAtTheirPlaces) {
   const formats::Case source = landmarkCase();
-  write(source,
-        {.spacing = 0.35, .formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Mhd}});
+  write(source, 0.35, {.formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Mhd}});
   const VesselDistance vessels(source);
   expectField(*read<itk::NrrdImageIO>("distance.nrrd"), *read<itk::NrrdImageIO>("branch.nrrd"),
               vessels);
@@ -113,7 +112,7 @@ TEST_F(GridFiles, AreReadByItkAtTheirPlaces) {
 
 TEST_F(GridFiles, NameTheirBranches) {
   const formats::Case source = landmarkCase();
-  write(source, {.spacing = 0.5});
+  write(source, 0.5);
   const Image::Pointer image = read<itk::NrrdImageIO>("branch.nrrd");
   std::string label;
   ASSERT_TRUE(itk::ExposeMetaData(image->GetMetaDataDictionary(), "lumen.branch.2", label));
@@ -127,8 +126,8 @@ TEST_F(GridFiles, NameTheirBranches) {
 
 TEST_F(GridFiles, OfEachBranchAreSamplesOfTheOneGridThatKeepWhatTouchesApart) {
   const formats::Case source = kissingCase(0.02);
-  write(source, {.spacing = 0.2});
-  write(source, {.spacing = 0.2, .perBranch = true});
+  write(source, 0.2);
+  write(source, 0.2, {.perBranch = true});
   const Image::Pointer merged = read<itk::NrrdImageIO>("distance.nrrd"),
                        wide = read<itk::NrrdImageIO>("wide.distance.nrrd"),
                        narrow = read<itk::NrrdImageIO>("narrow.distance.nrrd");
@@ -157,7 +156,7 @@ TEST_F(GridFiles, OfEachBranchAreSamplesOfTheOneGridThatKeepWhatTouchesApart) {
 
 TEST_F(GridFiles, HoldAnAneurysmAlone) {
   for (const bool perBranch : {false, true}) {
-    const ExportResult result = write(sphereCase(2, 2.5), {.spacing = 0.3, .perBranch = perBranch});
+    const ExportResult result = write(sphereCase(2, 2.5), 0.3, {.perBranch = perBranch});
     const std::string name = perBranch ? "sphere.distance.nrrd" : "distance.nrrd";
     const Image::Pointer image = read<itk::NrrdImageIO>(name);
     itk::Point<double, 3> p;
@@ -169,24 +168,24 @@ TEST_F(GridFiles, HoldAnAneurysmAlone) {
 
 TEST_F(GridFiles, RefuseWhatTheirFormatsCannotHold) {
   const formats::Case source = landmarkCase();
-  const auto kindOf = [&](const GridOptions& grid, LengthUnit unit) {
+  const auto kindOf = [&](double spacing, const GridOptions& grid, LengthUnit unit) {
     try {
-      write(source, grid, unit);
+      write(source, spacing, grid, unit);
     } catch (const Error& error) {
       return error.kind();
     }
     return ErrorKind::Failed;
   };
-  EXPECT_EQ(kindOf({.spacing = 0.5}, LengthUnit::Metre), ErrorKind::Usage);
-  EXPECT_EQ(kindOf({.spacing = 0.5, .half = true}, LengthUnit::Millimetre), ErrorKind::Usage);
-  EXPECT_EQ(kindOf({.spacing = 0.001}, LengthUnit::Millimetre), ErrorKind::Usage);
+  EXPECT_EQ(kindOf(0.5, {}, LengthUnit::Metre), ErrorKind::Usage);
+  EXPECT_EQ(kindOf(0.5, {.half = true}, LengthUnit::Millimetre), ErrorKind::Usage);
+  EXPECT_EQ(kindOf(0.001, {}, LengthUnit::Millimetre), ErrorKind::Usage);
 }
 
 TEST_F(GridFiles, HaveTheSameBytesAgain) {
   const formats::Case source = landmarkCase();
-  const GridOptions options{
-      .spacing = 0.5, .formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Cdf}, .band = 1};
-  const ExportResult one = write(source, options), two = write(source, options);
+  const GridOptions options{.formats = {GridFormat::Nrrd, GridFormat::Nifti, GridFormat::Cdf},
+                            .band = 1};
+  const ExportResult one = write(source, 0.5, options), two = write(source, 0.5, options);
   ASSERT_EQ(one.files.size(), two.files.size());
   for (std::size_t i = 0; i < one.files.size(); ++i)
     EXPECT_EQ(one.files[i].bytes, two.files[i].bytes) << one.files[i].name;

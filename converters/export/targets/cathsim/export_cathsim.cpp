@@ -10,10 +10,11 @@
 
 #include "blob.h"
 #include "converters/base/error.h"
+#include "converters/export/shared/export_text.h"
+#include "converters/export/shared/mujoco_text.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/tree_losses.h"
 #include "converters/export/targets/cathsim/wall_prisms.h"
-#include "converters/export/targets/mujoco/mujoco_text.h"
 #include "formats/case/binary_encode.h"
 
 namespace lumen::convert {
@@ -28,7 +29,7 @@ ExportedSurface coarseSurface(const ExportInput& input) {
   std::vector<float> radii = input.source.tree.radius;
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2),
                    radii.end());
-  ExportOptions options = input.options;
+  CommonOptions options = input.options;
   if (options.surface.maxError == 0) options.surface.maxError = kShare * radii[radii.size() / 2];
   return lumenSurface({input.source, options, input.frame, input.progress});
 }
@@ -68,36 +69,16 @@ std::vector<SurfaceMesh> hullsOf(const ExportInput& input, const SurfaceMesh& me
 
 std::string phantomText(const ExportFrame& frame, std::size_t hulls,
                         const std::vector<NamedEnd>& ends) {
-  std::string text =
-      "<!-- Vessels of a case as a phantom of CathSim; metres; LPS. Made by lumen " LUMEN_VERSION
-      ". -->\n<mujoco model=\"phantom\">\n  <compiler meshdir=\"meshes\"/>\n  <asset>\n"
-      "    <mesh name=\"visual\" file=\"vessel/visual.stl\"/>\n";
-  const auto nameOf = [](std::size_t k) { return "hull_" + std::to_string(k); };
-  for (std::size_t k = 0; k < hulls; ++k)
-    text += "    <mesh name=\"" + nameOf(k) + "\" file=\"vessel/" + nameOf(k) + ".stl\"/>\n";
-  text +=
-      "  </asset>\n  <worldbody>\n    <body name=\"phantom\">\n"
-      "      <geom name=\"visual\" type=\"mesh\" mesh=\"visual\" contype=\"0\" "
-      "conaffinity=\"0\"/>\n";
-  for (std::size_t k = 0; k < hulls; ++k)
-    text += "      <geom name=\"" + nameOf(k) + "\" type=\"mesh\" mesh=\"" + nameOf(k) + "\"/>\n";
-  for (const NamedEnd& end : ends) text += "      " + endSite(frame, end);
-  return text + "    </body>\n  </worldbody>\n</mujoco>\n";
-}
-
-std::string startOf(std::size_t hulls) {
-  return "Copy what is in `phantom_assets` into CathSim's folder `phantom_assets` and ask for the "
-         "phantom by\n"
-         "`phantom_xml=\"vessel.xml\"`. To give it another name, rename `vessel.xml` and "
-         "`meshes/vessel`, and the\n"
-         "files' names in the former. Lengths are in metres: the scale of the phantom in CathSim's "
-         "configuration is 1.\n\n"
-         "The wall is " +
-         std::to_string(hulls) +
-         " convex pieces: a prism outwards from each triangle of\n"
-         "`simplified.stl` but its flat ends, which stay open. Neighbours share their sides, and "
-         "none reaches into a\n"
-         "lumen. There is a target site at each end.\n";
+  std::string meshes, geoms, sites;
+  for (std::size_t k = 0; k < hulls; ++k) {
+    const std::string name = "hull_" + std::to_string(k);
+    meshes += "    <mesh name=\"" + name + "\" file=\"vessel/" + name + ".stl\"/>\n";
+    geoms += "      <geom name=\"" + name + "\" type=\"mesh\" mesh=\"" + name + "\"/>\n";
+  }
+  for (const NamedEnd& end : ends) sites += "      " + endSite(frame, end);
+  return exportText(
+      "cathsim/vessel.xml",
+      {{"version", LUMEN_VERSION}, {"meshes", meshes}, {"geoms", geoms}, {"ends", sites}});
 }
 
 }  // namespace
@@ -118,10 +99,23 @@ ExportResult exportCathsim(const ExportInput& input) {
     result.files.push_back(
         {kFolder + ("hull_" + std::to_string(k)) + ".stl", stlInMetres(hulls[k]), "", ""});
   result.others.push_back({std::string(kFolder) + "hull_*.stl", "the wall's convex pieces"});
-  result.start = startOf(hulls.size());
+  result.start = exportText("cathsim/README.md", {{"hulls", std::to_string(hulls.size())}});
   result.losses = treeLosses(input.source.tree);
   result.surface = std::move(coarse.report);
   return result;
+}
+
+TargetRow cathsimRow() {
+  return {.name = "cathsim",
+          .title = "CathSim",
+          .files = {"phantom_assets/vessel.xml", "phantom_assets/meshes/vessel/visual.stl",
+                    "phantom_assets/meshes/vessel/simplified.stl",
+                    "phantom_assets/meshes/vessel/hull_0.stl"},
+          .units = {LengthUnit::Metre},
+          .axes = {Axes::Lps},
+          .holds = "the surface; the wall as convex pieces; the ends as targets",
+          .lacks = "the tree and its radii",
+          .options = {"--edge", "--max-error"}};
 }
 
 }  // namespace lumen::convert

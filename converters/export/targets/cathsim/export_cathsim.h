@@ -10,4 +10,6 @@ namespace lumen::convert {
 /// wall in convex pieces (wall_prisms.h). Metres. Throws as lumenSurface().
 ExportResult exportCathsim(const ExportInput& input);
 
+TargetRow cathsimRow();
+
 }  // namespace lumen::convert

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/surface.h"
 #include "converters/io/mesh/write_gltf.h"
 
@@ -30,7 +31,7 @@ std::array<double, 3> tripleOf(const Eigen::Vector3d& v) {
 }
 
 ExportResult exportScene(const ExportInput& input, const Convention& convention) {
-  ExportOptions options = input.options;
+  CommonOptions options = input.options;
   options.surface.levels = static_cast<int>(convention.nodes.size());
   const ExportInput leveled{input.source, options, input.frame, input.progress};
   ExportedSurface surface = lumenSurface(leveled);
@@ -67,43 +68,67 @@ std::vector<std::string> levelNames() {
 }  // namespace
 
 ExportResult exportGodot(const ExportInput& input) {
-  return exportScene(input, {{"vessel-col"},
-                             false,
-                             "Copy `vessels.glb` into a project: its importer reads the suffix "
-                             "`-col` and makes a `StaticBody` with a "
-                             "collider\nof the triangles below `vessel`. Godot 4 makes levels of "
-                             "detail by itself; vessels of 1 mm "
-                             "want a physics scale of their own.\n"});
+  return exportScene(input, {{"vessel-col"}, false, exportText("engines/godot.md")});
 }
 
 ExportResult exportUnity(const ExportInput& input) {
-  return exportScene(input, {levelNames(), true,
-                             "Copy `vessels.glb` into `Assets` of a project that has a glTF "
-                             "package: UnityGLTF reads `MSFT_lod`; with "
-                             "others, put\n`vessel_LOD0` to `_LOD2` under a LOD Group. Add a Mesh "
-                             "Collider to `vessel_LOD0`, not "
-                             "convex, which would close the lumen.\n"});
+  return exportScene(input, {levelNames(), true, exportText("engines/unity.md")});
 }
 
 ExportResult exportUnreal(const ExportInput& input) {
-  return exportScene(
-      input,
-      {levelNames(), true,
-       "Import `vessels.glb` by Interchange, which makes centimetres of glTF's metres by itself "
-       "(for an importer "
-       "that does not,\nexport again with `--unit cm`). In the static mesh set Collision "
-       "Complexity to Use "
-       "Complex Collision As Simple: `UCX_` hulls\nare convex and would close the lumen.\n"});
+  return exportScene(input, {levelNames(), true, exportText("engines/unreal.md")});
 }
 
 ExportResult exportBlender(const ExportInput& input) {
-  return exportScene(
-      input,
-      {{"vessel"},
-       false,
-       "File, Import, glTF 2.0: `vessels.glb`. The importer turns it to z up, and 1 unit is 1 m: "
-       "the ends become empties\nwith their names. For sculpting set the scene's unit scale to "
-       "0.001.\n"});
+  return exportScene(input, {{"vessel"}, false, exportText("engines/blender.md")});
+}
+
+TargetRow godotRow() {
+  return {.name = "godot",
+          .title = "Godot 3 and 4",
+          .files = {"vessels.glb"},
+          .units = {LengthUnit::Metre},
+          .axes = {Axes::Lsa},
+          .holds = "the wall as a solid with a collider of its triangles; the ends as nodes",
+          .lacks = "the tree, its radii and its models",
+          .options = {"--edge", "--max-error", "--thickness"},
+          .needsVessel = false};
+}
+
+TargetRow unityRow() {
+  return {.name = "unity",
+          .title = "Unity, by a package for glTF",
+          .files = {"vessels.glb"},
+          .units = {LengthUnit::Metre},
+          .axes = {Axes::Lsa},
+          .holds = "the wall as a solid in three levels of detail; the ends as nodes",
+          .lacks = "the tree, its radii and its models; a collider, which Unity makes",
+          .options = {"--edge", "--max-error", "--thickness"},
+          .needsVessel = false};
+}
+
+TargetRow unrealRow() {
+  return {.name = "unreal",
+          .title = "Unreal Engine 5",
+          .files = {"vessels.glb"},
+          .units = {LengthUnit::Metre, LengthUnit::Centimetre},
+          .axes = {Axes::Lsa},
+          .holds = "the wall as a solid in three levels of detail; the ends as nodes",
+          .lacks = "the tree, its radii and its models; a collider, which Unreal makes",
+          .options = {"--edge", "--max-error", "--thickness"},
+          .needsVessel = false};
+}
+
+TargetRow blenderRow() {
+  return {.name = "blender",
+          .title = "Blender",
+          .files = {"vessels.glb"},
+          .units = {LengthUnit::Metre},
+          .axes = {Axes::Lsa},
+          .holds = "the wall as a solid; the ends as empties",
+          .lacks = "the tree, its radii and its models",
+          .options = {"--edge", "--max-error", "--thickness"},
+          .needsVessel = false};
 }
 
 }  // namespace lumen::convert

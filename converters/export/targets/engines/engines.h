@@ -13,4 +13,9 @@ ExportResult exportUnity(const ExportInput& input);    ///< _LOD0, _LOD1, _LOD2,
 ExportResult exportUnreal(const ExportInput& input);   ///< MSFT_lod
 ExportResult exportBlender(const ExportInput& input);  ///< one mesh
 
+TargetRow godotRow();
+TargetRow unityRow();
+TargetRow unrealRow();
+TargetRow blenderRow();
+
 }  // namespace lumen::convert

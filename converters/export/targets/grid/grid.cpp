@@ -14,6 +14,7 @@
 #include "converters/base/error.h"
 #include "converters/export/shared/cdf.h"
 #include "converters/export/shared/distance_grid.h"
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/meta_image.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/vdb.h"
@@ -47,8 +48,7 @@ bool wants(const GridOptions& options, GridFormat format) {
   return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
 }
 
-void requireSound(const ExportInput& input) {
-  const GridOptions& options = input.options.grid;
+void requireSound(const ExportInput& input, const GridOptions& options) {
   const bool isOfMm = wants(options, GridFormat::Nrrd) || wants(options, GridFormat::Nifti) ||
                       wants(options, GridFormat::Mhd);
   if (input.frame.unit != LengthUnit::Millimetre && isOfMm)
@@ -90,14 +90,13 @@ PlaceBox boxOf(const SurfaceMesh& wall) {
   return box;
 }
 
-std::vector<GridPlan> plansOf(const ExportInput& input) {
-  const GridOptions& options = input.options.grid;
+std::vector<GridPlan> plansOf(const ExportInput& input, const GridOptions& options) {
   const formats::CenterlineTree& tree = input.source.tree;
   const SurfaceMesh wall = quickSurface(input.source, input.progress);
   if (wall.position.empty())
     throw invalidInput("the models of this case have no wall, so there is no distance to it");
   const PlaceBox box = boxOf(wall);
-  const double spacing = gridSpacing(options.spacing, box, kBorder, tree);
+  const double spacing = gridSpacing(input.options.spacing, box, kBorder, tree);
   const double border = (options.band ? *options.band : kBorder) + kBorderSamples * spacing;
   const Lattice whole = latticeOver(box, border, spacing);
   if (!options.perBranch) return {{"", {}, whole}};
@@ -141,8 +140,9 @@ std::vector<std::uint16_t> branchesOf(const DistanceGrid& grid) {
 /// The files of one grid.
 class GridFiles {
 public:
-  GridFiles(const ExportInput& input, const VesselDistance& vessels, const GridPlan& plan)
-      : m_input(input), m_options(input.options.grid), m_plan(plan), m_source{vessels} {
+  GridFiles(const ExportInput& input, const GridOptions& options, const VesselDistance& vessels,
+            const GridPlan& plan)
+      : m_input(input), m_options(options), m_plan(plan), m_source{vessels} {
     if (!plan.region.empty()) m_source.region = &plan.region;
     if (m_options.band) m_source.band = *m_options.band;
   }
@@ -223,39 +223,39 @@ std::string branchTable(const formats::CenterlineTree& tree) {
          "\n";
 }
 
-std::string startOf(const GridOptions& options) {
-  std::string text =
-      "Distances are in the folder's unit and **negative in the lumen**, but for `.cdf`, where "
-      "they are positive, as\nBullet wants them where bodies may move. A sample's branch is that "
-      "whose wall is the nearest.\n";
-  text += options.perBranch
-              ? "\nEach branch has a grid of its own, `NAME.distance.*`, that answers for it and "
-                "its neighbourhood along the\ntree. Other vessels are not in it, however near they "
-                "are: change the grid where a tool changes the branch.\n"
-              : "\nVessels that touch are one lumen in one grid, as it cannot know which of them a "
-                "tool is in.\n`lumen export grid --per-branch` keeps them apart.\n";
-  return text;
-}
-
 }  // namespace
 
-ExportResult exportGrid(const ExportInput& input) {
-  requireSound(input);
-  const VesselDistance vessels(input.source, input.options.grid.exact);
+ExportResult exportGrid(const ExportInput& input, const GridOptions& options) {
+  requireSound(input, options);
+  const VesselDistance vessels(input.source, options.exact);
   ExportResult result;
-  const std::vector<GridPlan> plans = plansOf(input);
+  const std::vector<GridPlan> plans = plansOf(input, options);
   for (const GridPlan& plan : plans)
-    for (ExportFile& file : GridFiles(input, vessels, plan).make())
+    for (ExportFile& file : GridFiles(input, options, vessels, plan).make())
       result.files.push_back(std::move(file));
-  if (input.options.grid.perBranch)
+  if (options.perBranch)
     result.others.push_back({"NAME.distance.*, NAME.branch.*",
                              "of each branch: distances, and in which branch a sample is"});
   result.files.push_back(
       {"branches.json", branchTable(input.source.tree), "which number is which branch", ""});
   result.losses = gridLosses(plans.front().lattice.spacing, input.source.tree);
   result.ends = endsOf(input.source.tree);
-  result.start = startOf(input.options.grid);
+  result.start = exportText(options.perBranch ? "grid/per-branch.md" : "grid/one.md");
   return result;
+}
+
+TargetRow gridRow() {
+  return {.name = "grid",
+          .title = "those who read grids of distances",
+          .files = {"branches.json"},
+          .units = {LengthUnit::Millimetre, LengthUnit::Metre},
+          .axes = {Axes::Lps},
+          .holds = "the signed distance to the wall, and whose lumen a sample is in",
+          .lacks =
+              "what is thinner than two samples; where vessels touch, their walls, but for "
+              "--per-branch",
+          .options = {"--grid", "--format", "--band", "--half", "--per-branch", "--exact"},
+          .needsVessel = false};
 }
 
 }  // namespace lumen::convert

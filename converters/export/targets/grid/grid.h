@@ -3,6 +3,7 @@
 #pragma once
 
 #include "converters/export/shared/target.h"
+#include "converters/export/targets/grid/grid_options.h"
 
 namespace lumen::convert {
 
@@ -11,6 +12,8 @@ namespace lumen::convert {
 /// each branch, as NAME.distance.*: they answer for that branch and its neighbourhood along the tree, whatever touches
 /// it; their samples are some of the one grid's. Throws Error(Usage) for too many samples and for options that do not go
 /// together, Error(Unsupported) for what a format cannot hold, Error(Cancelled).
-ExportResult exportGrid(const ExportInput& input);
+ExportResult exportGrid(const ExportInput& input, const GridOptions& options);
+
+TargetRow gridRow();
 
 }  // namespace lumen::convert

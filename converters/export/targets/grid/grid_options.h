@@ -11,7 +11,6 @@ namespace lumen::convert {
 enum class GridFormat : std::uint8_t { Nrrd, Nifti, Mhd, Vdb, Cdf };
 
 struct GridOptions {
-  double spacing = 0;  ///< mm between samples; 0: by the size of the vessels (gridSpacing())
   std::vector<GridFormat> formats = {GridFormat::Nrrd};
   std::optional<double> band{};  ///< mm
   bool half = false;             ///< VDB: distances of 16 bits

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/export/shared/distance_grid.h"
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/npy.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/targets/isaac/usd.h"
@@ -46,7 +47,7 @@ DistanceGrid gridOf(const ExportInput& input, const SurfaceMesh& wall) {
       box.low[a] = std::min(box.low[a], static_cast<double>(p[a]));
       box.high[a] = std::max(box.high[a], static_cast<double>(p[a]));
     }
-  const double spacing = gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
+  const double spacing = gridSpacing(input.options.spacing, box, kBorder, input.source.tree);
   const VesselDistance vessels(input.source);
   // farther than a voxel from the wall, a voxel is all tissue or all lumen
   return sampleGrid({vessels, nullptr, 2 * spacing}, latticeOver(box, kBorder, spacing),
@@ -127,16 +128,6 @@ ExportedSurface wallOf(const ExportInput& input, ExportResult& result) {
   return lumen;
 }
 
-const char* const kStart =
-    "Metadata and arrays are the cache that the catheter navigation of NVIDIA's "
-    "isaac-for-healthcare makes from a CT;\ngive it this folder as its CT cache. They are always "
-    "in mm and LPS. The attenuation is **synthetic**: soft tissue\nof 40 HU around a lumen of 350 "
-    "HU, by the workflow's own map of HU to attenuation; there are no bones.\n\n`vessel.usda` is a "
-    "stage for Isaac Sim and others that read USD: `/vessel/wall` is a collider (UsdPhysics,\n"
-    "approximation \"none\": its triangles as they are; PhysX may cook it as a distance field), "
-    "`/vessel/centerline` the\nbranches as curves as wide as the vessels, and `/vessel/ends` has a "
-    "frame at each end, its z axis out of the vessel.\n";
-
 }  // namespace
 
 ExportResult exportIsaac(const ExportInput& input) {
@@ -150,10 +141,24 @@ ExportResult exportIsaac(const ExportInput& input) {
                           "USD: wall with physics schemas, centerline, ends", ""});
   for (std::string& loss : gridLosses(grid.lattice.spacing, input.source.tree))
     result.losses.push_back(std::move(loss));
-  result.start = kStart;
+  result.start = exportText("isaac/README.md");
   result.ends = std::move(wall.ends);
   result.surface = std::move(wall.report);
   return result;
+}
+
+TargetRow isaacRow() {
+  return {.name = "isaac",
+          .title = "catheter navigation of isaac-for-healthcare, and Isaac Sim",
+          .files = {"metadata.json", "mu_volume.npy", "vessel_mask.npy", "centerline_points_mm.npy",
+                    "centerline_edges.npy", "centerline_radii_mm.npy", "vessel.usda"},
+          .units = {LengthUnit::Metre, LengthUnit::Millimetre},
+          .axes = {Axes::Lps, Axes::Lsa},
+          .holds =
+              "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of "
+              "USD, and its ends",
+          .lacks = "names of branches, and that an aneurysm is one",
+          .options = {"--edge", "--max-error", "--thickness", "--grid"}};
 }
 
 }  // namespace lumen::convert

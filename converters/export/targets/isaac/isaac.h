@@ -12,4 +12,6 @@ namespace lumen::convert {
 /// samples, and as lumenSurface().
 ExportResult exportIsaac(const ExportInput& input);
 
+TargetRow isaacRow();
+
 }  // namespace lumen::convert

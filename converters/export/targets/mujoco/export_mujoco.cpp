@@ -10,10 +10,11 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/insertion.h"
+#include "converters/export/shared/mujoco_text.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/tree_losses.h"
-#include "converters/export/targets/mujoco/mujoco_text.h"
 #include "converters/export/targets/mujoco/wall_pieces.h"
 #include "converters/export/targets/mujoco/wire.h"
 #include "converters/export/targets/mujoco/wire_reach.h"
@@ -27,6 +28,11 @@ namespace {
 // radii the distance between samples is off by h^2 / 8 R, 0.02 radii.
 constexpr std::size_t kCells = 64;
 constexpr double kCellRadii = 0.4;
+
+// MuJoCo finds contacts of distance fields by a search that misses shallow ones, so contacts are soft, as many steps: a
+// wire that is pressed to the wall rests some hundredths of a millimetre in it. Harder, it flickers, and snaps through
+// the wall. Damping is within the contact solver (eulerdamp), where it does not make contacts soft.
+constexpr double kContactSteps = 20;
 
 struct Solid {
   ExportedSurface surface;
@@ -97,72 +103,42 @@ struct Scene {
   Wire wire;
 };
 
-std::string head(const Scene& scene, WireSprings springs) {
-  std::string text =
-      "<!-- Vessels of a case and a guidewire; metres, kg, s; LPS. Made by lumen " LUMEN_VERSION
-      ". -->\n"
-      "<mujoco model=\"vessels\">\n"
-      "  <compiler autolimits=\"true\" boundinertia=\"1e-14\" meshdir=\"meshes\"/>\n";
-  // Damping within the contact solver, not behind it: it would make contacts as soft as it is great.
-  text += "  <option timestep=\"" + mujocoNumbers({kMujocoStep}) +
-          "\" gravity=\"0 0 0\" integrator=\"Euler\" sdf_iterations=\"5\" sdf_initpoints=\"4\">\n"
-          "    <flag eulerdamp=\"disable\"/>\n  </option>\n  <size memory=\"200M\"/>\n";
-  if (springs == WireSprings::Plugin)
-    text += "  <extension>\n    <plugin plugin=\"mujoco.elasticity.cable\"/>\n  </extension>\n";
-  // MuJoCo finds contacts of distance fields by a search that misses shallow ones. So they are soft, twenty steps:
-  // a wire that is pressed to the wall rests some hundredths of a millimetre in it. Harder, it flickers, and snaps through the wall.
-  text +=
-      "  <default>\n    <default class=\"wall\">\n"
-      "      <geom contype=\"2\" conaffinity=\"1\" priority=\"1\" friction=\"0.1 0 0\" solref=\"" +
-      mujocoNumbers({20 * kMujocoStep, 1}) +
-      "\" solimp=\"0.9 0.99 5e-05\"/>\n    </default>\n  </default>\n";
-  text += "  <asset>\n";
-  for (std::size_t k = 0; k < scene.pieces; ++k) {
-    const std::string name = "wall_" + std::to_string(k);
-    text += "    <mesh name=\"" + name + "\" file=\"" + name + ".stl\" inertia=\"shell\"/>\n";
-  }
-  return text + "  </asset>\n";
-}
-
 std::string sceneText(const Scene& scene, WireSprings springs) {
-  std::string text = head(scene, springs) + "  <worldbody>\n";
-  text += "    <light pos=\"0 0 1\" dir=\"0 0 -1\" directional=\"true\"/>\n";
+  const ExportFrame& frame = scene.input.frame;
+  std::string meshes, geoms, sites;
   for (std::size_t k = 0; k < scene.pieces; ++k) {
     const std::string name = "wall_" + std::to_string(k);
-    text += "    <geom name=\"" + name + "\" class=\"wall\" type=\"sdf\" mesh=\"" + name +
-            "\" rgba=\"0.8 0.3 0.3 0.3\"/>\n";
+    meshes += "    <mesh name=\"" + name + "\" file=\"" + name + ".stl\" inertia=\"shell\"/>\n";
+    geoms += "    <geom name=\"" + name + "\" class=\"wall\" type=\"sdf\" mesh=\"" + name +
+             "\" rgba=\"0.8 0.3 0.3 0.3\"/>\n";
   }
-  const ExportFrame& frame = scene.input.frame;
-  for (const NamedEnd& end : scene.solid.surface.ends) text += "    " + endSite(frame, end);
-  text += wireBodies(scene.wire, frame.position(scene.insertion.position),
-                     frame.direction(scene.insertion.direction), springs);
-  return text + "  </worldbody>\n" + wireControls(scene.wire) + "</mujoco>\n";
+  for (const NamedEnd& end : scene.solid.surface.ends) sites += "    " + endSite(frame, end);
+  return exportText(
+      "mujoco/scene.xml",
+      {{"version", LUMEN_VERSION},
+       {"step", mujocoNumbers({kMujocoStep})},
+       {"plugin", springs == WireSprings::Plugin ? exportText("mujoco/plugin.xml") : ""},
+       {"solref", mujocoNumbers({kContactSteps * kMujocoStep, 1})},
+       {"meshes", meshes},
+       {"geoms", geoms},
+       {"ends", sites},
+       {"wire", wireBodies(scene.wire, frame.position(scene.insertion.position),
+                           frame.direction(scene.insertion.direction), springs)},
+       {"controls", wireControls(scene.wire)}});
 }
 
 std::string startOf(const Scene& scene) {
-  std::string text =
-      "In Python (`pip install mujoco`, 3.3.5 or later):\n\n"
-      "    import mujoco\n"
-      "    model = mujoco.MjModel.from_xml_path(\"scene.xml\")\n"
-      "    data = mujoco.MjData(model)\n"
-      "    mujoco.mj_resetDataKeyframe(model, data, 0)   # insertion\n"
-      "    data.ctrl[0] = 0.01                            # m/s, forward\n"
-      "    while data.time < 5: mujoco.mj_step(model, data)\n\n"
-      "`python -m mujoco.viewer --mjcf=scene.xml` shows it. `scene-joints.xml` is the same wire "
-      "with springs in its\n"
-      "joints instead of the plugin mujoco.elasticity.cable, for engines without plugins (such as "
-      "the npm package\n"
-      "`@mujoco/mujoco`): as stiff in bending, a third stiffer in torsion.\n\n";
-  text += scene.solid.isShell ? "The wall is a solid of the thickness that was asked for"
-                              : "All that is not lumen is solid: the lumen's surface, open at its "
-                                "ends, with normals into the lumen";
-  text += ", in " + std::to_string(scene.pieces) +
-          (scene.pieces == 1 ? " piece"
-                             : " pieces, as MuJoCo samples each in at most 64 cells along a side") +
-          ".\nIt ends where the guidewire of " + mujocoNumbers({scene.wire.length() * 1e3}) +
-          " mm does not reach. Its geoms are of type `sdf`: as type `mesh` each would be its "
-          "convex hull, and the lumen solid.\n";
-  return text;
+  const std::string pieces =
+      scene.pieces == 1 ? "1 piece"
+                        : std::to_string(scene.pieces) +
+                              " pieces, as MuJoCo samples each in at most 64 cells along a side";
+  return exportText(
+      "mujoco/README.md",
+      {{"wall", scene.solid.isShell ? "The wall is a solid of the thickness that was asked for"
+                                    : "All that is not lumen is solid: the lumen's surface, open "
+                                      "at its ends, with normals into the lumen"},
+       {"pieces", pieces},
+       {"length", mujocoNumbers({scene.wire.length() * 1e3})}});
 }
 
 }  // namespace
@@ -170,7 +146,7 @@ std::string startOf(const Scene& scene) {
 ExportResult exportMujoco(const ExportInput& input) {
   const Wire thickness;
   const Insertion insertion =
-      insertionOf(input.source.tree, input.options.sofa.insert, thickness.radius * 1e3);
+      insertionOf(input.source.tree, input.options.insert, thickness.radius * 1e3);
   Solid solid = solidOf(input);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
   Wire wire = wireFor(insertion);
@@ -195,6 +171,17 @@ ExportResult exportMujoco(const ExportInput& input) {
   result.ends = std::move(solid.surface.ends);
   result.surface = std::move(solid.surface.report);
   return result;
+}
+
+TargetRow mujocoRow() {
+  return {.name = "mujoco",
+          .title = "MuJoCo 3",
+          .files = {"scene.xml", "scene-joints.xml", "meshes/wall_0.stl"},
+          .units = {LengthUnit::Metre},
+          .axes = {Axes::Lps},
+          .holds = "the wall as a solid; a guidewire at the root, pushed by an actuator; the ends",
+          .lacks = "the tree and its radii",
+          .options = {"--edge", "--max-error", "--thickness", "--insert"}};
 }
 
 }  // namespace lumen::convert

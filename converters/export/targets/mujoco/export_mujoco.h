@@ -11,4 +11,6 @@ namespace lumen::convert {
 /// as far as the wire reaches. Throws as lumenSurface() and insertionOf().
 ExportResult exportMujoco(const ExportInput& input);
 
+TargetRow mujocoRow();
+
 }  // namespace lumen::convert

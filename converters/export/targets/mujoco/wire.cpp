@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "converters/export/targets/mujoco/mujoco_text.h"
+#include "converters/export/shared/mujoco_text.h"
 
 namespace lumen::convert {
 

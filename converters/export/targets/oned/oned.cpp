@@ -11,6 +11,8 @@
 
 #include "converters/base/number_text.h"
 #include "converters/export/shared/blood.h"
+#include "converters/export/shared/export_text.h"
+#include "converters/export/shared/flow_pressure.h"
 #include "converters/export/targets/oned/oned_network.h"
 
 namespace lumen::convert {
@@ -120,27 +122,6 @@ std::string yaml(const OneDNetwork& network, const std::string& name) {
   return text;
 }
 
-const char* const kStart =
-    "    OneDSolver vessels.in                                        # svOneDSolver: cm, g, s, "
-    "dyn\n"
-    "    julia -e 'using openBF; openBF.run_simulation(\"vessels.yml\")'   # openBF v2: SI\n\n"
-    "Both have the same vessels between the same nodes: node 0 of the one is node 1 of the other. "
-    "A vessel is a cone with the "
-    "ratio\nof its ends' radii and with the resistance of all its radii. Where more than three "
-    "vessels meet, stubs of one radius lie between\n"
-    "them; a vessel shorter than its radius is as long as that.\n\n"
-    "| stated | | source |\n|---|---|---|\n"
-    "| blood | 1060 kg/m^3, 4 mPa s, Newtonian | defaults of SimVascular's solvers |\n"
-    "| E h / r | 2e7 exp(-22.53 r) + 8.65e5 dyn/cm^2, r in cm; for openBF h is 0.1 r | Olufsen, Am "
-    "J Physiol 276, 1999 |\n"
-    "| radii | are those at 100 mmHg | |\n"
-    "| inlet | a steady 20 cm/s over the section | in the range of arteries; put your own flow "
-    "here |\n"
-    "| outlets | resistances that split the flow by r^3, at 100 mmHg | Murray, PNAS 12, 1926 |\n"
-    "| openBF's outlets | R1 of a wave, R2 the rest, Cc = 1.5 s / R2 | Westerhof, Lankhaar, "
-    "Westerhof, Med Biol Eng Comput 47, "
-    "2009 |\n";
-
 void addTree(ExportResult& result, const OneDNetwork& network, const std::string& name) {
   const std::string flow = numberText(network.flow);
   result.files.push_back(
@@ -155,7 +136,7 @@ void addTree(ExportResult& result, const OneDNetwork& network, const std::string
 ExportResult exportOneD(const ExportInput& input) {
   const FlowNetwork network = flowNetwork(input.source.tree);
   ExportResult result;
-  result.start = kStart;
+  result.start = exportText("oned/README.md");
   std::size_t stubs = 0, lengthened = 0;
   for (std::uint32_t t = 0; t < network.trees.size(); ++t) {
     const OneDNetwork tree = oneDNetwork(network, t);
@@ -165,12 +146,26 @@ ExportResult exportOneD(const ExportInput& input) {
   }
   result.ends = endsOf(network);
   result.losses = network.messages;
+  for (std::string& warning : pressureWarnings(network))
+    result.losses.push_back(std::move(warning));
   if (lengthened > 0)
     result.losses.push_back("segments that are shorter than their radius are as long as it here: " +
                             std::to_string(lengthened));
   result.remarks = {summaryOf(network),
                     "stubs where more than three vessels meet: " + std::to_string(stubs)};
   return result;
+}
+
+TargetRow oneDRow() {
+  return {.name = "oned",
+          .title = "svOneDSolver and openBF",
+          .files = {"vessels.in", "vessels.yml", "vessels_inlet.dat"},
+          .units = {LengthUnit::Centimetre},
+          .axes = {Axes::Lps},
+          .holds = "lengths, radii, junctions; svOneDSolver also positions of junctions",
+          .lacks = "aneurysms; the shape of sections; of vessels all but a cone",
+          .options = {},
+          .needsModels = false};
 }
 
 }  // namespace lumen::convert

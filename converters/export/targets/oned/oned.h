@@ -10,4 +10,6 @@ namespace lumen::convert {
 /// oneDNetwork(): `vessels`, `vessels2`, .... Throws as flowNetwork() and oneDNetwork().
 ExportResult exportOneD(const ExportInput& input);
 
+TargetRow oneDRow();
+
 }  // namespace lumen::convert

@@ -11,4 +11,6 @@ namespace lumen::convert {
 /// wall. Throws as lumenSurface(), and Error(InvalidInput) for a surface without a flat inlet or a flat outlet.
 ExportResult exportOpenFoam(const ExportInput& input);
 
+TargetRow openFoamRow();
+
 }  // namespace lumen::convert

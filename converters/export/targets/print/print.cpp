@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/targets/print/three_mf.h"
 #include "converters/geometry/triangle_tree.h"
@@ -61,20 +62,13 @@ void addSolid(ExportResult& result, const std::string& name, const SurfaceMesh& 
   result.files.push_back({name + ".stl", encodeStl(mesh, false), "the same", ""});
 }
 
-const char* const kStart =
-    "Open a `.3mf` in the program of the printer; it says that it is in mm, which a `.stl` cannot. "
-    "`wall` is a tube "
-    "around the\nlumen, open at the ends; `core` is the lumen itself as a solid, for casting "
-    "around it. Nothing is "
-    "scaled or turned.\n";
-
 }  // namespace
 
 ExportResult exportPrint(const ExportInput& input) {
   ExportResult result;
   ExportedSurface core = lumenSurface(input);
   addSolid(result, "core", core.mesh, "the lumen as a solid");
-  result.start = kStart;
+  result.start = exportText("print/README.md");
   result.ends = std::move(core.ends);
   WallAttempt attempt = tryWall(input, kWall, core.report);
   if (!attempt.wall) {
@@ -92,6 +86,18 @@ ExportResult exportPrint(const ExportInput& input) {
                             " mm that most printers hold; a greater --thickness may help");
   result.surface = std::move(attempt.wall->report);
   return result;
+}
+
+TargetRow printRow() {
+  return {.name = "print",
+          .title = "3D printers",
+          .files = {"core.3mf", "core.stl"},
+          .units = {LengthUnit::Millimetre},
+          .axes = {Axes::Lps},
+          .holds = "the lumen as a solid; a wall around it, with its least thickness",
+          .lacks = "the tree, its radii and its models",
+          .options = {"--edge", "--max-error", "--thickness"},
+          .needsVessel = false};
 }
 
 }  // namespace lumen::convert

@@ -11,4 +11,6 @@ namespace lumen::convert {
 /// the core alone, which is a loss that is told. Throws as lumenSurface() and tryWall().
 ExportResult exportPrint(const ExportInput& input);
 
+TargetRow printRow();
+
 }  // namespace lumen::convert

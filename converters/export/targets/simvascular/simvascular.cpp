@@ -15,6 +15,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/vectors.h"
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/tree_losses.h"
@@ -29,20 +30,6 @@ namespace {
 
 constexpr double kCentimetres = 0.1;  // of a millimetre
 
-const char* const kProlog =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<format version=\"1.0\" />\n";
-
-const char* const kProject =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-    "<projectDescription version=\"1.0\">\n"
-    "    <images folder_name=\"Images\"/>\n"
-    "    <paths folder_name=\"Paths\"/>\n"
-    "    <segmentations folder_name=\"Segmentations\"/>\n"
-    "    <models folder_name=\"Models\"/>\n"
-    "    <meshes folder_name=\"Meshes\"/>\n"
-    "    <simulations folder_name=\"Simulations\"/>\n"
-    "</projectDescription>\n";
-
 std::string point(std::size_t id, const Eigen::Vector3d& mm) {
   return pointElement("point id=\"" + std::to_string(id) + "\"", kCentimetres * mm);
 }
@@ -53,21 +40,19 @@ std::string contour(const BranchPath& path, std::size_t k, std::size_t id) {
   const Eigen::Vector3d tangent = path.tangent(k);
   const auto [u, v] = planeBasis(tangent);
   const double r = path.radii[k];
-  std::string text =
-      "<contour id=\"" + std::to_string(id) +
-      "\" type=\"Circle\" method=\"Manual\" closed=\"true\" min_control_number=\"2\" "
-      "max_control_number=\"2\" subdivision_type=\"0\" subdivision_number=\"0\" "
-      "subdivision_spacing=\"0\">\n<path_point id=\"" +
-      std::to_string(k) + "\">\n" + pointElement("pos", kCentimetres * path.points[k]) +
-      pointElement("tangent", tangent) + pointElement("rotation", u) +
-      "</path_point>\n<control_points>\n" + point(0, path.points[k]) +
-      point(1, path.points[k] + r * u) + "</control_points>\n<contour_points>\n";
+  std::string points;
   for (int n = 0; n < kAround; ++n) {
     const double angle = 2 * std::numbers::pi * n / kAround;
-    text += point(static_cast<std::size_t>(n),
-                  path.points[k] + r * (std::cos(angle) * u + std::sin(angle) * v));
+    points += point(static_cast<std::size_t>(n),
+                    path.points[k] + r * (std::cos(angle) * u + std::sin(angle) * v));
   }
-  return text + "</contour_points>\n</contour>\n";
+  return exportText("simvascular/contour.xml",
+                    {{"id", std::to_string(id)},
+                     {"node", std::to_string(k)},
+                     {"frame", pointElement("pos", kCentimetres * path.points[k]) +
+                                   pointElement("tangent", tangent) + pointElement("rotation", u)},
+                     {"controls", point(0, path.points[k]) + point(1, path.points[k] + r * u)},
+                     {"points", points}});
 }
 
 /// Of a path: its last node, and those before it that are a radius apart; none on the parent's axis.
@@ -85,36 +70,23 @@ std::vector<std::size_t> sections(const BranchPath& path, bool hasParent) {
 }
 
 std::string encodeCtgr(const BranchPath& path, std::size_t id, bool hasParent) {
-  std::string text =
-      kProlog + ("<contourgroup path_name=\"" + path.name) + "\" path_id=\"" + std::to_string(id) +
-      "\" reslice_size=\"5\" point_2D_display_size=\"\" point_size=\"\">\n<timestep id=\"0\">\n"
-      "<lofting_parameters method=\"nurbs\" sampling=\"60\" sample_per_seg=\"12\" "
-      "use_linear_sample=\"1\" "
-      "linear_multiplier=\"10\" use_fft=\"0\" num_modes=\"20\" u_degree=\"2\" v_degree=\"2\" "
-      "u_knot_type=\"derivative\" v_knot_type=\"average\" u_parametric_type=\"centripetal\" "
-      "v_parametric_type=\"chord\" />\n";
+  std::string contours;
   std::size_t number = 0;
-  for (const std::size_t k : sections(path, hasParent)) text += contour(path, k, number++);
-  return text + "</timestep>\n</contourgroup>\n";
+  for (const std::size_t k : sections(path, hasParent)) contours += contour(path, k, number++);
+  return exportText("simvascular/segmentation.ctgr",
+                    {{"name", path.name}, {"id", std::to_string(id)}, {"contours", contours}});
 }
 
 std::string encodeMdl(const SurfaceMesh& mesh, const std::vector<std::string>& names) {
-  std::string text =
-      kProlog +
-      std::string(
-          "<model type=\"PolyData\">\n<timestep id=\"0\">\n"
-          "<model_element type=\"PolyData\" num_sampling=\"0\">\n<segmentations />\n<faces>\n");
+  std::string faces;
   for (std::size_t g = 0; g < names.size(); ++g) {
     const bool isWall = mesh.groups[g].kind == FaceKind::Wall;
-    text += "<face id=\"" + std::to_string(g + 1) + "\" name=\"" + names[g] + "\" type=\"" +
-            (isWall ? "wall" : "cap") + "\" visible=\"true\" opacity=\"1\" color1=\"1\" color2=\"" +
-            (isWall ? "1" : "0.5") + "\" color3=\"" + (isWall ? "1" : "0.5") + "\" />\n";
+    faces += exportText("simvascular/face.xml", {{"id", std::to_string(g + 1)},
+                                                 {"name", names[g]},
+                                                 {"type", isWall ? "wall" : "cap"},
+                                                 {"colour", isWall ? "1" : "0.5"}});
   }
-  return text +
-         "</faces>\n<blend_radii />\n<blend_param blend_iters=\"2\" sub_blend_iters=\"3\" "
-         "cstr_smooth_iters=\"2\" lap_smooth_iters=\"50\" subdivision_iters=\"1\" "
-         "decimation=\"0.01\" />\n"
-         "</model_element>\n</timestep>\n</model>\n";
+  return exportText("simvascular/vessel.mdl", {{"faces", faces}});
 }
 
 /// Some of the surface's triangles, with the numbers that they and their points have in the volume mesh, from 1.
@@ -213,13 +185,6 @@ void addMeshComplete(ExportResult& result, const SurfaceMesh& surface, const Vol
                            std::to_string(volume.position.size()) + " nodes");
 }
 
-const char* const kStart =
-    "In SimVascular, *File, Open SV Project*, and choose this folder. Contours are circles at "
-    "nodes of the centerlines; the model "
-    "is\nthe surface itself, not a loft of them. `mesh-complete`, if it is here, is what "
-    "svMultiPhysics and svFSI read; its "
-    "numbers of\nnodes and elements count from 1. There are no images.\n";
-
 }  // namespace
 
 ExportResult exportSimVascular(const ExportInput& input) {
@@ -227,9 +192,9 @@ ExportResult exportSimVascular(const ExportInput& input) {
   ExportedSurface made = lumenSurface(input);
   const std::vector<std::string> names = distinct(namesOf(made.mesh.groups), openFoamWord);
   ExportResult result;
-  result.start = kStart;
+  result.start = exportText("simvascular/README.md");
   result.files = {
-      {"vessels.svproj", kProject, "the project", ""},
+      {"vessels.svproj", exportText("simvascular/vessels.svproj"), "the project", ""},
       {"Models/vessel.mdl", encodeMdl(made.mesh, names), "the model's faces: wall and caps", ""},
       {"Models/vessel.vtp", encodeVtpIn(made.mesh, "cm"), "the model, with `ModelFaceID`", ""}};
   for (std::size_t k = 0; k < paths.size(); ++k) {
@@ -249,6 +214,19 @@ ExportResult exportSimVascular(const ExportInput& input) {
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;
+}
+
+TargetRow simVascularRow() {
+  return {.name = "simvascular",
+          .title = "SimVascular",
+          .files = {"vessels.svproj", "Models/vessel.mdl", "Models/vessel.vtp"},
+          .units = {LengthUnit::Centimetre},
+          .axes = {Axes::Lps},
+          .holds =
+              "branches as paths, radii as circles; the surface with its named ends; a volume "
+              "mesh, by TetGen if it is installed",
+          .lacks = "links that close loops, and that an aneurysm is one",
+          .options = {"--edge", "--max-error", "--extend"}};
 }
 
 }  // namespace lumen::convert

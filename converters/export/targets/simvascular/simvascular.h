@@ -11,4 +11,6 @@ namespace lumen::convert {
 /// and branchPaths().
 ExportResult exportSimVascular(const ExportInput& input);
 
+TargetRow simVascularRow();
+
 }  // namespace lumen::convert

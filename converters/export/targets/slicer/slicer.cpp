@@ -14,6 +14,8 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/vectors.h"
+#include "converters/base/xml_text.h"
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/tree_losses.h"
@@ -25,30 +27,6 @@ namespace lumen::convert {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// As the value of an attribute, whatever a label holds: what XML 1.0 forbids becomes "_".
-std::string attributeText(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < ' ' ? '_' : c;
-    }
-  }
-  return out;
-}
 
 /// A node of the scene with where it is stored and how it is shown.
 class SceneText {
@@ -84,10 +62,10 @@ private:
     m_text += " <" + kind + "Display id=\"" + displayId + "\" name=\"display " + number + "\"" +
               display + "/>\n";
     m_text += " <" + stored + " id=\"" + storageId + "\" name=\"storage " + number +
-              "\" fileName=\"" + attributeText(file) + "\"" + storage + "/>\n";
-    m_text += " <" + tag + " id=\"vtkMRML" + tag + "Node" + number + "\" name=\"" +
-              attributeText(name) + "\" displayNodeRef=\"" + displayId + "\" storageNodeRef=\"" +
-              storageId + "\" references=\"display:" + displayId + ";storage:" + storageId +
+              "\" fileName=\"" + xmlText(file) + "\"" + storage + "/>\n";
+    m_text += " <" + tag + " id=\"vtkMRML" + tag + "Node" + number + "\" name=\"" + xmlText(name) +
+              "\" displayNodeRef=\"" + displayId + "\" storageNodeRef=\"" + storageId +
+              "\" references=\"display:" + displayId + ";storage:" + storageId +
               ";\" userTags=\"\"/>\n";
   }
 
@@ -165,15 +143,22 @@ ExportResult exportSlicer(const ExportInput& input) {
   result.files.insert(result.files.end(), curves.begin(), curves.end());
   result.others.push_back(
       {"centerlines/*.mrk.json", "a curve for each branch, with the measurement Radius"});
-  result.start =
-      "Drag `scene.mrml` onto 3D Slicer, or File, Add Data. Every file says that its positions are "
-      "LPS; Slicer shows "
-      "them in\nRAS, that is, with x and y the other way, and they lie on the volume that the case "
-      "was made from.\n";
+  result.start = exportText("slicer/README.md");
   result.losses = treeLosses(tree);
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;
+}
+
+TargetRow slicerRow() {
+  return {.name = "slicer",
+          .title = "3D Slicer",
+          .files = {"scene.mrml", "vessels.vtp", "seeds.mrk.json", "ends.mrk.json"},
+          .units = {LengthUnit::Millimetre},
+          .axes = {Axes::Lps},
+          .holds = "the surface; the branches as curves with radii; where they begin; the ends",
+          .lacks = "links that close loops, and that an aneurysm is one",
+          .options = {"--edge", "--max-error"}};
 }
 
 }  // namespace lumen::convert

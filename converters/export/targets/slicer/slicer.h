@@ -11,4 +11,6 @@ namespace lumen::convert {
 /// LPS, which each file says. Throws as lumenSurface().
 ExportResult exportSlicer(const ExportInput& input);
 
+TargetRow slicerRow();
+
 }  // namespace lumen::convert

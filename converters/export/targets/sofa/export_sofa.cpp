@@ -12,8 +12,11 @@
 #include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/distance_grid.h"
+#include "converters/export/shared/export_text.h"
+#include "converters/export/shared/markdown_text.h"
 #include "converters/export/shared/meta_image.h"
 #include "converters/export/shared/surface.h"
+#include "converters/export/targets/sofa/scene.h"
 #include "converters/io/mesh/write_plain.h"
 #include "formats/case/binary_encode.h"
 #include "formats/container/printable.h"
@@ -29,13 +32,14 @@ double insertedRadius(InstrumentKind kind) {
   return greatest;
 }
 
-SceneInput inputOf(const formats::Case& source, const SofaOptions& options) {
+SceneInput inputOf(const ExportInput& asked, const SofaOptions& options) {
   // a coil is as long as it is; others are pushed to the end of the way, and end behind it
   constexpr double kBehind = 20, kLeast = 80, kCurlShare = 1.6;
+  const formats::CenterlineTree& tree = asked.source.tree;
   SceneInput input;
   input.insertion =
-      insertionOf(source.tree, options.insert, clearanceFor(insertedRadius(options.instrument)));
-  input.branch = source.tree.branches[input.insertion.branch].label;
+      insertionOf(tree, asked.options.insert, clearanceFor(insertedRadius(options.instrument)));
+  input.branch = tree.branches[input.insertion.branch].label;
   input.instruments =
       instrumentsOf(options.instrument, std::max(kLeast, input.insertion.way + kBehind),
                     kCurlShare * input.insertion.radius);
@@ -61,31 +65,29 @@ void setBox(SceneInput& input, const SurfaceMesh& mesh) {
   }
 }
 
+std::string pluginsOf(WallKind wall) {
+  if (wall == WallKind::Implicit)
+    return ", and LumenSofa, which the folder converters/export/sofa_plugin of lumen's source "
+           "builds (README.md there)";
+  return wall == WallKind::Grid ? ", SofaDistanceGrid and SofaImplicitField" : "";
+}
+
 std::string startOf(const SceneInput& input, const SofaOptions& options) {
-  const bool isImplicit = options.wall == WallKind::Implicit;
-  const std::string steps = std::to_string(stepsOf(input, options));
-  std::string text;
-  for (const std::string& line : aboutScene(input, options)) text += line + "\n";
-  text += "\nStart it without a window, where the files are:\n\n    runSofa";
-  text += isImplicit ? " -l libLumenSofa.so" : "";
-  text += " -g batch -n " + steps + " scene.scn\n\n";
-  text +=
-      "or with one by `runSofa scene.scn`, or `runSofa -l SofaPython3 scene.py`, which is the same "
-      "scene for\nSofaPython3. It needs the plugin BeamAdapter";
-  text += isImplicit ? ", and LumenSofa, which is built from converters/export/sofa_plugin of lumen"
-                     : "";
-  text += options.wall == WallKind::Grid ? ", SofaDistanceGrid and SofaImplicitField" : "";
-  text += ".\n\n";
-  text += options.dialect == SofaDialect::V23_06 ? "Written for SOFA v23.06.\n"
-                                                 : "Written for SOFA v25.06.\n";
-  return text;
+  std::string about;
+  for (const std::string& line : aboutScene(input, options)) about += markdownText(line) + "\n";
+  return exportText("sofa/README.md",
+                    {{"about", about},
+                     {"plugin", options.wall == WallKind::Implicit ? " -l libLumenSofa.so" : ""},
+                     {"steps", std::to_string(stepsOf(input, options))},
+                     {"plugins", pluginsOf(options.wall)},
+                     {"release", options.dialect == SofaDialect::V23_06 ? "v23.06" : "v25.06"}});
 }
 
 void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
   constexpr double kBorder = 1,
                    kBorderSamples = 3;  // mm: contacts look for the wall so far from it
   const PlaceBox box{scene.low, scene.high};
-  const double spacing = gridSpacing(input.options.grid.spacing, box, kBorder, input.source.tree);
+  const double spacing = gridSpacing(input.options.spacing, box, kBorder, input.source.tree);
   const Lattice lattice = latticeOver(box, kBorder + kBorderSamples * spacing, spacing);
   const VesselDistance vessels(input.source);
   const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);
@@ -118,10 +120,9 @@ std::string insertedText(const SceneInput& input, const SofaOptions& options) {
 
 }  // namespace
 
-ExportResult exportSofa(const ExportInput& input) {
-  const SofaOptions& options = input.options.sofa;
+ExportResult exportSofa(const ExportInput& input, const SofaOptions& options) {
   ExportResult result;
-  SceneInput scene = inputOf(input.source, options);
+  SceneInput scene = inputOf(input, options);
   ExportedSurface made = lumenSurface(input);
   setBox(scene, made.mesh);
   const std::vector<std::byte> bytes = formats::encodeBinary(input.source);
@@ -138,6 +139,18 @@ ExportResult exportSofa(const ExportInput& input) {
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;
+}
+
+TargetRow sofaRow() {
+  return {.name = "sofa",
+          .title = "SOFA with BeamAdapter",
+          .files = {"scene.scn", "scene.py", "vessel.obj", "case.lumen"},
+          .units = {LengthUnit::Millimetre},
+          .axes = {Axes::Lps},
+          .holds = "the case; the surface; an instrument at the root, with friction contact",
+          .lacks = "nothing: the case lies beside the scene",
+          .options = {"--edge", "--max-error", "--instrument", "--wall", "--dialect", "--step",
+                      "--insert", "--grid"}};
 }
 
 }  // namespace lumen::convert

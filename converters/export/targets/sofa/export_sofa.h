@@ -3,10 +3,13 @@
 #pragma once
 
 #include "converters/export/shared/target.h"
+#include "converters/export/targets/sofa/sofa_options.h"
 
 namespace lumen::convert {
 
 /// The files, in mm and LPS. Throws as insertionOf() and lumenSurface().
-ExportResult exportSofa(const ExportInput& input);
+ExportResult exportSofa(const ExportInput& input, const SofaOptions& options);
+
+TargetRow sofaRow();
 
 }  // namespace lumen::convert

@@ -9,23 +9,9 @@
 #include "converters/export/shared/insertion.h"
 #include "converters/export/targets/sofa/instrument.h"
 #include "converters/export/targets/sofa/scene_tree.h"
+#include "converters/export/targets/sofa/sofa_options.h"
 
 namespace lumen::convert {
-
-enum class WallKind {
-  Mesh,      ///< triangles, stock SOFA
-  Implicit,  ///< the case itself, by the plugin LumenSofa
-  Grid       ///< distances on a grid, by the plugins SofaDistanceGrid and SofaImplicitField
-};
-enum class SofaDialect { Current, V23_06 };
-
-struct SofaOptions {
-  InstrumentKind instrument = InstrumentKind::Guidewire;
-  WallKind wall = WallKind::Mesh;
-  SofaDialect dialect = SofaDialect::Current;
-  double step = 0.1;     ///< mm that an instrument advances in a time step
-  std::string insert{};  ///< label of a branch; empty: the root
-};
 
 /// A grid of samples that a scene refers to.
 struct SceneGrid {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "converters/base/number_text.h"
+#include "converters/base/xml_text.h"
 
 namespace lumen::convert {
 
@@ -50,30 +51,8 @@ std::string sceneNumbers(const std::vector<double>& values) {
 
 namespace {
 
-std::string xmlText(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-/// Comments of XML may not have two hyphens in a row, whatever a label is called.
-std::string commentText(std::string text) {
-  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--"))
-    text.replace(at, 2, "- -");
-  return text;
-}
-
 void xmlItem(const SceneItem& item, const std::string& indent, std::string& out) {
-  if (!item.comment.empty()) out += indent + "<!-- " + commentText(item.comment) + " -->\n";
+  if (!item.comment.empty()) out += indent + "<!-- " + xmlComment(item.comment) + " -->\n";
   out += indent + "<" + item.type;
   for (const SceneDatum& datum : item.data)
     out += " " + datum.name + "=\"" + xmlText(datum.value) + "\"";
@@ -132,7 +111,7 @@ void pythonChildren(const SceneItem& node, const std::string& variable, std::str
 
 std::string printXml(const SceneItem& root, const std::vector<std::string>& about) {
   std::string out = "<?xml version=\"1.0\"?>\n<!--\n";
-  for (const std::string& line : about) out += "  " + commentText(line) + "\n";
+  for (const std::string& line : about) out += "  " + xmlComment(line) + "\n";
   out += "-->\n";
   xmlItem(root, "", out);
   return out;

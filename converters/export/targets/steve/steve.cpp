@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/shared/tree_losses.h"
@@ -24,50 +25,20 @@ std::string tuple(const Eigen::Vector3d& v) {
 }
 
 std::string moduleOf(const std::vector<BranchPath>& paths) {
-  std::string text =
-      "# The vessels of a case as a vessel tree of stEVE: mm, patient coordinates, LPS, not "
-      "turned.\n"
-      "import os\n\n"
-      "HERE = os.path.dirname(os.path.abspath(__file__))\n"
-      "MESH = os.path.join(HERE, \"vessel.obj\")\n\n"
-      "# mm, and a unit vector into the vessels\n";
-  text += "INSERTION_POSITION = " + tuple(paths.front().points.front()) + "\n";
-  text += "INSERTION_DIRECTION = " + tuple(paths.front().tangent(0)) + "\n\n";
-  text += "# of each branch its name, and x, y, z and radius of its points, mm\nBRANCHES = [\n";
+  std::string branches;
   for (const BranchPath& path : paths) {
-    text += "    (\"" + path.name + "\", [\n";
+    branches += "    (\"" + path.name + "\", [\n";
     for (std::size_t k = 0; k < path.points.size(); ++k) {
       const Eigen::Vector3d& p = path.points[k];
-      text += "        (" + numberText(p.x()) + ", " + numberText(p.y()) + ", " +
-              numberText(p.z()) + ", " + numberText(path.radii[k]) + "),\n";
+      branches += "        (" + numberText(p.x()) + ", " + numberText(p.y()) + ", " +
+                  numberText(p.z()) + ", " + numberText(path.radii[k]) + "),\n";
     }
-    text += "    ]),\n";
+    branches += "    ]),\n";
   }
-  return text +
-         "]\n\n\n"
-         "def make_vessel_tree():\n"
-         "    \"\"\"A FromMesh of stEVE with the radii of the case.\"\"\"\n"
-         "    import numpy as np\n"
-         "    from eve.intervention.vesseltree import FromMesh\n"
-         "    from eve.intervention.vesseltree.util.branch import BranchWithRadii\n\n"
-         "    branches = []\n"
-         "    for name, points in BRANCHES:\n"
-         "        values = np.array(points, dtype=np.float32)\n"
-         "        branches.append(BranchWithRadii(name, values[:, :3], values[:, 3]))\n"
-         "    # without a rotation stEVE does not take one: [0, 0, 0] is none\n"
-         "    return FromMesh(MESH, INSERTION_POSITION, INSERTION_DIRECTION, "
-         "branch_list=branches,\n"
-         "                    rotation_yzx_deg=[0.0, 0.0, 0.0])\n";
+  return exportText("steve/vessels.py", {{"position", tuple(paths.front().points.front())},
+                                         {"direction", tuple(paths.front().tangent(0))},
+                                         {"branches", branches}});
 }
-
-const char* const kStart =
-    "`vessels.py` has `make_vessel_tree()`, which gives a `FromMesh` with a `BranchWithRadii` for "
-    "each branch and "
-    "the\ninsertion at the root. The class `VMR` reads `Paths` and `Meshes`, which it scales by "
-    "ten; it also asks "
-    "for a volume\nmesh, `Meshes/*.vtu`, which is not here: `vessels.py` needs none. A branch "
-    "begins on its "
-    "parent.\n";
 
 }  // namespace
 
@@ -76,7 +47,7 @@ ExportResult exportSteve(const ExportInput& input) {
   ExportedSurface made = lumenSurface(input);
   const ExportFrame centimetres{LengthUnit::Centimetre, Axes::Lps};
   ExportResult result;
-  result.start = kStart;
+  result.start = exportText("steve/README.md");
   result.files = {{"vessels.py", moduleOf(paths),
                    "branches with their radii, insertion, mesh as a vessel tree", ""},
                   {"vessel.obj", encodeObj(turnedOver(made.mesh)),
@@ -91,6 +62,17 @@ ExportResult exportSteve(const ExportInput& input) {
   result.ends = std::move(made.ends);
   result.surface = std::move(made.report);
   return result;
+}
+
+TargetRow steveRow() {
+  return {.name = "steve",
+          .title = "stEVE",
+          .files = {"vessels.py", "vessel.obj", "Meshes/vessel.vtp"},
+          .units = {LengthUnit::Millimetre},
+          .axes = {Axes::Lps},
+          .holds = "the branches with their radii; the surface; the root as the insertion",
+          .lacks = "links that close loops, and that an aneurysm is one",
+          .options = {"--edge", "--max-error"}};
 }
 
 }  // namespace lumen::convert

@@ -13,4 +13,6 @@ namespace lumen::convert {
 /// lumenSurface().
 ExportResult exportSteve(const ExportInput& input);
 
+TargetRow steveRow();
+
 }  // namespace lumen::convert

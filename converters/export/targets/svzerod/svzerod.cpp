@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/export/shared/blood.h"
+#include "converters/export/shared/export_text.h"
+#include "converters/export/shared/flow_pressure.h"
 #include "converters/export/shared/network.h"
 #include "converters/io/mesh/plain_names.h"
 
@@ -119,35 +121,35 @@ Json modelOf(const FlowNetwork& network) {
           {"junctions", std::move(junctions)}};
 }
 
-const char* const kStart =
-    "    svzerodsolver model.json output.csv\n\n"
-    "`output.csv` has flow (cm^3/s) and pressure (dyn/cm^2) at both ends of each vessel. Units are "
-    "cgs: cm, g, s, dyn. "
-    "`_label`\nof a vessel is that of its branch in the case, with a number behind it from its "
-    "second part on.\n\n"
-    "| stated | | source |\n|---|---|---|\n"
-    "| blood | 1060 kg/m^3, 4 mPa s, Newtonian | defaults of SimVascular's solvers |\n"
-    "| R | 8 mu / (pi r^4), integrated along the radii | Poiseuille |\n"
-    "| L | rho / (pi r^2), likewise | Formaggia, Lamponi, Quarteroni, J Eng Math 47, 2003 |\n"
-    "| C | 3 pi r^3 / (2 E h), likewise, of a thin elastic wall | the same |\n"
-    "| E h / r | 2e7 exp(-22.53 r) + 8.65e5 dyn/cm^2, r in cm | Olufsen, Am J Physiol 276, 1999 |\n"
-    "| inlets | a steady 20 cm/s over the section | in the range of arteries; put your own flow "
-    "here |\n"
-    "| outlets | resistances that split the flow by r^3, at 100 mmHg | Murray, PNAS 12, 1926 |\n";
-
 }  // namespace
 
 ExportResult exportSvZeroD(const ExportInput& input) {
   const FlowNetwork network = flowNetwork(input.source.tree);
   ExportResult result;
-  result.start = kStart;
+  result.start = exportText("svzerod/README.md");
   result.files = {{"model.json",
                    modelOf(network).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
                    "vessels, junctions, inlets and outlets", ""}};
   result.ends = endsOf(network);
   result.losses = network.messages;
+  for (std::string& warning : pressureWarnings(network))
+    result.losses.push_back(std::move(warning));
   result.remarks = {summaryOf(network)};
   return result;
+}
+
+TargetRow svZeroDRow() {
+  return {.name = "svzerod",
+          .title = "svZeroDSolver",
+          .files = {"model.json"},
+          .units = {LengthUnit::Centimetre},
+          .axes = {Axes::Lps},
+          .holds =
+              "lengths, radii, junctions and loops, as resistance, compliance and inertance of "
+              "each segment",
+          .lacks = "aneurysms; the shape of sections",
+          .options = {},
+          .needsModels = false};
 }
 
 }  // namespace lumen::convert

@@ -11,4 +11,6 @@ namespace lumen::convert {
 /// Loops are junctions like others. Throws as flowNetwork().
 ExportResult exportSvZeroD(const ExportInput& input);
 
+TargetRow svZeroDRow();
+
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/export/targets/mujoco/mujoco_text.h"
+#include "converters/export/shared/mujoco_text.h"
 
 #include <algorithm>
 #include <cstddef>

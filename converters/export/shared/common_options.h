@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that several targets of `lumen export` take.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "converters/export/shared/frame.h"
+#include "converters/stages/surface/closed_surface.h"
+
+namespace lumen::convert {
+
+/// A simulator asks a wall of triangles many times a step, and edges of half the radius are what its curvature needs.
+inline constexpr double kExportedEdge = 0.5;
+
+inline ClosedSurfaceOptions exportedSurfaceOptions() {
+  ClosedSurfaceOptions options;
+  options.edge.share = kExportedEdge;
+  return options;
+}
+
+struct CommonOptions {
+  std::optional<LengthUnit> unit;  ///< one of the target's; none: the first of these
+  std::optional<Axes> axes;        ///< likewise
+  ClosedSurfaceOptions surface = exportedSurfaceOptions();
+  double spacing =
+      0;  ///< of the samples of grids, mm; 0: by the size of the vessels (gridSpacing())
+  std::string insert;  ///< label of the branch where an instrument enters; empty: the root
+};
+
+}  // namespace lumen::convert
