@@ -27,8 +27,9 @@ struct ExportTarget : TargetRow {
 
 const std::vector<ExportTarget>& exportTargets();
 
-/// The whole folder: the target's files, README.md and lumen-export.json (spec/export.md). Throws as the target, and
-/// Error(InvalidInput) for a case without the models or the vessel that the target needs.
+/// The whole folder: the target's files, README.md and lumen-export.json (spec/export.md). Throws
+/// as the target, and Error(InvalidInput) for a case without the models or the vessel that the
+/// target needs.
 ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
                         const ExportOptions& options, const OptionTexts& texts, Progress& progress);
 

@@ -109,8 +109,8 @@ void drawMissing(Picture& picture, const CheckReport& report, const VolumeGeomet
     }
 }
 
-/// Numbers of the longest missing vessels, then the names of branches at their last nodes; letters of `least` times
-/// their smallest size and more.
+/// Numbers of the longest missing vessels, then the names of branches at their last nodes; letters
+/// of `least` times their smallest size and more.
 void drawLabels(Labels& labels, const formats::CenterlineTree& tree, const CheckReport& report,
                 const VolumeGeometry& geometry, const Panel& panel, int least) {
   const auto& vessels = report.missing.vessels;

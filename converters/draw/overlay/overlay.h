@@ -13,8 +13,8 @@
 namespace lumen::convert {
 
 /// Maximum-intensity projections (minimum, for dark vessels) as front, side and top view, over them
-/// the centerlines in the colour of their nodes' agreement, names of branches where they end and where
-/// there is room, and missing vessels, the longest ones numbered as in the legend.
+/// the centerlines in the colour of their nodes' agreement, names of branches where they end and
+/// where there is room, and missing vessels, the longest ones numbered as in the legend.
 Picture drawOverlay(const Volume& volume, const formats::CenterlineTree& tree,
                     const CheckReport& report);
 

@@ -19,11 +19,12 @@ constexpr double kMargin = 0.06;    // of the picture, on each side
 constexpr double kLeast = 1e-6;     // mm: of what is to be in a picture
 constexpr int kStepsOfCircle = 64;  // after n steps the radius is some 1/n too wide
 
-/// Directions in which the extent is no more than this times the least one count as of least extent.
+/// Directions in which the extent is no more than this times the least one count as of least
+/// extent.
 constexpr double kAlike = 1.1;
 
-/// The direction of least extent, from the front of the patient or from his head; of several, that which is nearest to his
-/// front.
+/// The direction of least extent, from the front of the patient or from his head; of several, that
+/// which is nearest to his front.
 Eigen::Vector3d thinnestDirection(const formats::CenterlineTree& tree) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const formats::Vec3f& c : tree.centre) mean += toEigen(c);
@@ -79,7 +80,7 @@ Eigen::Matrix3d axesOf(const Eigen::Vector3d& towards) {
   return axes;
 }
 
-/// What a picture has to hold.
+/// The box that a picture has to hold.
 struct Box {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mm, LPS
   double width = 0, height = 0;                      ///< mm
@@ -97,8 +98,8 @@ Box boxOf(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
   return {axes.transpose() * (0.5 * (low + high)), high.x() - low.x(), high.y() - low.y()};
 }
 
-/// About the upright axis through the centre all nodes stay within the width at any turn: it is a nearly least circle around
-/// them (M. Badoiu, K. L. Clarkson, Smaller core-sets for balls, 2003).
+/// About the upright axis through the centre all nodes stay within the width at any turn: it is a
+/// nearly least circle around them (M. Badoiu, K. L. Clarkson, Smaller core-sets for balls, 2003).
 Box boxOfTurns(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
   Box box = boxOf(tree, axes);
   Eigen::Vector3d centre = axes * box.centre;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written into the margins of a picture: its scale, the sides of the patient, what colours mean.
+// Marks in the margins of a picture: its scale, the sides of the patient, the meaning of colours.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@
 
 namespace lumen::convert {
 
-/// Pixels that marks take above and below a picture; 0 where it is narrower or lower than 160 and has none.
+/// Pixels that marks take above and below a picture; 0 where it is narrower or lower than 160 and
+/// has none.
 int roomForMarks(int width, int height);
 
 /// A bar of 1, 2 or 5 times a power of ten millimetres, and its length in mm.
@@ -26,8 +27,8 @@ ScaleBar scaleBarOf(const Camera& camera);
 /// The bar in the lower left corner, with its length.
 void drawScaleBar(Picture& picture, const Camera& camera, const Rgb& ink);
 
-/// The side of the patient towards which a direction (unit, LPS) points: L, R, P, A, S or I, or several, the nearest first,
-/// where it lies more than 22.5 degrees off the first.
+/// The side of the patient towards which a direction (unit, LPS) points: L, R, P, A, S or I, or
+/// several, the nearest first, where it lies more than 22.5 degrees off the first.
 std::string sideOf(const Eigen::Vector3d& direction);
 
 /// The sides in the middle of the picture's four edges.

@@ -25,8 +25,8 @@ constexpr double kShare = 0.9;   // of the distance: it is right to first order 
 constexpr double kNear = 0.002;  // radii: on the surface
 constexpr int kRowsOfTile = 16;
 
-/// Where the power of a node is at most that of a neighbour: across . X <= level, X from the node's centre in the
-/// camera's axes, mm.
+/// Where the power of a node is at most that of a neighbour: across . X <= level, X from the node's
+/// centre in the camera's axes, mm.
 struct Side {
   Eigen::Vector3d across;
   double level;
@@ -96,7 +96,8 @@ private:
     march(ball.node, pixel, m_camera.place(x + 0.5, y + 0.5, ball.depth), near, far);
   }
 
-  /// Along a ray, from `near` to `far` mm towards the viewer from `origin`, with the cursor at a node.
+  /// Along a ray, from `near` to `far` mm towards the viewer from `origin`, with the cursor at a
+  /// node.
   void march(std::uint32_t node, std::size_t pixel, const Eigen::Vector3d& origin, double near,
              double far) const {
     std::uint32_t cursor = node;

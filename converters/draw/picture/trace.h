@@ -17,7 +17,7 @@ struct blob_model;
 
 namespace lumen::convert {
 
-/// What each pixel of a camera shows; rows from the top.
+/// The first hit behind each pixel of a camera; rows from the top.
 struct TracedSurface {
   static constexpr float kNothing = -std::numeric_limits<float>::infinity();
   int width = 0, height = 0;
@@ -32,11 +32,13 @@ struct TracedSurface {
   [[nodiscard]] bool isHit(std::size_t pixel) const { return depth[pixel] > kNothing; }
 };
 
-/// Where rays meet the wall, as section 4.6 of docs/method.md says: sphere tracing (J. C. Hart, 1996) of libblob's distance, of
-/// each node in its own power cell, so vessels that touch stay apart.
+/// Where rays meet the wall, as section 4.6 of docs/method.md says: sphere tracing (J. C. Hart,
+/// 1996) of libblob's distance, of each node in its own power cell, so vessels that touch stay
+/// apart.
 class SurfaceTracer {
 public:
-  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob does not take it.
+  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob does not take
+  /// it.
   explicit SurfaceTracer(const formats::Case& source);
 
   /// On all cores; the same bits on any number of them. Throws Error(Cancelled).

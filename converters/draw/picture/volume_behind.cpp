@@ -19,7 +19,8 @@ constexpr int kBrick = 8;          // voxels
 constexpr float kBrightest = 190;  // of 255: vessels stand out before it
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a ray in index space lies in the box of the voxels: from `first` to `last` steps; empty if first > last.
+/// Where a ray in index space lies in the box of the voxels: from `first` to `last` steps; empty if
+/// first > last.
 struct Stretch {
   double first = -kInfinity, last = kInfinity;
 };
@@ -94,7 +95,8 @@ public:
          const std::vector<float>& most)
       : m_size(size), m_count(count), m_most(most) {}
 
-  /// The first whole step from `t` on that lies in a brick that holds more than `met`, or beyond `last`.
+  /// The first whole step from `t` on that lies in a brick that holds more than `met`, or beyond
+  /// `last`.
   [[nodiscard]] double skip(const Eigen::Vector3d& from, const Eigen::Vector3d& step, double t,
                             double last, float met) const {
     while (t <= last) {

@@ -12,14 +12,16 @@
 
 namespace lumen::convert {
 
-/// The greatest value along each ray of a volume, which must stay; trilinear between voxels, at steps of the least spacing.
+/// The greatest value along each ray of a volume, which must stay; trilinear between voxels, at
+/// steps of the least spacing.
 class Projector {
 public:
   /// Reads the volume once. Throws Error(Cancelled).
   Projector(const Volume& volume, Progress& progress);
 
-  /// For each pixel; rows from the top; minus infinity beside the volume. The same bits on any number of threads, and those of
-  /// taking every sample: whole bricks are passed over that hold nothing greater than what was met. Throws Error(Cancelled).
+  /// For each pixel; rows from the top; minus infinity beside the volume. The same bits on any
+  /// number of threads, and those of taking every sample: whole bricks are passed over that hold
+  /// nothing greater than what was met. Throws Error(Cancelled).
   [[nodiscard]] std::vector<float> greatest(const Camera& camera, Progress& progress) const;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What exports for flow solvers state of blood and of arteries' walls, in SI units. A case knows neither: whoever
-// knows better replaces them.
+// Properties of blood and of arteries' walls in exports for flow solvers, in SI units. A case knows
+// neither, so users replace them where they know better.
 #pragma once
 
 #include <cmath>
@@ -12,22 +12,23 @@ namespace lumen::convert::blood {
 constexpr double kDensity = 1060;
 constexpr double kViscosity = 0.004;
 
-/// m/s, over the section of an inlet and the heart's cycle: arteries from the aorta to those of the brain have 0.1 to
-/// 0.4 (Caro et al., The mechanics of the circulation, 2012).
+/// m/s, over the section of an inlet and the heart's cycle: arteries from the aorta to those of the
+/// brain have 0.1 to 0.4 (Caro et al., The mechanics of the circulation, 2012).
 constexpr double kMeanVelocity = 0.2;
 
 /// Pa, in the middle of outlets: 100 mmHg.
 constexpr double kMeanPressure = 13332;
 
-/// Of a wall to the inner radius; only where a solver wants modulus and thickness apart.
+/// Thickness of a wall as a share of the inner radius; only where a solver wants modulus and
+/// thickness apart.
 constexpr double kThickness = 0.1;
 
-/// E h / r in Pa of an artery with the radius `r` in m: k1 exp(k2 r) + k3 (Olufsen, Structured tree outflow condition
-/// for blood flow in larger systemic arteries, Am J Physiol 276, 1999).
+/// E h / r in Pa of an artery with the radius `r` in m: k1 exp(k2 r) + k3 (Olufsen, Structured tree
+/// outflow condition for blood flow in larger systemic arteries, Am J Physiol 276, 1999).
 constexpr double kStiffness1 = 2e6, kStiffness2 = -2252.67, kStiffness3 = 8.65e4;
 
-/// s, in which pressure behind an outlet falls by 1/e: in diastole 1 to 2 (Westerhof, Lankhaar, Westerhof, The arterial
-/// Windkessel, Med Biol Eng Comput 47, 2009).
+/// s, in which pressure behind an outlet falls by 1/e: in diastole 1 to 2 (Westerhof, Lankhaar,
+/// Westerhof, The arterial Windkessel, Med Biol Eng Comput 47, 2009).
 constexpr double kDecay = 1.5;
 
 inline double stiffness(double r) {
@@ -39,7 +40,8 @@ inline double meanFlow(double r) {
   return kMeanVelocity * std::numbers::pi * r * r;
 }
 
-/// What an outlet takes of a flow: r^3 (Murray, The physiological principle of minimum work, PNAS 12, 1926).
+/// Share of a flow that an outlet takes: r^3 (Murray, The physiological principle of minimum work,
+/// PNAS 12, 1926).
 inline double murrayShare(double r) {
   return r * r * r;
 }

@@ -167,7 +167,8 @@ std::string encodeCdf(const GridSource& source, const Lattice& lattice, double u
     refuseSpacing(lattice.spacing,
                   "this makes more nodes in the .cdf than " + std::to_string(kMostNodes));
   if (!std::isfinite(source.band)) requireLoadable(cells, cells, samples, lattice.spacing);
-  // cells at the band's border have all their nodes: none is clamped that is within a cell's diagonal
+  // cells at the band's border have all their nodes: none is clamped that is within a cell's
+  // diagonal
   const GridSource beyond{source.vessels, source.region, source.band + 2 * lattice.spacing};
   const std::vector<float> values = sampleNodes(beyond, lattice, nodes, unit, progress);
   const Cells kept = keepBand(values, nodes, n, source.band / unit);

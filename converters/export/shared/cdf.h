@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of Discregrid (.cdf): distances as cubic polynomials on cells, which Bullet's btSdfCollisionShape loads.
+// Files of Discregrid (.cdf): distances as cubic polynomials on cells, which Bullet's
+// btSdfCollisionShape loads.
 #pragma once
 
 #include <array>
@@ -12,8 +13,9 @@
 
 namespace lumen::convert {
 
-/// A cell has a node at each corner, and two on each edge, at a third and two thirds. Nodes are in the file's order:
-/// corners, then those of edges along x, y and z, in which x, y and z run fastest, in turn.
+/// A cell has a node at each corner, and two on each edge, at a third and two thirds. Nodes are in
+/// the file's order: corners, then those of edges along x, y and z, in which x, y and z run
+/// fastest, in turn.
 class CdfNodes {
 public:
   explicit CdfNodes(const std::array<std::size_t, 3>& cells) : m_cells(cells) {}
@@ -32,9 +34,10 @@ private:
   std::array<std::size_t, 3> m_cells;
 };
 
-/// Cells between the lattice's samples; distances positive in the lumen, where Bullet lets bodies move. With a band,
-/// cells without a node in it are left out, and a query there has no answer. `unit`: lengths of the file in
-/// mm, 1 or 1000. Throws Error(Usage) for a lattice whose file Bullet could not load (2^31 bytes), Error(Cancelled).
+/// Cells between the lattice's samples; distances positive in the lumen, where Bullet lets bodies
+/// move. With a band, cells without a node in it are left out, and a query there has no answer.
+/// `unit`: lengths of the file in mm, 1 or 1000. Throws Error(Usage) for a lattice whose file
+/// Bullet could not load (2^31 bytes), Error(Cancelled).
 std::string encodeCdf(const GridSource& source, const Lattice& lattice, double unit,
                       Progress& progress);
 

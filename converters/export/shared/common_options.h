@@ -10,7 +10,8 @@
 
 namespace lumen::convert {
 
-/// A simulator asks a wall of triangles many times a step, and edges of half the radius are what its curvature needs.
+/// A simulator asks a wall of triangles many times a step, and edges of half the radius are what
+/// its curvature needs.
 inline constexpr double kExportedEdge = 0.5;
 
 inline ClosedSurfaceOptions exportedSurfaceOptions() {
@@ -21,10 +22,9 @@ inline ClosedSurfaceOptions exportedSurfaceOptions() {
 
 struct CommonOptions {
   std::optional<LengthUnit> unit;  ///< one of the target's; none: the first of these
-  std::optional<Axes> axes;        ///< likewise
+  std::optional<Axes> axes;        ///< one of the target's; none: the first of these
   ClosedSurfaceOptions surface = exportedSurfaceOptions();
-  double spacing =
-      0;  ///< of the samples of grids, mm; 0: by the size of the vessels (gridSpacing())
+  double spacing = 0;  ///< mm between samples of grids; 0: by the size of the vessels
   std::string insert;  ///< label of the branch where an instrument enters; empty: the root
 };
 

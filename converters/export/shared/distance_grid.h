@@ -34,21 +34,22 @@ struct PlaceBox {
   Place low{}, high{};
 };
 
-/// The spacing that is asked for, mm; for 0 a quarter of the tree's least radius, but at most eight million samples over
-/// the box and `margin`.
+/// The spacing that is asked for, mm; for 0 a quarter of the tree's least radius, but at most eight
+/// million samples over the box and `margin`.
 double gridSpacing(double asked, const PlaceBox& box, double margin,
                    const formats::CenterlineTree& tree);
 
 /// Sentences about vessels that a grid passes over: those with less than two samples across.
 std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTree& tree);
 
-/// Over the box and a margin on each side. Throws Error(Usage) for more than 2^31 samples along an axis.
+/// Over the box and a margin on each side. Throws Error(Usage) for more than 2^31 samples along an
+/// axis.
 Lattice latticeOver(const PlaceBox& box, double margin, double spacing);
 
 /// Those of `whole` that lie in the box with its margin; at least two along each axis.
 Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin);
 
-/// Who answers on a grid, and how far from the wall.
+/// The source of the answers on a grid, and how far from the wall it is asked.
 struct GridSource {
   const VesselDistance& vessels;
   const TreeRegion* region = nullptr;  ///< none: all vessels
@@ -59,8 +60,8 @@ struct GridSource {
 /// Place of a sample.
 using RowPlaces = std::function<Place(std::size_t row, std::size_t index)>;
 
-/// `rows` rows of `length` samples near each other, answers[row * length + index], in parallel; the same numbers on any
-/// number of threads. Throws Error(Cancelled).
+/// `rows` rows of `length` samples near each other, answers[row * length + index], in parallel; the
+/// same numbers on any number of threads. Throws Error(Cancelled).
 std::vector<WallDistance> sampleRows(const GridSource& source, std::size_t rows, std::size_t length,
                                      const RowPlaces& places, Progress& progress);
 
@@ -73,12 +74,13 @@ struct DistanceGrid {
 /// Throws Error(Usage) for more than kMostGridSamples, Error(Cancelled).
 DistanceGrid sampleGrid(const GridSource& source, const Lattice& lattice, Progress& progress);
 
-/// The same in layers of constant z, `layers` at a time, each handed to `take` with the index of its first layer.
+/// sampleGrid() in layers of constant z, `layers` at a time, each handed to `take` with the index
+/// of its first layer.
 using TakeLayers = std::function<void(const DistanceGrid& part, int firstLayer)>;
 void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
                   const TakeLayers& take, Progress& progress);
 
-/// Says which option makes too much of what.
+/// Throws Error(Usage) that names the option and what it would make too large.
 [[noreturn]] void refuseSpacing(double spacing, const std::string& what);
 
 }  // namespace lumen::convert

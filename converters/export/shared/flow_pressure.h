@@ -9,12 +9,13 @@
 
 namespace lumen::convert {
 
-/// Pa, at each joint, of the steady flow that the exported boundary conditions state: blood::meanFlow() into each inlet,
-/// outletResistances() behind outlets, lumped().resistance between joints.
+/// Pa, at each joint, of the steady flow that the exported boundary conditions state:
+/// blood::meanFlow() into each inlet, outletResistances() behind outlets, lumped().resistance
+/// between joints.
 std::vector<double> steadyPressures(const FlowNetwork& network);
 
-/// A sentence for each inlet whose steady pressure no artery has, with the segment that takes most of it; labels as they
-/// are.
+/// A sentence for each inlet whose steady pressure no artery has, with the segment that takes most
+/// of it; labels as they are.
 std::vector<std::string> pressureWarnings(const FlowNetwork& network);
 
 }  // namespace lumen::convert

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two files that every exported folder has: README.md for people and lumen-export.json for programs.
+// The two files that every exported folder has: README.md for people and lumen-export.json for
+// programs.
 #pragma once
 
 #include <string>

@@ -32,11 +32,11 @@ struct ExportFrame {
 
   [[nodiscard]] double scale() const;  ///< units in a millimetre
   [[nodiscard]] Eigen::Matrix3d rotation() const;
-  /// Of a length, mm.
+  /// A length, from mm.
   [[nodiscard]] double length(double mm) const { return scale() * mm; }
-  /// Of a position, mm, LPS.
+  /// A position, from mm, LPS.
   [[nodiscard]] Eigen::Vector3d position(const Eigen::Vector3d& lps) const;
-  /// Of a unit vector, LPS.
+  /// A unit vector, from LPS.
   [[nodiscard]] Eigen::Vector3d direction(const Eigen::Vector3d& lps) const;
   /// The homogeneous matrix that positions of the case are multiplied with, from the left.
   [[nodiscard]] Eigen::Matrix4d matrix() const;
@@ -44,7 +44,8 @@ struct ExportFrame {
   [[nodiscard]] SurfaceMesh of(SurfaceMesh mesh) const;
 };
 
-/// A surface turned over: its normals look the other way, and its triangles run the other way round.
+/// A surface turned over: its normals look the other way, and its triangles run the other way
+/// round.
 SurfaceMesh turnedOver(SurfaceMesh mesh);
 
 }  // namespace lumen::convert

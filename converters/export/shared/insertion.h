@@ -20,8 +20,8 @@ struct Insertion {
 };
 
 /// The insertion at the beginning of the branch called `label`, or, if that is empty, of the first
-/// vessel that is a root; so far in that no end of the vessel is within `clearance`, mm, of it. Throws
-/// Error(Usage), with the labels that there are, for a label that no branch has, and
+/// vessel that is a root; so far in that no end of the vessel is within `clearance`, mm, of it.
+/// Throws Error(Usage), with the labels that there are, for a label that no branch has, and
 /// Error(InvalidInput) for a case without a tree and for a lumen that is narrower than `clearance`.
 Insertion insertionOf(const formats::CenterlineTree& tree, const std::string& label,
                       double clearance);

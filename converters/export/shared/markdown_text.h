@@ -7,8 +7,9 @@
 
 namespace lumen::convert {
 
-/// `text` as one line that shows as itself, also in the cell of a table and at the beginning of a paragraph: no
-/// character of it is markup, and what does not show is written out (formats::printable()).
+/// `text` as one line that shows as itself, also in the cell of a table and at the beginning of a
+/// paragraph: no character of it is markup, and what does not show is written out
+/// (formats::printable()).
 std::string markdownText(std::string_view text);
 
 }  // namespace lumen::convert

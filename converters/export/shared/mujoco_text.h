@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scenes of MuJoCo are written from: numbers, sites, meshes in metres.
+// Parts of scenes of MuJoCo and CathSim: numbers, sites, meshes in metres.
 #pragma once
 
 #include <initializer_list>
@@ -20,7 +20,8 @@ std::string mujocoNumbers(const Eigen::Vector3d& vector);
 /// The ends under names that need no escapes in XML, each of its own.
 std::vector<NamedEnd> plainlyNamed(std::vector<NamedEnd> ends);
 
-/// A site at the end, its z axis out of the vessel, with a line break. The name is one of plainlyNamed().
+/// A site at the end, its z axis out of the vessel, with a line break. The name is one of
+/// plainlyNamed().
 std::string endSite(const ExportFrame& frame, const NamedEnd& end);
 
 /// Binary STL of a surface that is in metres, LPS, and says so in its head.

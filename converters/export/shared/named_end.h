@@ -21,13 +21,14 @@ struct NamedEnd {
   double radius = 0;                                     ///< mm, of the circle of the same area
 };
 
-/// One for each group of faces but walls, in their order, measured on the edges that it shares with the lumen's
-/// wall, which is group 0. `mesh`: mm, LPS, closed, of closedSurface(), with a thick wall or without.
+/// One for each group of faces but walls, in their order, measured on the edges that it shares with
+/// the lumen's wall, which is group 0. `mesh`: mm, LPS, closed, of closedSurface(), with a thick
+/// wall or without.
 std::vector<NamedEnd> endsOf(const SurfaceMesh& mesh);
 
-/// The same of the tree alone: an inlet at the first node of each root that is a vessel, an outlet at the last
-/// node of each vessel on which nothing hangs and that no link holds; named as on the surface. Directions are the
-/// nodes', radii too.
+/// The ends that the tree alone states: an inlet at the first node of each root that is a vessel,
+/// an outlet at the last node of each vessel on which nothing hangs and that no link holds; named
+/// as on the surface. Directions are the nodes', radii too.
 std::vector<NamedEnd> endsOf(const formats::CenterlineTree& tree);
 
 }  // namespace lumen::convert

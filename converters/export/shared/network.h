@@ -39,7 +39,7 @@ struct FlowSegment {
   [[nodiscard]] double length() const;  ///< mm; 0 if its points lie on each other
 };
 
-/// What is connected.
+/// A connected part of the network.
 struct FlowTree {
   std::vector<std::uint32_t> inlets, outlets;  ///< joints, one of each at least
   bool hasLoop = false;
@@ -53,11 +53,13 @@ struct FlowNetwork {
       messages;  ///< sentences on what was left out or added; labels as they are
 };
 
-/// The vessels of a valid case. Ends are named as on its surface. A branch that leaves its parent on the way splits it, and begins at its wall with its own
-/// first radius; one at the parent's end begins at the parent's last node. A segment leads away from its root; one that
-/// a link closes a loop with leads from the joint of the lesser node. Aneurysms are left out unless a vessel
-/// hangs on them. Where several vessels leave a root's first node, an inlet of one radius is put before it. Throws
-/// Error(InvalidInput) if no vessel has a length, or a tree has no end that blood could leave through.
+/// The vessels of a valid case. Ends are named as on its surface. A branch that leaves its parent
+/// on the way splits it, and begins at its wall with its own first radius; one at the parent's end
+/// begins at the parent's last node. A segment leads away from its root; one that a link closes a
+/// loop with leads from the joint of the lesser node. Aneurysms are left out unless a vessel hangs
+/// on them. Where several vessels leave a root's first node, an inlet of one radius is put before
+/// it. Throws Error(InvalidInput) if no vessel has a length, or a tree has no end that blood could
+/// leave through.
 FlowNetwork flowNetwork(const formats::CenterlineTree& tree);
 
 /// Inlets and outlets, under their names; positions are those of the first and last nodes.
@@ -70,14 +72,14 @@ std::string summaryOf(const FlowNetwork& network);
 struct Lumped {
   double resistance = 0;  ///< Pa s/m^3: 8 mu / (pi r^4), Poiseuille's
   double inertance = 0;   ///< kg/m^4: rho / (pi r^2)
-  /// m^3/Pa: 3 pi r^3 / (2 E h), of a thin elastic wall that keeps its length (Formaggia, Lamponi, Quarteroni,
-  /// One-dimensional models for blood flow in arteries, J Eng Math 47, 2003)
+  /// m^3/Pa: 3 pi r^3 / (2 E h), of a thin elastic wall that keeps its length (Formaggia, Lamponi,
+  /// Quarteroni, One-dimensional models for blood flow in arteries, J Eng Math 47, 2003)
   double compliance = 0;
 };
 Lumped lumped(const FlowSegment& segment);
 
-/// The resistance that lets each outlet of a tree take its share of what all inlets of the tree bring in, by
-/// murrayShare(), at blood::kMeanPressure: Pa s/m^3, in the order of `outlets`.
+/// The resistance that lets each outlet of a tree take its share of what all inlets of the tree
+/// bring in, by murrayShare(), at blood::kMeanPressure: Pa s/m^3, in the order of `outlets`.
 std::vector<double> outletResistances(const FlowNetwork& network, const FlowTree& tree);
 
 /// mm: of the segment's end at an inlet or outlet.

@@ -22,7 +22,7 @@ struct BranchPath {
   [[nodiscard]] Eigen::Vector3d tangent(std::size_t k) const;
 };
 
-/// Of all branches with a length. Throws Error(InvalidInput) if there is none.
+/// The paths of all branches with a length. Throws Error(InvalidInput) if there is none.
 std::vector<BranchPath> branchPaths(const formats::CenterlineTree& tree);
 
 /// A label as the stem of a file's name: small letters, digits, "_", "." and "-".

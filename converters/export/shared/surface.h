@@ -21,8 +21,8 @@ struct ExportedSurface {
 /// The lumen's surface, with the options of the input. Throws as closedSurface().
 ExportedSurface lumenSurface(const ExportInput& input);
 
-/// A wall around it as a solid, of the thickness in the options, or, without one, of `usual`. Throws as
-/// closedSurface(): Error(Failed) where it would meet itself.
+/// A wall around it as a solid, of the thickness in the options, or, without one, of `usual`.
+/// Throws as closedSurface(): Error(Failed) where it would meet itself.
 ExportedSurface wallSurface(const ExportInput& input, const Length& usual);
 
 struct WallAttempt {
@@ -30,8 +30,9 @@ struct WallAttempt {
   std::string whyNot;  ///< a sentence, if there is none
 };
 
-/// wallSurface(), unless it cannot be made: where vessels overlap, as the report on the lumen's surface says, their
-/// walls meet. With a thickness in the options it throws as wallSurface() instead.
+/// wallSurface(), unless it cannot be made: where vessels overlap, as the report on the lumen's
+/// surface says, their walls meet. With a thickness in the options it throws as wallSurface()
+/// instead.
 WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen);
 
 }  // namespace lumen::convert

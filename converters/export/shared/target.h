@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A target of `lumen export`: a simulator, or another program, that gets a folder of files. To add one: a folder below
-// targets with its row and its function, and a line in targets.cpp.
+// A target of `lumen export`: a simulator, or another program, that gets a folder of files. To add
+// one: a folder below targets with its row and its function, and a line in targets.cpp.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct ExportFile {
   std::string name;
   std::string bytes;
   std::string about;  ///< its line in the table of README.md, Markdown; empty: it has none
-  std::string unit;   ///< of its lengths, where it is not the folder's
+  std::string unit;   ///< unit of its lengths, where it is not the folder's
 };
 
 struct ExportResult {
@@ -49,14 +49,14 @@ struct ExportResult {
 /// The description of a target; targets.cpp joins it with the function that writes the folder.
 struct TargetRow {
   std::string_view name;   ///< as the command takes it
-  std::string_view title;  ///< what reads the folder
+  std::string_view title;  ///< the program that reads the folder
   /// Files of every folder, besides those that all targets write.
   std::vector<std::string_view> files;
-  std::vector<LengthUnit> units;  ///< that may be chosen, the usual one first
-  std::vector<Axes> axes;         ///< likewise
+  std::vector<LengthUnit> units;  ///< units that may be chosen, the usual one first
+  std::vector<Axes> axes;         ///< axes that may be chosen, the usual ones first
   std::string_view holds;         ///< of a case
   std::string_view lacks;
-  std::vector<std::string_view> options;  ///< that it takes, besides --unit and --up
+  std::vector<std::string_view> options;  ///< options that it takes, besides --unit and --up
   bool needsModels = true;
   bool needsVessel = true;  ///< one with a length
 };

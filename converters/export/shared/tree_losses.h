@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file that holds lines of points, and no more, lacks of a case's tree.
+// Sentences on the parts of a tree that a file of lines of points cannot hold.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace lumen {
 
-/// Sentences without a full stop about links that close loops and aneurysms; none if there is neither.
+/// Sentences without a full stop about links that close loops and aneurysms; none if there is
+/// neither.
 std::vector<std::string> treeLosses(const formats::CenterlineTree& tree);
 
 }  // namespace lumen

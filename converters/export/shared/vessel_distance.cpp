@@ -17,7 +17,8 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// A wall lies within the doubled ball of its node: beyond it, a branch is left to the nearest node's answer.
+/// A wall lies within the doubled ball of its node: beyond it, a branch is left to the nearest
+/// node's answer.
 constexpr double kReach = 2;
 /// As far, in radii, as libblob lets nodes blend along the tree.
 constexpr double kNeighbourhood = 4;

@@ -26,25 +26,27 @@ struct WallDistance {
 /// Nodes of a tree that a query may begin at, ascending.
 using TreeRegion = std::vector<std::uint32_t>;
 
-/// The branch's nodes, and those that are at most four radii from them along the tree, which is as far as nodes may
-/// blend (blob_model_neighbours()).
+/// The branch's nodes, and those that are at most four radii from them along the tree, which is as
+/// far as nodes may blend (blob_model_neighbours()).
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch);
 
 /// Answers of libblob. Any number of threads may ask.
 class VesselDistance {
 public:
-  /// Outside of the lumen distances are those to the nearest point of the wall: libblob's one-evaluation form may be many
-  /// millimetres short there. In the lumen they are of that form (blob.h), which has no kink at the axis, or with `exact`
-  /// to the nearest point as well. Throws Error(InvalidInput) for a case whose models libblob refuses.
+  /// Outside of the lumen distances are those to the nearest point of the wall: libblob's
+  /// one-evaluation form may be many millimetres short there. In the lumen they are of that form
+  /// (blob.h), which has no kink at the axis, or with `exact` to the nearest point as well. Throws
+  /// Error(InvalidInput) for a case whose models libblob refuses.
   explicit VesselDistance(const formats::Case& source, bool exact = false);
 
-  /// Of all vessels together, which is what one grid can hold: the nearest node answers, and every branch within
-  /// whose doubled radius a point lies; the least counts. `points` are near each other, such as a part of a grid's
-  /// row; `answers` has as many entries. What lies beyond `band`, mm, may be answered by the band.
+  /// The distance to all vessels together, which one grid can hold: the nearest node answers, and
+  /// every branch within whose doubled radius a point lies; the least counts. `points` are near
+  /// each other, such as a part of a grid's row; `answers` has as many entries. What lies beyond
+  /// `band`, mm, may be answered by the band.
   void ofAll(std::span<const Place> points, double band, std::span<WallDistance> answers) const;
 
-  /// The same of one part of the tree: from its node of least power a cursor follows the tree, so vessels
-  /// that merely touch have no say.
+  /// The distance to one part of the tree: from its node of least power a cursor follows the tree,
+  /// so vessels that merely touch have no say.
   void ofRegion(const TreeRegion& region, std::span<const Place> points, double band,
                 std::span<WallDistance> answers) const;
 
@@ -53,7 +55,7 @@ private:
     Place low, high;
   };
   void query(std::span<const Place> points, std::uint32_t* cursors, WallDistance* answers) const;
-  /// Of points[chosen[k]] from the nodes cursors[k]; kept where less.
+  /// Answers for points[chosen[k]] from the nodes cursors[k]; kept where less.
   void takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
                 std::vector<std::uint32_t>& cursors, std::span<WallDistance> answers) const;
   void askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box,

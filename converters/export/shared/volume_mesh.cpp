@@ -19,7 +19,7 @@ namespace lumen::convert {
 
 namespace {
 
-// Of 200,000 triangles it is done in a minute.
+// A surface of 200,000 triangles takes it a minute.
 constexpr unsigned kMostSeconds = 900;
 
 using Corners = std::array<std::uint32_t, 3>;

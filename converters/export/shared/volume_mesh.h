@@ -21,8 +21,9 @@ struct VolumeMesh {
   std::vector<std::uint32_t> elementOf;  ///< of each triangle of the surface: its tetrahedron
 };
 
-/// The mesh, or nothing and the reason in `why`. The surface is closed and keeps its triangles; its lengths may be in
-/// any unit. Throws Error(Cancelled), and Error(Failed) if there is no room for temporary files.
+/// The mesh, or nothing and the reason in `why`. The surface is closed and keeps its triangles; its
+/// lengths may be in any unit. Throws Error(Cancelled), and Error(Failed) if there is no room for
+/// temporary files.
 std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, Progress& progress,
                                      std::string& why);
 

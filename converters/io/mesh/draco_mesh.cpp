@@ -15,7 +15,7 @@
 namespace lumen::convert {
 namespace {
 
-// Of radii and confidences, within their range.
+// Bits of radii and confidences, within their range.
 constexpr int kValueBits = 12;
 
 draco::GeometryAttribute::Type typeOf(const VertexStream& stream) {
@@ -56,7 +56,7 @@ void checkBits(int bits, int least, const char* what) {
                                     " to 30");
 }
 
-// What a viewer will see: quantisation moves positions.
+// The box of the positions after quantisation, which moves them.
 void measureDecoded(DracoMesh& coded) {
   draco::DecoderBuffer buffer;
   buffer.Init(coded.bytes.data(), coded.bytes.size());

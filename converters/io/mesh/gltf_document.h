@@ -14,8 +14,8 @@
 
 namespace lumen::convert {
 
-/// Arrays and objects are added to `content`; buffers are added by write(). Functions that add bytes
-/// throw Error(Unsupported) beyond 2 GiB.
+/// Arrays and objects are added to `content`; buffers are added by write(). Functions that add
+/// bytes throw Error(Unsupported) beyond 2 GiB.
 class GltfDocument {
 public:
   explicit GltfDocument(bool meshopt) : m_meshopt(meshopt) {}
@@ -33,7 +33,7 @@ public:
   /// A buffer view of bytes that only an extension reads.
   int addBytes(const std::vector<char>& bytes);
 
-  /// Of an extension that the file uses; `required`: that it cannot be read without.
+  /// Lists an extension that the file uses; `required`: the file cannot be read without it.
   void useExtension(const char* name, bool required);
 
   /// As a GLB, or as JSON with its buffer in a data URI.

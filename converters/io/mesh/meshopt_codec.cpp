@@ -10,7 +10,7 @@
 namespace lumen::convert {
 namespace {
 
-// What EXT_meshopt_compression takes.
+// Limits of EXT_meshopt_compression.
 constexpr int kVertexVersion = 0, kIndexVersion = 1;
 // Integers of the exponential filter have 24 bits with their sign.
 constexpr double kMostMantissa = (1 << 23) - 1;

@@ -27,7 +27,8 @@ constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kLod = "MSFT_lod";
 // Index 65535 is the primitive restart value of 16-bit indices, which glTF forbids.
 constexpr std::size_t kMaxShortVertices = 65535;
-// Each level is for half the height on the screen that the one before is for; the last for all below.
+// Each level is for half the height on the screen that the one before is for; the last for all
+// below.
 constexpr double kLodCoverage = 0.5;
 
 // One level while it is written.
@@ -49,7 +50,8 @@ json rootNode() {
          "LPS mm"}}}};
 }
 
-// The wall is arterial red, and the lumen that an end shows darker; white where vertices have colours.
+// The wall is arterial red, and the lumen that an end shows darker; white where vertices have
+// colours.
 json materialOf(FaceKind kind, bool isOpen, bool isColored) {
   const bool isWall = kind == FaceKind::Wall;
   const json color = isColored ? json{1.0, 1.0, 1.0, 1.0}

@@ -26,8 +26,8 @@ constexpr std::array<double, 16> kGltfFromLps = {0.001, 0,     0,      0,  //
 /// millimetres, or one for each branch, named by its label. A mesh has one primitive for each group
 /// of faces, whose `extras` say its name, number and kind; its vertices are its own, so that flat
 /// ends have edges, and lie exactly where those of its neighbours do. Vertices have the attributes
-/// that streamsOf() lists; a mesh's `extras` say their units, the branches' labels, and what colours
-/// mean. Coarser levels are nodes outside of the scene that MSFT_lod names.
+/// that streamsOf() lists; a mesh's `extras` say their units, the branches' labels, and what
+/// colours mean. Coarser levels are nodes outside of the scene that MSFT_lod names.
 ///
 /// Throws Error(Unsupported) above 2 GiB of vertex data, Error(InvalidInput) if there is nothing to
 /// colour by, Error(Usage) for options that exclude one another, and Error(Failed) if Draco refuses
@@ -49,9 +49,9 @@ struct GltfScene {
   std::vector<GltfPlace> places;
 };
 
-/// The same as GLB for vertices that are in the file's frame already: the root node has no matrix, vertices have
-/// POSITION and NORMAL only, and names are those of `scene`, which has one for each level. Throws
-/// Error(Unsupported) above 2 GiB of vertex data.
+/// A GLB of vertices that are in the file's frame already: the root node has no matrix, vertices
+/// have POSITION and NORMAL only, and names are those of `scene`, which has one for each level.
+/// Throws Error(Unsupported) above 2 GiB of vertex data.
 std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene);
 
 }  // namespace lumen::convert

@@ -8,13 +8,13 @@ namespace lumen::convert {
 enum class MeshPer : std::uint8_t { Whole, Branch };
 enum class ColorBy : std::uint8_t { None, Branch, Radius, Confidence };
 
-/// What a mesh format may be asked for; each takes what concerns it.
+/// Options of mesh formats; each takes those that concern it.
 struct WriteMeshOptions {
   bool stlSolids = false;  ///< STL: text, with one solid for each group of faces
 
   // glTF only
   MeshPer per = MeshPer::Whole;   ///< one mesh, or one for each branch
-  ColorBy color = ColorBy::None;  ///< what COLOR_0 shows
+  ColorBy color = ColorBy::None;  ///< quantity that COLOR_0 shows
   bool meshopt = false;           ///< EXT_meshopt_compression; not with `draco`
   bool draco = false;             ///< KHR_draco_mesh_compression
   int dracoPositionBits = 16;     ///< quantisation of the surface's bounding box, 1 .. 30

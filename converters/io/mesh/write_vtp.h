@@ -18,7 +18,7 @@ namespace lumen::convert {
 /// Throws Error(Failed) if zlib refuses.
 std::string encodeVtp(const SurfaceMesh& surface);
 
-/// The same of a surface whose lengths are in `unit`, which the file states.
+/// A VTP file of a surface whose lengths are in `unit`, which the file states.
 std::string encodeVtpIn(const SurfaceMesh& surface, const std::string& unit);
 
 }  // namespace lumen::convert

@@ -123,11 +123,20 @@ TEST(Scene, EscapesWhatALabelMayHold) {
   const SceneInput in = input(InstrumentKind::Catheter);
   const SofaOptions options{.instrument = InstrumentKind::Catheter, .wall = WallKind::Implicit};
   const std::string xml = printXml(makeScene(in, options), aboutScene(in, options));
-  EXPECT_NE(xml.find("branch=\"a &quot;--&quot; &lt;b>\""), std::string::npos);
+  EXPECT_NE(xml.find("branch=\"a &quot;--&quot; &lt;b&gt;\""), std::string::npos);
   // a comment ends at the first two hyphens
   EXPECT_EQ(occurrences(xml, "<!--"), occurrences(xml, "-->"));
   const std::string python = printPython(makeScene(in, options), aboutScene(in, options));
   EXPECT_NE(python.find("branch=\"a \\\"--\\\" <b>\""), std::string::npos);
+}
+
+TEST(Scene, HasNoCharacterOfALabelThatXmlForbids) {
+  SceneInput in = input(InstrumentKind::Catheter);
+  in.branch = "x\xef\xbf\xbe\xef\xbf\xbf";
+  const SofaOptions options{.wall = WallKind::Implicit};
+  const std::string xml = printXml(makeScene(in, options), aboutScene(in, options));
+  EXPECT_NE(xml.find("branch=\"x__\""), std::string::npos);
+  EXPECT_EQ(xml.find("\xef\xbf"), std::string::npos);
 }
 
 TEST(Scene, NamesThePluginsOfItsComponents) {

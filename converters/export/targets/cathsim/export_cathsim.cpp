@@ -23,7 +23,8 @@ namespace {
 
 constexpr const char* kFolder = "phantom_assets/meshes/vessel/";
 
-/// The surface with so few triangles that each can be a geom: off by a twentieth of the middle one of the radii.
+/// The surface with so few triangles that each can be a geom: off by a twentieth of the middle one
+/// of the radii.
 ExportedSurface coarseSurface(const ExportInput& input) {
   constexpr double kShare = 0.05;
   std::vector<float> radii = input.source.tree.radius;

@@ -6,8 +6,8 @@
 
 namespace lumen::convert {
 
-/// phantom_assets/vessel.xml and, below phantom_assets/meshes/vessel, visual.stl, simplified.stl and hull_N.stl: the
-/// wall in convex pieces (wall_prisms.h). Metres. Throws as lumenSurface().
+/// phantom_assets/vessel.xml and, below phantom_assets/meshes/vessel, visual.stl, simplified.stl
+/// and hull_N.stl: the wall in convex pieces (wall_prisms.h). Metres. Throws as lumenSurface().
 ExportResult exportCathsim(const ExportInput& input);
 
 TargetRow cathsimRow();

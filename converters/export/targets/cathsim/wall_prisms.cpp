@@ -20,7 +20,8 @@ Float3 floatsOf(const Eigen::Vector3d& v) {
   return {f[0], f[1], f[2]};
 }
 
-/// Of the walls alone, by area, so that the rim of an open end looks along the wall's normal.
+/// Normals of the walls alone, by area, so that the rim of an open end looks along the wall's
+/// normal.
 std::vector<Eigen::Vector3d> wallNormals(const SurfaceMesh& mesh) {
   std::vector<Eigen::Vector3d> normals(mesh.position.size(), Eigen::Vector3d::Zero());
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {

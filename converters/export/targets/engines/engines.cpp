@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conventions: Godot 3 and 4, "Node type customization using name suffixes"; Unity, "Importing LOD meshes"; glTF's
-// extension MSFT_lod; Unreal, "Simple versus complex collision".
+// Conventions: Godot 3 and 4, "Node type customization using name suffixes"; Unity, "Importing LOD
+// meshes"; glTF's extension MSFT_lod; Unreal, "Simple versus complex collision".
 #include "converters/export/targets/engines/engines.h"
 
 #include <iterator>

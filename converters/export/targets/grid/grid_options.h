@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What grids of distances may be asked for.
+// Options of grids of distances.
 #pragma once
 
 #include <cstdint>

@@ -27,10 +27,12 @@ constexpr double kBorder = 5;  // mm of tissue around the vessels
 /// A wall as thick as arteries have it, about a tenth of their diameter.
 constexpr Length kWall{.mm = 0, .radii = 0.2};
 
-/// What the synthetic volume holds: muscle has 35 to 55 HU, arteries in CT angiography 250 HU and more.
+/// Values of the synthetic volume: muscle has 35 to 55 HU, arteries in CT angiography 250 HU and
+/// more.
 constexpr double kTissueHu = 40, kLumenHu = 350;
 
-/// The workflow's own map of HU to attenuation (its HuToMuMapping): linear, -1000 HU is 0, 3000 HU is 0.02 / mm.
+/// The workflow's own map of HU to attenuation (its HuToMuMapping): linear, -1000 HU is 0, 3000 HU
+/// is 0.02 / mm.
 double attenuationOf(double hu) {
   return 0.02 * (hu + 1000) / 4000;
 }

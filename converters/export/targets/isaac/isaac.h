@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case as the cache that NVIDIA's catheter navigation (isaac-for-healthcare) reads, and as a stage of USD.
+// A case as the cache that NVIDIA's catheter navigation (isaac-for-healthcare) reads, and as a
+// stage of USD.
 #pragma once
 
 #include "converters/export/shared/target.h"
 
 namespace lumen::convert {
 
-/// The cache, always in mm and LPS, its arrays in the order z, y, x: metadata.json, mu_volume.npy (synthetic: see
-/// isaac.cpp), vessel_mask.npy, centerline_points_mm.npy, centerline_edges.npy, centerline_radii_mm.npy. vessel.usda in the
-/// folder's frame: a thick wall, or, where that would meet itself, the lumen's surface. Throws Error(Usage) for too many
-/// samples, and as lumenSurface().
+/// The cache, always in mm and LPS, its arrays in the order z, y, x: metadata.json, mu_volume.npy
+/// (synthetic: see isaac.cpp), vessel_mask.npy, centerline_points_mm.npy, centerline_edges.npy,
+/// centerline_radii_mm.npy. vessel.usda in the folder's frame: a thick wall, or, where that would
+/// meet itself, the lumen's surface. Throws Error(Usage) for too many samples, and as
+/// lumenSurface().
 ExportResult exportIsaac(const ExportInput& input);
 
 TargetRow isaacRow();

@@ -24,14 +24,15 @@ namespace lumen::convert {
 
 namespace {
 
-// MuJoCo samples a mesh's distance in an octree of six levels: 64 cells along its longest side. With cells of 0.4
-// radii the distance between samples is off by h^2 / 8 R, 0.02 radii.
+// MuJoCo samples a mesh's distance in an octree of six levels: 64 cells along its longest side.
+// With cells of 0.4 radii the distance between samples is off by h^2 / 8 R, 0.02 radii.
 constexpr std::size_t kCells = 64;
 constexpr double kCellRadii = 0.4;
 
-// MuJoCo finds contacts of distance fields by a search that misses shallow ones, so contacts are soft, as many steps: a
-// wire that is pressed to the wall rests some hundredths of a millimetre in it. Harder, it flickers, and snaps through
-// the wall. Damping is within the contact solver (eulerdamp), where it does not make contacts soft.
+// MuJoCo finds contacts of distance fields by a search that misses shallow ones, so contacts are
+// soft, as many steps: a wire that is pressed to the wall rests some hundredths of a millimetre in
+// it. Harder, it flickers, and snaps through the wall. Damping is within the contact solver
+// (eulerdamp), where it does not make contacts soft.
 constexpr double kContactSteps = 20;
 
 struct Solid {
@@ -51,9 +52,9 @@ void openEnds(SurfaceMesh& mesh) {
   mesh.group.resize(kept);
 }
 
-/// All that is not lumen: the lumen's surface without its flat ends, turned over. It always exists, also where vessels
-/// touch, and a wire that is pressed into it is pushed back the right way however deep it is; in a wall, no farther
-/// than its middle.
+/// All that is not lumen: the lumen's surface without its flat ends, turned over. It always exists,
+/// also where vessels touch, and a wire that is pressed into it is pushed back the right way
+/// however deep it is; in a wall, no farther than its middle.
 Solid carvedOut(const ExportInput& input) {
   Solid solid{lumenSurface(input), false};
   openEnds(solid.surface.mesh);
@@ -77,8 +78,8 @@ Wire wireFor(const Insertion& insertion) {
   return wire;
 }
 
-/// The wire lies straight behind its tip before it is pushed: as much of it as no wall is in the way of. Throws
-/// Error(InvalidInput) where that is less than a wire has.
+/// The wire lies straight behind its tip before it is pushed: as much of it as no wall is in the
+/// way of. Throws Error(InvalidInput) where that is less than a wire has.
 void shorten(Wire& wire, const std::vector<SurfaceMesh>& pieces, const ExportInput& input,
              const Insertion& insertion) {
   const double free =

@@ -48,7 +48,7 @@ Corner cut(const Corner& a, const Corner& b, int axis, double at) {
   return made;
 }
 
-/// What of a facet lies on the side of the plane that `sign` says.
+/// Adds the part of a facet on the side of the plane that `sign` states.
 void keepSide(const Facet& facet, int axis, double at, double sign, Facets& kept) {
   std::vector<Corner> corners;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -65,7 +65,8 @@ void keepSide(const Facet& facet, int axis, double at, double sign, Facets& kept
   }
 }
 
-/// How much wall runs along a plane beside it: area, times the share of its normal that is across, squared twice.
+/// How much wall runs along a plane beside it: area, times the share of its normal that is across,
+/// squared twice.
 double wallAlong(const Facets& facets, int axis, double at) {
   double sum = 0;
   for (const Facet& facet : facets) {

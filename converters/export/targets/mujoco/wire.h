@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The guidewire of a scene of MuJoCo: a chain of rigid links with springs between them, in SI units.
+// The guidewire of a scene of MuJoCo: a chain of rigid links with springs between them, in SI
+// units.
 #pragma once
 
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace lumen::convert {
 
-/// A rod of one material and what its chain needs to be integrated. Sources of the material: docs/sofa.md.
+/// A rod of one material and what its chain needs to be integrated. Sources of the material:
+/// docs/sofa.md.
 struct Wire {
   double radius = 0.18e-3;  ///< m: 0.014 inches
   double modulus = 1e9;     ///< Pa, in bending: a cable has one, here that of the soft tip
@@ -22,8 +24,8 @@ struct Wire {
   [[nodiscard]] double shearModulus() const { return modulus / (2 + 2 * poisson); }
   /// N m / rad, of the joint between two links: E I / link.
   [[nodiscard]] double jointStiffness() const;
-  /// kg m^2. A link of a millimetre swings in microseconds. Inertia against bending, not against motion, slows
-  /// that down to what a time step can follow, and leaves what is slower as it is.
+  /// kg m^2. A link of a millimetre swings in microseconds. Inertia against bending, not against
+  /// motion, slows that down to what a time step can follow, and leaves what is slower as it is.
   [[nodiscard]] double armature() const;
   /// N m s / rad: damps that swing almost critically.
   [[nodiscard]] double damping() const;
@@ -35,8 +37,8 @@ constexpr double kMujocoStep = 1e-3;
 /// How a wire bends in a scene.
 enum class WireSprings { Plugin, Joints };
 
-/// The wire and what holds it, as elements of <worldbody>: a straight channel that ends at `tip` and looks along
-/// `direction`, and in it the wire, which ends there. m, in the scene's frame.
+/// The wire and what holds it, as elements of <worldbody>: a straight channel that ends at `tip`
+/// and looks along `direction`, and in it the wire, which ends there. m, in the scene's frame.
 std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,
                        const Eigen::Vector3d& direction, WireSprings springs);
 

@@ -12,13 +12,15 @@
 
 namespace lumen::convert {
 
-/// The triangles of a surface of which a corner belongs to a node that is no farther than `length`, mm, from `node`
-/// along the tree and its links. All of them if the surface does not know its nodes.
+/// The triangles of a surface of which a corner belongs to a node that is no farther than `length`,
+/// mm, from `node` along the tree and its links. All of them if the surface does not know its
+/// nodes.
 SurfaceMesh wallsInReach(SurfaceMesh mesh, const formats::CenterlineTree& tree, std::uint32_t node,
                          double length);
 
-/// How far, m, a straight wire lies free behind its tip, at most `length`: none of it in a box around a piece, where it
-/// would be in what is solid there, or nearer than `radius` to it. All in metres; triangles look out of what is solid.
+/// How far, m, a straight wire lies free behind its tip, at most `length`: none of it in a box
+/// around a piece, where it would be in what is solid there, or nearer than `radius` to it. All in
+/// metres; triangles look out of what is solid.
 double freeBehind(const std::vector<SurfaceMesh>& pieces, const Eigen::Vector3d& tip,
                   const Eigen::Vector3d& direction, double length, double radius);
 

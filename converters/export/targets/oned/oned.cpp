@@ -83,7 +83,8 @@ std::string inputCards(const OneDNetwork& network, const std::string& name) {
                numberText(10 * blood::kViscosity), numberText(kDyn * blood::kMeanPressure), "2.0",
                numberText(kDyn * blood::kStiffness1), numberText(blood::kStiffness2 / kCm),
                numberText(kDyn * blood::kStiffness3));
-  // steps of 1 ms for 2 s, each fiftieth kept; Gauss points, tolerance, conservative form, stabilised
+  // steps of 1 ms for 2 s, each fiftieth kept; Gauss points, tolerance, conservative form,
+  // stabilised
   return text + "\nSOLVEROPTIONS 0.001 50 2000 2 INFLOW FLOW 1.0e-6 1 1\n\nOUTPUT TEXT\n";
 }
 

@@ -143,7 +143,8 @@ private:
     }
   }
 
-  /// Of vessels between the same nodes all but the first get a node in their middle, and so does what ends where it begins.
+  /// All vessels but the first between the same nodes get a node in their middle, and so does a
+  /// vessel that ends where it begins.
   void splitParallels() {
     std::set<std::pair<std::uint32_t, std::uint32_t>> taken;
     for (std::size_t v = 0; v < m_made.vessels.size(); ++v) {

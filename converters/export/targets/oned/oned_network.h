@@ -37,10 +37,10 @@ struct OneDNetwork {
       0;  ///< vessels that were shorter than their radius, and are as long here
 };
 
-/// Tree number `tree` of a network. A vessel is the cone with its ends' ratio of radii and its resistance by
-/// Poiseuille. At a node are three vessels at most: where more meet, stubs of one radius lie between them. Throws
-/// Error(InvalidInput) where several inlets lead into one tree, and where a loop leaves a junction nothing to
-/// flow in or out.
+/// Tree number `tree` of a network. A vessel is the cone with its ends' ratio of radii and its
+/// resistance by Poiseuille. At a node are three vessels at most: where more meet, stubs of one
+/// radius lie between them. Throws Error(InvalidInput) where several inlets lead into one tree, and
+/// where a loop leaves a junction nothing to flow in or out.
 OneDNetwork oneDNetwork(const FlowNetwork& network, std::uint32_t tree);
 
 }  // namespace lumen::convert

@@ -18,7 +18,8 @@ namespace {
 constexpr double kAcross = 10;        // cells across a vessel that resolve a parabola of speeds
 constexpr double kMostAtWall = 1e6;   // cells: some 2 GB and half an hour for the mesh
 constexpr double kMostInBlock = 3e5;  // cells before they are halved
-// Layers of the finest cells on both sides of the wall while the mesh is made: nCellsBetweenLevels and the wall's own.
+// Layers of the finest cells on both sides of the wall while the mesh is made: nCellsBetweenLevels
+// and the wall's own.
 constexpr double kLayers = 8;
 
 Eigen::Vector3d at(const SurfaceMesh& surface, std::uint32_t vertex) {
@@ -58,7 +59,8 @@ FoamCells foamCells(const SurfaceMesh& surface, double least) {
   // one halving at least: cells in the middle of vessels may be larger than those at walls
   const double edge = std::max(2 * cells.atWall, std::cbrt((high - low).prod() / kMostInBlock));
   cells.level = static_cast<int>(std::ceil(std::log2(edge / cells.atWall) - 1e-9));
-  // no face of a cell may lie in a flat end, so the block begins at an uneven share of a cell before the surface
+  // no face of a cell may lie in a flat end, so the block begins at an uneven share of a cell
+  // before the surface
   constexpr double kMargin = 1.37;
   cells.low = low - Eigen::Vector3d::Constant(kMargin * cells.edge());
   for (int a = 0; a < 3; ++a)

@@ -25,11 +25,12 @@ struct FoamCells {
   [[nodiscard]] double edge() const { return atWall * (1 << level); }  ///< of the block's cells
 };
 
-/// Ten cells across the thinnest vessel, of the radius `least`; fewer where more than about a million would be needed.
+/// Ten cells across the thinnest vessel, of the radius `least`; fewer where more than about a
+/// million would be needed.
 FoamCells foamCells(const SurfaceMesh& surface, double least);
 
-/// Of each connected tree with a surface, the node's centre that lies deepest inside, by tree. `surface`: closed, in
-/// `frame`; so are the points.
+/// The node's centre that lies deepest inside each connected tree with a surface, by tree.
+/// `surface`: closed, in `frame`; so are the points.
 std::vector<Eigen::Vector3d> deepestPoints(const formats::CenterlineTree& tree,
                                            const SurfaceMesh& surface, const ExportFrame& frame,
                                            const Progress& progress);

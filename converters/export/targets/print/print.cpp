@@ -29,8 +29,8 @@ struct Thinnest {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
 };
 
-/// The least distance of a vertex of the lumen's side from the outer one. The mesh is a wall of closedSurface():
-/// group 0 is the lumen's side, group 1 the outer one.
+/// The least distance of a vertex of the lumen's side from the outer one. The mesh is a wall of
+/// closedSurface(): group 0 is the lumen's side, group 1 the outer one.
 Thinnest thinnestOf(const SurfaceMesh& mesh) {
   TriangleMesh outer;
   for (const Float3& p : mesh.position) outer.position.emplace_back(p[0], p[1], p[2]);

@@ -6,9 +6,10 @@
 
 namespace lumen::convert {
 
-/// wall.stl and wall.3mf, a solid wall around the lumen that is open at the ends, and core.stl and core.3mf, the lumen
-/// as a solid; mm. README.md says the least thickness of the wall and where it is. Where no wall can be made
-/// the core alone, which is a loss that is told. Throws as lumenSurface() and tryWall().
+/// wall.stl and wall.3mf, a solid wall around the lumen that is open at the ends, and core.stl and
+/// core.3mf, the lumen as a solid; mm. README.md says the least thickness of the wall and where it
+/// is. Where no wall can be made the core alone, which is a loss that is told. Throws as
+/// lumenSurface() and tryWall().
 ExportResult exportPrint(const ExportInput& input);
 
 TargetRow printRow();

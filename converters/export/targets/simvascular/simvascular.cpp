@@ -34,7 +34,8 @@ std::string point(std::size_t id, const Eigen::Vector3d& mm) {
   return pointElement("point id=\"" + std::to_string(id) + "\"", kCentimetres * mm);
 }
 
-/// The circle of a node, as SimVascular draws one by hand: its middle, a point on it, and points around.
+/// The circle of a node, as SimVascular draws one by hand: its middle, a point on it, and points
+/// around.
 std::string contour(const BranchPath& path, std::size_t k, std::size_t id) {
   constexpr int kAround = 40;
   const Eigen::Vector3d tangent = path.tangent(k);
@@ -55,7 +56,8 @@ std::string contour(const BranchPath& path, std::size_t k, std::size_t id) {
                      {"points", points}});
 }
 
-/// Of a path: its last node, and those before it that are a radius apart; none on the parent's axis.
+/// The nodes of a path with a contour: its last one, and those before it that are a radius apart;
+/// none on the parent's axis.
 std::vector<std::size_t> sections(const BranchPath& path, bool hasParent) {
   std::vector<std::size_t> chosen;
   double way = 0, last = 0;
@@ -89,7 +91,8 @@ std::string encodeMdl(const SurfaceMesh& mesh, const std::vector<std::string>& n
   return exportText("simvascular/vessel.mdl", {{"faces", faces}});
 }
 
-/// Some of the surface's triangles, with the numbers that they and their points have in the volume mesh, from 1.
+/// Some of the surface's triangles, with the numbers that they and their points have in the volume
+/// mesh, from 1.
 class Faces {
 public:
   Faces(const SurfaceMesh& surface, const VolumeMesh& volume)

@@ -6,9 +6,9 @@
 
 namespace lumen::convert {
 
-/// vessels.svproj, Paths/NAME.pth and Segmentations/NAME.ctgr of each branch, with circles at its nodes, about a radius
-/// apart, Models/vessel.mdl and .vtp, and, if TetGen is installed, mesh-complete, all in cm, LPS. Throws as lumenSurface()
-/// and branchPaths().
+/// vessels.svproj, Paths/NAME.pth and Segmentations/NAME.ctgr of each branch, with circles at its
+/// nodes, about a radius apart, Models/vessel.mdl and .vtp, and, if TetGen is installed,
+/// mesh-complete, all in cm, LPS. Throws as lumenSurface() and branchPaths().
 ExportResult exportSimVascular(const ExportInput& input);
 
 TargetRow simVascularRow();

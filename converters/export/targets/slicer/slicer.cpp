@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tags and attributes as Slicer's nodes read them: vtkMRMLModelNode, vtkMRMLModelStorageNode, vtkMRMLMarkupsCurveNode,
-// vtkMRMLMarkupsFiducialNode, vtkMRMLMarkupsJsonStorageNode, vtkMRMLMarkupsDisplayNode.
+// Tags and attributes as Slicer's nodes read them: vtkMRMLModelNode, vtkMRMLModelStorageNode,
+// vtkMRMLMarkupsCurveNode, vtkMRMLMarkupsFiducialNode, vtkMRMLMarkupsJsonStorageNode,
+// vtkMRMLMarkupsDisplayNode.
 #include "converters/export/targets/slicer/slicer.h"
 
 #include <cstddef>
@@ -90,8 +91,9 @@ std::string markupsOf(const std::string& name, Json points) {
   return file.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// A control point for the beginning of each branch, with the description that spec/seeds.md has for what Slicer
-/// has no place for. A label with what ends a word there is left out as a parent: tracking finds it by place.
+/// A control point for the beginning of each branch, with the description that spec/seeds.md has
+/// for what Slicer has no place for. A label with what ends a word there is left out as a parent:
+/// tracking finds it by place.
 std::string seedsOf(const formats::CenterlineTree& tree) {
   Json points = Json::array();
   for (const formats::Branch& branch : tree.branches) {

@@ -45,8 +45,8 @@ SceneInput inputOf(const ExportInput& asked, const SofaOptions& options) {
                     kCurlShare * input.insertion.radius);
   if (options.instrument == InstrumentKind::Coil)
     input.insertion.way = input.instruments.front().length();
-  // a grid is touched at the ends of beams only, and edges of the wall pass between those; a coil, whose beams are
-  // short and soft, is pressed through with shorter ones (tests/sofa/results.md)
+  // a grid is touched at the ends of beams only, and edges of the wall pass between those; a coil,
+  // whose beams are short and soft, is pressed through with shorter ones (tests/sofa/results.md)
   constexpr double kBeamsOnGrid = 2;
   if (options.wall == WallKind::Grid && options.instrument != InstrumentKind::Coil)
     for (Instrument& instrument : input.instruments)

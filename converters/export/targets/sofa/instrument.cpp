@@ -8,12 +8,13 @@ namespace lumen::convert {
 
 namespace {
 
-// Beams: where an instrument rests on a wall it curves like the vessel, and a chord of length L leaves
-// an arc of radius R by L^2 / 8 R. 2 mm in a shaft is 0.1 mm at R = 5 mm, 1 mm in a tip at R = 1.25 mm.
+// Beams: where an instrument rests on a wall it curves like the vessel, and a chord of length L
+// leaves an arc of radius R by L^2 / 8 R. 2 mm in a shaft is 0.1 mm at R = 5 mm, 1 mm in a tip at R
+// = 1.25 mm.
 constexpr double kShaftBeam = 2, kTipBeam = 1;
 
-/// 0.014 inches: a core of nitinol, ground thin at the tip under a coil of platinum; the tip is shaped
-/// to a bend.
+/// 0.014 inches: a core of nitinol, ground thin at the tip under a coil of platinum; the tip is
+/// shaped to a bend.
 Instrument guidewire(double length) {
   constexpr double kTip = 20;
   RodSection shaft{.length = length - kTip,
@@ -49,8 +50,8 @@ Instrument catheter(double length) {
   return {"catheter", 0.4, {shaft, tip}, {0.85, 0.75, 0.4}};
 }
 
-/// A wire of platinum-tungsten, 0.045 mm, wound to 0.010 inches: as a spring it bends like a solid rod
-/// of that width with a modulus of 9.5 MPa (docs/sofa.md).
+/// A wire of platinum-tungsten, 0.045 mm, wound to 0.010 inches: as a spring it bends like a solid
+/// rod of that width with a modulus of 9.5 MPa (docs/sofa.md).
 Instrument coil(double curl) {
   constexpr double kStraight = 2, kLength = 120, kPitch = 0.5;
   RodSection start{.length = kStraight,

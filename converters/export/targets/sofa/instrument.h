@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instruments as BeamAdapter takes them: rods of one material for each stretch. Units of a scene are
-// mm, kg and s, so a modulus is in kPa and a force in mN. Sources of the values: docs/sofa.md.
+// Instruments as BeamAdapter takes them: rods of one material for each stretch. Units of a scene
+// are mm, kg and s, so a modulus is in kPa and a force in mN. Sources of the values: docs/sofa.md.
 #pragma once
 
 #include <string>
@@ -33,8 +33,8 @@ struct Instrument {
 
 enum class InstrumentKind { Guidewire, Catheter, Coil };
 
-/// The instruments of a scene, the outermost first: a guidewire comes within a catheter. `length`, mm, is
-/// what can be pushed in; a coil has its own length and rests in circles of `curl`, mm.
+/// The instruments of a scene, the outermost first: a guidewire comes within a catheter. `length`,
+/// mm, is what can be pushed in; a coil has its own length and rests in circles of `curl`, mm.
 std::vector<Instrument> instrumentsOf(InstrumentKind kind, double length, double curl);
 
 }  // namespace lumen::convert

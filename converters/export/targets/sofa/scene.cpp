@@ -13,12 +13,14 @@ namespace lumen::convert {
 
 namespace {
 
-// Alarm beyond the contact distance, mm: a tool that advances 0.1 mm a step swings sideways by no more
-// than that, and every 0.1 mm of alarm costs contacts (docs/sofa.md has the measurements).
+// Alarm beyond the contact distance, mm: a tool that advances 0.1 mm a step swings sideways by no
+// more than that, and every 0.1 mm of alarm costs contacts (docs/sofa.md has the measurements).
 constexpr double kAlarm = 0.12;
-// A grid's contacts begin at the contact distance and not before it, so that is a step wider than the radius.
+// A grid's contacts begin at the contact distance and not before it, so that is a step wider than
+// the radius.
 constexpr double kGridSlack = 0.1;
-// A wire leads its catheter by the length of its shaped tip and as much again; strokes are a hand's.
+// A wire leads its catheter by the length of its shaped tip and as much again; strokes are a
+// hand's.
 constexpr double kLead = 30, kStroke = 10;
 enum Action : int { kForward = 1, kUseOuter = 8, kUseInner = 9 };
 

@@ -19,7 +19,7 @@ struct SceneGrid {
   std::array<double, 3> first{}, last{};  ///< mm, LPS: the positions of its corner samples
 };
 
-/// What a scene is made for.
+/// The case and the instruments of a scene.
 struct SceneInput {
   Insertion insertion;
   std::string branch;  ///< its label
@@ -36,7 +36,7 @@ int stepsOf(const SceneInput& input, const SofaOptions& options);
 
 SceneItem makeScene(const SceneInput& input, const SofaOptions& options);
 
-/// What stands at the head of each file of the scene: frame, units, how to start.
+/// Lines at the head of each file of the scene: frame, units, how to start.
 std::vector<std::string> aboutScene(const SceneInput& input, const SofaOptions& options);
 
 }  // namespace lumen::convert

@@ -11,8 +11,8 @@ namespace lumen::convert {
 /// s: an instrument that advances 0.1 mm in it moves at 10 mm / s, as a hand moves it.
 inline constexpr double kTimeStep = 0.01;
 
-/// The animation loop, constraint solver and collision detection. Lengths in mm: the instruments' radius, at
-/// which they are kept from a wall of triangles, and the alarm beyond it.
+/// The animation loop, constraint solver and collision detection. Lengths in mm: the instruments'
+/// radius, at which they are kept from a wall of triangles, and the alarm beyond it.
 void addLoop(SceneItem& root, WallKind wall, double radius, double alarm);
 /// Camera and light, for a box in mm, LPS.
 void addView(SceneItem& root, const std::array<double, 3>& low, const std::array<double, 3>& high);
@@ -23,11 +23,11 @@ void addRestShape(SceneItem& root, const Instrument& instrument);
 /// Time integration and the frames of all instruments.
 void addBeamSolver(SceneItem& node, int frames);
 void addBeams(SceneItem& node, const Instrument& instrument);
-/// What holds the instruments where they enter.
+/// The springs that hold the instruments where they enter.
 void addEntry(SceneItem& node);
 void addBlobContact(SceneItem& node, const Instrument& instrument, double alarm);
-/// Points along the instruments, recorded, and in contact with a wall of triangles, or with one of a
-/// grid at `proximity`, mm.
+/// Points along the instruments, recorded, and in contact with a wall of triangles, or with one of
+/// a grid at `proximity`, mm.
 void addContactPoints(SceneItem& node, WallKind wall, double proximity);
 void addInstrumentView(SceneItem& node, const Instrument& instrument);
 

@@ -40,7 +40,7 @@ std::string sceneNumbers(const std::vector<double>& values);
 /// As XML, which runSofa reads. `about`: lines of the comment at its head.
 std::string printXml(const SceneItem& root, const std::vector<std::string>& about);
 
-/// The same as Python for SofaPython3: a module with createScene(root).
+/// The scene in Python, for SofaPython3: a module with createScene(root).
 std::string printPython(const SceneItem& root, const std::vector<std::string>& about);
 
 }  // namespace lumen::convert

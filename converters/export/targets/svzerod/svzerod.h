@@ -6,9 +6,10 @@
 
 namespace lumen::convert {
 
-/// model.json, in cgs (cm, g, s, dyn), as the solver's own examples: a BloodVessel with R, C and L for each segment of
-/// flowNetwork(), junctions that share a pressure, the mean flow of blood.h at inlets, outletResistances() at outlets.
-/// Loops are junctions like others. Throws as flowNetwork().
+/// model.json, in cgs (cm, g, s, dyn), as the solver's own examples: a BloodVessel with R, C and L
+/// for each segment of flowNetwork(), junctions that share a pressure, the mean flow of blood.h at
+/// inlets, outletResistances() at outlets. Loops are junctions like others. Throws as
+/// flowNetwork().
 ExportResult exportSvZeroD(const ExportInput& input);
 
 TargetRow svZeroDRow();
