@@ -5,8 +5,6 @@
 #include <array>
 #include <regex>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/case/case_file.h"
 #include "formats/case/chunk_codec.h"
 #include "formats/case/json_document.h"
@@ -17,7 +15,6 @@ namespace lumen {
 
 namespace {
 
-using nlohmann::json;
 using Findings = std::vector<PrivacyFinding>;
 
 constexpr std::size_t kReadableRun = 6;  // characters that make bytes a text
@@ -73,14 +70,12 @@ bool isText(const std::string& pointer) {
 }
 
 // Keys too: parameters and comments have names that a user chose.
-void scanJson(const json& value, const std::string& pointer, Findings& findings) {
-  if (value.is_string() && isText(pointer))
-    append(findings, scanText(value.get_ref<const std::string&>(), pointer));
-  if (value.is_array())
-    for (std::size_t i = 0; i < value.size(); ++i)
-      if (!value[i].is_number()) scanJson(value[i], pointer + "/" + std::to_string(i), findings);
-  if (!value.is_object()) return;
-  for (const auto& [key, member] : value.items()) {
+void scanJson(const formats::JsonValue& value, const std::string& pointer, Findings& findings) {
+  if (value.text() != nullptr && isText(pointer))
+    append(findings, scanText(*value.text(), pointer));
+  for (std::size_t i = 0; i < value.arraySize(); ++i)
+    if (!value[i].number()) scanJson(value[i], pointer + "/" + std::to_string(i), findings);
+  for (const auto& [key, member] : value.members()) {
     const std::string place = pointer + "/" + formats::jsonPointerToken(key);
     append(findings, scanText(key, place));
     scanJson(member, place, findings);
@@ -105,10 +100,9 @@ void scanBytes(std::span<const std::byte> bytes, const std::string& pointer, Fin
 void scanJsonBytes(std::span<const std::byte> bytes, const std::string& pointer,
                    Findings& findings) {
   formats::IssueList issues(1);
-  formats::ArraySlots none;
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (const auto value = formats::parseJson(text, 0, pointer, none, issues))
-    scanJson(*value, pointer, findings);
+  if (const auto document = formats::parseJson(text, 0, pointer, issues))
+    scanJson(document->root(), pointer, findings);
 }
 
 // The texts of a binary file are its metadata, which are JSON, and its labels.

@@ -7,7 +7,6 @@
 
 #include "converters/base/error.h"
 #include "converters/library/record.h"
-#include "formats/case/json_number.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::convert {
@@ -39,12 +38,10 @@ std::string plainText(const JsonPlace& place, std::size_t most, std::size_t leas
 }
 
 std::uint64_t wholeNumber(const JsonPlace& place, std::uint64_t least, std::uint64_t most) {
-  const auto refuse = [&] {
+  const auto number = place.value().number();
+  const auto value = number ? number->asInteger<std::uint64_t>() : std::nullopt;
+  if (!value || *value < least || *value > most)
     place.refuse("a whole number from " + std::to_string(least) + " to " + std::to_string(most));
-  };
-  if (!formats::isNumber(place.value()) || !formats::isWhole(place.value())) refuse();
-  const auto value = formats::asInteger<std::uint64_t>(place.value());
-  if (!value || *value < least || *value > most) refuse();
   return *value;
 }
 
@@ -58,11 +55,6 @@ double positive(const JsonPlace& place) {
   const double value = place.number();
   if (value <= 0) place.refuse("a number above 0");
   return value;
-}
-
-bool trueOrFalse(const JsonPlace& place) {
-  if (!place.value().is_boolean()) place.refuse("true or false");
-  return place.value().get<bool>();
 }
 
 std::string wordOf(const JsonPlace& place, std::initializer_list<const char*> words) {
@@ -116,8 +108,7 @@ void requireFormat(const JsonPlace& root, const char* name) {
   if (const JsonPlace format = root.at("format"); format.text() != name)
     format.refuse("\"" + std::string(name) + "\"");
   const JsonPlace version = root.at("formatVersion");
-  if (!version.value().is_number_integer() || version.value() != 1)
-    version.refuse("1, the only version that this lumen reads");
+  if (!version.value().is(1)) version.refuse("1, the only version that this lumen reads");
 }
 
 }  // namespace lumen::convert

@@ -20,7 +20,6 @@ std::uint64_t wholeNumber(const JsonPlace& place, std::uint64_t least = 0,
                           std::uint64_t most = kMostWhole);
 double notNegative(const JsonPlace& place);
 double positive(const JsonPlace& place);
-bool trueOrFalse(const JsonPlace& place);
 /// One of these words.
 std::string wordOf(const JsonPlace& place, std::initializer_list<const char*> words);
 /// SHA-256: 64 lower-case hexadecimal digits.

@@ -66,7 +66,7 @@ std::string libraryText(const LibraryFile& library) {
 }
 
 LibraryFile readLibrary(const std::string& text, const fs::path& file) {
-  const JsonFile document{parseJson(text, file), file.string()};
+  JsonFile document(text, file);
   const JsonPlace root(document);
   requireFormat(root, "lumen-library");
   root.onlyKeys({"format", "formatVersion", "id", "revision", "previous", "title", "description",
@@ -75,7 +75,7 @@ LibraryFile readLibrary(const std::string& text, const fs::path& file) {
   library.id = root.at("id").text();
   if (!isUuid(library.id)) root.at("id").refuse("a UUID in lower case");
   library.revision = wholeNumber(root.at("revision"), 1);
-  if (!root.at("previous").value().is_null()) library.previous = digest(root.at("previous"));
+  if (!root.at("previous").value().isNull()) library.previous = digest(root.at("previous"));
   library.title = plainText(root.at("title"), 255, 1);
   library.description = plainText(root.at("description"), 4096);
   library.publisher = plainText(root.at("publisher"), 255);

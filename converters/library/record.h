@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,10 +85,12 @@ public:
   explicit PathError(const std::string& what) : Error(ErrorKind::InvalidInput, what) {}
 };
 
-/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected; PathError for a path. Of
-/// what a schema cannot say it sees to the files alone: exactly one case, sorted paths that all file systems tell
-/// apart.
-CaseRecord readRecord(const std::string& text, const std::filesystem::path& file);
+/// Throws Error(InvalidInput) with `file`, the place, what was found and what was expected; PathError
+/// for a path. Of the rules that a schema cannot state it checks those of files alone: exactly one
+/// case, and sorted paths that all file systems keep apart. Entries of `files` in `passedOver` are
+/// left out.
+CaseRecord readRecord(const std::string& text, const std::filesystem::path& file,
+                      const std::set<std::size_t>& passedOver = {});
 
 /// The texts that may tell whose case it is, with their places in the record. Whom to name, licence, DOI and origin are
 /// meant to name people and places.

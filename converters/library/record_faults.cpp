@@ -15,8 +15,6 @@ namespace lumen::convert {
 
 namespace {
 
-using nlohmann::json;
-
 /// A message of a reader, without the name of the file, which a fault has anyhow.
 std::string withoutFile(const Error& error, const std::string& path) {
   std::string text = error.what();
@@ -24,27 +22,27 @@ std::string withoutFile(const Error& error, const std::string& path) {
   return at == std::string::npos ? text : text.substr(at + path.size() + 2);
 }
 
-/// Takes files with paths that none may have, or that another has in upper or lower case, out of a record.
-void dropPaths(json& record, const std::string& caseId, const std::string& path,
-               FaultList& faults) {
-  if (!record.is_object() || !record.contains("files") || !record["files"].is_array()) return;
+/// The files of a record, by their place in it, whose paths none may have, or which another file has
+/// in upper or lower case. Adds a fault for each.
+std::set<std::size_t> faultyPaths(const formats::JsonValue& record, const std::string& caseId,
+                                  const std::string& path, FaultList& faults) {
+  std::set<std::size_t> faulty;
+  const auto files = record.find("files");
   std::set<std::string> names{lowerCase(kRecordFile), lowerCase(kCrateFile)};
-  json kept = json::array();
-  for (json& file : record["files"]) {
-    const bool hasPath = file.is_object() && file.contains("path") && file["path"].is_string();
-    const std::string name = hasPath ? file["path"].get<std::string>() : "";
-    if (hasPath && !isRecordedPath(name))
-      faults.add({FaultCode::FilePath, caseId, path, "the path " + quotedText(name),
-                  "one that stays in the folder of the case, of the letters that a path may have"});
-    else if (hasPath && !names.insert(lowerCase(name)).second)
-      faults.add(
-          {FaultCode::FilePath, caseId, path, "the path " + quotedText(name),
-           "one that differs from all others, record.json and ro-crate-metadata.json in more "
-           "than upper and lower case"});
-    else
-      kept.push_back(std::move(file));
+  for (std::size_t i = 0; files && i < files->arraySize(); ++i) {
+    const auto found = (*files)[i].find("path");
+    const std::string* const name = found ? found->text() : nullptr;
+    if (name == nullptr) continue;
+    const bool isPath = isRecordedPath(*name);
+    if (isPath && names.insert(lowerCase(*name)).second) continue;
+    faulty.insert(i);
+    faults.add({FaultCode::FilePath, caseId, path, "the path " + quotedText(*name),
+                isPath ? "one that differs from all others, record.json and "
+                         "ro-crate-metadata.json in more than upper and lower case"
+                       : "one that stays in the folder of the case, of the letters that a path "
+                         "may have"});
   }
-  record["files"] = std::move(kept);
+  return faulty;
 }
 
 void checkSame(const std::string& what, const std::string& found, const std::string& expected,
@@ -65,10 +63,9 @@ std::optional<CaseRecord> readRecordFaults(const std::string& text, const std::s
     faults.add({FaultCode::RecordFile, caseId, path, withoutFile(error, path), ""});
     return {};
   }
-  json record = parseJson(text, path);
-  dropPaths(record, caseId, path, faults);
+  const JsonFile document(text, path);
   try {
-    return readRecord(record.dump(), path);
+    return readRecord(text, path, faultyPaths(document.root(), caseId, path, faults));
   } catch (const Error& error) {
     faults.add({FaultCode::RecordFile, caseId, path, withoutFile(error, path), ""});
     return {};

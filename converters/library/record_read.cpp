@@ -6,12 +6,12 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <vector>
 
 #include "converters/base/text.h"
 #include "converters/library/json_values.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"
-#include "formats/case/json_number.h"
 
 namespace lumen::convert {
 
@@ -57,7 +57,7 @@ const std::map<std::string, AboutReader>& aboutReaders() {
        [](P p, CaseAbout& a) {
          a.modality = wordOf(p, {"XA", "CT", "MR", "US", "mesh", "synthetic", "other"});
        }},
-      {"synthetic", [](P p, CaseAbout& a) { a.synthetic = trueOrFalse(p); }},
+      {"synthetic", [](P p, CaseAbout& a) { a.synthetic = p.boolean(); }},
       {"licence", [](P p, CaseAbout& a) { a.licence = plainText(p, 255); }},
       {"attribution", [](P p, CaseAbout& a) { a.attribution = plainText(p, 1024); }},
       {"doi",
@@ -107,23 +107,23 @@ CaseFigures readFigures(const JsonPlace& place) {
   figures.radiusMin = notNegative(radius.at("min"));
   figures.radiusMean = notNegative(radius.at("mean"));
   figures.radiusMax = notNegative(radius.at("max"));
-  if (!error.value().is_null()) {
+  if (!error.value().isNull()) {
     error.onlyKeys({"median", "p90"});
     figures.errorMedian = notNegative(error.at("median"));
     figures.errorP90 = notNegative(error.at("p90"));
   }
-  if (!reachable.value().is_null()) figures.reachable = notNegative(reachable);
+  if (!reachable.value().isNull()) figures.reachable = notNegative(reachable);
   return figures;
 }
 
 Json readParameter(const JsonPlace& place) {
-  const nlohmann::json& value = place.value();
-  if (value.is_boolean()) return value.get<bool>();
-  if (value.is_string()) return plainText(place, 65535);
-  if (formats::isNumber(value)) {
-    if (formats::isWhole(value)) {
-      if (const auto whole = formats::asInteger<std::int64_t>(value)) return *whole;
-    } else if (const auto real = formats::asDouble(value)) {
+  const formats::JsonValue& value = place.value();
+  if (const auto truth = value.boolean()) return *truth;
+  if (value.text() != nullptr) return plainText(place, 65535);
+  if (const auto number = value.number()) {
+    if (number->isWhole()) {
+      if (const auto whole = number->asInteger<std::int64_t>()) return *whole;
+    } else if (const auto real = number->asDouble()) {
       return *real;
     }
   }
@@ -136,20 +136,21 @@ Json readStep(const JsonPlace& place) {
   Json step = {{"name", plainText(place.at("name"), 255, 1)},
                {"tool", plainText(place.at("tool"), 255, 1)},
                {"parameters", Json::object()}};
-  for (const auto& [key, value] : place.value().items())
+  for (const auto& [key, value] : place.value().members())
     if (key != "name" && key != "tool" && key != "parameters" && !key.starts_with("x-"))
       place.refuse("an object with name, tool and parameters");
-  if (!parameters.value().is_object() || parameters.value().size() > kMostParameters)
+  const auto members = parameters.value().members();
+  if (!parameters.value().isObject() || members.size() > kMostParameters)
     parameters.refuse("an object of at most 4096 entries");
-  for (const auto& [key, value] : parameters.value().items())
-    step["parameters"][key] = readParameter(parameters.at(key.c_str()));
+  for (const auto& [key, value] : members)
+    step["parameters"][std::string(key)] = readParameter(parameters.at(key));
   return step;
 }
 
 Json readProvenance(const JsonPlace& place) {
   place.onlyKeys({"case_sha256", "generator", "source", "steps", "recipe_sha256"});
   Json source;
-  if (const JsonPlace given = place.at("source"); !given.value().is_null()) {
+  if (const JsonPlace given = place.at("source"); !given.value().isNull()) {
     given.onlyKeys({"sha256"});
     source = {{"sha256", digest(given.at("sha256"))}};
   }
@@ -212,8 +213,8 @@ RecordedFile readFile(const JsonPlace& place) {
 }
 
 /// Sorted, so that each is once there; apart on file systems that know no case; one case.
-void checkFiles(const JsonPlace& all, const std::vector<RecordedFile>& files) {
-  const auto places = all.elements();
+void checkFiles(const JsonPlace& all, const std::vector<JsonPlace>& places,
+                const std::vector<RecordedFile>& files) {
   std::set<std::string> names = {kRecordFile, kCrateFile}, folders;
   std::size_t cases = 0;
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -237,8 +238,9 @@ void checkFiles(const JsonPlace& all, const std::vector<RecordedFile>& files) {
 
 }  // namespace
 
-CaseRecord readRecord(const std::string& text, const std::filesystem::path& file) {
-  const JsonFile document{parseJson(text, file), file.string()};
+CaseRecord readRecord(const std::string& text, const std::filesystem::path& file,
+                      const std::set<std::size_t>& passedOver) {
+  JsonFile document(text, file);
   const JsonPlace root(document);
   requireFormat(root, "lumen-library-case");
   root.onlyKeys({"format",    "formatVersion",    "id",          "version",    "date",
@@ -250,7 +252,7 @@ CaseRecord readRecord(const std::string& text, const std::filesystem::path& file
   record.id = caseId(root.at("id"));
   record.version = static_cast<std::uint32_t>(wholeNumber(root.at("version"), 1, UINT32_MAX));
   record.date = day(root.at("date"));
-  for (const auto& [key, read] : aboutReaders()) read(root.at(key.c_str()), record.about);
+  for (const auto& [key, read] : aboutReaders()) read(root.at(key), record.about);
   wordOf(root.at("units"), {"mm"});
   wordOf(root.at("frame"), {"LPS"});
   root.at("bounds").onlyKeys({"min", "max"});
@@ -262,20 +264,23 @@ CaseRecord readRecord(const std::string& text, const std::filesystem::path& file
   for (const JsonPlace& place : root.at("ends").elements())
     record.ends.push_back(readPlace(place, true));
   record.provenance = readProvenance(root.at("provenance"));
-  for (const JsonPlace& place : root.at("files").elements())
-    record.files.push_back(readFile(place));
-  checkFiles(root.at("files"), record.files);
+  const auto all = root.at("files").elements();
+  std::vector<JsonPlace> places;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!passedOver.contains(i)) places.push_back(all[i]);
+  for (const JsonPlace& place : places) record.files.push_back(readFile(place));
+  checkFiles(root.at("files"), places, record.files);
   return record;
 }
 
 CaseAbout readAbout(const std::string& text, const std::filesystem::path& file) {
-  const JsonFile document{parseJson(text, file), file.string()};
+  JsonFile document(text, file);
   const JsonPlace root(document);
   root.onlyKeys({"title", "description", "anatomy", "laterality", "modality", "synthetic",
                  "licence", "attribution", "doi", "origin", "consent", "deidentification"});
   CaseAbout about;
   for (const auto& [key, read] : aboutReaders())
-    if (root.has(key.c_str())) read(root.at(key.c_str()), about);
+    if (root.has(key.c_str())) read(root.at(key), about);
   return about;
 }
 

@@ -35,14 +35,15 @@ Json readState(const fs::path& file) {
   if (!bytes) throw invalidInput(file.string() + ": " + bytes.error().message + kAdvice);
   try {
     const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    const JsonFile document{parseJson(text, file), file.string()};
+    JsonFile document(text, file);
     const JsonPlace root(document);
     requireFormat(root, kFormat);
     root.onlyKeys({"format", "formatVersion", "libraries"});
     const JsonPlace all = root.at("libraries");
-    if (!all.value().is_object()) all.refuse("an object");
-    for (const auto& [id, value] : all.value().items()) {
-      const JsonPlace place = all.at(id.c_str());
+    if (!all.value().isObject()) all.refuse("an object");
+    for (const auto& [key, value] : all.value().members()) {
+      const std::string id(key);
+      const JsonPlace place = all.at(id);
       if (!isUuid(id)) place.refuse("it under a UUID");
       place.onlyKeys({"revision", "sha256"});
       libraries[id] = {{"revision", wholeNumber(place.at("revision"), 1)},

@@ -15,8 +15,6 @@
 namespace lumen::formats {
 namespace {
 
-using nlohmann::json;
-
 // The parts that a text may have or not, while it is read.
 struct Parts {
   Case value;
@@ -48,7 +46,7 @@ void requireArrays(const ArraySlots& slots, std::initializer_list<std::string> p
     }
 }
 
-Branch readBranch(const json& value, const std::string& place, JsonReadState& state) {
+Branch readBranch(JsonValue value, const std::string& place, JsonReadState& state) {
   JsonFields fields(value, place, state);
   Branch branch;
   branch.label = fields.text("label");
@@ -57,19 +55,19 @@ Branch readBranch(const json& value, const std::string& place, JsonReadState& st
   branch.firstNode = fields.integer<std::uint32_t>("firstNode");
   branch.nodeCount = fields.integer<std::uint32_t>("nodeCount");
   branch.stopReason = fields.enumeration<StopReason>("stopReason", kStopReasonNames);
-  if (fields.find("meanInlierRate") != nullptr)
+  if (fields.find("meanInlierRate").has_value())
     branch.meanInlierRate = fields.single("meanInlierRate");
   fields.finish();
   return branch;
 }
 
-void readTree(const json& value, const ArraySlots& slots, CenterlineTree& tree,
+void readTree(JsonValue value, const ArraySlots& slots, CenterlineTree& tree,
               JsonReadState& state) {
   const std::string place = "/tree/branches";
   JsonFields fields(value, "/tree", state);
-  if (const json* branches = fields.require("branches")) {
-    if (!branches->is_array()) state.wrongType(place, *branches, "an array");
-    for (std::size_t i = 0; branches->is_array() && i < branches->size(); ++i) {
+  if (const auto branches = fields.require("branches")) {
+    if (!branches->isArray()) state.wrongType(place, *branches, "an array");
+    for (std::size_t i = 0; i < branches->arraySize(); ++i) {
       if (state.issues.done()) return;
       tree.branches.push_back(readBranch((*branches)[i], place + "/" + std::to_string(i), state));
     }
@@ -85,13 +83,13 @@ void readTree(const json& value, const ArraySlots& slots, CenterlineTree& tree,
   fields.finish();
 }
 
-void readPoints(const json& value, const ArraySlots& slots, JsonReadState& state) {
+void readPoints(JsonValue value, const ArraySlots& slots, JsonReadState& state) {
   JsonFields fields(value, "/points", state);
   requireArrays(slots, {"/points/offset", "/points/position"}, state);
   fields.finish();
 }
 
-void readModels(const json& value, const ArraySlots& slots, BlobbyModels& models,
+void readModels(JsonValue value, const ArraySlots& slots, BlobbyModels& models,
                 JsonReadState& state) {
   JsonFields fields(value, "/models", state);
   models.kernel = fields.enumeration<Kernel>("kernel", kKernelNames);
@@ -193,14 +191,14 @@ void readNodeArrays(Parts& parts, JsonReadState& state) {
                "the metadata do not describe this array", {{"key", name.substr(0, 80)}});
 }
 
-OtherChunk readChunk(const json& value, const std::string& place, JsonReadState& state) {
+OtherChunk readChunk(JsonValue value, const std::string& place, JsonReadState& state) {
   JsonFields fields(value, place, state);
   OtherChunk chunk;
   chunk.type = fields.text("type");
   chunk.version = fields.integer<std::uint16_t>("version");
   chunk.independent = fields.boolean("independent");
   chunk.encoding = fields.integer<std::uint8_t>("encoding");
-  const bool hasRawSize = fields.find("rawSize") != nullptr;
+  const bool hasRawSize = fields.find("rawSize").has_value();
   if (hasRawSize) chunk.rawSize = fields.integer<std::uint64_t>("rawSize");
   if (hasRawSize != (chunk.encoding != 0))
     state.fail(ErrorCode::JsonChunkData, place + "/rawSize",
@@ -219,35 +217,35 @@ OtherChunk readChunk(const json& value, const std::string& place, JsonReadState&
   return chunk;
 }
 
-void readOtherChunks(const json& value, std::vector<OtherChunk>& chunks, JsonReadState& state) {
+void readOtherChunks(JsonValue value, std::vector<OtherChunk>& chunks, JsonReadState& state) {
   const std::string place = "/otherChunks";
-  if (!value.is_array()) return state.wrongType(place, value, "an array");
-  for (const json& chunk : value) {
+  if (!value.isArray()) return state.wrongType(place, value, "an array");
+  for (std::size_t i = 0; i < value.arraySize(); ++i) {
     if (state.issues.done()) return;
-    chunks.push_back(readChunk(chunk, place + "/" + std::to_string(chunks.size()), state));
+    chunks.push_back(readChunk(value[i], place + "/" + std::to_string(chunks.size()), state));
   }
 }
 
 void readCase(JsonFields& fields, Parts& parts, JsonReadState& state) {
   Case& value = parts.value;
-  if (const json* metadata = fields.require("metadata")) {
+  if (const auto metadata = fields.require("metadata")) {
     MetadataDocument read = readMetadata(*metadata, state);
     value.metadata = std::move(read.metadata);
     value.nodeArrays = std::move(read.nodeArrays);
   }
-  if (const json* tree = fields.require("tree")) readTree(*tree, parts.slots, value.tree, state);
-  if (const json* found = fields.find("points")) {
+  if (const auto tree = fields.require("tree")) readTree(*tree, parts.slots, value.tree, state);
+  if (const auto found = fields.find("points")) {
     readPoints(*found, parts.slots, state);
     value.points = std::move(parts.points);
   }
-  if (const json* found = fields.find("models")) {
+  if (const auto found = fields.find("models")) {
     readModels(*found, parts.slots, parts.models, state);
     value.models = std::move(parts.models);
   }
-  if (const json* found = fields.find("nodeArrays"))
-    if (!found->is_object()) state.wrongType("/nodeArrays", *found, "an object");
+  if (const auto found = fields.find("nodeArrays"))
+    if (!found->isObject()) state.wrongType("/nodeArrays", *found, "an object");
   readNodeArrays(parts, state);
-  if (const json* found = fields.find("otherChunks"))
+  if (const auto found = fields.find("otherChunks"))
     readOtherChunks(*found, value.otherChunks, state);
   fields.finish();
 }
@@ -260,8 +258,8 @@ std::optional<Case> decodeJson(std::string_view text, IssueList& issues) {
   const auto document = parseJson(text, 0, "", parts.slots, issues);
   if (!document) return std::nullopt;
 
-  JsonReadState state{issues};
-  JsonFields fields(*document, "", state);
+  JsonReadState state(issues);
+  JsonFields fields(document->root(), "", state);
   requireText(fields, "format", "lumen", ErrorCode::NotLumen);
   if (issues.failed() || !readVersion(fields, state)) return std::nullopt;
   readCase(fields, parts, state);

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "formats/case/json_number.h"
 #include "formats/case/json_text.h"
 #include "formats/view/limits.h"
@@ -28,7 +30,7 @@ public:
   bool boolean(bool value) override { return scalar(value); }
   bool string(std::string& value) override { return scalar(std::move(value)); }
   bool number(std::string_view text, bool whole) override {
-    return m_array ? addNumber(text, whole) : scalar(numberValue(text, whole));
+    return m_array ? addNumber(text, whole) : scalar(storedNumber(text, whole));
   }
 
   bool beginObject() override {
@@ -70,10 +72,11 @@ public:
     return true;
   }
 
-  [[nodiscard]] std::optional<json> result(std::optional<JsonFault> fault, IssueList& issues) {
+  [[nodiscard]] std::optional<JsonDocument> result(std::optional<JsonFault> fault,
+                                                   IssueList& issues) {
     if (fault)
       m_error = Issue{ErrorCode::JsonSyntax, m_byteOffset + fault->at, std::move(fault->message)};
-    if (!m_error) return std::move(m_root);
+    if (!m_error) return JsonDocument(std::move(m_root));
     issues.add(*std::move(m_error));
     return std::nullopt;
   }
@@ -139,8 +142,8 @@ private:
   }
 
   bool scalar(json value) {
-    if (m_array) return wrongType(kindOf(value), "a number");
-    if (slotHere() != nullptr) return wrongType(kindOf(value), "an array");
+    if (m_array) return wrongType(JsonValue(value).kind(), "a number");
+    if (slotHere() != nullptr) return wrongType(JsonValue(value).kind(), "an array");
     attach(std::move(value));
     return true;
   }
@@ -279,11 +282,18 @@ void NumberTexts::add(std::string_view text, bool whole) {
   values.push_back(value);
 }
 
-std::optional<json> parseJson(std::string_view text, std::size_t byteOffset,
-                              const std::string& root, ArraySlots& slots, IssueList& issues) {
+std::optional<JsonDocument> parseJson(std::string_view text, std::size_t byteOffset,
+                                      const std::string& root, ArraySlots& slots,
+                                      IssueList& issues) {
   DocumentBuilder builder(byteOffset, root, slots);
   auto fault = readJsonText(text, builder);
   return builder.result(std::move(fault), issues);
+}
+
+std::optional<JsonDocument> parseJson(std::string_view text, std::size_t byteOffset,
+                                      const std::string& root, IssueList& issues) {
+  ArraySlots none;
+  return parseJson(text, byteOffset, root, none, issues);
 }
 
 }  // namespace lumen::formats

@@ -12,9 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/case/case.h"
+#include "formats/case/json_value.h"
 #include "formats/container/issue.h"
 
 namespace lumen::formats {
@@ -46,10 +45,13 @@ struct ArraySlots {
 
 /// Parses strict JSON (json_text.h) without duplicate keys in an object, at most kMaxJsonDepth levels
 /// deep. Arrays named in `slots` are filled and left out of the returned value; all other numbers
-/// are kept as numberValue() does, whatever their size. Nothing is returned after an error, which is
-/// placed from `byteOffset` on if it is one of syntax, and by JSON pointer after `root` otherwise.
-std::optional<nlohmann::json> parseJson(std::string_view text, std::size_t byteOffset,
-                                        const std::string& root, ArraySlots& slots,
-                                        IssueList& issues);
+/// are legal whatever their size. Nothing is returned after an error. Errors of syntax are placed
+/// from `byteOffset` on, others by JSON pointer after `root`.
+std::optional<JsonDocument> parseJson(std::string_view text, std::size_t byteOffset,
+                                      const std::string& root, ArraySlots& slots,
+                                      IssueList& issues);
+/// The same for a text without long arrays.
+std::optional<JsonDocument> parseJson(std::string_view text, std::size_t byteOffset,
+                                      const std::string& root, IssueList& issues);
 
 }  // namespace lumen::formats

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,45 +11,50 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/case/enum_names.h"
-#include "formats/case/json_number.h"
+#include "formats/case/json_place.h"
 #include "formats/container/issue.h"
 #include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 
-/// Shared by all readers of one text. After a failure reads give defaults.
-struct JsonReadState {
+/// The issues of one text. Reading goes on after a fault, with defaults.
+class JsonReadState final : public JsonFaults {
+public:
+  explicit JsonReadState(IssueList& list, bool known = true) : issues(list), fullyKnown(known) {}
+
   IssueList& issues;
-  bool fullyKnown = true;  ///< false: unknown keys are those of a newer version and ignored
+  bool fullyKnown;  ///< false: unknown keys are those of a newer version and ignored
 
   void fail(ErrorCode code, std::string place, std::string message,
             std::vector<Argument> arguments = {}) {
     issues.add(pointerIssue(code, std::move(place), std::move(message), std::move(arguments)));
   }
-  void wrongType(std::string place, const nlohmann::json& value, const std::string& expected) {
-    const std::string found = kindOf(value);
+  void wrongType(std::string place, JsonValue value, const std::string& expected) override {
+    const std::string found = value.kind();
     fail(ErrorCode::JsonType, std::move(place), "found " + found + ", expected " + expected,
          {{"found", found}, {"expected", expected}});
   }
-  void outOfRange(std::string place, const nlohmann::json& number, const std::string& expected) {
-    const std::string found = numberText(number);
+  void outOfRange(std::string place, JsonNumber number, const std::string& expected) override {
+    const std::string found = number.shown();
     fail(ErrorCode::NumberRange, std::move(place), "found " + found + ", expected " + expected,
          {{"found", found}});
+  }
+  void missingKey(std::string place, std::string_view key) override {
+    fail(ErrorCode::JsonKeyMissing, std::move(place),
+         "the object has no \"" + std::string(key) + "\"", {{"key", std::string(key)}});
   }
 };
 
 /// One object. Every key must be asked for, start with "x-", or belong to a newer version.
 class JsonFields {
 public:
-  JsonFields(const nlohmann::json& value, std::string place, JsonReadState& state);
+  JsonFields(JsonValue value, std::string place, JsonReadState& state);
 
-  /// The member, or nullptr; the key is known from then on.
-  const nlohmann::json* find(std::string_view key);
+  /// The member; the key is known from then on.
+  std::optional<JsonValue> find(std::string_view key);
   /// The member; JSON_KEY_MISSING without it.
-  const nlohmann::json* require(std::string_view key);
+  std::optional<JsonValue> require(std::string_view key);
 
   double real(std::string_view key);
   float single(std::string_view key);
@@ -62,8 +66,8 @@ public:
 
   template <class Integer>
   Integer integer(std::string_view key) {
-    const nlohmann::json* value = require(key);
-    return value == nullptr ? Integer{} : toInteger<Integer>(*value, placeOf(key));
+    const auto place = requirePlace(key);
+    return place ? place->integer<Integer>() : Integer{};
   }
 
   template <class Enum>
@@ -84,33 +88,16 @@ public:
   /// Reports the keys that nobody asked for. Call it last.
   void finish();
 
-  [[nodiscard]] std::string placeOf(std::string_view key) const {
-    return m_place + "/" + jsonPointerToken(key);
-  }
+  [[nodiscard]] std::string placeOf(std::string_view key) const { return m_object.pointerTo(key); }
   [[nodiscard]] JsonReadState& state() const { return m_state; }
 
 private:
   std::optional<std::string> readText(std::string_view key);
-  double toReal(const nlohmann::json& value, const std::string& place);
+  std::optional<JsonPlace> requirePlace(std::string_view key);
+  // The entries of the array at `key`; none unless there are exactly `size`.
+  std::vector<JsonPlace> arrayOf(std::string_view key, std::size_t size);
 
-  template <class Integer>
-  Integer toInteger(const nlohmann::json& value, const std::string& place) {
-    if (!isNumber(value) || !isWhole(value)) {
-      m_state.wrongType(place, value, "an integer, without point and exponent");
-      return Integer{};
-    }
-    if (const auto number = asInteger<Integer>(value)) return *number;
-    m_state.outOfRange(place, value,
-                       "an integer from " + std::to_string(std::numeric_limits<Integer>::min()) +
-                           " to " + std::to_string(std::numeric_limits<Integer>::max()));
-    return Integer{};
-  }
-
-  // The array of exactly `size` values at `key`, or nullptr.
-  const nlohmann::json* arrayOf(std::string_view key, std::size_t size);
-
-  const nlohmann::json& m_object;
-  std::string m_place;
+  JsonPlace m_object;
   JsonReadState& m_state;
   std::vector<std::string_view> m_known;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "formats/view/text_rules.h"
 
 namespace lumen::formats {
@@ -43,10 +45,6 @@ std::optional<Real> realFromText(std::string_view text) {
   return text.starts_with('-') ? Real{-0.0f} : Real{0};
 }
 
-json kept(std::string_view text) {
-  return json::binary({text.begin(), text.end()});
-}
-
 }  // namespace
 
 std::optional<double> doubleFromText(std::string_view text) {
@@ -62,50 +60,38 @@ std::optional<float> floatFromDouble(double value) {
   return static_cast<float>(value);
 }
 
-json numberValue(std::string_view text, bool whole) {
+json storedNumber(std::string_view text, bool whole) {
   if (whole) {
-    const auto integer = integerFromText<std::int64_t>(text);
-    return integer ? json(*integer) : kept(text);
+    if (const auto integer = integerFromText<std::int64_t>(text)) return *integer;
+  } else if (const auto value = doubleFromText(text)) {
+    if (floatFromDouble(*value) == floatFromText(text)) return *value;
   }
-  const auto value = doubleFromText(text);
-  return value && floatFromDouble(*value) == floatFromText(text) ? json(*value) : kept(text);
+  return json::binary({text.begin(), text.end()});
 }
 
-std::optional<std::string_view> keptText(const json& value) {
-  if (!value.is_binary()) return std::nullopt;
-  const json::binary_t& bytes = value.get_binary();
-  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+bool JsonNumber::isWhole() const {
+  if (const auto* text = std::get_if<std::string_view>(&m_value))
+    return text->find_first_of(".eE") == text->npos;
+  return std::holds_alternative<std::int64_t>(m_value);
 }
 
-bool isNumber(const json& value) {
-  return value.is_number() || value.is_binary();
+std::string JsonNumber::shown() const {
+  if (const auto* text = std::get_if<std::string_view>(&m_value))
+    return std::string(text->substr(0, 40));
+  if (const auto* whole = std::get_if<std::int64_t>(&m_value)) return std::to_string(*whole);
+  return shortText(std::get<double>(m_value));
 }
 
-bool isWhole(const json& value) {
-  if (const auto text = keptText(value))
-    return text->find_first_of(".eE") == std::string_view::npos;
-  return value.is_number_integer();
+std::optional<double> JsonNumber::asDouble() const {
+  if (const auto* text = std::get_if<std::string_view>(&m_value)) return doubleFromText(*text);
+  if (const auto* whole = std::get_if<std::int64_t>(&m_value)) return static_cast<double>(*whole);
+  return std::get<double>(m_value);
 }
 
-std::string kindOf(const json& value) {
-  return isNumber(value) ? "number" : value.type_name();
-}
-
-std::string numberText(const json& number) {
-  if (const auto text = keptText(number)) return std::string(text->substr(0, 40));
-  return number.is_number_integer() ? std::to_string(number.get<std::int64_t>())
-                                    : shortText(number.get<double>());
-}
-
-std::optional<double> asDouble(const json& number) {
-  const auto text = keptText(number);
-  return text ? doubleFromText(*text) : number.get<double>();
-}
-
-std::optional<float> asFloat(const json& number) {
-  if (const auto text = keptText(number)) return floatFromText(*text);
-  if (number.is_number_integer()) return static_cast<float>(number.get<std::int64_t>());
-  return floatFromDouble(number.get<double>());
+std::optional<float> JsonNumber::asFloat() const {
+  if (const auto* text = std::get_if<std::string_view>(&m_value)) return floatFromText(*text);
+  if (const auto* whole = std::get_if<std::int64_t>(&m_value)) return static_cast<float>(*whole);
+  return floatFromDouble(std::get<double>(m_value));
 }
 
 }  // namespace lumen::formats

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of a JSON text. Most are kept as an integer of 64 bits or as a double. Of the others (an
-// integer beyond, a real beyond, or one that a double would round twice on its way to a float) the
-// text is kept, until the field that it belongs to tells what it should be.
+// Numbers of JSON texts. The field that a number belongs to decides the type that it is rounded to.
 #pragma once
 
 #include <charconv>
@@ -10,20 +8,21 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace lumen::formats {
 
-/// The nearest to the decimal, ties to even; what is too small is a zero with its sign. Nothing if
-/// it rounds to beyond the largest.
+/// The nearest real to the decimal, ties to even; a zero with its sign for a number that is too
+/// small. Nothing for a number that rounds to beyond the largest real.
 std::optional<double> doubleFromText(std::string_view text);
 std::optional<float> floatFromText(std::string_view text);
 
-/// The nearest to a double, ties to even; nothing beyond the largest.
+/// The nearest float to a double, ties to even; nothing beyond the largest.
 std::optional<float> floatFromDouble(double value);
 
-/// Of a number without point and exponent; nothing if it does not fit.
+/// The integer of a text without point and exponent; nothing if the type does not hold it.
 template <class Integer>
 std::optional<Integer> integerFromText(std::string_view text) {
   if (text == "-0") return Integer{0};
@@ -33,31 +32,38 @@ std::optional<Integer> integerFromText(std::string_view text) {
   return value;
 }
 
-/// A number of a JSON text as a value of a document; `whole` is without point and exponent.
-nlohmann::json numberValue(std::string_view text, bool whole);
+/// A number of a JsonDocument, which must outlive it. Every reader of JSON asks it for the type that
+/// its field has; a number of any size is legal until then.
+class JsonNumber {
+public:
+  /// True for a number without point and exponent.
+  [[nodiscard]] bool isWhole() const;
+  /// The number in at most 40 characters, for a message.
+  [[nodiscard]] std::string shown() const;
 
-/// The text of a number that is kept so, or nothing.
-std::optional<std::string_view> keptText(const nlohmann::json& value);
+  /// The nearest real, rounded once; nothing beyond the largest.
+  [[nodiscard]] std::optional<double> asDouble() const;
+  [[nodiscard]] std::optional<float> asFloat() const;
+  /// Nothing for a number with a point or an exponent, and for one that the type does not hold.
+  template <class Integer>
+  [[nodiscard]] std::optional<Integer> asInteger() const {
+    if (const auto* text = std::get_if<std::string_view>(&m_value))
+      return isWhole() ? integerFromText<Integer>(*text) : std::nullopt;
+    const auto* whole = std::get_if<std::int64_t>(&m_value);
+    if (whole == nullptr || !std::in_range<Integer>(*whole)) return std::nullopt;
+    return static_cast<Integer>(*whole);
+  }
 
-/// True for a number, whichever way it is kept.
-bool isNumber(const nlohmann::json& value);
-/// True for a number without point and exponent.
-bool isWhole(const nlohmann::json& value);
-/// "array", "number" and so on: what messages call a value.
-std::string kindOf(const nlohmann::json& value);
-/// At most 40 characters of a number.
-std::string numberText(const nlohmann::json& number);
+private:
+  friend class JsonValue;
+  explicit JsonNumber(std::variant<std::int64_t, double, std::string_view> value)
+      : m_value(value) {}
 
-/// A number as the type of its field; nothing if it does not fit.
-std::optional<double> asDouble(const nlohmann::json& number);
-std::optional<float> asFloat(const nlohmann::json& number);
+  // The text, where neither an integer of 64 bits nor a double gives every type its nearest value
+  std::variant<std::int64_t, double, std::string_view> m_value;
+};
 
-/// The same of a number that isWhole().
-template <class Integer>
-std::optional<Integer> asInteger(const nlohmann::json& number) {
-  if (const auto text = keptText(number)) return integerFromText<Integer>(*text);
-  const auto value = number.get<std::int64_t>();
-  return std::in_range<Integer>(value) ? std::optional(static_cast<Integer>(value)) : std::nullopt;
-}
+/// A number as a JsonDocument stores it.
+nlohmann::json storedNumber(std::string_view text, bool whole);
 
 }  // namespace lumen::formats

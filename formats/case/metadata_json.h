@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/case/case.h"
 #include "formats/case/json_fields.h"
 #include "formats/case/json_writer.h"
@@ -38,7 +36,7 @@ MetadataDocument decodeMetadataJson(std::string_view text, std::size_t byteOffse
                                     IssueList& issues);
 
 /// The object itself.
-MetadataDocument readMetadata(const nlohmann::json& value, JsonReadState& state);
+MetadataDocument readMetadata(JsonValue value, JsonReadState& state);
 
 /// The rules of the metadata and of the description and values of node arrays.
 void checkMetadata(const Metadata& metadata, IssueList& issues);

@@ -28,12 +28,15 @@ def need(at, **rules):  # code=condition, in order
     for code, holds in rules.items():
         if not holds: raise Refused(code, at)
 
+SURROGATES = re.compile(r"\\(?:u[dD][89abAB]..\\u[dD][c-fC-F]..|(u[dD][89a-fA-F]..)|.)", re.S)  # the group: half a pair
 def parse_json(data, at=""):
     def depth(v): return 1 + max(map(depth, v.values() if type(v) is dict else v), default=0) if type(v) in (dict, list) else 0
     try:
         v = json.loads(data.decode(), parse_int=lambda s: int(s) if len(s) < 400 else Decimal(s), parse_float=Decimal,
                        object_pairs_hook=lambda items: need(at, JSON_DUPLICATE_KEY=len(dict(items)) == len(items)) or dict(items),
                        parse_constant=lambda name: need(at, JSON_SYNTAX=False))  # NaN and Infinity are not JSON
+        half = next((m for m in SURROGATES.finditer(data.decode()) if m[1]), None)
+        if half: need(at or len(data.decode()[:half.start()].encode()), JSON_SYNTAX=False)
         return need(at, JSON_DEPTH=depth(v) <= 64) or v
     except RecursionError: need(at, JSON_DEPTH=False)
     except ValueError as e: need(at or (len(e.doc[:e.pos].encode()) if hasattr(e, "pos") else e.start), JSON_SYNTAX=False)

@@ -2,6 +2,7 @@
 lumen_test(viewer_test
   LIBS lumen_server lumen_httplib
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/arguments_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/document_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/kept_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/safety_test.cpp

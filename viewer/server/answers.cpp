@@ -66,7 +66,7 @@ void refuseSize(std::uint64_t most) {
   throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
 }
 
-Json readJson(const httplib::ContentReader& reader) {
+formats::JsonDocument readJson(const httplib::ContentReader& reader) {
   std::string text;
   readBody(reader, kMostRequest,
            [&text](const char* data, std::size_t length) { text.append(data, length); });

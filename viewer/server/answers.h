@@ -71,6 +71,6 @@ void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& t
 }
 
 /// A body in JSON, of at most 1 MiB.
-Json readJson(const httplib::ContentReader& reader);
+formats::JsonDocument readJson(const httplib::ContentReader& reader);
 
 }  // namespace lumen::viewer

@@ -143,11 +143,14 @@ private:
   }
 
   /// With a body in JSON, and an answer in JSON.
-  void post(const std::string& name, const std::function<Json(const Json&)>& answer) {
-    m_http.Post(at(name), [answer](const Request&, Response& response,
-                                   const httplib::ContentReader& reader) {
-      guarded(response, [&] { answerText(response, jsonText(answer(readJson(reader)))); });
-    });
+  void post(const std::string& name, const std::function<Json(formats::JsonValue)>& answer) {
+    m_http.Post(at(name),
+                [answer](const Request&, Response& response, const httplib::ContentReader& reader) {
+                  guarded(response, [&] {
+                    const formats::JsonDocument document = readJson(reader);
+                    answerText(response, jsonText(answer(document.root())));
+                  });
+                });
   }
 
   void addPage() {
@@ -191,9 +194,9 @@ private:
   }
 
   void addWork() {
-    post("do", [this](const Json& request) { return m_session.run(request); });
-    post("snap", [this](const Json& request) { return m_session.snap(request); });
-    post("cancel", [this](const Json& request) -> Json {
+    post("do", [this](formats::JsonValue request) { return m_session.run(request); });
+    post("snap", [this](formats::JsonValue request) { return m_session.snap(request); });
+    post("cancel", [this](formats::JsonValue request) -> Json {
       const Arguments arguments(request);
       return {{"cancelled", m_session.cancel(static_cast<int>(arguments.index("job", 1U << 30)))}};
     });

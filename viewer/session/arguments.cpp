@@ -2,14 +2,16 @@
 #include "viewer/session/arguments.h"
 
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "converters/base/error.h"
+#include "formats/case/json_document.h"
 
 namespace lumen::viewer {
 
 namespace {
 
-constexpr int kDeepest = 8;
 constexpr std::size_t kMostText = 255, kMostPoints = 1000, kMostTexts = 10000;
 constexpr double kFarthest = 1e6;  // mm; as for seeds files
 
@@ -17,48 +19,67 @@ constexpr double kFarthest = 1e6;  // mm; as for seeds files
   throw Error(ErrorKind::Usage, what);
 }
 
+/// The name of the member that a pointer leads to or into: "position" of "/points/0/position/1".
+std::string quotedMember(std::string_view pointer) {
+  for (;;) {
+    const std::size_t slash = pointer.rfind('/');
+    const std::string_view token = pointer.substr(slash + 1);
+    if (slash == 0 || token.find_first_not_of("0123456789") != token.npos)
+      return '"' + std::string(token) + '"';
+    pointer = pointer.substr(0, slash);
+  }
+}
+
+class RequestFaults final : public formats::JsonFaults {
+public:
+  void wrongType(std::string pointer, formats::JsonValue, const std::string& expected) override {
+    refuse(pointer.empty() ? "a request is a JSON object"
+                           : quotedMember(pointer) + " must be " + expected);
+  }
+  void outOfRange(std::string pointer, formats::JsonNumber found,
+                  const std::string& expected) override {
+    refuse(quotedMember(pointer) + " is " + found.shown() + ", but must be " + expected);
+  }
+  void missingKey(std::string, std::string_view key) override {
+    refuse('"' + std::string(key) + "\" is missing");
+  }
+};
+
+RequestFaults requestFaults;  // has no state
+
 std::string quoted(const char* name) {
   return '"' + std::string(name) + '"';
 }
 
-double finite(const Json& value, const char* name) {
-  if (!value.is_number()) refuse(quoted(name) + " must be a number");
-  const auto number = value.get<double>();
+double finite(double number, const char* name) {
   if (!(std::abs(number) <= kFarthest)) refuse(quoted(name) + " must be at most 1e6 in size");
   return number;
 }
 
-Eigen::Vector3d vectorOf(const Json& value, const char* name) {
-  if (!value.is_array() || value.size() != 3) refuse(quoted(name) + " must be three numbers");
-  return {finite(value[0], name), finite(value[1], name), finite(value[2], name)};
-}
-
-std::string textOf(const Json& value, const char* name) {
-  if (!value.is_string()) refuse(quoted(name) + " must be a text");
-  auto text = value.get<std::string>();
+std::string textOf(const formats::JsonPlace& place, const char* name) {
+  const std::string& text = *place.text("a text");
   if (text.size() > kMostText) refuse(quoted(name) + " must have at most 255 bytes");
   return text;
 }
 
 }  // namespace
 
-Arguments::Arguments(const Json& object) : m_object(object) {
-  if (!object.is_object()) refuse("a request is a JSON object");
+Arguments::Arguments(formats::JsonValue object) : m_object(object, requestFaults) {
+  if (!object.isObject()) refuse("a request is a JSON object");
 }
 
 bool Arguments::has(const char* name) const {
-  return m_object.contains(name) && !m_object[name].is_null();
+  const auto found = m_object.find(name);
+  return found && !found->value().isNull();
 }
 
-const Json& Arguments::at(const char* name) const {
+formats::JsonPlace Arguments::at(const char* name) const {
   if (!has(name)) refuse(quoted(name) + " is missing");
-  return m_object[name];
+  return *m_object.find(name);
 }
 
 std::int64_t Arguments::whole(const char* name) const {
-  const Json& value = at(name);
-  if (!value.is_number_integer()) refuse(quoted(name) + " must be a whole number");
-  return value.get<std::int64_t>();
+  return at(name).integer<std::int64_t>("a whole number");
 }
 
 std::uint32_t Arguments::index(const char* name, std::size_t count) const {
@@ -70,7 +91,7 @@ std::uint32_t Arguments::index(const char* name, std::size_t count) const {
 }
 
 double Arguments::number(const char* name) const {
-  return finite(at(name), name);
+  return finite(at(name).real(), name);
 }
 
 std::string Arguments::text(const char* name) const {
@@ -83,30 +104,31 @@ std::string Arguments::text(const char* name, const std::string& otherwise) cons
 
 bool Arguments::flag(const char* name) const {
   if (!has(name)) return false;
-  if (!at(name).is_boolean()) refuse(quoted(name) + " must be true or false");
-  return at(name).get<bool>();
+  return at(name).boolean("true or false");
 }
 
 Eigen::Vector3d Arguments::position(const char* name) const {
-  return vectorOf(at(name), name);
+  Eigen::Vector3d position;
+  at(name).reals(std::span(position.data(), 3), "three numbers");
+  for (const double coordinate : position) finite(coordinate, name);
+  return position;
 }
 
 std::vector<std::string> Arguments::texts(const char* name) const {
-  const Json& list = at(name);
-  if (!list.is_array() || list.size() > kMostTexts)
-    refuse(quoted(name) + " must be a list of texts");
+  const auto list = at(name).entries("a list of texts");
+  if (list.size() > kMostTexts) refuse(quoted(name) + " must be a list of texts");
   std::vector<std::string> texts;
-  for (const Json& value : list) texts.push_back(textOf(value, name));
+  for (const formats::JsonPlace& entry : list) texts.push_back(textOf(entry, name));
   return texts;
 }
 
 std::vector<convert::SeedPoint> Arguments::points(const char* name) const {
-  const Json& list = at(name);
-  if (!list.is_array() || list.empty() || list.size() > kMostPoints)
-    refuse(quoted(name) + " must be a list of one to 1000 points");
+  const std::string expected = "a list of one to 1000 points";
+  const auto list = at(name).entries(expected);
+  if (list.empty() || list.size() > kMostPoints) refuse(quoted(name) + " must be " + expected);
   std::vector<convert::SeedPoint> points;
-  for (const Json& value : list) {
-    const Arguments members(value);
+  for (const formats::JsonPlace& entry : list) {
+    const Arguments members(entry.value());
     convert::SeedPoint point;
     point.position = members.position("position");
     if (members.has("radius")) {
@@ -118,17 +140,13 @@ std::vector<convert::SeedPoint> Arguments::points(const char* name) const {
   return points;
 }
 
-Json parseRequest(const std::string& text, std::size_t mostBytes) {
+formats::JsonDocument parseRequest(const std::string& text, std::size_t mostBytes) {
   if (text.size() > mostBytes)
     refuse("a request has at most " + std::to_string(mostBytes) + " bytes");
-  try {
-    return Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
-      if (depth > kDeepest) refuse("a request is nested at most eight levels deep");
-      return true;
-    });
-  } catch (const Json::exception&) {
-    refuse("this is not JSON");
-  }
+  formats::IssueList issues(1);
+  auto document = formats::parseJson(text, 0, "", issues);
+  if (!document) refuse("this is not JSON");
+  return *std::move(document);
 }
 
 }  // namespace lumen::viewer

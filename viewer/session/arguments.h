@@ -11,16 +11,17 @@
 
 #include "converters/engine/report.h"
 #include "converters/io/seeds/seeds.h"
+#include "formats/case/json_place.h"
 
 namespace lumen::viewer {
 
 using app::Json;
 
-/// The members of a JSON object. Each call throws Error(Usage) with a sentence for people if the member
-/// is missing, or is no such value.
+/// The members of a JSON object, whose document must outlive it. Each call throws Error(Usage) with a
+/// sentence for people for a missing member, and for a value of another kind.
 class Arguments {
 public:
-  explicit Arguments(const Json& object);
+  explicit Arguments(formats::JsonValue object);
 
   [[nodiscard]] bool has(const char* name) const;  ///< and it is not null
   [[nodiscard]] std::uint32_t index(const char* name, std::size_t count) const;
@@ -34,12 +35,12 @@ public:
   [[nodiscard]] std::vector<convert::SeedPoint> points(const char* name) const;  ///< one to 1000
 
 private:
-  [[nodiscard]] const Json& at(const char* name) const;
+  [[nodiscard]] formats::JsonPlace at(const char* name) const;
 
-  const Json& m_object;
+  formats::JsonPlace m_object;
 };
 
-/// JSON of at most `mostBytes` and eight levels. Throws Error(Usage).
-Json parseRequest(const std::string& text, std::size_t mostBytes);
+/// Strict JSON of at most `mostBytes`. Throws Error(Usage).
+formats::JsonDocument parseRequest(const std::string& text, std::size_t mostBytes);
 
 }  // namespace lumen::viewer

@@ -104,8 +104,8 @@ public:
 
   // session_work.cpp
   /// Does what the page asks for: {"revision"} or {"job"}.
-  Json run(const Json& request);
-  Json snap(const Json& request);
+  Json run(formats::JsonValue request);
+  Json snap(formats::JsonValue request);
   bool cancel(int job) { return m_jobs.cancel(job); }
   void cancelAll();
   [[nodiscard]] bool isBusy() const { return m_jobs.running().has_value(); }

@@ -125,7 +125,7 @@ std::shared_ptr<const convert::TrackingVolume> Session::trackingVolume(const Doc
   return m_tracking;
 }
 
-Json Session::snap(const Json& request) {
+Json Session::snap(formats::JsonValue request) {
   const Arguments arguments(request);
   const Eigen::Vector3d click = arguments.position("position");
   const Document document = m_history.now().document;

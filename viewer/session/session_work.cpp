@@ -74,7 +74,7 @@ Json Session::step(bool forward) {
   return {{"revision", m_history.now().revision}};
 }
 
-Json Session::run(const Json& request) {
+Json Session::run(formats::JsonValue request) {
   const Arguments arguments(request);
   const std::string op = arguments.text("op");
   if (op == "save") return save(arguments);

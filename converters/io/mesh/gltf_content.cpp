@@ -8,19 +8,21 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/parsed_number.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/mesh_bytes.h"
 #include "formats/case/base64.h"
+#include "formats/case/json_document.h"
 #include "formats/container/printable.h"
+#include "formats/view/limits.h"
 
 namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDeepest = 64;  // levels of JSON; extras and extensions of tools need a dozen
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr std::string_view kBase64 = ";base64,";
+constexpr std::string_view kDataUri = "data:", kBase64 = ";base64,";
 
 std::uint32_t wordAt(std::string_view bytes, std::size_t at) {
   return loadNumber<std::uint32_t>(bytes.data() + at, Endian::Little);
@@ -52,10 +54,9 @@ GltfContent::GltfContent(std::string_view bytes, const fs::path& file)
     readChunks(bytes);
   else
     parseJson(bytes);
-  if (!m_root.is_object()) refuse("is no JSON object; expected glTF");
-  const auto asset = m_root.find("asset");
-  const std::string version =
-      asset != m_root.end() && asset->is_object() ? text(*asset, "version") : "";
+  if (!m_document || !root().isObject()) refuse("is no JSON object; expected glTF");
+  const auto asset = root().find("asset");
+  const std::string version = asset ? text(*asset, "version") : "";
   if (!version.starts_with("2."))
     throw unsupported(m_name + ": /asset/version is " + quotedText(version) +
                       "; lumen reads glTF 2.0");
@@ -89,56 +90,56 @@ void GltfContent::readChunks(std::string_view bytes) {
 }
 
 void GltfContent::parseJson(std::string_view text) {
-  const auto limit = [this](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) refuse("its JSON is more than 64 levels deep; expected fewer");
-    return true;
-  };
-  try {
-    m_root = Json::parse(text.begin(), text.end(), limit);
-  } catch (const Json::exception& fault) {
-    const std::string what = fault.what();
-    const std::size_t from = what.find("parse error");
-    refuse("is no JSON: " + formats::printable(from == what.npos ? what : what.substr(from)));
-  }
+  formats::IssueList issues(1);
+  m_document = formats::parseJson(withoutByteOrderMark(text), 0, "", issues);
+  if (m_document) return;
+  const formats::Issue issue = *issues.firstError();
+  if (issue.code == formats::ErrorCode::JsonDepth)
+    refuse("its JSON is more than " + std::to_string(formats::kMaxJsonDepth) +
+           " levels deep; expected fewer");
+  refuse((issue.pointer ? "at \"" + formats::printable(*issue.pointer) + "\": " : "is no JSON: ") +
+         formats::printable(issue.message));
 }
 
 void GltfContent::readBuffers() {
+  readFiles();
   for (std::uint64_t b = 0; b < size("buffers"); ++b) {
-    const Json& buffer = item("buffers", b);
+    const Json buffer = item("buffers", b);
     const std::uint64_t bytes = whole(buffer, "byteLength", 0);
-    if (b == 0 && m_binary.data() != nullptr && !buffer.contains("uri")) {
+    if (b == 0 && m_binary.data() != nullptr && !buffer.find("uri")) {
       if (bytes > m_binary.size())
         refuse("/buffers/0/byteLength is " + std::to_string(bytes) + "; expected at most " +
                std::to_string(m_binary.size()) + ", the size of the binary chunk");
       m_buffers.push_back(m_binary.substr(0, static_cast<std::size_t>(bytes)));
       continue;
     }
-    m_held.push_back(buffer.contains("uri") ? bufferOf(buffer, bytes) : std::string());
-    m_totalBytes += m_held.back().size();
-    m_buffers.push_back(m_held.back());
+    m_buffers.push_back(buffer.find("uri") ? bufferOf(buffer, bytes) : std::string_view());
   }
+  for (const std::string& bytes : m_held) m_totalBytes += bytes.size();
+  for (const auto& [file, bytes] : m_files) m_totalBytes += bytes.size();
 }
 
-std::string GltfContent::bufferOf(const Json& buffer, std::uint64_t size) {
+std::string_view GltfContent::bufferOf(Json buffer, std::uint64_t size) {
   const std::string uri = text(buffer, "uri");
-  std::string bytes;
-  if (uri.starts_with("data:")) {
-    const std::size_t from = uri.find(kBase64);
-    const auto decoded =
-        from == uri.npos ? std::nullopt
-                         : formats::fromBase64(std::string_view(uri).substr(from + kBase64.size()));
-    if (!decoded) refuse("/buffers: a data URI is no base64; expected \"data:...;base64,\"");
-    bytes.assign(reinterpret_cast<const char*>(decoded->data()), decoded->size());
-  } else {
-    bytes = detached(uri, size);
-  }
+  if (!uri.starts_with(kDataUri))
+    return std::string_view(m_files.at(detachedFile(uri))).substr(0, size);
+  const std::string_view bytes = dataOf(uri);
   if (bytes.size() < size)
     refuse("/buffers: byteLength is " + std::to_string(size) + "; expected at most " +
            std::to_string(bytes.size()) + ", which are there");
   return bytes;
 }
 
-std::string GltfContent::detached(const std::string& uri, std::uint64_t size) const {
+std::string_view GltfContent::dataOf(const std::string& uri) {
+  const std::size_t from = uri.find(kBase64);
+  const auto decoded =
+      from == uri.npos ? std::nullopt
+                       : formats::fromBase64(std::string_view(uri).substr(from + kBase64.size()));
+  if (!decoded) refuse("/buffers: a data URI is no base64; expected \"data:...;base64,\"");
+  return m_held.emplace_back(reinterpret_cast<const char*>(decoded->data()), decoded->size());
+}
+
+fs::path GltfContent::detachedFile(const std::string& uri) const {
   const fs::path stated = m_file.parent_path() / fs::path(percentDecoded(uri));
   std::error_code error;
   const fs::path folder =
@@ -152,6 +153,28 @@ std::string GltfContent::detached(const std::string& uri, std::uint64_t size) co
   if (!within || !fs::is_regular_file(file, error))
     refuse("its data are in " + quotedText(uri) +
            ", which is no file of the same folder; expected one");
+  return file;
+}
+
+void GltfContent::readFiles() {
+  struct Part {
+    std::string uri;
+    std::uint64_t bytes = 0;  // the largest number that a buffer wants
+  };
+  std::map<fs::path, Part> parts;
+  for (std::uint64_t b = 0; b < size("buffers"); ++b) {
+    const Json buffer = item("buffers", b);
+    const std::string uri = text(buffer, "uri");
+    if (!buffer.find("uri") || uri.starts_with(kDataUri)) continue;
+    Part& part = parts[detachedFile(uri)];
+    part = {uri, std::max(part.bytes, whole(buffer, "byteLength", 0))};
+  }
+  for (const auto& [file, part] : parts) m_files[file] = bytesOf(file, part.uri, part.bytes);
+}
+
+std::string GltfContent::bytesOf(const fs::path& file, const std::string& uri,
+                                 std::uint64_t size) const {
+  std::error_code error;
   const std::uintmax_t there = fs::file_size(file, error);
   if (error || there < size)
     refuse("its data are in " + quotedText(uri) + ", which has " +
@@ -164,44 +187,43 @@ std::string GltfContent::detached(const std::string& uri, std::uint64_t size) co
 }
 
 std::uint64_t GltfContent::size(const char* list) const {
-  const auto found = m_root.find(list);
-  if (found == m_root.end()) return 0;
-  if (!found->is_array()) refuse(std::string("/") + list + " is no array; expected one");
-  return found->size();
+  const auto found = root().find(list);
+  if (!found) return 0;
+  if (!found->isArray()) refuse(std::string("/") + list + " is no array; expected one");
+  return found->arraySize();
 }
 
-const GltfContent::Json& GltfContent::item(const char* list, std::uint64_t index) const {
+GltfContent::Json GltfContent::item(const char* list, std::uint64_t index) const {
   if (index >= size(list))
     refuse(std::string("/") + list + " has " + std::to_string(size(list)) +
            " items; found the number " + std::to_string(index));
-  const Json& found = m_root.at(list).at(static_cast<std::size_t>(index));
-  if (!found.is_object())
+  const Json found = (*root().find(list))[static_cast<std::size_t>(index)];
+  if (!found.isObject())
     refuse(std::string("/") + list + "/" + std::to_string(index) + " is no object; expected one");
   return found;
 }
 
-std::uint64_t GltfContent::whole(const Json& object, const char* key,
-                                 std::uint64_t otherwise) const {
+std::uint64_t GltfContent::whole(Json object, const char* key, std::uint64_t otherwise) const {
   const auto found = object.find(key);
-  if (found == object.end()) return otherwise;
-  if (!found->is_number_unsigned())
+  if (!found) return otherwise;
+  const auto number = found->number();
+  const auto value = number ? number->asInteger<std::uint64_t>() : std::nullopt;
+  if (!value)
     refuse(std::string(key) + " is " +
-           quotedText(found->dump(-1, ' ', true, Json::error_handler_t::replace)) +
+           (number ? number->shown() : std::string("no number: ") + found->kind()) +
            "; expected a whole number from 0 on");
-  return found->get<std::uint64_t>();
+  return *value;
 }
 
-std::string GltfContent::text(const Json& object, const char* key) {
-  if (!object.is_object()) return {};
+std::string GltfContent::text(Json object, const char* key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+  return found && found->text() != nullptr ? *found->text() : std::string();
 }
 
 std::string_view GltfContent::view(std::uint64_t index) const {
-  const Json& json = item("bufferViews", index);
+  const Json json = item("bufferViews", index);
   const auto extensions = json.find("extensions");
-  if (extensions != json.end() && extensions->is_object() &&
-      extensions->contains("EXT_meshopt_compression"))
+  if (extensions && extensions->find("EXT_meshopt_compression"))
     throw unsupported(m_name +
                       ": it is packed by EXT_meshopt_compression, which lumen does not read; "
                       "unpack it, such as by gltf-transform copy");

@@ -6,36 +6,37 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "formats/case/json_value.h"
 
 namespace lumen::convert {
 
-/// A glTF file of which each value is checked as it is asked for. All functions throw
+/// A glTF file. Each value is checked when it is asked for. All functions throw
 /// Error(InvalidInput) with the file, the JSON pointer, what was found and what was expected.
 class GltfContent {
 public:
-  using Json = nlohmann::json;
+  using Json = formats::JsonValue;
 
   /// GLB or text. Buffers are inside, or files of the same folder: nothing else is opened.
   GltfContent(std::string_view bytes, const std::filesystem::path& file);
 
-  [[nodiscard]] const Json& root() const { return m_root; }
+  [[nodiscard]] Json root() const { return m_document->root(); }
   [[nodiscard]] const std::string& name() const { return m_name; }
-  /// Of the file and its buffers.
+  /// The bytes of the file and of its buffers; a file that many buffers name counts once.
   [[nodiscard]] std::size_t totalBytes() const { return m_totalBytes; }
 
   /// Item `index` of the list `list` of the root, an object.
-  [[nodiscard]] const Json& item(const char* list, std::uint64_t index) const;
+  [[nodiscard]] Json item(const char* list, std::uint64_t index) const;
   [[nodiscard]] std::uint64_t size(const char* list) const;
   /// The whole number `key` of `object`, or `otherwise` if it is not there.
-  [[nodiscard]] std::uint64_t whole(const Json& object, const char* key,
-                                    std::uint64_t otherwise) const;
+  [[nodiscard]] std::uint64_t whole(Json object, const char* key, std::uint64_t otherwise) const;
   /// The text `key` of `object`, or none.
-  [[nodiscard]] static std::string text(const Json& object, const char* key);
+  [[nodiscard]] static std::string text(Json object, const char* key);
   /// The bytes of a buffer view.
   [[nodiscard]] std::string_view view(std::uint64_t index) const;
 
@@ -45,14 +46,21 @@ private:
   void readChunks(std::string_view bytes);
   void parseJson(std::string_view text);
   void readBuffers();
-  [[nodiscard]] std::string bufferOf(const Json& buffer, std::uint64_t size);
-  [[nodiscard]] std::string detached(const std::string& uri, std::uint64_t size) const;
+  [[nodiscard]] std::string_view bufferOf(Json buffer, std::uint64_t size);
+  [[nodiscard]] std::string_view dataOf(const std::string& uri);
+  // Reads each detached file once, as far as a buffer wants it.
+  void readFiles();
+  [[nodiscard]] std::filesystem::path detachedFile(const std::string& uri) const;
+  [[nodiscard]] std::string bytesOf(const std::filesystem::path& file, const std::string& uri,
+                                    std::uint64_t size) const;
 
   std::filesystem::path m_file;
   std::string m_name;
-  Json m_root;
+  std::optional<formats::JsonDocument> m_document;
   std::string_view m_binary;       // chunk of a GLB
-  std::deque<std::string> m_held;  // bytes of buffers that are not in the GLB
+  std::deque<std::string> m_held;  // bytes of data URIs
+  // Bytes of detached files by canonical path
+  std::map<std::filesystem::path, std::string> m_files;
   std::vector<std::string_view> m_buffers;
   std::size_t m_totalBytes = 0;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,7 +42,7 @@ Eigen::Matrix4d lpsFromGltf() {
 class Accessor {
 public:
   Accessor(const GltfContent& content, std::uint64_t index, const char* type) : m_content(content) {
-    const Json& json = content.item("accessors", index);
+    Json json = content.item("accessors", index);
     m_where = "/accessors/" + std::to_string(index);
     if (GltfContent::text(json, "type") != type)
       content.refuse(m_where + "/type is " + quotedText(GltfContent::text(json, "type")) +
@@ -50,10 +51,10 @@ public:
     m_count = content.whole(json, "count", 0);
     m_type = content.whole(json, "componentType", 0);
     const auto normalized = json.find("normalized");
-    m_normalized = normalized != json.end() && normalized->is_boolean() && normalized->get<bool>();
-    if (json.contains("sparse"))
+    m_normalized = normalized && normalized->boolean().value_or(false);
+    if (json.find("sparse"))
       throw unsupported(content.name() + ": " + m_where + " is sparse, which lumen does not read");
-    if (json.contains("bufferView")) locate(json);
+    if (json.find("bufferView")) locate(json);
   }
 
   [[nodiscard]] std::uint64_t count() const { return m_count; }
@@ -84,7 +85,7 @@ private:
     return m_normalized ? std::max(value / most, -1.0) : value;
   }
 
-  void locate(const Json& json) {
+  void locate(Json json) {
     const std::uint64_t view = m_content.whole(json, "bufferView", kNone);
     const std::uint64_t offset = m_content.whole(json, "byteOffset", 0);
     const std::map<std::uint64_t, std::size_t> sizes = {{5120, 1}, {5121, 1}, {5122, 2},
@@ -144,9 +145,9 @@ public:
 private:
   void checkExtensions() const {
     const auto required = m_content.root().find("extensionsRequired");
-    if (required == m_content.root().end() || !required->is_array()) return;
-    for (const Json& name : *required) {
-      const std::string text = name.is_string() ? name.get<std::string>() : std::string();
+    if (!required) return;
+    for (const Json& name : required->entries()) {
+      const std::string text = name.text() == nullptr ? std::string() : *name.text();
       // what concerns looks alone has no part in the surface
       const bool isLook = text.starts_with("KHR_materials") || text.starts_with("KHR_texture") ||
                           text.starts_with("EXT_texture") || text == "KHR_lights_punctual" ||
@@ -159,15 +160,17 @@ private:
   }
 
   /// Numbers of nodes; the array `key` of `object`.
-  std::vector<std::uint64_t> numbers(const Json& object, const char* key) const {
+  std::vector<std::uint64_t> numbers(Json object, const char* key) const {
     std::vector<std::uint64_t> found;
     const auto list = object.find(key);
-    if (list == object.end()) return found;
-    if (!list->is_array()) m_content.refuse(std::string(key) + " is no array; expected one");
-    for (const Json& number : *list) {
-      if (!number.is_number_unsigned())
+    if (!list) return found;
+    if (!list->isArray()) m_content.refuse(std::string(key) + " is no array; expected one");
+    for (const Json& entry : list->entries()) {
+      const auto number = entry.number();
+      const auto value = number ? number->asInteger<std::uint64_t>() : std::nullopt;
+      if (!value)
         m_content.refuse(std::string(key) + " holds what is no whole number; expected nodes");
-      found.push_back(number.get<std::uint64_t>());
+      found.push_back(*value);
     }
     return found;
   }
@@ -188,21 +191,25 @@ private:
   }
 
   template <std::size_t N>
-  bool reals(const Json& object, const char* key, std::array<double, N>& values) const {
+  bool reals(Json object, const char* key, std::array<double, N>& values) const {
     const auto list = object.find(key);
-    if (list == object.end()) return false;
-    if (!list->is_array() || list->size() != N)
+    if (!list) return false;
+    if (!list->isArray() || list->arraySize() != N)
       m_content.refuse(std::string("/nodes: ") + key + " is no array of " + std::to_string(N) +
                        " numbers; expected one");
     for (std::size_t i = 0; i < N; ++i) {
-      if (!(*list)[i].is_number())
-        m_content.refuse(std::string("/nodes: ") + key + " holds what is no number");
-      values[i] = (*list)[i].template get<double>();
+      const auto number = (*list)[i].number();
+      const auto value = number ? number->asDouble() : std::nullopt;
+      if (!value)
+        m_content.refuse(
+            std::string("/nodes: ") + key + " holds " +
+            (number ? number->shown() + ", which no double holds" : "what is no number"));
+      values[i] = *value;
     }
     return true;
   }
 
-  Eigen::Matrix4d matrixOf(const Json& node) const {
+  Eigen::Matrix4d matrixOf(Json node) const {
     std::array<double, 16> m{};
     if (reals(node, "matrix", m)) return Eigen::Map<const Eigen::Matrix4d>(m.data());
     std::array<double, 3> t{}, s{1, 1, 1};
@@ -219,7 +226,7 @@ private:
   }
 
   void visit(std::uint64_t index, const Eigen::Matrix4d& above) {
-    const Json& node = m_content.item("nodes", index);
+    Json node = m_content.item("nodes", index);
     if (m_seen[static_cast<std::size_t>(index)])
       m_content.refuse("/nodes/" + std::to_string(index) +
                        " has two parents; expected one, as in a tree");
@@ -229,26 +236,25 @@ private:
     const std::vector<std::uint64_t> children = numbers(node, "children");
     for (auto child = children.rbegin(); child != children.rend(); ++child)
       m_open.emplace_back(*child, matrix);
-    if (node.contains("mesh")) addMesh(m_content.whole(node, "mesh", kNone), matrix);
+    if (node.find("mesh")) addMesh(m_content.whole(node, "mesh", kNone), matrix);
   }
 
   void addMesh(std::uint64_t index, const Eigen::Matrix4d& matrix) {
-    const Json& mesh = m_content.item("meshes", index);
+    Json mesh = m_content.item("meshes", index);
     const auto primitives = mesh.find("primitives");
-    if (primitives == mesh.end() || !primitives->is_array())
+    if (!primitives || !primitives->isArray())
       m_content.refuse("/meshes/" + std::to_string(index) + " has no primitives; expected some");
     std::map<std::uint64_t, std::uint32_t> placed;  // accessor of positions, first point
-    for (const Json& primitive : *primitives) {
-      if (!primitive.is_object()) m_content.refuse("/meshes: a primitive is no object");
+    for (const Json& primitive : primitives->entries()) {
+      if (!primitive.isObject()) m_content.refuse("/meshes: a primitive is no object");
       const auto extras = primitive.find("extras");
-      const std::string name =
-          extras == primitive.end() ? std::string() : GltfContent::text(*extras, "name");
+      const std::string name = extras ? GltfContent::text(*extras, "name") : std::string();
       m_builder.beginGroup(name.empty() ? GltfContent::text(mesh, "name") : name);
       addPrimitive(primitive, matrix, placed);
     }
   }
 
-  void addPrimitive(const Json& primitive, const Eigen::Matrix4d& matrix,
+  void addPrimitive(Json primitive, const Eigen::Matrix4d& matrix,
                     std::map<std::uint64_t, std::uint32_t>& placed) {
     const std::uint64_t mode = m_content.whole(primitive, "mode", kTriangles);
     if (mode < kTriangles || mode > kFan) {
@@ -257,13 +263,13 @@ private:
       return;
     }
     const auto attributes = primitive.find("attributes");
-    if (attributes == primitive.end() || !attributes->contains("POSITION"))
+    if (!attributes || !attributes->find("POSITION"))
       m_content.refuse("/meshes: a primitive has no attribute POSITION; expected one");
     const std::uint64_t accessor = m_content.whole(*attributes, "POSITION", kNone);
     const Accessor positions(m_content, accessor, "VEC3");
     const auto extensions = primitive.find("extensions");
-    if (extensions != primitive.end() && extensions->is_object() && extensions->contains(kDraco))
-      return addDraco((*extensions)[kDraco], primitive, positions, matrix);
+    if (const auto draco = extensions ? extensions->find(kDraco) : std::nullopt)
+      return addDraco(*draco, primitive, positions, matrix);
     if (!positions.hasData() || positions.count() == 0)
       m_content.refuse("/accessors/" + std::to_string(accessor) +
                        " has no data; expected positions");
@@ -301,9 +307,9 @@ private:
     return m.determinant() < 0;
   }
 
-  std::vector<std::uint32_t> indicesOf(const Json& primitive, std::uint64_t points) const {
+  std::vector<std::uint32_t> indicesOf(Json primitive, std::uint64_t points) const {
     std::vector<std::uint32_t> indices;
-    if (!primitive.contains("indices")) {
+    if (!primitive.find("indices")) {
       for (std::uint64_t i = 0; i < points; ++i) indices.push_back(static_cast<std::uint32_t>(i));
       return indices;
     }
@@ -337,12 +343,12 @@ private:
     }
   }
 
-  void addDraco(const Json& extension, const Json& primitive, const Accessor& positions,
+  void addDraco(Json extension, Json primitive, const Accessor& positions,
                 const Eigen::Matrix4d& matrix) {
-    if (!extension.is_object() || !primitive.contains("indices"))
+    if (!extension.isObject() || !primitive.find("indices"))
       m_content.refuse(std::string("/meshes: ") + kDraco + " is incomplete; expected indices too");
     const auto ids = extension.find("attributes");
-    if (ids == extension.end() || !ids->is_object())
+    if (!ids || !ids->isObject())
       m_content.refuse(std::string("/meshes: ") + kDraco + " has no attributes");
     const Accessor indices(m_content, m_content.whole(primitive, "indices", kNone), "SCALAR");
     const std::uint64_t id = m_content.whole(*ids, "POSITION", kNone);

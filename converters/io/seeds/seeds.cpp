@@ -72,7 +72,7 @@ std::vector<SeedBranch> parseText(const std::string& text, const fs::path& file,
         (first == '\0' ? std::string("nothing") : firstLine(text)) +
         "; expected lumen's seeds (spec/seeds.md), or points that 3D Slicer saved as "
         ".mrk.json or .fcsv");
-  const JsonFile json{parseJson(text, file), file.string()};
+  JsonFile json(text, file);
   const JsonPlace root(json);
   return root.has("markups") ? parseMarkups(root, stemOf(file), reading)
                              : parseSeeds(root, reading);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <nlohmann/json.hpp>
+
 #include "converters/base/shown_text.h"
 
 namespace lumen::convert {
@@ -25,8 +27,8 @@ SeedFrame parseFrame(const JsonPlace& root, const SeedReading& reading) {
 }
 
 SeedPoint parsePoint(const JsonPlace& place, const SeedFrame& frame) {
-  if (place.value().is_array()) return {frame.position(place.vector()), std::nullopt};
-  if (!place.value().is_object()) place.refuse("[x, y, z], or an object with a position");
+  if (place.value().isArray()) return {frame.position(place.vector()), std::nullopt};
+  if (!place.value().isObject()) place.refuse("[x, y, z], or an object with a position");
   place.onlyKeys({"position", "radius"});
   SeedPoint point{frame.position(place.at("position").vector()), std::nullopt};
   if (place.has("radius")) point.radius = frame.unit * place.at("radius").number();
@@ -90,11 +92,11 @@ std::vector<SeedBranch> parseSeeds(const JsonPlace& root, const SeedReading& rea
     root.refuse(
         "the key \"format\" with \"lumen-seeds\" (lumen's own seeds), or the key \"markups\" (3D "
         "Slicer's)");
-  if (root.at("format").value() != "lumen-seeds")
+  if (!root.at("format").value().is("lumen-seeds"))
     root.at("format").refuse("\"lumen-seeds\": this is no file of seeds");
   root.onlyKeys(
       {"$schema", "format", "version", "comment", "coordinateSystem", "units", "branches"});
-  if (root.at("version").value() != 1) root.at("version").refuse("1");
+  if (!root.at("version").value().is(1)) root.at("version").refuse("1");
   for (const char* key : {"$schema", "comment"})
     if (root.has(key)) (void)root.at(key).text();
   const SeedFrame frame = parseFrame(root, reading);

@@ -10,16 +10,14 @@
 namespace lumen::convert {
 namespace {
 
-using nlohmann::json;
-
 /// "LPS" (the default), "RAS", or as older versions wrote them: 1 and 0.
 SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
   if (reading.system) return *reading.system;
   if (!markup.has("coordinateSystem")) return SeedSystem::Lps;
   const JsonPlace place = markup.at("coordinateSystem");
   const auto& value = place.value();
-  if (value == "LPS" || value == "1" || value == 1) return SeedSystem::Lps;
-  if (value == "RAS" || value == "0" || value == 0) return SeedSystem::Ras;
+  if (value.is("LPS") || value.is("1") || value.is(1)) return SeedSystem::Lps;
+  if (value.is("RAS") || value.is("0") || value.is(0)) return SeedSystem::Ras;
   place.refuse("\"LPS\" or \"RAS\"; --seeds-frame states another");
 }
 
@@ -29,7 +27,7 @@ double unitScale(const JsonPlace& markup, const SeedReading& reading) {
   if (reading.unit) return *reading.unit;
   if (!markup.has("coordinateUnits")) return 1;
   const JsonPlace unit = markup.at("coordinateUnits");
-  if (!unit.value().is_array()) return scaleOf(unit);
+  if (!unit.value().isArray()) return scaleOf(unit);
   const auto words = unit.elements();
   if (words.empty()) unit.refuse("\"mm\" or \"m\"");
   return scaleOf(words[0]);

@@ -239,6 +239,18 @@ const Fault kFaults[] = {
 INSTANTIATE_TEST_SUITE_P(All, JsonFault, testing::ValuesIn(kFaults),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
+// spec: M49
+TEST(JsonSyntax, TakesNoHalfOfASurrogatePairWhereverItStands) {
+  const std::string good = encodeJson(test::smallestCase());
+  const auto withComment = [&](const std::string& comment) {
+    std::string text = good;
+    return codeOf(decodeJson(text.insert(text.find("\"tree\""), comment + ", ")));
+  };
+  EXPECT_EQ(withComment(R"("x-\\udc00": "\ud83d\ude00")"), "OK");
+  EXPECT_EQ(withComment(R"("x-\udc00": 1)"), "JSON_SYNTAX");
+  EXPECT_EQ(withComment(R"("x-": "\ud83d\u0041")"), "JSON_SYNTAX");
+}
+
 // spec: M31
 TEST(JsonSyntax, IsStrict) {
   const std::string good = encodeJson(test::smallestCase());

@@ -2,12 +2,18 @@
 // Our reader of JSON text against another: what it takes, and the byte at which it stops.
 #include "formats/case/json_text.h"
 
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "formats/case/json_number.h"
+#include "formats/case/json_document.h"
+#include "unit/formats/json_samples.h"
 #include "unit/formats/sample_case.h"
 
 namespace lumen::formats {
@@ -144,13 +150,18 @@ TEST(JsonText, IsRefusedAtItsFirstByteThatCannotBeRight) {
             "line 2, column 8: found \"}\", expected a value");
 }
 
+JsonDocument numberDocument(std::string_view text) {
+  IssueList issues(1);
+  return *parseJson(text, 0, "", issues);
+}
+
 // spec: M34
 TEST(JsonNumber, IsRoundedOnceToTheTypeOfItsField) {
   EXPECT_EQ(floatFromText("1.000000059604644775390625"), 1.0f);  // a tie: to even
   EXPECT_EQ(floatFromText("1.000000059604644775390626"), 0x1.000002p0f);
-  const json value = numberValue("1.0000000596046447753906250000001", false);
-  EXPECT_EQ(asFloat(value), 0x1.000002p0f);  // a double would have made it the tie
-  EXPECT_EQ(asDouble(value), 0x1.000001p0);
+  const JsonDocument tie = numberDocument("1.0000000596046447753906250000001");
+  EXPECT_EQ(tie.root().number()->asFloat(), 0x1.000002p0f);  // a double would have made it the tie
+  EXPECT_EQ(tie.root().number()->asDouble(), 0x1.000001p0);
   EXPECT_EQ(floatFromText("3.4028235677973366e38"), std::numeric_limits<float>::max());
   EXPECT_FALSE(floatFromText("3.4028235677973367e38"));
   EXPECT_FALSE(floatFromText("-1e39"));
@@ -164,15 +175,49 @@ TEST(JsonNumber, IsRoundedOnceToTheTypeOfItsField) {
 }
 
 TEST(JsonNumber, OfAnySizeIsARealAndFitsAnIntegerOrNot) {
-  const json large = numberValue("9223372036854775808", true);
-  EXPECT_EQ(asDouble(large), 0x1p63);
-  EXPECT_FALSE(asInteger<std::int64_t>(large));
-  EXPECT_EQ(asInteger<std::uint64_t>(large), std::uint64_t{1} << 63);
-  EXPECT_FALSE(asInteger<std::uint64_t>(numberValue("18446744073709551616", true)));
-  EXPECT_FALSE(asInteger<std::uint64_t>(numberValue("-1", true)));
-  EXPECT_EQ(asInteger<std::uint32_t>(numberValue("-0", true)), 0u);
-  EXPECT_FALSE(isWhole(numberValue("1e400", false)));
-  EXPECT_EQ(numberText(numberValue("1e400", false)), "1e400");
+  const JsonDocument two63 = numberDocument("9223372036854775808");
+  const JsonNumber large = *two63.root().number();
+  EXPECT_EQ(large.asDouble(), 0x1p63);
+  EXPECT_FALSE(large.asInteger<std::int64_t>());
+  EXPECT_EQ(large.asInteger<std::uint64_t>(), std::uint64_t{1} << 63);
+  const auto unsignedOf = [](const char* text) {
+    return numberDocument(text).root().number()->asInteger<std::uint64_t>();
+  };
+  EXPECT_FALSE(unsignedOf("18446744073709551616"));
+  EXPECT_FALSE(unsignedOf("-1"));
+  EXPECT_FALSE(unsignedOf("1.0"));
+  EXPECT_EQ(unsignedOf("-0"), 0u);
+  const JsonDocument beyond = numberDocument("1e400");
+  EXPECT_FALSE(beyond.root().number()->isWhole());
+  EXPECT_FALSE(beyond.root().number()->asDouble());
+  EXPECT_EQ(beyond.root().number()->shown(), "1e400");
+  EXPECT_STREQ(beyond.root().kind(), "number");
+}
+
+TEST(JsonNumber, OfEveryWriterIsTheNearestValueOfItsType) {
+  for (const auto& [text, value] : lumen::test::jsonSamples(INFINITY)) {
+    const JsonDocument document = numberDocument(text);
+    const auto number = document.root().number();
+    ASSERT_TRUE(number) << text;
+    EXPECT_EQ(number->asDouble(), value) << text;
+    const float nearest = std::strtof(text.c_str(), nullptr);
+    EXPECT_EQ(number->asFloat(), std::isfinite(nearest) ? std::optional(nearest) : std::nullopt)
+        << text;
+  }
+}
+
+TEST(JsonNumber, OfALongArrayIsTheNearestFloat) {
+  const auto samples = lumen::test::jsonSamples(std::numeric_limits<float>::max());
+  std::string text = "{\"tree\":{\"radius\":[0";
+  for (const auto& sample : samples) text += "," + sample.text;
+  std::vector<float> radii;
+  ArraySlots slots;
+  slots.byPointer["/tree/radius"] = {&radii};
+  IssueList issues(1);
+  ASSERT_TRUE(parseJson(text + "]}}", 0, "", slots, issues));
+  ASSERT_EQ(radii.size(), samples.size() + 1);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    EXPECT_EQ(radii[i + 1], std::strtof(samples[i].text.c_str(), nullptr)) << samples[i].text;
 }
 
 }  // namespace

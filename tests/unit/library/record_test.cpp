@@ -2,10 +2,13 @@
 #include "converters/library/record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "converters/library/record_faults.h"
+#include "tests/unit/formats/json_samples.h"
 #include "tests/unit/library/made_library.h"
 
 namespace lumen::convert {
@@ -28,6 +31,29 @@ std::string refusal(const Json& record) {
 TEST(Record, IsReadAsItWasWritten) {
   const std::string text = recordText(madeRecord());
   EXPECT_EQ(recordText(readRecord(text, "record.json")), text);
+}
+
+TEST(Record, NumbersOfEveryWriterAreTheNearestDouble) {
+  Json record = Json::parse(recordText(madeRecord()));
+  record["bounds"]["min"] = {"NUMBER", 0, 0};
+  const std::string text = record.dump();
+  for (const auto& sample : lumen::test::jsonSamples(INFINITY)) {
+    std::string changed = text;
+    changed.replace(changed.find("\"NUMBER\""), 8, sample.text);
+    EXPECT_EQ(readRecord(changed, "record.json").boundsMin.x(), sample.value) << sample.text;
+  }
+}
+
+TEST(Record, OfAFileWithoutItsFaultyPathsIsStillChecked) {
+  Json record = Json::parse(recordText(madeRecord()));
+  record["bounds"]["min"][0] = 9.745131015777588;
+  record["files"][0]["path"] = "../a";
+  FaultList faults(10);
+  readRecordFaults(record.dump(), "a", "record.json", faults);
+  ASSERT_FALSE(faults.kept().empty());
+  EXPECT_EQ(faults.kept()[0].code, FaultCode::FilePath);
+  for (const auto& fault : faults.kept())
+    EXPECT_EQ(fault.text().find("found {"), std::string::npos) << fault.text();
 }
 
 TEST(Record, WithoutWhatMayBeMissingToo) {

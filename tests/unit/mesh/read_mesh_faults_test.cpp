@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers and first bytes of mesh files that readers have mistaken.
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
+#include "converters/io/mesh/gltf_content.h"
 #include "converters/io/mesh/mesh_file.h"
+#include "tests/unit/formats/json_samples.h"
 
 namespace lumen::test {
 namespace {
 
+namespace fs = std::filesystem;
 using namespace lumen::convert;
 
 const std::string kMark = "\xEF\xBB\xBF";
@@ -71,6 +76,48 @@ TEST(ReadStl, SolidMayBeInCapitals) {
       "SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\n"
       "ENDLOOP\nENDFACET\nENDSOLID A\n";
   EXPECT_EQ(parseMesh(text, "a", MeshFormat::Stl).mesh.triangle.size(), 1U);
+}
+
+TEST(ReadGltf, AFileThatManyBuffersNameIsHeldOnce) {
+  const fs::path folder = fs::path(testing::TempDir()) / "lumen-gltf-buffers";
+  fs::create_directories(folder);
+  std::ofstream(folder / "big.bin", std::ios::binary) << std::string(1000, 'a');
+  std::string text = R"({"asset":{"version":"2.0"},"buffers":[)";
+  for (int size = 801; size <= 1000; ++size)
+    text += (size == 801 ? "" : ",") + std::string(R"({"uri":"big.bin","byteLength":)") +
+            std::to_string(size) + "}";
+  text += R"(],"bufferViews":[{"buffer":0,"byteLength":801},{"buffer":199,"byteLength":1000}]})";
+  const GltfContent content(text, folder / "a.gltf");
+  EXPECT_EQ(content.totalBytes(), text.size() + 1000);
+  EXPECT_EQ(content.view(0).size(), 801U);
+  EXPECT_EQ(content.view(1), std::string(1000, 'a'));
+  fs::remove_all(folder);
+}
+
+std::string gltfOf(const std::string& node, const std::string& before = "") {
+  return before + R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,)" +
+         node +
+         R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+         R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+         R"("buffers":[{"byteLength":36,"uri":"data:;base64,)"
+         R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+
+TEST(ReadGltf, NumbersOfEveryWriterAreTheNearestDouble) {
+  for (const auto& [text, value] : jsonSamples(1e8)) {
+    const MeshFile file =
+        parseMesh(gltfOf("\"translation\":[" + text + ",0,0]"), "a", MeshFormat::Gltf);
+    EXPECT_EQ(file.mesh.position[0].x(), 1000 * value) << text;
+  }
+}
+
+TEST(ReadGltf, ExtrasMayHoldNumbersOfAnySize) {
+  const auto read = [](const std::string& node) {
+    return parseMesh(gltfOf(node, kMark), "a", MeshFormat::Gltf).mesh.triangle.size();
+  };
+  EXPECT_EQ(read("\"extras\":[1e400,-1e999,123456789012345678901234567890]"), 1U);
+  EXPECT_THROW(read("\"translation\":[1e400,0,0]"), Error);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "converters/io/seeds/seeds.h"
 #include "fixtures.h"
+#include "tests/unit/formats/json_samples.h"
 
 namespace lumen::convert {
 namespace {
@@ -46,6 +47,19 @@ TEST_F(Markups, EachFiducialPointIsABranch) {
   EXPECT_EQ(seeds[1].label, "MCA");
   EXPECT_EQ(seeds[1].points[0].position, Vector3d(4, 5, 6));
   EXPECT_EQ(seeds[1].points.size(), 1U);
+}
+
+TEST_F(Markups, NumbersOfEveryWriterAreTheNearestDouble) {
+  const auto samples = lumen::test::jsonSamples(1e6);
+  std::string points;
+  for (const auto& sample : samples)
+    points +=
+        (points.empty() ? "" : ",") +
+        point("", "[" + sample.text + ", " + std::to_string(&sample - samples.data()) + ", 0]");
+  const auto seeds = read(markup("Curve", points));
+  ASSERT_EQ(seeds[0].points.size(), samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    EXPECT_EQ(seeds[0].points[i].position.x(), samples[i].value) << samples[i].text;
 }
 
 TEST_F(Markups, CurveIsOneBranchNamedAfterTheFile) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
+#include "tests/unit/formats/json_samples.h"
 
 namespace lumen::convert {
 namespace {
@@ -42,6 +43,24 @@ protected:
 std::string one(const std::string& label, const std::string& parent = "") {
   return R"({"label": ")" + label + R"(", "points": [[1, 2, 3]])" +
          (parent.empty() ? "" : R"(, "parent": ")" + parent + "\"") + "}";
+}
+
+TEST_F(Seeds, NumbersOfEveryWriterAreTheNearestDouble) {
+  const auto samples = lumen::test::jsonSamples(1e6);
+  std::string branches;
+  for (const auto& sample : samples)
+    branches += (branches.empty() ? "" : ",") + std::string(R"({"label": "b)") +
+                std::to_string(&sample - samples.data()) + R"(", "points": [[)" + sample.text +
+                ", 0, 0]]}";
+  const auto seeds = read(branches);
+  ASSERT_EQ(seeds.size(), samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    EXPECT_EQ(seeds[i].points[0].position.x(), samples[i].value) << samples[i].text;
+}
+
+TEST_F(Seeds, NumbersBeyondADoubleAreShownAsTheyAreWritten) {
+  expectBranchesRefused(R"({"label": "a", "points": [[1, 1e400, 3]]})",
+                        {"/branches/0/points/0/1", "found 1e400; expected a number"});
 }
 
 TEST_F(Seeds, SmallestFileGivesAVesselFromOnePoint) {
