@@ -14,9 +14,11 @@ lumen_test(library_trust_test
   LABELS memory
   LIBS lumen_library_trust lumen_base
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/bag_check_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/plain_folder_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/remembered_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/signature_key_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/signature_key_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/signature_test.cpp)
 # gcc 12 sees overlaps in sums of texts that are not there (its bug 105651)
 target_compile_options(library_trust_test PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 add_executable(copy_cases EXCLUDE_FROM_ALL ${CMAKE_CURRENT_SOURCE_DIR}/library/copy_cases.cpp)

@@ -5,6 +5,7 @@ lumen_test(tracking_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/statistics_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/aneurysm_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/icosphere_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/join_to_parent_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/joins_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/cylinder_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/point_spread_test.cpp

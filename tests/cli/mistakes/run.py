@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the commands of docs/mistakes and compares what lumen says with what the pages say.
 
-run.py --lumen PROGRAM [--fix] [--at-least N] [PAGE.md ...]
+run.py [--lumen PROGRAM] [--fix] [--at-least N] [PAGE.md ...]
 
 Every fenced block "console" holds commands ("$ lumen ..."), each followed by all that it prints and by "exit CODE".
 Each block has a folder of its own, with the files (see fixtures.py) whose names its commands mention; the commands
@@ -14,7 +14,9 @@ import argparse, concurrent.futures, ctypes, difflib, hashlib, os, pathlib, re, 
 sys.dont_write_bytecode = True
 import fixtures
 
-PAGES = pathlib.Path(__file__).resolve().parents[3] / "docs" / "mistakes"
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+PAGES = ROOT / "docs" / "mistakes"
+LUMEN = ROOT / "build" / "release" / "converters" / "cli" / "lumen"
 BLOCK = re.compile(r"^```console\n(.*?)^```$", re.M | re.S)
 PROGRESS = re.compile(r"^.*: done in [^\n]*\n", re.M)
 EXIT_CODES = (0, 1, 2, 3, 4, 130)
@@ -112,7 +114,7 @@ def check(page, lumen, store, scratch, pool, fix):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lumen", required=True, type=pathlib.Path)
+    parser.add_argument("--lumen", default=LUMEN, type=pathlib.Path, help="default: that of build/release")
     parser.add_argument("--fix", action="store_true")
     parser.add_argument("--at-least", type=int, default=0, help="fail if the pages have fewer blocks")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "formats/field/radical_disc.h"
 #include "tree.h"
 
 namespace lumen::field {
@@ -107,6 +109,43 @@ TEST(BlendingWidth, IsThatOfTheSpacingBetweenDistantNodesThatAreFarApart) {
 TEST(BlendingWidth, IsAThousandthOfTheLesserRadiusSquaredInOnePlace) {
   EXPECT_DOUBLE_EQ(blendingWidth(viewOf(twoNodes(0.0)), 0, 1, true, 0.0), 1e-3);
   EXPECT_DOUBLE_EQ(blendingWidth(viewOf(twoNodes(0.0)), 1, 0, true, 0.0), 1e-3);
+}
+
+/// Nodes of radius 2 and 1 whose powers are equal in the plane x = 2, and a third one between them.
+Tree withNodeBetween(double radius) {
+  Tree tree;
+  tree.addNode({0, 0, 0}, 2.0);
+  tree.addNode({3, 0, 0}, 1.0, 0);
+  tree.addNode({1, 0, 0}, radius, 0);
+  return tree;
+}
+
+/// Whether the third node has the least power all over the plane between the two others.
+bool isCutAway(double radius, std::uint32_t a, std::uint32_t b) {
+  const Tree tree = withNodeBetween(radius);
+  RadicalDisc disc(viewOf(tree), a, b);
+  disc.cut(viewOf(tree), 2, 0.0);
+  return disc.isEmpty();
+}
+
+// Its power at x = 2 is 1 - radius^2, where those of the two are 0.
+TEST(RadicalDisc, LiesWhereTheTwoPowersAreEqual) {
+  for (const auto& [a, b] : {std::pair{0U, 1U}, std::pair{1U, 0U}}) {
+    EXPECT_FALSE(isCutAway(0.9, a, b)) << a;
+    EXPECT_TRUE(isCutAway(1.1, a, b)) << a;
+  }
+}
+
+TEST(RadicalDisc, OfNodesOutOfReachIsEmpty) {
+  EXPECT_FALSE(RadicalDisc(viewOf(twoNodes(5.4)), 0, 1).isEmpty());
+  EXPECT_TRUE(RadicalDisc(viewOf(twoNodes(5.5)), 0, 1).isEmpty());
+}
+
+TEST(RadicalDisc, InOnePlaceIsEverywhereForEqualRadiiOnly) {
+  EXPECT_TRUE(RadicalDisc(viewOf(twoNodes(0.0)), 0, 1).isEmpty());
+  Tree equal = twoNodes(0.0);
+  equal.radius[1] = equal.radius[0];
+  EXPECT_FALSE(RadicalDisc(viewOf(equal), 0, 1).isEmpty());
 }
 
 TEST(Spacing, IsTheGreatestSquareOfANodesEdges) {

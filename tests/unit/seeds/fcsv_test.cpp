@@ -69,6 +69,15 @@ TEST_F(Fcsv, WithoutACoordinateSystemAnOptionIsNeeded) {
   EXPECT_EQ(seeds[0].points[0].position, Vector3d(-10, -20, 30));
 }
 
+TEST_F(Fcsv, AnOptionOverrulesTheCoordinateSystemOfTheFile) {
+  const std::string row = "1,1,2,3,0,0,0,1,1,1,0,a,,\n";
+  const std::string lps = "# CoordinateSystem = LPS\n", other = "# CoordinateSystem = MRI\n";
+  for (const std::string& header : {lps, other})
+    EXPECT_EQ(read(header + kColumns + row, {SeedSystem::Ras, 1.0})[0].points[0].position,
+              Vector3d(-1, -2, 3))
+        << header;
+}
+
 TEST_F(Fcsv, LabelsMayHoldCommasBetweenQuotes) {
   const auto seeds = readRows("1,1,2,3,0,0,0,1,1,1,0,\"ICA, \"\"left\"\"\",,\n");
   EXPECT_EQ(seeds[0].label, "ICA, \"left\"");

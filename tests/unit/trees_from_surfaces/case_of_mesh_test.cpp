@@ -2,6 +2,7 @@
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -69,6 +70,25 @@ TEST(CaseOfMesh, ClosesALoopByALink) {
                      value.tree.centre[a].y - value.tree.centre[b].y,
                      value.tree.centre[a].z - value.tree.centre[b].z);
   EXPECT_LT(gap.norm(), 6);
+}
+
+/// A tube of radius 2 that goes along x, turns in a half circle, and comes down onto its own side as far as `gap` from it.
+TriangleMesh hookOntoItself(double gap) {
+  std::vector<Vector3d> axis = test::straight(30);
+  for (int degrees = -87; degrees <= 180; degrees += 3) {
+    const double angle = degrees * std::numbers::pi / 180;
+    axis.emplace_back(30 + 9 * std::cos(angle), 9 + 9 * std::sin(angle), 0.0);
+  }
+  for (int i = 1; i <= 12; ++i) axis.emplace_back(21, 9 - (7 - gap) * i / 12, 0.0);
+  return test::tube(axis, 2, true);
+}
+
+TEST(CaseOfMesh, ATipThatComesRoundBesideAVesselBehindAWallGetsNoLink) {
+  for (const double gap : {0.1, 0.3}) {
+    const formats::Case value = made(hookOntoItself(gap)).result;
+    EXPECT_EQ(value.tree.branches.size(), 1U) << gap;
+    EXPECT_TRUE(value.tree.links.empty()) << gap;
+  }
 }
 
 GivenCenterline alongTube(double scale) {
