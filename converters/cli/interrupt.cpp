@@ -16,18 +16,18 @@ namespace {
 
 constexpr timespec kGrace{0, 800'000'000};
 
-sigset_t interruptSignals() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  return set;
+bool isIgnored(int signal) {
+  struct sigaction action {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-// SIGUSR1 tells the waiting thread that the guard is going away.
+/// The signals that interrupt, and SIGUSR1, by which the guard ends its waiting thread. A program
+/// that was started by nohup ignores SIGHUP and goes on.
 sigset_t awaitedSignals() {
-  sigset_t set = interruptSignals();
-  sigaddset(&set, SIGUSR1);
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaddset(&set, signal);
+  if (!isIgnored(SIGHUP)) sigaddset(&set, SIGHUP);
   return set;
 }
 

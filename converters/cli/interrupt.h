@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and SIGTERM.
+// Ctrl-C, SIGTERM, and the end of the terminal (SIGHUP).
 #pragma once
 
 #include <filesystem>
@@ -13,17 +13,18 @@
 
 namespace lumen {
 
-/// A write beyond the shell's limit on the size of a file (ulimit -f) fails like one to a full disk,
-/// instead of ending the process without a word.
+/// A write beyond the shell's limit on the size of a file (ulimit -f) fails as on a full disk,
+/// instead of ending the process without a message.
 void reportFileSizeLimit();
 
-/// While it lives, the first SIGINT or SIGTERM cancels `progress`; if the process is still there
-/// 0.8 s later (inside a library call that cannot be stopped), or at a second signal, it exits with
-/// code 130 at once. Before that exit the temporary files of the registered outputs are removed;
-/// the outputs themselves are whole, because they only ever appear by a rename.
+/// While the guard lives, the first SIGINT, SIGTERM or SIGHUP cancels `progress`. If the process is
+/// still there 0.8 s later (inside a library call that cannot be stopped), or at a second signal, it
+/// exits with code 130 at once. Before that exit the temporary files of the registered outputs are
+/// removed; the outputs themselves are whole, because they only ever appear by a rename. A process
+/// that was started with SIGHUP ignored (nohup) goes on at that signal.
 ///
 /// Construct one before any other thread starts: threads inherit the blocked signals, and a thread
-/// of this object's own waits for them, so no code runs inside a signal handler.
+/// of the guard waits for them, so no code runs inside a signal handler.
 class InterruptGuard {
 public:
   explicit InterruptGuard(Progress& progress);
@@ -31,7 +32,7 @@ public:
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// `file` is going to be written through a temporary file beside it.
+  /// Registers an output that is written through a temporary file beside it.
   void watchOutput(const std::filesystem::path& file);
 
 private:

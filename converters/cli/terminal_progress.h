@@ -16,7 +16,7 @@ enum class Verbosity { Quiet, Normal, Verbose };
 
 class TerminalProgress : public Progress {
 public:
-  /// Where lines go and how. `out` must outlive the object.
+  /// Destination and form of the lines. `out` must outlive the object.
   struct Style {
     std::FILE* out = stderr;
     bool bar = false;  ///< redraw one line in place; only sensible on a terminal
@@ -39,8 +39,7 @@ public:
   /// Throws Error(InvalidInput) if the style is strict.
   void warn(std::string_view message) override;
 
-  /// Drops the running stage without its closing line, so that a message can follow on a clean
-  /// line.
+  /// Drops the running stage without its closing line, so that a message begins on a clean line.
   void abandon();
 
 private:
@@ -62,11 +61,11 @@ private:
   std::atomic<Clock::rep> m_nextDraw{0};  ///< advance() takes the lock only after this moment
 };
 
-/// "7 s", "1:05" or "2:03:20"; for a person, so rounded to the second.
+/// "7 s", "1:05" or "2:03:20", rounded to the second.
 std::string formatDuration(double seconds);
 
-/// "45 %  18 of 40  0:12 left" with what is known; the estimate assumes that all units cost the
-/// same.
+/// "45 %  18 of 40  0:12 left", without the figures that are unknown; the estimate assumes that all
+/// units cost the same.
 std::string formatProgress(std::size_t done, std::size_t total, double seconds);
 
 }  // namespace lumen

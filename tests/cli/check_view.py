@@ -53,7 +53,7 @@ class Viewer:
 
 
 def survive_kill(where):
-    """What is not saved is on disk within seconds, and offered after a kill that nothing can catch."""
+    """Unsaved work is on disk within seconds, and offered after a kill that nothing can catch."""
     kept = where / "tube.unsaved.2.lumen"  # the first name is taken by what main() has left
     killed = Viewer("tube.lumen", cwd=where)
     killed.do(op="rename", branch=0, label="survivor")
@@ -67,8 +67,18 @@ def survive_kill(where):
     again.do(op="save")
     code, err, _ = again.end()
     expect("end after recovering", code, 0)
-    expect("said", f"{kept.name} holds work that was not saved" in err, True)
+    expect("reported", f"{kept.name} holds work that was not saved" in err, True)
     expect("recovered", run("info", "tube.lumen", cwd=where).stdout.count("survivor") > 0, True)
+
+
+def survive_hangup(where):
+    """Edits of the last seconds are on disk when the terminal goes away."""
+    viewer = Viewer("other.lumen", cwd=where)
+    viewer.do(op="rename", branch=0, label="hangup")
+    code, err, left = viewer.end(signal.SIGHUP)
+    expect("end at SIGHUP", (code, left), (0, []))
+    expect("kept at SIGHUP", run("info", "other.unsaved.lumen", cwd=where).stdout.count("hangup") > 0, True)
+    (where / "other.unsaved.lumen").unlink()
 
 
 def look_at_folder(where):
@@ -121,6 +131,7 @@ def main():
         expect("exit code after SIGTERM", (code, left), (0, []))
         expect("nothing to rescue", "unsaved" in err, False)
         survive_kill(where)
+        survive_hangup(where)
         look_at_folder(where)
         if (pathlib.Path(LUMEN).parent / "../../viewer/page/page.js").exists():
             answer = run("view", "tube.lumen", "--html", "page.html", "--json", "--quiet", cwd=folder)

@@ -16,7 +16,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// so many trials that tracking would take hours
+// tracking with that number of trials takes hours
 const Names kEndlessTrack = {"track",        "tube.nrrd", "tube.lumen",    "--seeds",
                              "seeds.json",   "--verbose", "--min-trials",  "1000000",
                              "--max-trials", "1000000",   "--inlier-rate", "1"};
@@ -35,6 +35,12 @@ TEST_F(InterruptTest, InterruptedTrackingExitsWith130AndLeavesNoFile) {
 
 TEST_F(InterruptTest, TerminationCountsAsAnInterrupt) {
   EXPECT_EQ(lumenWithSignal(kEndlessTrack, SIGTERM).code, 130);
+}
+
+TEST_F(InterruptTest, TheEndOfTheTerminalCountsAsAnInterrupt) {
+  const Outcome stopped = lumenWithSignal(kEndlessTrack, SIGHUP);
+  EXPECT_EQ(stopped.code, 130) << stopped.err;
+  EXPECT_EQ(entries(), (Names{"seeds.json", "truth.lumen", "tube.nrrd"}));
 }
 
 TEST_F(InterruptTest, AKilledRunLeavesNothingThatTheNextOneDoesNotRemove) {
@@ -76,6 +82,21 @@ TEST_F(InterruptGuardTest, WorkThatDoesNotStopIsEndedAndItsTemporaryFileRemoved)
       },
       ::testing::ExitedWithCode(130), "interrupted");
   EXPECT_EQ(entries(), Names{"volume.nrrd"});
+}
+
+TEST_F(InterruptGuardTest, TheEndOfTheTerminalIsPassedOverUnderNohup) {
+  EXPECT_EXIT(
+      {
+        signal(SIGHUP, SIG_IGN);
+        Progress progress;
+        {
+          InterruptGuard guard(progress);
+          kill(getpid(), SIGHUP);
+          std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        }
+        _exit(progress.cancelled() ? 1 : 7);
+      },
+      ::testing::ExitedWithCode(7), "");
 }
 
 TEST_F(InterruptGuardTest, WorkThatStopsByItselfIsLeftAlone) {

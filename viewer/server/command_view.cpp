@@ -27,9 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTick{100};    // how soon Ctrl-C is heard
+constexpr std::chrono::milliseconds kTick{100};    // most delay of Ctrl-C
 constexpr std::chrono::seconds kLook{1};           // between two looks at the files on disk
-constexpr std::chrono::seconds kKeep{5};           // between two writings of what is not saved
+constexpr std::chrono::seconds kKeep{5};           // between two copies of unsaved work
 constexpr std::chrono::seconds kWithoutPages{60};  // a page that is loaded again takes seconds
 
 class ViewCommand : public app::Command {
@@ -77,7 +77,7 @@ public:
     if (!m_html.empty()) app::requireWritable(m_html, app::ContentKind::Other);
     Session session(m_options);
     if (!openFolder(session)) openFiles(session, context);
-    tellUnsaved(session, context);
+    warnOfUnsaved(session, context);
     if (!m_html.empty()) return writeHtml(session, context);
     return serve(session, context);
   }
@@ -95,8 +95,8 @@ private:
     return true;
   }
 
-  /// What an earlier program could not save.
-  void tellUnsaved(Session& session, app::Context& context) const {
+  /// Warns of unsaved work of an earlier program.
+  void warnOfUnsaved(Session& session, app::Context& context) const {
     if (!m_html.empty()) return;
     for (const std::string& file : session.findUnsaved())
       context.progress.warn(formats::printable(file) +
@@ -164,7 +164,7 @@ private:
           "the page of the viewer was not built, so there is nothing to see; ./bootstrap.sh demo "
           "builds it, with npm");
     Server server(session, std::move(page), {m_port});
-    // dropped files lie there, and are removed however this ends
+    // dropped files lie there; an interrupt removes them, too
     context.interrupts.watchOutput(fs::temp_directory_path() / "lumen-view");
     if (context.common.json)
       app::answerJson({{"address", server.address()}});
@@ -174,11 +174,13 @@ private:
     if (!m_noBrowser && !openBrowser(server.address()))
       context.progress.warn("no browser could be opened; open the address in one");
     waitForEnd(session, context);
+    // first: a job that cannot be cancelled may outlast the grace of an interrupt
+    session.keepUnsaved();
     session.cancelAll();
     session.wait();
     server.stop();
     for (const std::string& file : session.keepUnsaved())
-      context.progress.warn("what was not saved is in " + formats::printable(file));
+      context.progress.warn("unsaved work is in " + formats::printable(file));
     return 0;
   }
 
@@ -201,14 +203,14 @@ private:
     }
   }
 
-  /// Whether what is not saved could be written; if not, that is said once.
+  /// Writes copies of unsaved work; false if that failed, which is reported once.
   static bool keep(Session& session, const app::Context& context, bool before) {
     try {
       session.keepUnsaved();
       return true;
     } catch (const std::exception& error) {
       if (before)
-        context.progress.warn("what is not saved cannot be kept: " + std::string(error.what()));
+        context.progress.warn("unsaved work cannot be kept: " + std::string(error.what()));
       return false;
     }
   }
