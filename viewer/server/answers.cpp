@@ -7,7 +7,8 @@ namespace lumen::viewer {
 
 namespace {
 
-// A click and its options are a few hundred bytes, a list of all labels of a large tree some 100 kB.
+// A click and its options are a few hundred bytes, a list of all labels of a large tree some 100
+// kB.
 constexpr std::size_t kMostRequest = 1 << 20;
 
 }  // namespace
@@ -66,9 +67,10 @@ void refuseSize(std::uint64_t most) {
   throw Error(ErrorKind::Usage, "at most " + std::to_string(most) + " bytes are taken here");
 }
 
-formats::JsonDocument readJson(const httplib::ContentReader& reader) {
+formats::JsonDocument readJson(const httplib::Request& request,
+                               const httplib::ContentReader& reader) {
   std::string text;
-  readBody(reader, kMostRequest,
+  readBody(request, reader, kMostRequest,
            [&text](const char* data, std::size_t length) { text.append(data, length); });
   return parseRequest(text, kMostRequest);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How requests are read and answered, whatever they are about.
+// Reading and answering of requests of any kind.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "viewer/session/conflict.h"
 #include "viewer/session/session.h"
 
 // after Eigen, which the macros of <resolv.h> break
@@ -20,11 +21,11 @@ namespace lumen::viewer {
 constexpr const char* kBytes = "application/octet-stream";
 constexpr const char* kJson = "application/json";
 
-/// What no answer is without. The page may run its own script and libblob, and talk to this server.
+/// Headers of every answer. The page may run its own script and libblob, and talk to this server.
 httplib::Headers safeHeaders();
 
-/// Answers with these bytes as they are. What httplib is given whole, it compresses for a browser that can undo it,
-/// which takes longer than a loopback saves: seconds, for the page's script.
+/// Answers with these bytes uncompressed. httplib compresses an answer that it gets whole, which
+/// takes seconds for the page's script and saves nothing on the loopback interface.
 void answerBytes(httplib::Response& response, std::shared_ptr<const std::string> bytes,
                  const char* type);
 void answerText(httplib::Response& response, std::string text, const char* type = kJson);
@@ -33,10 +34,10 @@ void answerError(httplib::Response& response, int status, const std::string& sen
 /// A part of the document; 304 if the page has it, 404 without a body if there is none.
 void answerPart(const httplib::Request& request, httplib::Response& response, const Tagged& part);
 
-/// The status of a request that ended in such an error.
+/// The status of a request that ended in an error of that kind.
 int statusOf(ErrorKind kind);
 
-/// Runs what answers a request; what it throws is answered in JSON.
+/// Runs the answer to a request; an exception becomes an answer in JSON.
 template <class Answer>
 void guarded(httplib::Response& response, Answer&& answer) {
   try {
@@ -52,12 +53,16 @@ void guarded(httplib::Response& response, Answer&& answer) {
   }
 }
 
-/// Throws Error(Usage): a body has more bytes.
+/// Throws Error(Usage): the body has more bytes.
 [[noreturn]] void refuseSize(std::uint64_t most);
 
-/// The body, of at most `most` bytes, piece by piece.
+/// The body, of at most `most` bytes, piece by piece. Throws Error(Usage) for a longer one, a form
+/// in several parts, and one that breaks off.
 template <class Take>
-void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& take) {
+void readBody(const httplib::Request& request, const httplib::ContentReader& reader,
+              std::uint64_t most, Take&& take) {
+  if (request.is_multipart_form_data())
+    throw Error(ErrorKind::Usage, "the body must be plain, not a form in several parts");
   std::uint64_t size = 0;
   bool tooMuch = false;
   const bool whole = reader([&](const char* data, std::size_t length) {
@@ -71,6 +76,7 @@ void readBody(const httplib::ContentReader& reader, std::uint64_t most, Take&& t
 }
 
 /// A body in JSON, of at most 1 MiB.
-formats::JsonDocument readJson(const httplib::ContentReader& reader);
+formats::JsonDocument readJson(const httplib::Request& request,
+                               const httplib::ContentReader& reader);
 
 }  // namespace lumen::viewer

@@ -12,8 +12,8 @@ namespace lumen::viewer {
 
 namespace {
 
-/// A shell that starts the browser in the background and ends, so that nobody waits for it. It has a
-/// group of its own: Ctrl-C in the terminal is for lumen.
+/// A shell that starts the browser in the background and ends, so that nobody waits for it. It has
+/// a group of its own: Ctrl-C in the terminal is for lumen.
 constexpr const char* kStart =
     "command -v xdg-open >/dev/null || exit 1; xdg-open \"$1\" </dev/null >/dev/null 2>&1 &";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether whoever asked is still there.
+// Work that ends when the client is gone.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace lumen::viewer {
 
-/// Calls `work` with a progress that is cancelled when the connection from that port of this machine
-/// is closed by its other end: nobody waits for the answer. Gives on what `work` throws.
+/// Calls `work` with a progress that is cancelled when the client at that port of this machine
+/// closes the connection, because nobody waits for the answer. Throws what `work` throws.
 void whileConnected(int remotePort, const std::function<void(Progress&)>& work);
 
 }  // namespace lumen::viewer

@@ -23,12 +23,12 @@ constexpr const char* kPolicy =
     "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
     "img-src data: blob:; base-uri 'none'; form-action 'none'";
 
-// Around the case, as much as shows where its vessels lie.
+// The margin around the case shows where its vessels lie.
 constexpr double kMargin = 3;  // radii of the widest vessel
-// A browser holds what is embedded three times while it opens.
+// A browser holds embedded bytes three times while it opens.
 constexpr std::size_t kMostVoxels = std::size_t{192} * 192 * 192;
 
-/// Fit to stand in a script: no "<" can end it or begin a comment.
+/// JSON that may stand in a script: it has no "<", which could end the script or begin a comment.
 std::string scriptSafe(const std::string& json) {
   std::string text;
   text.reserve(json.size());
@@ -40,8 +40,8 @@ std::string scriptSafe(const std::string& json) {
   return text;
 }
 
-/// Code that stands in a script. Only these two can end or mislead one, and in what is bundled they
-/// occur in texts and regular expressions alone, where the backslash changes nothing.
+/// Code that may stand in a script. Only these two texts can end or mislead a script, and bundled
+/// code has them in strings and regular expressions alone, where the backslash changes nothing.
 std::string inlineScript(std::string code) {
   for (const auto& [from, to] :
        {std::pair<std::string_view, std::string_view>{"</script", "<\\/script"},
@@ -87,7 +87,7 @@ std::string volumeOf(const Document& document) {
   return bytes;
 }
 
-/// What libblob needs of a case: its tree and models.
+/// The parts of a case that libblob needs: tree and models.
 std::string modelsOf(const formats::Case& value) {
   formats::Case models;
   models.metadata = value.metadata;
@@ -97,7 +97,7 @@ std::string modelsOf(const formats::Case& value) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// What the page finds instead of a server: names, and base64 of what is compressed.
+/// The parts that the page finds instead of a server: names, and base64 of compressed bytes.
 class Embedded {
 public:
   void add(const std::string& name, std::string_view bytes) {
@@ -117,8 +117,13 @@ private:
   Json m_parts = Json::object();
 };
 
-/// What of the state concerns a page without a server.
+/// The members of the state that concern a page without a server. Revisions count what has happened
+/// in this program, which depends on timing; here each is 1, and 0 for the library, which is
+/// absent.
 Json lookOnly(Json state) {
+  state["revision"] = 1;
+  for (Json& revision : state["revisions"]) revision = 1;
+  state["revisions"]["library"] = 0;
   for (const char* const name : {"undo", "redo", "job", "saveAs"}) state[name] = nullptr;
   state["formats"] = Json::array();
   state["unsaved"] = false;
@@ -133,7 +138,7 @@ const std::string& fileOf(const PageFiles& page, const char* name) {
 
 }  // namespace
 
-HtmlOptions htmlOptions(const std::vector<std::pair<std::string, std::string>>& options) {
+HtmlOptions htmlOptions(const SavingOptions& options) {
   HtmlOptions result;
   for (const auto& [name, value] : options) {
     if (name == "volume" || name == "points")

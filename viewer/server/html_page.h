@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page and what it shows as one file, which opens from disk and asks no network.
+// The page and its data as one file, which opens from disk and uses no network.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct HtmlOptions {
 };
 
 /// "volume", "points" and "level". Throws Error(Usage) for others.
-HtmlOptions htmlOptions(const std::vector<std::pair<std::string, std::string>>& options);
+HtmlOptions htmlOptions(const SavingOptions& options);
 
 /// The page with everything in it. Throws Error(Failed) if the page was not built, Error(Usage) if
 /// there is nothing to show, and Error(Cancelled).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a viewer that nobody looks at ends.
+// The end of a viewer without pages.
 #pragma once
 
 #include <chrono>
@@ -7,8 +7,8 @@
 
 namespace lumen::viewer {
 
-/// Told every now and then how many pages are open. It is over when there has been a page, and then
-/// for long enough none, nor any work: a page that is loaded again takes seconds.
+/// Decides by the number of open pages, which it gets at intervals. The viewer is over when there
+/// was a page, and then neither a page nor work for long enough: reloading a page takes seconds.
 class IdleEnd {
 public:
   using Clock = std::chrono::steady_clock;

@@ -20,7 +20,7 @@ using PageFiles = std::map<std::string, PageFile>;
 /// its build folder. Empty if they are in neither.
 PageFiles findPageFiles();
 
-/// What stands in for the page where it was not built: how to get it.
+/// A page with instructions, for a build without the page.
 extern const char* const kNoPage;
 
 }  // namespace lumen::viewer

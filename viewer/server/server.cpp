@@ -13,6 +13,7 @@
 #include "viewer/server/answers.h"
 #include "viewer/server/connection.h"
 #include "viewer/server/html_page.h"
+#include "viewer/server/http_server.h"
 #include "viewer/server/token.h"
 
 namespace lumen::viewer {
@@ -24,11 +25,11 @@ using httplib::Response;
 
 constexpr const char* kHost = "127.0.0.1";
 
-// Every request has a connection of its own, and a thread while it lasts. Listening pages hold one
-// each, of which EventHub allows 16: the others are free for requests.
-constexpr std::size_t kThreads = EventHub::kMostListeners + 16;
+// A request holds a connection and a thread while it lasts. Each listening page holds one; the
+// others are free for requests, also while slow senders hold theirs until HttpServer closes them.
+constexpr std::size_t kThreads = EventHub::kMostListeners + 112;
 
-// A page that is gone is noticed at the next write.
+// Between two writes to a page that listens: a write to a page that is gone fails.
 constexpr std::chrono::seconds kSign{2};
 
 int levelOf(const Request& request) {
@@ -64,11 +65,10 @@ public:
         m_token(randomToken()),
         m_mostFile(options.mostFile) {
     m_http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-    m_http.set_keep_alive_max_count(1);
     m_http.set_payload_max_length(m_mostFile);
     m_http.set_default_headers(safeHeaders());
     m_http.set_tcp_nodelay(true);
-    // and not SO_REUSEPORT, with which another program could listen on the same port
+    // with SO_REUSEPORT, the default, another program could listen on the same port
     m_http.set_socket_options([](socket_t socket) {
       const int yes = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
@@ -132,7 +132,7 @@ private:
     });
   }
 
-  /// A part that takes a while to be made, which ends when the page does not wait any more.
+  /// A part whose making takes long and ends when the page does not wait any more.
   void getSlowly(const std::string& name,
                  const std::function<Tagged(const Request&, Progress&)>& part) {
     get(name, [part](const Request& request, Response& response) {
@@ -142,15 +142,15 @@ private:
     });
   }
 
-  /// With a body in JSON, and an answer in JSON.
+  /// A request with a body in JSON and an answer in JSON.
   void post(const std::string& name, const std::function<Json(formats::JsonValue)>& answer) {
-    m_http.Post(at(name),
-                [answer](const Request&, Response& response, const httplib::ContentReader& reader) {
-                  guarded(response, [&] {
-                    const formats::JsonDocument document = readJson(reader);
-                    answerText(response, jsonText(answer(document.root())));
-                  });
-                });
+    m_http.Post(at(name), [answer](const Request& request, Response& response,
+                                   const httplib::ContentReader& reader) {
+      guarded(response, [&] {
+        const formats::JsonDocument document = readJson(request, reader);
+        answerText(response, jsonText(answer(document.root())));
+      });
+    });
   }
 
   void addPage() {
@@ -214,7 +214,7 @@ private:
       return answerPart(request, response, none);
     }
     response.set_header("ETag", '"' + none.tag + '"');
-    // slices of two megabytes at a time: a volume is never in memory twice
+    // two megabytes at a time, so that no copy of the volume is in memory
     response.set_content_provider(
         pack->size(), kBytes,
         [pack](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
@@ -226,7 +226,10 @@ private:
 
   void answerEvents(Response& response) {
     const auto listener = m_session.events().listen();
-    if (!listener) return answerError(response, 503, "as many pages are open as there may be");
+    if (!listener)
+      return answerError(
+          response, 503,
+          "at most " + std::to_string(EventHub::kMostListeners) + " pages may be open");
     std::string first = "event: state\ndata: " + jsonText(m_session.state()) + "\n\n";
     response.set_chunked_content_provider(
         "text/event-stream",
@@ -246,7 +249,7 @@ private:
 
   void answerSave(const Request& request, Response& response) {
     const std::string format = request.get_param_value("format");
-    std::vector<std::pair<std::string, std::string>> options;
+    SavingOptions options;
     for (const auto& [name, value] : request.params)
       if (name != "format") options.emplace_back(name, value);
     const bool isPage = format == "html";
@@ -270,20 +273,15 @@ private:
       throw Error(ErrorKind::Usage, "\"as\" must be auto or truth");
     if (request.get_header_value<std::uint64_t>("Content-Length") > m_mostFile)
       refuseSize(m_mostFile);
-    const std::filesystem::path place = m_session.placeFor(name);
-    try {
-      writeBody(place, reader);
-    } catch (...) {
-      std::error_code ignored;
-      std::filesystem::remove_all(place.parent_path(), ignored);
-      throw;
-    }
-    answerText(response, jsonText(m_session.openDropped(place, name, as == "truth")));
+    auto file = m_session.placeFor(name);
+    writeBody(file->path(), request, reader);
+    answerText(response, jsonText(m_session.openDropped(std::move(file), name, as == "truth")));
   }
 
-  void writeBody(const std::filesystem::path& place, const httplib::ContentReader& reader) const {
+  void writeBody(const std::filesystem::path& place, const Request& request,
+                 const httplib::ContentReader& reader) const {
     std::ofstream file(place, std::ios::binary);
-    readBody(reader, m_mostFile, [&file](const char* data, std::size_t length) {
+    readBody(request, reader, m_mostFile, [&file](const char* data, std::size_t length) {
       file.write(data, static_cast<std::streamsize>(length));
     });
     if (!file.flush()) throw failed("there is no room for this file");
@@ -294,7 +292,7 @@ private:
   const std::string m_token;
   const std::uint64_t m_mostFile;
   std::string m_authority;  ///< "127.0.0.1:40123"
-  httplib::Server m_http;
+  HttpServer m_http;
   std::thread m_thread;
 };
 

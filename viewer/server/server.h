@@ -13,14 +13,14 @@ namespace lumen::viewer {
 
 struct ServerOptions {
   int port = 0;  ///< 0: any that is free
-  /// Bytes of a file that is dropped; volumes beyond that are opened by name.
+  /// Most bytes of a dropped file; larger volumes are opened by name.
   std::uint64_t mostFile = std::uint64_t{4} << 30;
 };
 
-/// Answers only what comes to the address that it gives, which nobody can guess: the socket is of
+/// Answers only requests for the address that it returns, which nobody can guess: the socket is on
 /// the loopback interface, the path has 128 random bits, and `Host` and `Origin` must name the
-/// address, so that neither a page of another origin nor a name that is rebound to 127.0.0.1 gets
-/// anything.
+/// address, so neither a page of another origin nor a name that is rebound to 127.0.0.1 gets an
+/// answer.
 class Server {
 public:
   /// Listens. Throws Error(Failed) if it cannot. The session must outlive it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an operation was asked for with, checked.
+// Arguments of a request, checked.
 #pragma once
 
 #include <cstdint>

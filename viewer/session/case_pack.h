@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a case the page shows.
+// The parts of a case that the page shows.
 #pragma once
 
 #include <string>

@@ -96,7 +96,7 @@ void toDifferences(std::vector<T>& values, std::size_t columns) {
     values[i] = static_cast<T>(values[i] - values[i - columns]);
 }
 
-/// How far below the next new vertex each is.
+/// Distance of each index below the next new vertex.
 void toDistancesBack(std::vector<std::uint32_t>& triangle) {
   std::uint32_t next = 0;
   for (std::uint32_t& vertex : triangle) {

@@ -7,7 +7,7 @@
 
 namespace lumen::viewer {
 
-/// The same surface or mesh in fewer bytes (viewer/README.md, "Packs"): triangles of a part and
+/// The surface or mesh in fewer bytes (viewer/README.md, "Packs"): triangles of a part and
 /// vertices in another order, positions in 65,535 steps along each axis of their box, radii in 4095
 /// steps of their range. Takes a pack as surfacePack() and meshPack() make them.
 std::string compactPack(std::string_view pack);

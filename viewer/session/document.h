@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is open, at one moment. Its parts never change: a change makes other parts, and another
-// document, so any number of threads and of moments of the history share them.
+// The open document at one moment. Its parts never change: a change makes other parts and another
+// document, so any number of threads and of moments of the history share parts.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ enum class FileRole : std::uint8_t { Volume, Case, Truth, Seeds, Mesh };
 /// The word for a role, as the state has it.
 std::string roleName(FileRole role);
 
-/// A file as it was when it was read: another stamp means that it was written since.
+/// The version of a file that was read: a file with another stamp was written since.
 struct FileStamp {
   std::int64_t time = 0;  ///< of its last change, ns
   std::uintmax_t size = 0;
@@ -30,14 +30,14 @@ struct FileStamp {
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
 
-/// Zeros for what is not there.
+/// Zeros for a file that is not there.
 FileStamp stampOf(const std::filesystem::path& file);
 
 struct OpenFile {
   int id = 0;
   FileRole role = FileRole::Volume;
   std::string label;           ///< for people; any text
-  std::filesystem::path path;  ///< empty for what was dropped
+  std::filesystem::path path;  ///< empty for a dropped file
   FileStamp stamp;
 };
 
@@ -49,7 +49,7 @@ struct OpenMesh {
 
 using Seeds = std::vector<convert::SeedBranch>;
 
-/// Parts are null where there are none, but `seeds`.
+/// A missing part is null, except `seeds`.
 struct Document {
   std::shared_ptr<const convert::Volume> volume;
   std::shared_ptr<const formats::Case> value;

@@ -27,7 +27,7 @@ bool Listener::closed() const {
 
 void Listener::put(const Event& event) {
   const std::lock_guard lock(m_mutex);
-  // of these only the newest counts
+  // only the newest state and the newest progress count
   if (event.name == "state" || event.name == "progress")
     std::erase_if(m_queue, [&event](const Event& e) { return e.name == event.name; });
   if (m_queue.size() >= kMostQueued) m_queue.pop_front();
@@ -56,7 +56,7 @@ std::size_t EventHub::count() {
   return m_listeners.size();
 }
 
-void EventHub::tell(const std::string& name, const Json& data) {
+void EventHub::send(const std::string& name, const Json& data) {
   const Event event{name, jsonText(data)};
   const std::lock_guard lock(m_mutex);
   for (const auto& weak : m_listeners)

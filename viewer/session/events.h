@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens, told to every page that listens.
+// Events for every page that listens.
 #pragma once
 
 #include <chrono>
@@ -28,7 +28,7 @@ class Listener {
 public:
   /// The next event, or nothing if none comes in time.
   std::optional<Event> wait(std::chrono::milliseconds most);
-  /// No more events will come.
+  /// True if no more events will come.
   [[nodiscard]] bool closed() const;
 
 private:
@@ -47,11 +47,11 @@ class EventHub {
 public:
   static constexpr std::size_t kMostListeners = 16;
 
-  /// Null if there are as many already as there may be.
+  /// Null if there are kMostListeners already.
   std::shared_ptr<Listener> listen();
-  /// How many there are: each is one as long as somebody holds it.
+  /// The number of listeners: each counts while somebody holds it.
   [[nodiscard]] std::size_t count();
-  void tell(const std::string& name, const Json& data);
+  void send(const std::string& name, const Json& data);
   void close();
 
 private:
@@ -60,7 +60,7 @@ private:
   bool m_closed = false;
 };
 
-/// JSON as it goes over the wire, on one line; what is no UTF-8 is replaced.
+/// JSON on one line, as it goes over the wire; bytes that are not UTF-8 are replaced.
 std::string jsonText(const Json& value);
 
 }  // namespace lumen::viewer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The document and what it was before: every change can be undone.
+// The document and its earlier versions: every change can be undone.
 #pragma once
 
 #include <cstddef>
@@ -29,21 +29,21 @@ struct Moment {
 /// All calls are thread-safe.
 class History {
 public:
-  /// What may be undone is forgotten, the oldest first, when all of it takes more than `mostBytes`
-  /// beside the document itself.
+  /// Earlier versions are dropped, the oldest first, when they take more than `mostBytes` beside
+  /// the document itself.
   explicit History(std::size_t mostBytes = std::size_t{1} << 30) : m_mostBytes(mostBytes) {}
 
   [[nodiscard]] Moment now() const;
-  /// The document is now this one. `name`, such as "rename ica", says what undo would take back.
-  /// Gives the revision; nothing, and nothing has changed, if the document is not at revision
+  /// Replaces the document. `name`, such as "rename ica", is the change that undo would take back.
+  /// Returns the new revision, or nothing, without a change, if the document is not at revision
   /// `from` any more.
   std::optional<std::uint64_t> commit(const std::string& name, std::uint64_t from,
                                       Document document);
-  /// The files of these numbers were written, and are as they are now on disk.
+  /// Gives the files of these numbers their stamps, in all versions: they were written.
   void restamp(const std::vector<OpenFile>& files);
-  /// The document is now this one, and nothing of what was before can be had again.
+  /// Replaces the document and drops all earlier versions.
   void begin(Document document);
-  /// Gives the name of what was undone or done again; nothing if there is nothing.
+  /// Returns the name of the change that was undone or done again, or nothing if there is none.
   std::optional<std::string> undo();
   std::optional<std::string> redo();
   [[nodiscard]] std::optional<std::string> undoName() const;
@@ -52,14 +52,14 @@ public:
 private:
   struct Entry {
     std::string name;  ///< of the change
-    Document other;    ///< what was there before it, or, undone, after it
+    Document other;    ///< the document before the change, or after it if it is undone
   };
   void replace(Document document);
   void forget();
   std::optional<std::string> step(std::deque<Entry>& from, std::deque<Entry>& to);
 
   const std::size_t m_mostBytes;
-  mutable std::mutex m_mutex;
+  mutable std::mutex m_mutex;  ///< guards all that follow
   Moment m_now;
   std::deque<Entry> m_undo, m_redo;  ///< the newest last
 };

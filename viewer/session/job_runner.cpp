@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "viewer/session/conflict.h"
 
 namespace lumen::viewer {
 
@@ -17,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kInterval{100};  // as often as a page redraws a bar
 
-/// Tells the pages how far a job is.
+/// Reports to the pages how far a job is.
 class JobProgress : public Progress {
 public:
   JobProgress(EventHub& events, int job, const std::function<std::string(std::string_view)>& text)
@@ -30,7 +31,7 @@ public:
     }
     m_total = total;
     m_done = 0;
-    tell();
+    report();
   }
 
   void advance(std::size_t units) override {
@@ -39,21 +40,21 @@ public:
     auto next = m_next.load();
     if (now < next) return;
     const auto then = now + std::chrono::duration_cast<Clock::duration>(kInterval).count();
-    if (m_next.compare_exchange_strong(next, then)) tell();
+    if (m_next.compare_exchange_strong(next, then)) report();
   }
 
   void warn(std::string_view message) override {
-    m_events.tell("message", {{"severity", "warning"}, {"text", m_text(message)}});
+    m_events.send("message", {{"severity", "warning"}, {"text", m_text(message)}});
   }
 
 private:
-  void tell() {
+  void report() {
     std::string stage;
     {
       const std::lock_guard lock(m_mutex);
       stage = m_stage;
     }
-    m_events.tell(
+    m_events.send(
         "progress",
         {{"job", m_job}, {"stage", stage}, {"done", m_done.load()}, {"total", m_total.load()}});
   }
@@ -67,6 +68,10 @@ private:
   std::atomic<Clock::rep> m_next{0};
 };
 
+Conflict busyWith(const RunningJob& running) {
+  return Conflict("busy with " + running.name + "; wait for its end, or cancel it");
+}
+
 }  // namespace
 
 JobRunner::JobRunner(EventHub& events, std::function<std::string(std::string_view)> text,
@@ -78,25 +83,42 @@ JobRunner::~JobRunner() {
   if (m_thread.joinable()) m_thread.join();
 }
 
-int JobRunner::start(const std::string& name, Work work) {
+int JobRunner::start(const std::string& name, bool changes, Work work) {
   int job = 0;
   std::thread ended;
   {
     const std::lock_guard lock(m_mutex);
-    if (m_running)
-      throw failed("still busy with " + m_running->name + "; wait for its end, or cancel it");
+    if (m_running) throw busyWith(*m_running);
     job = ++m_last;
-    m_running = RunningJob{job, name};
+    m_running = RunningJob{job, name, changes};
+    m_progress = std::make_unique<JobProgress>(m_events, job, m_text);
     ended = std::move(m_thread);
   }
-  // without the lock, which its last words may need
+  // without the lock, which the last words of the ended job may need
   if (ended.joinable()) ended.join();
   m_changed();
-  const std::lock_guard lock(m_mutex);
-  m_progress = std::make_unique<JobProgress>(m_events, job, m_text);
-  m_thread = std::thread(
-      [this, job, work = std::move(work), &progress = *m_progress] { run(job, work, progress); });
+  try {
+    const std::lock_guard lock(m_mutex);
+    m_thread = std::thread(
+        [this, job, work = std::move(work), &progress = *m_progress] { run(job, work, progress); });
+  } catch (...) {
+    end();
+    throw;
+  }
   return job;
+}
+
+void JobRunner::requireNoChange() const {
+  const std::lock_guard lock(m_mutex);
+  if (m_running && m_running->changes) throw busyWith(*m_running);
+}
+
+void JobRunner::end() {
+  {
+    const std::lock_guard lock(m_mutex);
+    m_running.reset();
+  }
+  m_ended.notify_all();
 }
 
 void JobRunner::run(int job, const Work& work, Progress& progress) {
@@ -113,17 +135,14 @@ void JobRunner::run(int job, const Work& work, Progress& progress) {
   } catch (const std::exception& error) {
     done["text"] = m_text(std::string("unexpected: ") + error.what());
   }
-  {
-    const std::lock_guard lock(m_mutex);
-    m_running.reset();
-  }
-  m_events.tell("done", done);
+  end();
+  m_events.send("done", done);
   m_changed();
 }
 
 bool JobRunner::cancel(int job) {
   const std::lock_guard lock(m_mutex);
-  if (!m_running || m_running->job != job || !m_progress) return false;
+  if (!m_running || m_running->job != job) return false;
   m_progress->cancel();
   return true;
 }
@@ -139,12 +158,8 @@ std::optional<RunningJob> JobRunner::running() const {
 }
 
 void JobRunner::wait() {
-  std::thread thread;
-  {
-    const std::lock_guard lock(m_mutex);
-    thread = std::move(m_thread);
-  }
-  if (thread.joinable()) thread.join();
+  std::unique_lock lock(m_mutex);
+  m_ended.wait(lock, [this] { return !m_running; });
 }
 
 }  // namespace lumen::viewer

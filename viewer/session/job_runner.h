@@ -2,6 +2,7 @@
 // Work that takes long: one piece at a time, on a thread of its own, with progress and an end.
 #pragma once
 
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -16,43 +17,49 @@
 namespace lumen::viewer {
 
 struct RunningJob {
-  int job = 0;       ///< from 1 on, never used again
-  std::string name;  ///< for people, such as "tracking"
+  int job = 0;           ///< from 1 on, never used again
+  std::string name;      ///< for people, such as "tracking"
+  bool changes = false;  ///< it will change the document
 };
 
 /// All calls are thread-safe.
 class JobRunner {
 public:
-  /// Throws what a stage throws; gives the sentence that tells what was done.
+  /// Throws what a stage throws; returns the sentence that reports what was done.
   using Work = std::function<std::string(Progress&)>;
 
-  /// `changed` is called, without any lock, when a job has begun or ended. `text` is the last thing
-  /// that happens to a message.
+  /// `changed` is called, without any lock, when a job has begun or ended. `text` makes every
+  /// message fit for a page.
   JobRunner(EventHub& events, std::function<std::string(std::string_view)> text,
             std::function<void()> changed);
-  /// Cancels what runs and waits for its end.
+  /// Cancels the running job and waits for its end.
   ~JobRunner();
   JobRunner(const JobRunner&) = delete;
   JobRunner& operator=(const JobRunner&) = delete;
 
-  /// The number of the job, which begins at once. Throws Error(Failed) while another runs.
-  int start(const std::string& name, Work work);
+  /// The number of the job, which begins at once. `changes` belongs to the job from its first
+  /// moment on. Throws Conflict while another runs.
+  int start(const std::string& name, bool changes, Work work);
+  /// Throws Conflict while a job runs that will change the document.
+  void requireNoChange() const;
   /// False if no job of that number runs.
   bool cancel(int job);
   void cancelAll();
   [[nodiscard]] std::optional<RunningJob> running() const;
-  /// Until nothing runs.
+  /// Returns when nothing runs.
   void wait();
 
 private:
   void run(int job, const Work& work, Progress& progress);
+  void end();
 
   EventHub& m_events;
   const std::function<std::string(std::string_view)> m_text;
   const std::function<void()> m_changed;
-  mutable std::mutex m_mutex;
+  mutable std::mutex m_mutex;  ///< guards all that follow
+  std::condition_variable m_ended;
   std::optional<RunningJob> m_running;
-  std::unique_ptr<Progress> m_progress;
+  std::unique_ptr<Progress> m_progress;  ///< of the job that runs, or of the last
   std::thread m_thread;
   int m_last = 0;
 };

@@ -12,6 +12,7 @@
 #include "converters/library/library_file.h"
 #include "formats/case/topology.h"
 #include "formats/container/printable.h"
+#include "viewer/session/events.h"
 
 namespace lumen::viewer {
 
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds kTelling{500};  // the list is drawn anew each time
+constexpr std::chrono::milliseconds kBetween{500};  // the page draws the list anew each time
 
 bool isCase(const fs::directory_entry& entry) {
   const std::string name = entry.path().filename().string();
@@ -27,10 +28,6 @@ bool isCase(const fs::directory_entry& entry) {
   return !name.starts_with('.') && (name.ends_with(".lumen") || name.ends_with(".lumen.json")) &&
          name.find(".unsaved.") == name.npos && entry.is_regular_file(ignored);
 }
-
-}  // namespace
-
-namespace {
 
 std::string nameOfFolder(const fs::path& folder) {
   return formats::printable(
@@ -68,8 +65,8 @@ CaseList casesIn(const fs::path& folder) {
   return list;
 }
 
-Library::Library(CaseList list, std::function<void()> told)
-    : m_list(std::move(list)), m_told(std::move(told)), m_figures(m_list.cases.size()) {}
+Library::Library(CaseList list, std::function<void()> more)
+    : m_list(std::move(list)), m_more(std::move(more)), m_figures(m_list.cases.size()) {}
 
 Library::~Library() {
   end();
@@ -103,9 +100,9 @@ void Library::read() {
       m_figures[i] = std::move(figures);
     }
     ++m_read;
-    if (i + 1 < m_list.cases.size() && Clock::now() - last < kTelling) continue;
+    if (i + 1 < m_list.cases.size() && Clock::now() - last < kBetween) continue;
     last = Clock::now();
-    m_told();
+    m_more();
   }
 }
 
@@ -126,6 +123,35 @@ Json Library::json() const {
     list.push_back(std::move(entry));
   }
   return {{"name", m_list.name}, {"cases", std::move(list)}};
+}
+
+void OpenLibrary::open(CaseList list, std::function<void()> more) {
+  m_library = std::make_unique<Library>(std::move(list), std::move(more));
+  m_library->start();
+}
+
+void OpenLibrary::end() {
+  if (m_library) m_library->end();
+}
+
+Tagged OpenLibrary::pack() const {
+  if (!m_library) return {};
+  const std::size_t read = m_library->readCount();  // before the figures: never newer than they are
+  return tagged(std::to_string(read), jsonText(m_library->json()));
+}
+
+std::uint64_t OpenLibrary::revision() const {
+  return m_library ? m_library->readCount() + 1 : 0;
+}
+
+void OpenLibrary::setOpenCase(std::size_t index) {
+  const std::lock_guard lock(m_mutex);
+  m_openCase = index;
+}
+
+std::optional<std::size_t> OpenLibrary::openCase() const {
+  const std::lock_guard lock(m_mutex);
+  return m_openCase;
 }
 
 }  // namespace lumen::viewer

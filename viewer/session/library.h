@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of cases, of which one is looked at at a time.
+// A folder of cases, one of which is open at a time.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "converters/engine/report.h"
+#include "viewer/session/tagged.h"
 
 namespace lumen::viewer {
 
@@ -22,43 +25,44 @@ using app::Json;
 struct ListedCase {
   std::filesystem::path file;
   std::string name;  ///< for people
-  std::filesystem::path
-      keptAt;  ///< of a published one: where changes are kept until they are downloaded
+  /// Published cases only: the file beside which changes are kept until they are downloaded.
+  std::filesystem::path keptAt;
 };
 
-/// What a folder has to show.
+/// The cases of a folder.
 struct CaseList {
   std::string name;  ///< for people
   std::vector<ListedCase> cases;
-  bool isPublished = false;  ///< it is a library of spec/library.md, whose cases stay as they are
+  bool isPublished = false;  ///< it is a library of spec/library.md, whose cases never change
 };
 
-/// The cases that a library's library.json lists, in its order. In a folder without one: all cases (.lumen, .lumen.json)
-/// directly in it or one level below, sorted by name; hidden ones and those that were not saved
-/// (NAME.unsaved.lumen) are none of it. Throws Error(InvalidInput) for a library.json that breaks its format.
+/// The cases that a library's library.json lists, in its order. In a folder without one: all cases
+/// (.lumen, .lumen.json) directly in it or one level below, sorted by name, without hidden files
+/// and unsaved work (NAME.unsaved.lumen). Throws Error(InvalidInput) for a library.json that breaks
+/// its format.
 CaseList casesIn(const std::filesystem::path& folder);
 
-/// What a library holds; each case is read in the background, for its figures. All calls are
+/// A list of cases, each of which is read in the background for its figures. All calls are
 /// thread-safe.
 class Library {
 public:
-  /// `told` is called, without any lock, when more figures are there.
-  Library(CaseList list, std::function<void()> told);
+  /// `more` is called, without any lock, when more figures are there.
+  Library(CaseList list, std::function<void()> more);
   ~Library();
   /// Begins to read the cases.
   void start();
-  /// Ends that for good; `told` is not called any more.
+  /// Ends reading for good; `more` is not called any more.
   void end();
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 
   /// {"name", "cases": [{"name", "branches", "length", "error"}]}; figures are null until the case
-  /// has been read, and stay so if it cannot be, which "error" tells.
+  /// has been read, and stay null for one that cannot be read, whose "error" is the reason.
   [[nodiscard]] Json json() const;
   [[nodiscard]] std::size_t size() const { return m_list.cases.size(); }
   [[nodiscard]] const ListedCase& at(std::size_t index) const { return m_list.cases[index]; }
   [[nodiscard]] bool isPublished() const { return m_list.isPublished; }
-  /// How many cases have been read.
+  /// The number of cases that have been read.
   [[nodiscard]] std::size_t readCount() const { return m_read; }
 
 private:
@@ -70,12 +74,36 @@ private:
   void read();
 
   const CaseList m_list;
-  const std::function<void()> m_told;
+  const std::function<void()> m_more;
   mutable std::mutex m_mutex;  ///< guards the figures
   std::vector<std::optional<Figures>> m_figures;
   std::atomic<std::size_t> m_read{0};
   std::atomic<bool> m_ended{false};
   std::thread m_thread;
+};
+
+/// The library that the page chooses from, if there is one, and the open case of it. All calls are
+/// thread-safe.
+class OpenLibrary {
+public:
+  /// Once, before any other call.
+  void open(CaseList list, std::function<void()> more);
+  /// Ends reading for good.
+  void end();
+
+  /// Null if none is open.
+  [[nodiscard]] const Library* library() const { return m_library.get(); }
+  /// Its JSON.
+  [[nodiscard]] Tagged pack() const;
+  /// Counts up as cases are read; 0 without a library.
+  [[nodiscard]] std::uint64_t revision() const;
+  void setOpenCase(std::size_t index);
+  [[nodiscard]] std::optional<std::size_t> openCase() const;
+
+private:
+  std::unique_ptr<Library> m_library;
+  mutable std::mutex m_mutex;  ///< guards the next
+  std::optional<std::size_t> m_openCase;
 };
 
 }  // namespace lumen::viewer

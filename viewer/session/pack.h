@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of numbers and what is said of them, in one run of bytes (viewer/README.md, "Packs").
+// Arrays of numbers and their descriptions, in one run of bytes (viewer/README.md, "Packs").
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ public:
   /// A member of the JSON beside the arrays.
   void set(const std::string& name, Json value) { m_members[name] = std::move(value); }
 
-  /// Of `shape`, rows first; its product is the number of values.
+  /// An array with that shape, rows first; the product of `shape` is the number of values.
   template <class T>
   void add(const std::string& name, std::span<const T> values, std::vector<std::size_t> shape) {
     append(name, numberType<T>(), std::move(shape), std::as_bytes(values));
@@ -49,7 +49,7 @@ public:
   void add(const std::string& name, std::span<const std::array<std::uint32_t, 3>> values);
   void add(const std::string& name, std::span<const std::array<std::uint32_t, 2>> values);
 
-  /// An array whose bytes are coded as `description` says; it is given its offset.
+  /// An array whose bytes are coded according to `description`, which gets its offset.
   void addStored(const std::string& name, std::string_view bytes, Json description);
 
   /// The whole pack.

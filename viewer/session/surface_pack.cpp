@@ -16,7 +16,7 @@ namespace {
 
 using convert::Triangle;
 
-/// What triangles are sorted and divided by.
+/// Key by which triangles are sorted and divided.
 struct PartKey {
   std::uint32_t group = 0, branch = 0;
   friend auto operator<=>(const PartKey&, const PartKey&) = default;

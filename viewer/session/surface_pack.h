@@ -11,7 +11,7 @@
 
 namespace lumen::viewer {
 
-/// What a surface is among those of its case.
+/// The place of a surface among those of its case.
 struct SurfaceLevel {
   std::string_view kind;  ///< "quick" or "closed"
   int level = 0;          ///< 0: the finest
@@ -25,7 +25,7 @@ std::string surfacePack(const convert::SurfaceMesh& surface, const SurfaceLevel&
 /// The pack `surface` of a mesh that was opened, in mm.
 std::string meshPack(const convert::MeshFile& mesh);
 
-/// The mesh, in mm: millimetres where its file does not say.
+/// The mesh in mm; a file without a unit is in mm.
 convert::MeshFile inMillimetres(convert::MeshFile mesh);
 
 }  // namespace lumen::viewer

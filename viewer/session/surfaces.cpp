@@ -11,7 +11,7 @@ namespace lumen::viewer {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};  // whether somebody still waits
+constexpr std::chrono::milliseconds kLook{100};  // between two looks whether somebody still waits
 
 bool hasSurface(const std::shared_ptr<const formats::Case>& value) {
   return value && value->models && value->tree.nodeCount() > 0;
@@ -132,13 +132,13 @@ void Surfaces::work() {
   std::unique_lock lock(m_mutex);
   while (!m_ended) {
     if (hasSurface(m_case) && m_allowed && !m_quick && m_quickTried != m_case) {
-      // first what a page begins with
+      // a page begins with the quick surface
       m_quickTried = m_case;
       lock.unlock();
       try {
         readyQuick();
       } catch (const std::exception&) {
-        // whoever asks for it is told
+        // a request for it gets the error
       }
       lock.lock();
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surfaces of the case that is open: a coarse one at once, finer ones from the background.
+// The surfaces of the open case: a coarse one at once, finer ones from the background.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct ReadySurface {
 /// All calls are thread-safe.
 class Surfaces {
 public:
-  /// Of edges that are twice as long as those of the finest, and that.
+  /// Levels of detail: 0 is the finest, the edges of 1 are twice as long.
   static constexpr int kLevels = 2;
 
   /// `ready` is called, without any lock, when another surface can be had.
@@ -36,21 +36,21 @@ public:
   Surfaces(const Surfaces&) = delete;
   Surfaces& operator=(const Surfaces&) = delete;
 
-  /// Ends the background for good; `ready` is not called any more.
+  /// Ends the background for good; `ready` is not called after that.
   void end();
 
   /// The case whose surfaces are wanted; may be null or have no models.
   void show(std::shared_ptr<const formats::Case> value);
-  /// Whether the background may work, which takes processors from what a person waits for.
+  /// Allows the background to work, or stops it while a person waits for other work.
   void allow(bool background);
 
   /// The finest that is ready and no finer than `level`, 0 for the finest of all, or the quick one.
   /// Null if the case has no surface.
   std::shared_ptr<const ReadySurface> get(int level);
-  /// Until that level is ready, or cannot be made, or no work is allowed. Throws
+  /// Waits until that level is ready, or cannot be made, or no work is allowed. Throws
   /// Error(Cancelled).
   void waitFor(int level, const Progress& progress);
-  /// The coarse one, which is made now unless it is there.
+  /// The coarse surface, which is made now unless it is there.
   std::shared_ptr<const ReadySurface> quick();
   /// Counts surfaces that have become ready, and cases.
   [[nodiscard]] std::uint64_t revision() const;
@@ -62,18 +62,18 @@ private:
                                            std::uint64_t number, Progress& progress);
 
   const std::function<void()> m_ready;
-  std::mutex m_quickMutex;  ///< one at a time; taken before the other
-  mutable std::mutex m_mutex;
+  std::mutex m_quickMutex;     ///< held while the quick surface is made; taken before the other
+  mutable std::mutex m_mutex;  ///< guards all that follow
   std::condition_variable m_wake;
   std::shared_ptr<const formats::Case> m_case;
   std::shared_ptr<const ReadySurface> m_quick;
   std::shared_ptr<const formats::Case> m_quickTried;
   std::array<std::shared_ptr<const ReadySurface>, kLevels> m_levels;
   std::array<bool, kLevels> m_failed{};
-  std::shared_ptr<Progress> m_progress;  ///< of what the background makes
+  std::shared_ptr<Progress> m_progress;  ///< of the surface that the background makes
   std::uint64_t m_revision = 1, m_number = 0;
   bool m_allowed = true, m_ended = false;
-  bool m_isAsked = false;  ///< of this case: before that, finer ones would delay the first picture
+  bool m_isAsked = false;  ///< a page has asked for this case; finer surfaces wait for that
   std::thread m_thread;
 };
 

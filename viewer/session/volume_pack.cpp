@@ -19,9 +19,10 @@ namespace lumen::viewer {
 
 namespace {
 
-// What a page begins with shows from the middle of the background to the brightest vessels.
+// The first window of a page: shares of the voxels that are darker, from the middle of the
+// background to the brightest vessels.
 constexpr double kWindowLow = 0.5, kWindowHigh = 0.9995;
-constexpr std::size_t kSampled = 1 << 20;  // voxels that say where a window begins and ends
+constexpr std::size_t kSampled = 1 << 20;  // voxels from which the window is chosen
 
 template <class T>
 std::pair<double, double> rangeOf(const std::vector<T>& voxels) {

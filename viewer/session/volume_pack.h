@@ -13,7 +13,7 @@
 
 namespace lumen::viewer {
 
-/// What is sent of a volume.
+/// The part of a volume that is sent.
 struct VolumeSending {
   /// More voxels than that are averaged in blocks, first along the axis of the least spacing.
   std::size_t mostVoxels = std::size_t{512} * 512 * 512;
@@ -22,7 +22,8 @@ struct VolumeSending {
   bool cropped = false;
 };
 
-/// The pack `volume`, made slice by slice as it is sent. Never changed after construction: any number of threads may ask.
+/// The pack `volume`, made slice by slice as it is sent. Never changed after construction: any
+/// number of threads may ask.
 class VolumePack {
 public:
   /// `name` is a label.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // History, jobs, events and packs, without a server.
-#include <condition_variable>
+#include <atomic>
+#include <functional>
 
 #include "converters/base/error.h"
 #include "served.h"
+#include "viewer/session/conflict.h"
 #include "viewer/session/history.h"
 #include "viewer/session/job_runner.h"
 #include "viewer/session/pack.h"
@@ -58,6 +60,38 @@ TEST(History, OnlyRevisionsOfPartsThatChangedChange) {
   EXPECT_EQ(now.parts.volume, 1U);
 }
 
+TEST(History, EveryChangeOfAPartCountsItsOwnRevisionAlsoWhenItIsUndoneAndDoneAgain) {
+  using Count = std::uint64_t viewer::PartRevisions::*;
+  const std::vector<std::pair<Count, std::function<void(Document&)>>> parts = {
+      {&viewer::PartRevisions::value,
+       [](Document& d) { d.value = std::make_shared<formats::Case>(); }},
+      {&viewer::PartRevisions::truth,
+       [](Document& d) { d.truth = std::make_shared<formats::Case>(); }},
+      {&viewer::PartRevisions::volume,
+       [](Document& d) { d.volume = std::make_shared<convert::Volume>(); }},
+      {&viewer::PartRevisions::seeds,
+       [](Document& d) { d.seeds = std::make_shared<viewer::Seeds>(); }},
+      {&viewer::PartRevisions::meshes, [](Document& d) {
+         d.meshes.push_back({1, "m", std::make_shared<convert::MeshFile>()});
+       }}};
+  for (const auto& [changed, change] : parts) {
+    History history;
+    Document document = history.now().document;
+    change(document);
+    ASSERT_TRUE(history.commit("one", 1, document));
+    const auto expect = [&history, &parts, changed = changed](std::uint64_t revision) {
+      for (const auto& part : parts)
+        EXPECT_EQ(history.now().parts.*part.first, part.first == changed ? revision : 1U);
+      EXPECT_EQ(history.now().revision, revision);
+    };
+    expect(2);
+    ASSERT_TRUE(history.undo());
+    expect(3);
+    ASSERT_TRUE(history.redo());
+    expect(4);
+  }
+}
+
 TEST(History, WhatCanBeUndoneIsForgottenFromTheOldestOnBeyondItsBytes) {
   History history(100 * sizeof(formats::Vec3f) + 3 * sizeof(formats::Case));
   for (std::uint64_t i = 1; i <= 5; ++i) ASSERT_TRUE(history.commit("c", i, withNodes(40)));
@@ -71,13 +105,14 @@ TEST(Jobs, OneRunsAtATimeAndCanBeCancelled) {
   const auto listener = events.listen();
   viewer::JobRunner jobs(
       events, [](std::string_view text) { return std::string(text); }, [] {});
-  const int job = jobs.start("waiting", [](Progress& progress) -> std::string {
+  const int job = jobs.start("waiting", true, [](Progress& progress) -> std::string {
     for (;;) {
       progress.check();
       std::this_thread::yield();
     }
   });
-  EXPECT_THROW(jobs.start("other", [](Progress&) { return std::string(); }), Error);
+  EXPECT_THROW(jobs.start("other", false, [](Progress&) { return std::string(); }),
+               viewer::Conflict);
   EXPECT_FALSE(jobs.cancel(job + 1));
   while (!jobs.cancel(job)) std::this_thread::yield();
   jobs.wait();
@@ -91,12 +126,69 @@ TEST(Jobs, OneRunsAtATimeAndCanBeCancelled) {
   EXPECT_EQ(done["cancelled"], true);
 }
 
+TEST(Jobs, OnlyAJobThatChangesTheDocumentKeepsOthersFromChangingIt) {
+  viewer::EventHub events;
+  viewer::JobRunner jobs(
+      events, [](std::string_view text) { return std::string(text); }, [] {});
+  const auto untilCancelled = [](Progress& progress) -> std::string {
+    for (;;) {
+      progress.check();
+      std::this_thread::yield();
+    }
+  };
+  jobs.start("tracking", true, untilCancelled);
+  EXPECT_THROW(jobs.requireNoChange(), viewer::Conflict);
+  jobs.cancelAll();
+  jobs.wait();
+  EXPECT_NO_THROW(jobs.requireNoChange());
+  jobs.start("checking", false, untilCancelled);
+  EXPECT_NO_THROW(jobs.requireNoChange());
+  jobs.cancelAll();
+  jobs.wait();
+}
+
+TEST(Jobs, OneOfManyThreadsStartsItsJobWithItsOwnKind) {
+  viewer::EventHub events;
+  viewer::JobRunner jobs(
+      events, [](std::string_view text) { return std::string(text); }, [] {});
+  std::atomic<int> begun{0}, wrong{0};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t)
+    threads.emplace_back([&jobs, &begun, &wrong, changes = t % 2 == 0] {
+      for (int i = 0; i < 200; ++i) try {
+          jobs.start(changes ? "changes" : "reads", changes, [&jobs, &wrong, changes](Progress&) {
+            const auto running = jobs.running();
+            wrong += !running || running->changes != changes ||
+                     running->name != (changes ? "changes" : "reads");
+            return std::string();
+          });
+          ++begun;
+        } catch (const viewer::Conflict&) {
+          std::this_thread::yield();
+        }
+    });
+  for (std::thread& thread : threads) thread.join();
+  jobs.wait();
+  EXPECT_GT(begun, 0);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Jobs, AConflictEndsAJobWithItsOwnSentence) {
+  viewer::EventHub events;
+  const auto listener = events.listen();
+  viewer::JobRunner jobs(
+      events, [](std::string_view text) { return std::string(text); }, [] {});
+  jobs.start("late", true, [](Progress&) -> std::string { throw viewer::Conflict("too late"); });
+  jobs.wait();
+  EXPECT_EQ(Json::parse(listener->wait(std::chrono::seconds(10))->data)["text"], "too late");
+}
+
 TEST(Jobs, AnErrorEndsAJobWithItsSentence) {
   viewer::EventHub events;
   const auto listener = events.listen();
   viewer::JobRunner jobs(
       events, [](std::string_view text) { return std::string(text); }, [] {});
-  jobs.start("failing", [](Progress& progress) -> std::string {
+  jobs.start("failing", false, [](Progress& progress) -> std::string {
     progress.warn("careful");
     throw failed("it broke");
   });
@@ -109,8 +201,8 @@ TEST(Events, APageThatDoesNotReadKeepsTheNewestState) {
   viewer::EventHub events;
   const auto listener = events.listen();
   for (int i = 0; i < 10000; ++i) {
-    events.tell("state", {{"revision", i}});
-    events.tell("message", {{"text", i}});
+    events.send("state", {{"revision", i}});
+    events.send("message", {{"text", i}});
   }
   bool hasNewest = false;
   int count = 0;

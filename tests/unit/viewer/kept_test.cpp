@@ -217,6 +217,27 @@ TEST_F(UnsavedTest, OfAnEarlierProgramIsOfferedAndNeverOverwritten) {
   EXPECT_EQ(perform({{"op", "forget"}, {"index", 0}}).status, 400);
 }
 
+TEST_F(UnsavedTest, HasANameOfItsOwnForEachVersionOfACase) {
+  writeCase("head.v1.lumen", twoVessels());
+  writeCase("head.v2.lumen", twoVessels());
+  serve({"head.v1.lumen"});
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  EXPECT_EQ(session->keepUnsaved(), std::vector{path("head.v1.unsaved.lumen").string()});
+  serve({"head.v2.lumen"});
+  EXPECT_TRUE(session->findUnsaved().empty());
+  serve({"head.v1.lumen"});
+  EXPECT_EQ(session->findUnsaved().size(), 1U);
+}
+
+TEST_F(UnsavedTest, IsNotWrittenThroughALinkThatLeadsNowhere) {
+  writeCase("two.lumen", twoVessels());
+  fs::create_symlink("elsewhere.lumen", path("two.unsaved.lumen"));
+  serve({"two.lumen"});
+  ASSERT_EQ(perform({{"op", "rename"}, {"branch", 1}, {"label", "mine"}}).status, 200);
+  EXPECT_EQ(session->keepUnsaved(), std::vector{path("two.unsaved.2.lumen").string()});
+  EXPECT_FALSE(fs::exists(path("elsewhere.lumen")));
+}
+
 TEST_F(UnsavedTest, SeedsAreKeptBesideTheirVolume) {
   writeTube("tube.nrrd");
   serve({"tube.nrrd"});

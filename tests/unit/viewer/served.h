@@ -45,14 +45,14 @@ inline formats::Case twoVessels() {
   return value;
 }
 
-/// A page of which every file says its name.
+/// A page, each file of which holds its own name.
 inline viewer::PageFiles smallPage() {
   return {{"", {"text/html; charset=utf-8", "<!doctype html><title>page</title>"}},
           {"page.js", {"text/javascript; charset=utf-8", "'use strict';/*</script><!--*/"}},
           {"page.css", {"text/css; charset=utf-8", "body{color:red}"}}};
 }
 
-/// What a pack holds.
+/// The contents of a pack.
 struct ReadPack {
   Json json;
   std::string bytes;
@@ -143,7 +143,7 @@ protected:
     request["revision"] = state()["revision"];
     return post("do", request.dump());
   }
-  /// The same, and waits for the end of its job.
+  /// Performs an operation at the document's revision and waits for the end of its job.
   void performAll(const Json& request) const {
     const auto response = perform(request);
     ASSERT_EQ(response.status, 200) << response.body;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page can see and do.
+// Requests of a page.
 #include "served.h"
 
 #include <algorithm>
@@ -119,6 +119,76 @@ TEST_F(WorkTest, AnOldRevisionIsAConflict) {
   EXPECT_EQ(second.status, 409);
   EXPECT_EQ(Json::parse(second.body)["error"],
             "the document has changed meanwhile; look, and try again");
+}
+
+TEST_F(WorkTest, AnUnknownOperationIsCalledUnknownWithAndWithoutACase) {
+  serve({});
+  const auto sentence = [this](const char* op) {
+    return Json::parse(perform({{"op", op}}).body)["error"].get<std::string>();
+  };
+  EXPECT_EQ(sentence("unheard"), "there is no operation \"unheard\"");
+  EXPECT_EQ(sentence("seedUnheard"), "there is no operation \"seedUnheard\"");
+  EXPECT_EQ(sentence("delete"), "there is no case to correct");
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  EXPECT_EQ(sentence("unheard"), "there is no operation \"unheard\"");
+}
+
+TEST_F(WorkTest, EveryChangeIsUndoneAndDoneAgainToTheSameCaseUnderNewRevisions) {
+  formats::Case two = twoVessels();
+  two.models.reset();  // so that nothing has to be fitted
+  writeCase("two.lumen", two);
+  const auto last = two.tree.nodeCount() - 1;
+  const std::vector<Json> changes = {
+      {{"op", "delete"}, {"branch", 1}},
+      {{"op", "cut"}, {"node", 4}},
+      {{"op", "join"}, {"branch", 1}, {"node", 4}},
+      {{"op", "reverse"}, {"branch", 0}},
+      {{"op", "rename"}, {"branch", 1}, {"label", "ica"}},
+      {{"op", "kind"}, {"branch", 1}, {"kind", "aneurysm"}},
+      {{"op", "move"}, {"node", last}, {"position", {5.5, 10, 0.5}}, {"radius", 0.9}},
+      {{"op", "seedAdd"}, {"label", "a"}, {"points", {{{"position", {1, 2, 3}}}}}}};
+  for (const Json& change : changes) {
+    serve({"two.lumen"});
+    const auto bytes = [this] { return get("case.lumen").body + state()["seeds"].dump(); };
+    const auto revision = [this] { return state()["revision"].get<int>(); };
+    const std::string before = bytes();
+    const int first = revision();
+    const auto answer = perform(change);
+    ASSERT_EQ(answer.status, 200) << change << answer.body;
+    waitForJob();
+    const std::string after = bytes();
+    EXPECT_NE(after, before) << change;
+    EXPECT_EQ(revision(), first + 1) << change;
+    ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+    EXPECT_EQ(bytes(), before) << change;
+    EXPECT_EQ(revision(), first + 2) << change;
+    EXPECT_EQ(state()["undo"], nullptr) << change;
+    ASSERT_EQ(perform({{"op", "redo"}}).status, 200);
+    EXPECT_EQ(bytes(), after) << change;
+    EXPECT_EQ(revision(), first + 3) << change;
+  }
+}
+
+TEST_F(WorkTest, ATruthThatIsClosedUndoneAndClosedAgainHasOtherDistances) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  Progress silent;
+  session->open({path("two.lumen"), "truth.lumen", false, true}, silent);
+  const auto revisions = [this] {
+    const Json now = state();
+    return std::pair(now["revisions"]["truth"].get<int>(), get("distance?quick=1").status);
+  };
+  const auto [truth, status] = revisions();
+  EXPECT_EQ(status, 200);
+  const std::string tag = get("distance?quick=1").get_header_value("ETag");
+  ASSERT_EQ(perform({{"op", "closeFile"}, {"id", 2}}).status, 200);
+  EXPECT_EQ(revisions(), std::pair(truth + 1, 404));
+  ASSERT_EQ(perform({{"op", "undo"}}).status, 200);
+  EXPECT_EQ(revisions(), std::pair(truth + 2, 200));
+  EXPECT_NE(get("distance?quick=1").get_header_value("ETag"), tag);
+  ASSERT_EQ(perform({{"op", "redo"}}).status, 200);
+  EXPECT_EQ(revisions(), std::pair(truth + 3, 404));
 }
 
 TEST_F(WorkTest, RenameUndoRedoAndSaveLeaveExactlyThatInTheFile) {
@@ -262,11 +332,12 @@ TEST_F(WorkTest, ALongJobIsCancelledAndLeavesTheDocumentAsItWas) {
   session = std::make_unique<viewer::Session>(endless);
   Progress silent;
   session->open({path("tube.nrrd"), "tube.nrrd"}, silent);
+  serveSession();
   const auto revision = session->now().revision;
-  session->run(
-      {{"op", "seedAdd"}, {"revision", revision}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}});
-  const Json job = session->run({{"op", "track"}, {"revision", revision + 1}});
-  EXPECT_THROW(session->run({{"op", "undo"}, {"revision", revision + 1}}), viewer::Conflict);
+  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+            200);
+  const Json job = Json::parse(perform({{"op", "track"}}).body);
+  EXPECT_EQ(perform({{"op", "undo"}}).status, 409);
   EXPECT_TRUE(session->cancel(job["job"]));
   session->wait();
   EXPECT_EQ(session->now().revision, revision + 1);
@@ -282,7 +353,7 @@ TEST_F(FilesTest, ADroppedCaseOpensAndItsBytesAreGoneAfterwards) {
   waitForJob();
   EXPECT_EQ(state()["title"], "a case.lumen");
   EXPECT_EQ(state()["saveAs"], nullptr);
-  const auto probe = session->placeFor("x").parent_path();
+  const auto probe = session->placeFor("x")->path().parent_path();
   std::size_t left = 0;
   for (const auto& entry : std::filesystem::directory_iterator(probe.parent_path()))
     left += entry.path() != probe;
@@ -290,6 +361,32 @@ TEST_F(FilesTest, ADroppedCaseOpensAndItsBytesAreGoneAfterwards) {
   server.reset();
   session.reset();
   EXPECT_FALSE(std::filesystem::exists(probe.parent_path()));
+}
+
+TEST_F(FilesTest, ADownloadLeavesNoFileBehind) {
+  writeCase("two.lumen", twoVessels());
+  serve({"two.lumen"});
+  const auto own = session->placeFor("x")->path().parent_path();
+  for (const char* const format : {"seeds", "lumen", "obj", "swc"})
+    ASSERT_EQ(get(std::string("save?format=") + format).status, 200) << format;
+  EXPECT_TRUE(std::filesystem::is_empty(own.parent_path()));
+}
+
+TEST_F(FilesTest, AFileThatIsDroppedDuringAJobIsRefusedAndNotKept) {
+  writeTube("tube.nrrd");
+  viewer::SessionOptions endless;
+  endless.track.options.minTrials = endless.track.options.maxTrials = 1000000;
+  endless.track.options.inlierRate = 1;
+  session = std::make_unique<viewer::Session>(endless);
+  Progress silent;
+  session->open({path("tube.nrrd"), "tube.nrrd"}, silent);
+  serveSession();
+  ASSERT_EQ(perform({{"op", "seedAdd"}, {"points", {{{"position", {6.4, 6.4, 6.4}}}}}}).status,
+            200);
+  ASSERT_EQ(perform({{"op", "track"}}).status, 200);
+  EXPECT_EQ(post("file?name=a.obj", "v 0 0 0\n").status, 409);
+  const auto own = session->placeFor("x")->path().parent_path();
+  EXPECT_TRUE(std::filesystem::is_empty(own.parent_path()));
 }
 
 TEST_F(FilesTest, ADroppedCaseIsNotSavedIntoTheFileOfTheOneItReplaces) {

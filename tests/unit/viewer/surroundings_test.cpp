@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is around the page: a browser, connections that end, the program's own end, sizes.
+// Surroundings of the page: a browser, connections that end, the program's own end, sizes.
 #include <atomic>
 #include <cstdlib>
 #include <optional>
@@ -43,16 +43,16 @@ private:
 };
 
 TEST_F(BrowserTest, GetsTheAddressAsOneWord) {
-  write("xdg-open", "#!/bin/sh\nprintf '%s %s' \"$#\" \"$1\" >'" + path("said").string() +
-                        ".part'\nmv '" + path("said").string() + ".part' '" +
-                        path("said").string() + "'\n");
+  write("xdg-open", "#!/bin/sh\nprintf '%s %s' \"$#\" \"$1\" >'" + path("address").string() +
+                        ".part'\nmv '" + path("address").string() + ".part' '" +
+                        path("address").string() + "'\n");
   fs::permissions(path("xdg-open"), fs::perms::owner_all);
   setenv("PATH", (folder.string() + ":" + std::getenv("PATH")).c_str(), 1);
   const std::string address = "http://127.0.0.1:1/a;touch b $(c)/";
   ASSERT_TRUE(viewer::openBrowser(address));
-  while (!fs::exists(path("said"))) std::this_thread::sleep_for(milliseconds(5));
-  std::ifstream said(path("said"));
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(said), {}), "1 " + address);
+  while (!fs::exists(path("address"))) std::this_thread::sleep_for(milliseconds(5));
+  std::ifstream written(path("address"));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(written), {}), "1 " + address);
 }
 
 TEST_F(BrowserTest, IsNoneWhereNothingOpensAddresses) {
@@ -127,7 +127,7 @@ TEST_F(BoundsTest, ADroppedFileBeyondTheBoundIsRefusedAndNothingIsLeft) {
   };
   EXPECT_EQ(status(1000), 200);  // taken, and then no mesh
   waitForJob();
-  const auto place = session->placeFor("x").parent_path();
+  const auto place = session->placeFor("x")->path().parent_path();
   const auto left = [&place] {
     std::size_t files = 0;
     for (const auto& entry : fs::recursive_directory_iterator(place.parent_path()))

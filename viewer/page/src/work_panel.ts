@@ -348,7 +348,7 @@ async function forget(app: App, name: string, index: number): Promise<void> {
   if (
     await askYes(
       "Delete the file?",
-      `${name} holds work that was not saved. Without it, that is gone.`,
+      `${name} holds the only copy of work that was not saved.`,
       "Delete",
     )
   )

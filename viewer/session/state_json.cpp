@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Session: the state, as pages are told it.
+#include "viewer/session/state_json.h"
+
+#include <set>
 #include <string_view>
 
 #include "converters/engine/file_format.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
-#include "viewer/session/session.h"
 
 namespace lumen::viewer {
 
@@ -70,47 +71,54 @@ std::string titleOf(const Document& document) {
   return "lumen";
 }
 
+Json revisionsJson(const Workspace& workspace, const PartRevisions& parts) {
+  const std::uint64_t surface = workspace.surfaces.revision();
+  return {{"case", parts.value},
+          {"surface", surface},
+          {"volume", parts.volume},
+          {"seeds", parts.seeds},
+          {"meshes", parts.meshes},
+          {"truth", parts.truth},
+          {"library", workspace.library.revision()},
+          // of a surface and a truth
+          {"distance", surface + parts.truth}};
+}
+
+Json namesJson(const std::vector<std::filesystem::path>& files) {
+  Json names = Json::array();
+  for (const auto& file : files) names.push_back(formats::printable(file.filename().string()));
+  return names;
+}
+
 }  // namespace
 
-Json Session::state() {
-  const Moment now = m_history.now();
+Json stateJson(const Workspace& workspace) {
+  const Moment now = workspace.history.now();
   const Document& document = now.document;
   Json json;
   json["revision"] = now.revision;
-  json["revisions"] = {{"case", now.parts.value},
-                       {"surface", m_surfaces.revision()},
-                       {"volume", now.parts.volume},
-                       {"seeds", now.parts.seeds},
-                       {"meshes", now.parts.meshes},
-                       {"truth", now.parts.truth},
-                       {"library", m_library ? m_library->readCount() + 1 : 0},
-                       // of a surface and a truth
-                       {"distance", m_surfaces.revision() + now.parts.truth}};
+  json["revisions"] = revisionsJson(workspace, now.parts);
   json["title"] = titleOf(document);
   json["hasVolume"] = document.volume != nullptr;
   json["hasCase"] = document.value != nullptr;
   json["hasTruth"] = document.truth != nullptr;
   json["meshes"] = meshesJson(document);
   json["seeds"] = seedsJson(document);
-  json["undo"] = orNull(m_history.undoName());
-  json["redo"] = orNull(m_history.redoName());
-  json["unsaved"] = unsaved();
-  const auto running = m_jobs.running();
+  json["undo"] = orNull(workspace.history.undoName());
+  json["redo"] = orNull(workspace.history.redoName());
+  json["unsaved"] = workspace.saving.unsaved(document).any();
+  const auto running = workspace.jobs.running();
   json["job"] = running ? Json({{"job", running->job}, {"name", running->name}}) : Json(nullptr);
   json["formats"] = formatsJson(document);
-  const std::lock_guard lock(m_mutex);
-  json["files"] = filesJson(document, m_changedFiles);
-  json["unsavedBefore"] = Json::array();
-  for (const auto& file : m_leftBehind)
-    json["unsavedBefore"].push_back(formats::printable(file.filename().string()));
-  json["openCase"] = m_openCase ? Json(*m_openCase) : Json(nullptr);
-  const auto target = saveTarget(document);
+  json["files"] = filesJson(document, workspace.changedFiles.ids());
+  json["unsavedBefore"] = namesJson(workspace.unsavedWork.found());
+  const auto openCase = workspace.library.openCase();
+  json["openCase"] = openCase ? Json(*openCase) : Json(nullptr);
+  const auto target = workspace.saving.target(document);
   json["saveAs"] = target.empty() ? Json(nullptr) : Json(target.filename().string());
-  json["check"] = m_check;
-  json["checkIsOld"] = m_check.is_object() && m_checkedCase != document.value;
-  json["figures"] = m_comparedCase == document.value && m_comparedTruth == document.truth
-                        ? m_figures
-                        : Json(nullptr);
+  json["check"] = workspace.findings.check();
+  json["checkIsOld"] = workspace.findings.isCheckOld(document);
+  json["figures"] = workspace.findings.figures(document);
   return json;
 }
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/document_packs.h"
+
+#include <utility>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/geometry/tube_tree_distance.h"
+#include "formats/case/binary_encode.h"
+#include "viewer/session/case_pack.h"
+#include "viewer/session/pack.h"
+#include "viewer/session/surface_pack.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+constexpr std::size_t kAtOnce = 1024;  // vertices between two looks whether to go on
+
+}  // namespace
+
+Tagged DocumentPacks::casePack(const Moment& now, Progress& progress) {
+  if (!now.document.value) return {};
+  const std::string tag = std::to_string(now.parts.value);
+  {
+    const std::lock_guard lock(m_mutex);
+    if (m_case.tag == tag) return m_case;
+  }
+  Tagged made = tagged(tag, viewer::casePack(*now.document.value, true, progress));
+  const std::lock_guard lock(m_mutex);
+  return m_case = std::move(made);
+}
+
+std::shared_ptr<const VolumePack> DocumentPacks::volumePack(const Moment& now, std::string& tag) {
+  if (!now.document.volume) return nullptr;
+  tag = std::to_string(now.parts.volume);
+  const std::lock_guard lock(m_mutex);
+  if (m_packed != now.document.volume) {
+    m_volume = std::make_shared<const VolumePack>(now.document.volume,
+                                                  now.document.labelOf(FileRole::Volume));
+    m_packed = now.document.volume;
+  }
+  return m_volume;
+}
+
+Tagged caseFile(const Moment& now) {
+  if (!now.document.value) return {};
+  const std::vector<std::byte> bytes = formats::encodeBinary(*now.document.value);
+  return tagged(std::to_string(now.parts.value),
+                {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Tagged meshPack(const Moment& now, int id) {
+  for (const OpenMesh& mesh : now.document.meshes)
+    if (mesh.id == id) return tagged(std::to_string(id), meshPack(*mesh.mesh));
+  return {};
+}
+
+Tagged distancePack(const Moment& now, const std::shared_ptr<const ReadySurface>& surface,
+                    const Json& figures, Progress& progress) {
+  if (!now.document.truth || !surface) return {};
+  const TubeTreeDistance wall(now.document.truth->tree);
+  const auto& position = surface->mesh->position;
+  std::vector<float> distance(position.size());
+  tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
+    if (v % kAtOnce == 0) progress.check();
+    const auto& p = position[v];
+    distance[v] =
+        static_cast<float>(wall.nearest({double{p[0]}, double{p[1]}, double{p[2]}}).distance);
+  });
+  PackWriter pack;
+  pack.add("distance", distance);
+  pack.set("figures", figures);
+  // the same surface and the same truth have the same distances
+  return tagged(surface->tag + "-" + std::to_string(now.parts.truth), pack.bytes());
+}
+
+}  // namespace lumen::viewer

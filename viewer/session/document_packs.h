@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of the document as pages fetch them.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "converters/base/progress.h"
+#include "viewer/session/arguments.h"
+#include "viewer/session/history.h"
+#include "viewer/session/surfaces.h"
+#include "viewer/session/tagged.h"
+#include "viewer/session/volume_pack.h"
+
+namespace lumen::viewer {
+
+/// Keeps the packs of the case and of the volume until a later moment has other ones. All calls are
+/// thread-safe.
+class DocumentPacks {
+public:
+  Tagged casePack(const Moment& now, Progress& progress);
+  /// Null without a volume; `tag` names the volume.
+  std::shared_ptr<const VolumePack> volumePack(const Moment& now, std::string& tag);
+
+private:
+  std::mutex m_mutex;  ///< guards all that follow
+  Tagged m_case;
+  std::shared_ptr<const convert::Volume> m_packed;
+  std::shared_ptr<const VolumePack> m_volume;
+};
+
+/// The case as a file.
+Tagged caseFile(const Moment& now);
+
+/// The mesh of that number.
+Tagged meshPack(const Moment& now, int id);
+
+/// The distances of a surface's vertices to the truth, and the figures of a comparison with it.
+Tagged distancePack(const Moment& now, const std::shared_ptr<const ReadySurface>& surface,
+                    const Json& figures, Progress& progress);
+
+}  // namespace lumen::viewer

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/file_operations.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "formats/container/printable.h"
+#include "viewer/session/conflict.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = std::size_t{1} << 30;
+
+std::string nameOf(const fs::path& file) {
+  return formats::printable(file.filename().string());
+}
+
+}  // namespace
+
+void FileOperations::open(const Opening& opening, Progress& progress) {
+  const Moment before = m_workspace.history.now();
+  Document document = withFile(before.document, opening, m_workspace.nextFile(),
+                               m_workspace.options.volume, progress);
+  if (document.value != before.document.value) m_workspace.saving.holdCase(document.value);
+  if (document.seeds != before.document.seeds) m_workspace.saving.holdSeeds(document.seeds);
+  if (opening.dropped)
+    return m_workspace.commit("open " + opening.label, before, std::move(document));
+  // the files that the user began with cannot be undone
+  m_workspace.history.begin(std::move(document));
+  m_workspace.announce();
+}
+
+Json FileOperations::openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label,
+                                 bool asTruth) {
+  return m_workspace.startJob(
+      "opening " + formats::printable(label), true,
+      [this, file = std::move(file), label, asTruth](Progress& progress) mutable {
+        const auto read = std::exchange(file, nullptr);  // removed before the job reports its end
+        open({read->path(), label, true, asTruth}, progress);
+        return formats::printable(label) + " is open";
+      });
+}
+
+Json FileOperations::openCase(const Arguments& request) {
+  const Library* library = m_workspace.library.library();
+  if (library == nullptr) throw Error(ErrorKind::Usage, "no library is open");
+  const std::size_t index = request.index("index", library->size());
+  if (m_workspace.hasUnsaved() && !request.flag("force"))
+    throw Conflict("the open case has changes that are not saved");
+  return m_workspace.startJob(
+      "opening " + library->at(index).name, true,
+      [this, index](Progress& progress) { return openListed(index, progress); });
+}
+
+std::string FileOperations::openListed(std::size_t index, Progress& progress) {
+  const Library& library = *m_workspace.library.library();
+  const auto& [file, name, keptAt] = library.at(index);
+  // truth, seeds and meshes belong to the vessel tree that was open
+  Document document =
+      withFile({}, {file, name}, m_workspace.nextFile(), m_workspace.options.volume, progress);
+  progress.check();
+  const auto kept = m_workspace.keepUnsaved();  // nothing can be undone afterwards
+  m_workspace.saving.holdCase(document.value);
+  m_workspace.saving.holdSeeds(nullptr);
+  m_workspace.findings.clear();
+  m_workspace.library.setOpenCase(index);
+  m_workspace.history.begin(std::move(document));
+  if (library.isPublished())
+    m_workspace.saving.saveNowhere(keptAt);
+  else
+    m_workspace.saving.saveTo(file);
+  m_workspace.findUnsaved();
+  return name + " is open" +
+         (kept.empty() ? "" : "; unsaved work on the case before is in " + nameOf(kept.front()));
+}
+
+Json FileOperations::reload(const Arguments& request, const Moment& from) {
+  const auto id = static_cast<int>(request.index("id", kMostFiles));
+  const auto& files = from.document.files;
+  const auto file =
+      std::find_if(files.begin(), files.end(), [id](const OpenFile& f) { return f.id == id; });
+  if (file == files.end() || file->path.empty())
+    throw Error(ErrorKind::Usage, "no file of number " + std::to_string(id) + " was named");
+  return m_workspace.startJob("reading " + file->label + " again", true,
+                              [this, from, file = *file](Progress& progress) {
+                                reloadFile(file, from, progress);
+                                return file.label + " was read again";
+                              });
+}
+
+void FileOperations::reloadFile(const OpenFile& file, const Moment& from, Progress& progress) {
+  const Opening opening{file.path, file.label, false, file.role == FileRole::Truth};
+  if (const FileRole role = roleOf(opening); role != file.role)
+    throw invalidInput(file.label + ": it was " + roleName(file.role) + ", and is " +
+                       roleName(role) + " now; open it by itself");
+  // a mesh is added to the others, other parts replace the one before
+  const Document before =
+      file.role == FileRole::Mesh ? withoutFile(from.document, file.id) : from.document;
+  Document document = withFile(before, opening, file.id, m_workspace.options.volume, progress);
+  if (file.role == FileRole::Case) m_workspace.saving.holdCase(document.value);
+  if (file.role == FileRole::Seeds) m_workspace.saving.holdSeeds(document.seeds);
+  m_workspace.saving.acceptTarget(file.path);
+  m_workspace.commit("read " + file.label + " again", from, std::move(document));
+  if (m_workspace.changedFiles.look(m_workspace.history.now().document))
+    m_workspace.announceState();
+}
+
+Json FileOperations::close(const Arguments& request, const Moment& from) {
+  const auto id = static_cast<int>(request.index("id", kMostFiles));
+  m_workspace.commit("close a file", from, withoutFile(from.document, id));
+  return m_workspace.revision();
+}
+
+Json FileOperations::save(const Arguments& request, const Moment& from) {
+  Document document = from.document;
+  const fs::path file = m_workspace.saving.save(document, request.flag("force"));
+  m_workspace.history.restamp(document.files);
+  m_workspace.keepUnsaved();
+  m_workspace.sendMessage("note", file.filename().string() + " is saved");
+  m_workspace.announce();
+  return m_workspace.revision();
+}
+
+fs::path FileOperations::foundCopy(const Arguments& request) const {
+  const auto found = m_workspace.unsavedWork.found();
+  return found[request.index("index", found.size())];
+}
+
+Json FileOperations::recover(const Arguments& request, const Moment& from) {
+  const fs::path file = foundCopy(request);
+  const std::string name = nameOf(file);
+  return m_workspace.startJob(
+      "reading " + name, true, [this, file, name, from](Progress& progress) {
+        const Document read =
+            withFile(from.document, {file, name}, 0, m_workspace.options.volume, progress);
+        Document document = from.document;
+        document.value = read.value;
+        document.seeds = read.seeds;
+        m_workspace.commit("take " + name, from, std::move(document));
+        return "this is " + name + ", which was not saved";
+      });
+}
+
+Json FileOperations::forget(const Arguments& request) {
+  m_workspace.unsavedWork.remove(foundCopy(request));
+  m_workspace.announce();
+  return m_workspace.revision();
+}
+
+}  // namespace lumen::viewer

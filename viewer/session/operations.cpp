@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/operations.h"
+
+#include <utility>
+
+#include "converters/base/error.h"
+#include "viewer/session/corrections.h"
+#include "viewer/session/seed_changes.h"
+
+namespace lumen::viewer {
+
+Json Operations::run(formats::JsonValue request) {
+  const Arguments arguments(request);
+  const std::string op = arguments.text("op");
+  const std::lock_guard gate(m_gate);
+  const Moment from = m_workspace.momentFor(arguments);
+  if (op == "save") return m_files.save(arguments, from);
+  if (op == "forget") return m_files.forget(arguments);
+  if (op == "check") return m_stages.check(from);
+  if (op == "compare") return m_stages.compare(from);
+  m_workspace.jobs.requireNoChange();
+  return change(op, arguments, from);
+}
+
+Json Operations::openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label,
+                             bool asTruth) {
+  const std::lock_guard gate(m_gate);
+  return m_files.openDropped(std::move(file), label, asTruth);
+}
+
+Json Operations::change(const std::string& op, const Arguments& request, const Moment& from) {
+  if (op == "undo" || op == "redo") return step(op == "redo");
+  if (op == "openCase") return m_files.openCase(request);
+  if (op == "reload") return m_files.reload(request, from);
+  if (op == "recover") return m_files.recover(request, from);
+  if (op == "closeFile") return m_files.close(request, from);
+  if (op == "track") return m_stages.track(request, from);
+  if (op == "fit") return m_stages.fit(from);
+  if (auto seeds = changeSeeds(op, request, from.document)) {
+    m_workspace.commit(seeds->title, from, std::move(seeds->document));
+    Json answer = m_workspace.revision();
+    answer["label"] = seeds->label;
+    return answer;
+  }
+  if (auto correction = viewer::correct(op, request, from.document)) {
+    m_workspace.warnOfDropped(correction->change.droppedArrays);
+    if (!correction->change.stale.empty()) return m_stages.refit(std::move(*correction), from);
+    m_workspace.commit(correction->change.sentence, from, std::move(correction->document));
+    return m_workspace.revision();
+  }
+  throw Error(ErrorKind::Usage, "there is no operation \"" + op + "\"");
+}
+
+Json Operations::step(bool forward) {
+  History& history = m_workspace.history;
+  if (!(forward ? history.redo() : history.undo()))
+    throw Error(ErrorKind::Usage, forward ? "nothing to redo" : "nothing to undo");
+  m_workspace.announce();
+  return m_workspace.revision();
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/saving.h"
+
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/progress.h"
+#include "converters/engine/file_format.h"
+#include "converters/io/seeds/seeds.h"
+#include "viewer/session/conflict.h"
+
+namespace lumen::viewer {
+
+namespace fs = std::filesystem;
+
+void Saving::saveTo(const fs::path& file) {
+  const std::lock_guard lock(m_mutex);
+  m_target = fs::absolute(file);
+  m_stamp = stampOf(m_target);
+}
+
+void Saving::saveNowhere(const fs::path& place) {
+  const std::lock_guard lock(m_mutex);
+  m_target.clear();
+  m_stamp = {};
+  m_keepAt = fs::absolute(place);
+}
+
+void Saving::acceptTarget(const fs::path& file) {
+  const std::lock_guard lock(m_mutex);
+  if (fs::absolute(file) == m_target) m_stamp = stampOf(m_target);
+}
+
+void Saving::holdCase(std::shared_ptr<const formats::Case> value) {
+  const std::lock_guard lock(m_mutex);
+  m_case = std::move(value);
+}
+
+void Saving::holdSeeds(std::shared_ptr<const Seeds> seeds) {
+  const std::lock_guard lock(m_mutex);
+  m_seeds = std::move(seeds);
+}
+
+fs::path Saving::lockedTarget(const Document& document) const {
+  const OpenFile* open = document.fileOf(FileRole::Case);
+  const bool wasDropped = open != nullptr && open->path.empty();
+  return wasDropped && m_stamp != FileStamp{} ? fs::path() : m_target;
+}
+
+fs::path Saving::target(const Document& document) const {
+  const std::lock_guard lock(m_mutex);
+  return lockedTarget(document);
+}
+
+fs::path Saving::place(const Document& document) const {
+  {
+    const std::lock_guard lock(m_mutex);
+    if (!m_target.empty()) return m_target;
+    if (!m_keepAt.empty()) return m_keepAt;
+  }
+  const OpenFile* volume = document.fileOf(FileRole::Volume);
+  return volume != nullptr && !volume->path.empty() ? volume->path : fs::path("lumen");
+}
+
+UnsavedParts Saving::unsaved(const Document& document) const {
+  const std::lock_guard lock(m_mutex);
+  // a case holds the seeds that it was tracked from
+  const bool areInCase = document.fileOf(FileRole::Seeds) == nullptr && document.value != nullptr;
+  const bool otherSeeds = m_seeds ? document.seeds != m_seeds : !document.seeds->empty();
+  return {document.value && document.value != m_case, otherSeeds && !areInCase};
+}
+
+fs::path Saving::checkedTarget(const Document& document, bool force) const {
+  const std::lock_guard lock(m_mutex);
+  const fs::path file = lockedTarget(document);
+  if (!file.empty() && stampOf(file) != m_stamp && !force)
+    throw Conflict(file.filename().string() +
+                   " was changed by another program since it was read; saving would undo that");
+  if (file.empty() || !document.value)
+    throw Error(ErrorKind::Usage, "there is no case, or no file that it came from; download it");
+  return file;
+}
+
+fs::path Saving::save(Document& document, bool force) {
+  const fs::path file = checkedTarget(document, force);
+  Progress silent;
+  app::caseOutputFormat(file, "", "the saved case").writeCase(*document.value, file, {}, silent);
+  const OpenFile* seeds = document.fileOf(FileRole::Seeds);
+  if (seeds != nullptr && !seeds->path.empty() && unsaved(document).hasSeeds)
+    convert::writeSeeds(*document.seeds, seeds->path);
+  for (OpenFile& open : document.files)
+    if ((open.role == FileRole::Case || open.role == FileRole::Seeds) && !open.path.empty())
+      open.stamp = stampOf(open.path);
+  const std::lock_guard lock(m_mutex);
+  m_case = document.value;
+  m_seeds = document.seeds;
+  m_stamp = stampOf(file);
+  return file;
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the document is saved, and which of its parts the files on disk hold.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+
+#include "viewer/session/document.h"
+
+namespace lumen::viewer {
+
+/// The parts of a document that no file holds.
+struct UnsavedParts {
+  bool hasCase = false, hasSeeds = false;
+  [[nodiscard]] bool any() const { return hasCase || hasSeeds; }
+};
+
+/// All calls are thread-safe. The stamp is that of the target when this program last read or wrote
+/// it, so a target with another stamp was changed by another program.
+class Saving {
+public:
+  /// The document is saved into this file from now on.
+  void saveTo(const std::filesystem::path& file);
+  /// The document has no file, so pages download it; its unsaved work is kept beside `place`.
+  void saveNowhere(const std::filesystem::path& place);
+  /// Another program's version of the file was read: if it is the target, it may be overwritten.
+  void acceptTarget(const std::filesystem::path& file);
+
+  /// Files hold these parts.
+  void holdCase(std::shared_ptr<const formats::Case> value);
+  void holdSeeds(std::shared_ptr<const Seeds> seeds);
+
+  /// The target, or an empty path: a dropped case, which has replaced the one of the target, is
+  /// never written into it.
+  [[nodiscard]] std::filesystem::path target(const Document& document) const;
+  /// The file beside which unsaved work is kept.
+  [[nodiscard]] std::filesystem::path place(const Document& document) const;
+  [[nodiscard]] UnsavedParts unsaved(const Document& document) const;
+  /// Writes the case into the target and changed seeds into their own file; returns the target and
+  /// gives these files of `document` their new stamps. Throws Conflict if another program has
+  /// changed the target, unless `force`; Error(Usage) if there is no case or no target. One call at
+  /// a time.
+  std::filesystem::path save(Document& document, bool force);
+
+private:
+  /// Call it with the mutex held.
+  [[nodiscard]] std::filesystem::path lockedTarget(const Document& document) const;
+  [[nodiscard]] std::filesystem::path checkedTarget(const Document& document, bool force) const;
+
+  mutable std::mutex m_mutex;  ///< guards all that follow
+  std::filesystem::path m_target;
+  FileStamp m_stamp;               ///< of the target
+  std::filesystem::path m_keepAt;  ///< counts where there is no target
+  std::shared_ptr<const formats::Case> m_case;
+  std::shared_ptr<const Seeds> m_seeds;
+};
+
+}  // namespace lumen::viewer

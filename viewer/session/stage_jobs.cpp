@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/stage_jobs.h"
+
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/text.h"
+#include "converters/engine/centerline_input.h"
+#include "converters/engine/check_report.h"
+#include "converters/engine/comparison_report.h"
+#include "converters/engine/stages.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/judge/compare/compare.h"
+#include "converters/stages/fitting/fit.h"
+#include "converters/stages/fitting/refit.h"
+#include "viewer/session/vessel_tracking.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+/// Adds to each missing vessel of `answer` the clicks from which it is tracked.
+void addClicks(Json& answer, const convert::Missing& missing) {
+  for (std::size_t i = 0; i < missing.vessels.size(); ++i) {
+    const convert::Clicks clicks = convert::clicksOn(missing.vessels[i]);
+    Json points = Json::array();
+    for (const Eigen::Vector3d& p : clicks.points) points.push_back({p.x(), p.y(), p.z()});
+    answer["missing_vessels"][i]["clicks"] = {
+        {"points", std::move(points)}, {"radius", clicks.radius}, {"beside", clicks.beside}};
+  }
+}
+
+/// Whether the case was made from this volume, for the answer of a check.
+std::string sourceOf(const formats::Case& value, const convert::Volume& volume) {
+  if (!value.metadata.source) return "unknown";
+  const auto difference =
+      convert::sourceDifference(convert::describeSource(volume), *value.metadata.source);
+  return difference ? "other " + difference->what : "same";
+}
+
+std::string missingSentence(std::size_t missing) {
+  if (missing == 0) return "the check found no vessel that is missing";
+  return counted(missing, "vessel", "vessels") + " of the volume " + (missing == 1 ? "is" : "are") +
+         " missing";
+}
+
+}  // namespace
+
+Json StageJobs::track(const Arguments& request, const Moment& from) {
+  if (!from.document.volume) throw Error(ErrorKind::Usage, "tracking needs a volume");
+  const Seeds seeds = untrackedSeeds(from.document, request);
+  if (seeds.empty()) throw Error(ErrorKind::Usage, "there is no seed that is not tracked yet");
+  Workspace& workspace = m_workspace;
+  return workspace.startJob("tracking", true, [&workspace, from, seeds](Progress& progress) {
+    TrackedCase tracked =
+        trackedFrom(from.document, seeds, workspace.tracking, workspace.options, progress);
+    Document document = from.document;
+    document.value = std::move(tracked.value);
+    const std::string title =
+        "track " +
+        (seeds.size() == 1 ? seeds.front().label : counted(seeds.size(), "seed", "seeds"));
+    workspace.commit(title, from, std::move(document));
+    workspace.warnOfDropped(tracked.droppedArrays);
+    return counted(tracked.newVessels, "vessel", "vessels") + " tracked";
+  });
+}
+
+Json StageJobs::fit(const Moment& from) {
+  if (!from.document.value || !from.document.value->points)
+    throw Error(ErrorKind::Usage, "there are no wall points to fit to");
+  Workspace& workspace = m_workspace;
+  return workspace.startJob("fitting", true, [&workspace, from](Progress& progress) {
+    auto value = std::make_shared<formats::Case>(*from.document.value);
+    convert::fit(*value, app::fitOptionsFor(*value, workspace.options.fit.options()), progress);
+    Document document = from.document;
+    document.value = std::move(value);
+    workspace.commit("fit", from, std::move(document));
+    return std::string("every node has its model");
+  });
+}
+
+Json StageJobs::refit(Correction correction, const Moment& from) {
+  Workspace& workspace = m_workspace;
+  return workspace.startJob(
+      "fitting what changed", true, [&workspace, from, correction](Progress& progress) {
+        const auto& [change, value, document] = correction;
+        convert::refit(*value, change.stale, convert::recordedFitOptions(*value), progress);
+        workspace.commit(change.sentence, from, document);
+        return change.sentence;
+      });
+}
+
+Json StageJobs::check(const Moment& from) {
+  if (!from.document.volume || !from.document.hasModels())
+    throw Error(ErrorKind::Usage, "a check needs a volume and a case with models");
+  Workspace& workspace = m_workspace;
+  return workspace.startJob("checking", false, [&workspace, from](Progress& progress) {
+    const auto value = from.document.value;
+    const convert::Volume& volume = *from.document.volume;
+    const auto result =
+        convert::checkCase(volume, *value, convert::recordedEdgeOptions(*value), progress);
+    Json answer = app::checkJson(result.report, value->tree, sourceOf(*value, volume));
+    addClicks(answer, result.report.missing);
+    workspace.findings.setCheck(std::move(answer), value);
+    return missingSentence(result.report.missing.vessels.size());
+  });
+}
+
+Json StageJobs::compare(const Moment& from) {
+  if (!from.document.value || !from.document.truth)
+    throw Error(ErrorKind::Usage, "a comparison needs a case and a truth");
+  Workspace& workspace = m_workspace;
+  return workspace.startJob("comparing", false, [&workspace, from](Progress& progress) {
+    const auto& [value, truth] = std::tie(from.document.value, from.document.truth);
+    const auto comparison = convert::compareCases(*value, *truth, progress);
+    workspace.findings.setFigures(app::comparisonJson(comparison), value, truth);
+    return std::string("compared");
+  });
+}
+
+}  // namespace lumen::viewer

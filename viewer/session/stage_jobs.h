@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stages of the chain as jobs: tracking, fitting, checks and comparisons.
+#pragma once
+
+#include "viewer/session/corrections.h"
+#include "viewer/session/workspace.h"
+
+namespace lumen::viewer {
+
+/// Each call checks what its stage needs, starts a job and answers {"job"}. Throws Error(Usage),
+/// and Conflict while another job runs. One call at a time.
+class StageJobs {
+public:
+  explicit StageJobs(Workspace& workspace) : m_workspace(workspace) {}
+
+  Json track(const Arguments& request, const Moment& from);
+  /// Fits all models anew.
+  Json fit(const Moment& from);
+  /// Fits the stale models of a correction, and then commits it.
+  Json refit(Correction correction, const Moment& from);
+  Json check(const Moment& from);
+  Json compare(const Moment& from);
+
+private:
+  Workspace& m_workspace;
+};
+
+}  // namespace lumen::viewer

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/unsaved_work.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/engine/file_access.h"
+#include "converters/io/seeds/seeds.h"
+#include "formats/container/printable.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kCase = ".lumen", *kSeeds = ".seeds.json";
+
+// Endings of two parts; of any other name the last part is its ending.
+constexpr std::array<std::string_view, 2> kDoubleEndings = {".lumen.json", ".nii.gz"};
+
+/// "head.v1.unsaved" of "head.v1.lumen".
+std::string stem(const fs::path& file) {
+  const std::string name = file.filename().string();
+  for (const std::string_view ending : kDoubleEndings)
+    if (name.size() > ending.size() && name.ends_with(ending))
+      return name.substr(0, name.size() - ending.size()) + ".unsaved";
+  return file.stem().string() + ".unsaved";
+}
+
+/// A link counts by itself: one that leads nowhere is not free, as writing would follow it.
+bool isFree(const fs::path& file) {
+  std::error_code ignored;
+  return !fs::exists(fs::symlink_status(file, ignored));
+}
+
+fs::path freeName(const fs::path& place, const std::string& ending) {
+  const fs::path folder = place.parent_path();
+  fs::path file = folder / (stem(place) + ending);
+  for (int i = 2; !isFree(file); ++i)
+    file = folder / (stem(place) + "." + std::to_string(i) + ending);
+  return file;
+}
+
+void removeFile(fs::path& file) {
+  std::error_code ignored;
+  if (!file.empty()) fs::remove(file, ignored);
+  file.clear();
+}
+
+}  // namespace
+
+std::vector<fs::path> unsavedOf(const fs::path& file) {
+  std::vector<fs::path> found;
+  const fs::path folder = file.parent_path();
+  const std::string begin = stem(file) + ".";
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end;
+       !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(begin) && (name.ends_with(kCase) || name.ends_with(kSeeds)))
+      found.push_back(folder / name);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+template <class Part, class Write>
+void UnsavedWork::keepPart(fs::path& file, std::shared_ptr<const Part>& kept,
+                           const std::shared_ptr<const Part>& part, const char* ending,
+                           const Write& write) {
+  if (!part) removeFile(file);
+  if (part && part != kept) {
+    if (file.empty()) file = freeName(m_place, ending);
+    write(*part, file);
+  }
+  kept = part;
+}
+
+std::vector<fs::path> UnsavedWork::keep(const fs::path& place,
+                                        const std::shared_ptr<const formats::Case>& value,
+                                        const std::shared_ptr<const Seeds>& seeds) {
+  const std::lock_guard lock(m_keepMutex);
+  if (place != m_place) {
+    m_place = place;
+    m_caseFile.clear();
+    m_seedsFile.clear();
+    m_case = nullptr;
+    m_seeds = nullptr;
+  }
+  keepPart(m_caseFile, m_case, value, kCase, [](const formats::Case& part, const fs::path& file) {
+    app::writeCase(part, file, formats::CaseEncoding::Binary, {});
+  });
+  keepPart(m_seedsFile, m_seeds, seeds, kSeeds,
+           [](const Seeds& part, const fs::path& file) { convert::writeSeeds(part, file); });
+  std::vector<fs::path> copies;
+  for (const fs::path& file : {m_caseFile, m_seedsFile})
+    if (!file.empty()) copies.push_back(file);
+  return copies;
+}
+
+std::vector<fs::path> UnsavedWork::find(const fs::path& place) {
+  std::vector<fs::path> found = unsavedOf(place);
+  const std::lock_guard lock(m_foundMutex);
+  return m_found = std::move(found);
+}
+
+std::vector<fs::path> UnsavedWork::found() const {
+  const std::lock_guard lock(m_foundMutex);
+  return m_found;
+}
+
+void UnsavedWork::remove(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error)
+    throw failed(formats::printable(file.filename().string()) +
+                 " cannot be removed: " + error.message());
+  const std::lock_guard lock(m_foundMutex);
+  std::erase(m_found, file);
+}
+
+}  // namespace lumen::viewer

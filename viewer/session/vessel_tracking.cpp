@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/session/vessel_tracking.h"
+
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/engine/centerline_input.h"
+#include "converters/engine/stages.h"
+#include "converters/stages/fitting/fit.h"
+#include "converters/stages/fitting/refit.h"
+#include "converters/stages/tracking/snap.h"
+#include "converters/stages/tracking/track_further.h"
+#include "formats/container/printable.h"
+
+namespace lumen::viewer {
+
+namespace {
+
+bool hasVessels(const Document& document) {
+  return document.value && document.value->tree.nodeCount() > 0;
+}
+
+void warnAbout(const std::vector<convert::SeedFailure>& failures, const std::string& outcome,
+               Progress& progress) {
+  for (const convert::SeedFailure& failure : failures)
+    progress.warn("seed \"" + formats::printable(failure.label) + "\"" + outcome + failure.reason);
+}
+
+/// A case that has its tree, wall points and models from these seeds alone.
+formats::Case trackedAnew(const Document& document, const Seeds& seeds,
+                          const SessionOptions& options, Progress& progress) {
+  app::TrackArguments arguments = options.track;
+  arguments.seeds = "the seeds";
+  formats::Case value = app::trackSeeds(*document.volume, seeds, arguments, progress).result;
+  convert::fit(value, app::fitOptionsFor(value, options.fit.options()), progress);
+  return value;
+}
+
+/// The case with further vessels, to which `seeds` lead; it keeps those that it had.
+formats::Case trackedFurther(const convert::TrackingVolume& volume, const formats::Case& known,
+                             const Seeds& seeds, std::vector<std::string>& dropped,
+                             Progress& progress) {
+  convert::FurtherTracks tracks = convert::trackFurther(volume, known, seeds, progress);
+  warnAbout(tracks.failures, " started no track: ", progress);
+  warnAbout(tracks.missedPoints, " does not pass through its ", progress);
+  warnAbout(tracks.unjoined, " is not joined to its parent: ", progress);
+  formats::Case value = std::move(tracks.result);
+  if (value.tree.nodeCount() == known.tree.nodeCount())
+    throw failed(seeds.size() == 1 ? "the seed started no track"
+                                   : "none of the seeds started a track");
+  dropped = std::move(tracks.droppedArrays);
+  if (!known.models) return value;
+  std::vector<std::uint32_t> before(value.tree.nodeCount(), UINT32_MAX);
+  std::iota(before.begin(), before.begin() + tracks.firstNewNode, 0U);
+  convert::refit(value, convert::staleNodes(known, value, before),
+                 convert::recordedFitOptions(value), progress);
+  return value;
+}
+
+}  // namespace
+
+Seeds untrackedSeeds(const Document& document, const Arguments& request) {
+  std::set<std::string> known;
+  if (document.value)
+    for (const formats::Branch& branch : document.value->tree.branches) known.insert(branch.label);
+  std::set<std::string> wanted;
+  if (request.has("labels"))
+    for (std::string& label : request.texts("labels")) wanted.insert(std::move(label));
+  Seeds seeds;
+  for (const convert::SeedBranch& seed : *document.seeds)
+    if (!known.contains(seed.label) && (wanted.empty() || wanted.contains(seed.label)))
+      seeds.push_back(seed);
+  for (const convert::SeedBranch& seed : seeds) known.insert(seed.label);
+  for (convert::SeedBranch& seed : seeds)
+    if (seed.parent && !known.contains(*seed.parent)) seed.parent.reset();
+  return seeds;
+}
+
+TrackedCase trackedFrom(const Document& document, const Seeds& seeds, TrackingCache& cache,
+                        const SessionOptions& options, Progress& progress) {
+  TrackedCase tracked;
+  tracked.value = std::make_shared<const formats::Case>(
+      hasVessels(document)
+          ? trackedFurther(*cache.volumeFor(document, seeds, options.track.options, progress),
+                           *document.value, seeds, tracked.droppedArrays, progress)
+          : trackedAnew(document, seeds, options, progress));
+  const std::size_t had = document.value ? document.value->tree.branches.size() : 0;
+  tracked.newVessels = tracked.value->tree.branches.size() - had;
+  return tracked;
+}
+
+Json vesselNear(const Eigen::Vector3d& click, const Document& document, TrackingCache& cache,
+                const convert::TrackOptions& options) {
+  if (!document.volume) throw Error(ErrorKind::Usage, "there is no volume to look for a vessel in");
+  const auto json = [](const Eigen::Vector3d& v) -> Json { return {v.x(), v.y(), v.z()}; };
+  if (!document.volume->geometry.containsWorld(click))
+    return {{"found", false}, {"position", json(click)}, {"reason", "outside of the volume"}};
+  convert::SeedBranch seed;
+  seed.label = "click";
+  seed.points.push_back({click, std::nullopt});
+  Progress silent;
+  const auto snap =
+      convert::snapToVessel(*cache.volumeFor(document, {seed}, options, silent), click);
+  return {{"found", snap.found},
+          {"position", json(snap.position)},
+          {"direction", json(snap.direction)},
+          {"radius", snap.radius},
+          {"reason", snap.reason}};
+}
+
+}  // namespace lumen::viewer

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// From seeds to vessels, and the vessel under the pointer.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "viewer/session/arguments.h"
+#include "viewer/session/document.h"
+#include "viewer/session/session_options.h"
+#include "viewer/session/tracking_cache.h"
+
+namespace lumen::viewer {
+
+/// The seeds with the labels of the request, or all, without those that are vessels already. A
+/// parent that is neither a vessel nor among them is left out.
+Seeds untrackedSeeds(const Document& document, const Arguments& request);
+
+struct TrackedCase {
+  std::shared_ptr<const formats::Case> value;  ///< fitted
+  std::size_t newVessels = 0;
+  std::vector<std::string> droppedArrays;  ///< node arrays without values for new nodes
+};
+
+/// The case of the document with the vessels of these seeds, or a new case. The document has a
+/// volume. Throws what the stages throw.
+TrackedCase trackedFrom(const Document& document, const Seeds& seeds, TrackingCache& cache,
+                        const SessionOptions& options, Progress& progress);
+
+/// {"found", "position", "direction", "radius", "reason"} of the axis near a click, mm. Throws
+/// Error(Usage) without a volume.
+Json vesselNear(const Eigen::Vector3d& click, const Document& document, TrackingCache& cache,
+                const convert::TrackOptions& options);
+
+}  // namespace lumen::viewer
