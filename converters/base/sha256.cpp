@@ -7,12 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include <fcntl.h>
 #include <openssl/evp.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "converters/base/error.h"
+#include "formats/case/file_descriptor.h"
 #include "formats/container/printable.h"
 
 namespace lumen {
@@ -23,38 +22,9 @@ namespace {
   throw failed("the cryptography library offers no SHA-256");
 }
 
-/// A file that is open for reading.
-class OpenFile {
-public:
-  explicit OpenFile(const std::filesystem::path& file)
-      : m_name(formats::printable(file.string())),
-        m_descriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-    if (m_descriptor < 0) refuse(std::strerror(errno));
-    struct stat status {};
-    if (fstat(m_descriptor, &status) == 0 && S_ISREG(status.st_mode)) return;
-    close(m_descriptor);
-    refuse("it is no file");
-  }
-  ~OpenFile() { close(m_descriptor); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  /// Fills a part of `block`; nothing at the end.
-  std::span<const std::byte> read(std::span<std::byte> block) const {
-    while (true) {
-      const ssize_t size = ::read(m_descriptor, block.data(), block.size());
-      if (size >= 0) return block.first(static_cast<std::size_t>(size));
-      if (errno != EINTR) refuse(std::strerror(errno));
-    }
-  }
-
-private:
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw failed(m_name + ": cannot be read: " + why);
-  }
-  std::string m_name;
-  int m_descriptor;
-};
+[[noreturn]] void refuseFile(const std::filesystem::path& file, const std::string& why) {
+  throw failed(formats::printable(file.string()) + ": cannot be read: " + why);
+}
 
 }  // namespace
 
@@ -96,13 +66,17 @@ std::string sha256(std::span<const std::byte> bytes) {
 
 FileDigest digestOfFile(const std::filesystem::path& file) {
   constexpr std::size_t kBlock = std::size_t{1} << 18;
-  const OpenFile open(file);
+  const formats::FileDescriptor open = formats::openForReading(file);
+  struct stat status {};
+  if (!open.isOpen() || ::fstat(open.get(), &status) != 0) refuseFile(file, std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) refuseFile(file, "it is no file");
   std::vector<std::byte> block(kBlock);
   Sha256 hash;
   FileDigest digest;
-  for (auto part = open.read(block); !part.empty(); part = open.read(block)) {
-    hash.add(part);
-    digest.bytes += part.size();
+  for (std::ptrdiff_t size = 0; (size = formats::readInto(block, open.get())) != 0;) {
+    if (size < 0) refuseFile(file, std::strerror(errno));
+    hash.add(std::span(block).first(static_cast<std::size_t>(size)));
+    digest.bytes += static_cast<std::uint64_t>(size);
   }
   digest.sha256 = hash.text();
   return digest;

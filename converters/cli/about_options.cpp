@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/cli/value_checks.h"
-#include "converters/engine/file_access.h"
 #include "converters/library/json_values.h"
 #include "converters/library/spdx.h"
 #include "formats/container/printable.h"
@@ -96,11 +96,12 @@ CLI::Validator uuidText() {
 
 CLI::Validator caseIdText() {
   return checked([](const std::string& text) { return convert::isCaseId(text); },
-                 "1 to 64 of a to z, 0 to 9 and -, not beginning with -");
+                 convert::kCaseIdRule);
 }
 
 void addAboutOptions(CLI::App& app, AboutArguments& about) {
-  addFile(app, "--about", about.file, "JSON file of what follows, under the keys of record.json")
+  addFile(app, "--about", about.file,
+          "JSON file of the statements below, under the keys of record.json, or a record.json")
       ->required(false)
       ->group(kGroup);
   addText(app, "--title", about.title, "Title [the anatomy, or the id]", 255);
@@ -139,14 +140,13 @@ void addAboutOptions(CLI::App& app, AboutArguments& about) {
   app.add_flag("--synthetic", about.synthetic, "No patient is behind the case")->group(kGroup);
 }
 
-convert::CaseAbout aboutOf(const AboutArguments& arguments, const std::string& licence) {
-  convert::CaseAbout about;
-  bool statesModality = !arguments.modality.empty();
-  if (!arguments.file.empty()) {
-    const std::string text = readText(arguments.file, "file about the case");
-    about = convert::readAbout(text, arguments.file);
-    statesModality = statesModality || about.modality != "other";
-  }
+convert::CaseAbout aboutOf(const AboutArguments& arguments, const convert::CaseAbout& known,
+                           const std::string& licence) {
+  convert::CaseAbout about = known;
+  if (!arguments.file.empty())
+    about = convert::readAbout(readWholeFile(arguments.file, "file about the case"), arguments.file,
+                               known);
+  const bool statesModality = !arguments.modality.empty() || about.modality != "other";
   about.synthetic = about.synthetic || arguments.synthetic;
   take(arguments.title, about.title);
   take(arguments.description, about.description);

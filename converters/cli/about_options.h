@@ -22,9 +22,10 @@ struct AboutArguments {
 
 void addAboutOptions(CLI::App& app, AboutArguments& about);
 
-/// What the file says, and in its place what the command line says; `licence` where neither does. Throws as
-/// convert::readAbout(), Error(InvalidInput) for a file that is not there.
-convert::CaseAbout aboutOf(const AboutArguments& arguments, const std::string& licence);
+/// The statements of the command line, then those of the file, then `known`; `licence` where none of them has one. Throws
+/// as convert::readAbout(), Error(InvalidInput) for a file that is not there.
+convert::CaseAbout aboutOf(const AboutArguments& arguments, const convert::CaseAbout& known,
+                           const std::string& licence);
 
 /// A text of `least` to `most` bytes, UTF-8 without control characters.
 CLI::Validator textOf(std::size_t least, std::size_t most);

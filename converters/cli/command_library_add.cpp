@@ -12,6 +12,7 @@
 #include "converters/cli/value_checks.h"
 #include "converters/engine/library_report.h"
 #include "converters/engine/prepare_case.h"
+#include "converters/engine/replaced_case.h"
 #include "converters/library/change.h"
 #include "formats/container/printable.h"
 
@@ -48,7 +49,12 @@ public:
            "The case's id, which tells nothing of a patient [case- and a part of its digest]")
         ->type_name("NAME")
         ->check(caseIdText());
-    app.add_flag("--replace", m_wishes.replace, "Put it in place of the case of this id");
+    auto* replace = app.add_flag(
+        "--replace", m_wishes.replace,
+        "Replace the case with this id; statements, exports, pages, pictures and files that are "
+        "not named again stay, made anew from the new case");
+    app.add_flag("--only", m_isOnly, "Keep nothing of the replaced case but what is named")
+        ->needs(replace);
     addDayOption(app, m_day);
     addAboutOptions(app, m_about);
     bindFiles(app);
@@ -60,13 +66,14 @@ public:
     if (!m_wishes.id.empty() && !m_wishes.replace) convert::requireNewId(before, m_wishes.id);
     const std::filesystem::path library = std::filesystem::canonical(m_library);
     context.interrupts.watchOutput(library);
-    m_wishes.surface = !m_noSurface;
-    if (m_views.empty()) m_views = {"anterior"};
-    if (m_views != std::vector<std::string>{"none"}) m_wishes.views = m_views;
-    const convert::IncomingCase incoming =
-        prepareCase(m_case, aboutOf(m_about, before.licence), m_wishes, library, context.progress);
-    const convert::LibraryFile after = put(incoming, library, day, context);
-    report(incoming.record, after, context);
+    const convert::CaseAbout known = completeWishes(library);
+    const convert::IncomingCase incoming = prepareCase(
+        m_case, aboutOf(m_about, known, before.licence), m_wishes, library, context.progress);
+    convert::LibraryChange change(library, context.progress);
+    if (!m_wishes.replace) convert::requireNewId(change.library(), incoming.record.id);
+    change.put(incoming.record, incoming.folder());
+    change.commit(day);
+    report(incoming.record, change, context);
     return 0;
   }
 
@@ -84,9 +91,10 @@ private:
         ->allow_extra_args(false)
         ->default_str("anterior")
         ->check(oneOf(views));
-    OptionGroup(app, kGroup)
-        .add("--turntable", m_wishes.turntable, "N", "Pictures around the case; 0: none")
-        ->check(wholeIn(0, kMostTurns));
+    m_turntable =
+        OptionGroup(app, kGroup)
+            .add("--turntable", m_wishes.turntable, "N", "Pictures around the case; 0: none")
+            ->check(wholeIn(0, kMostTurns));
     app.add_option("--export", m_wishes.targets,
                    "The folder of a target of lumen export; may be repeated")
         ->type_name("NAME")
@@ -115,18 +123,22 @@ private:
             ""));
   }
 
-  convert::LibraryFile put(const convert::IncomingCase& incoming,
-                           const std::filesystem::path& library, const std::string& day,
-                           const Context& context) const {
-    convert::LibraryChange change(library, context.progress);
-    if (!m_wishes.replace) convert::requireNewId(change.library(), incoming.record.id);
-    change.put(incoming.record, incoming.folder());
-    change.commit(day);
-    return change.library();
+  /// Adds to the wishes what stays of a replaced case, and gives the statements about it.
+  convert::CaseAbout completeWishes(const std::filesystem::path& library) {
+    m_wishes.surface = !m_noSurface;
+    const bool hasViews = m_views != std::vector<std::string>{"none"};
+    if (hasViews) m_wishes.views = m_views;
+    std::optional<convert::CaseRecord> before;
+    if (m_wishes.replace && m_wishes.id.empty()) m_wishes.id = idOfCase(m_case);
+    if (m_wishes.replace && !m_isOnly) before = replacedVersion(library, m_wishes.id);
+    if (before) keepWishes(*before, library, hasViews, m_turntable->count() == 0, m_wishes);
+    if (!before && m_views.empty()) m_wishes.views = {"anterior"};
+    return before ? before->about : convert::CaseAbout();
   }
 
-  void report(const convert::CaseRecord& record, const convert::LibraryFile& library,
+  void report(const convert::CaseRecord& record, const convert::LibraryChange& change,
               const Context& context) const {
+    const convert::LibraryFile& library = change.library();
     const convert::LibraryEntry& entry = *convert::findCase(library, record.id);
     if (context.common.json) {
       Json json = {{"id", entry.id},
@@ -137,11 +149,12 @@ private:
       json["files"] = Json::array();
       for (const convert::RecordedFile& file : record.files)
         json["files"].push_back({{"path", file.path}, {"role", file.role}, {"bytes", file.bytes}});
+      json["gone"] = change.gone();
       answerJson(json);
     } else if (!context.common.quiet) {
       answer(formats::printable(m_library) + ": " + entry.id + ", version " +
              std::to_string(entry.version) + ": " + counted(entry.files, "file", "files") + ", " +
-             bytesText(entry.bytes) + "\n");
+             bytesText(entry.bytes) + "\n" + goneText(change.gone()));
     }
   }
 
@@ -149,7 +162,8 @@ private:
   AboutArguments m_about;
   CaseWishes m_wishes;
   std::vector<std::string> m_views;
-  bool m_noSurface = false;
+  const CLI::Option* m_turntable = nullptr;
+  bool m_noSurface = false, m_isOnly = false;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "converters/cli/command.h"
 #include "converters/cli/value_checks.h"
 #include "converters/engine/library_check_report.h"
+#include "converters/library/library_lock.h"
 
 namespace lumen::app {
 
@@ -36,6 +37,8 @@ public:
   }
 
   int run(Context& context) override {
+    using convert::LibraryLock;
+    const LibraryLock lock(m_folder, context.progress, LibraryLock::Use::Read);
     const convert::PlainFolder folder(m_folder);
     convert::LibraryCheck check{convert::FaultList(m_options.mostFaults), {}, 0, 0, 0, 0};
     if (const auto text = convert::readLibraryText(folder, check.faults, context.progress))

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library init: a library without cases.
-#include <array>
-#include <cstdio>
-#include <random>
-
-#include "converters/base/error.h"
 #include "converters/cli/about_options.h"
 #include "converters/cli/command.h"
 #include "converters/cli/value_checks.h"
@@ -15,19 +10,6 @@
 namespace lumen::app {
 
 namespace {
-
-/// Version 4 of RFC 9562.
-std::string randomUuid() {
-  std::random_device source;
-  std::array<unsigned, 8> parts{};
-  for (unsigned& part : parts) part = source() & 0xFFFFU;
-  parts[3] = (parts[3] & 0x0FFFU) | 0x4000U;
-  parts[4] = (parts[4] & 0x3FFFU) | 0x8000U;
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%04x%04x-%04x-%04x-%04x-%04x%04x%04x", parts[0],
-                parts[1], parts[2], parts[3], parts[4], parts[5], parts[6], parts[7]);
-  return text.data();
-}
 
 class LibraryInitCommand : public Command {
 public:
@@ -63,7 +45,7 @@ public:
   }
 
   int run(Context& context) override {
-    if (m_library.id.empty()) m_library.id = randomUuid();
+    if (m_library.id.empty()) m_library.id = convert::newLibraryId();
     m_library.date = revisionDay(m_library.date);
     context.interrupts.watchOutput(m_folder);
     convert::makeLibrary(m_folder, m_library);

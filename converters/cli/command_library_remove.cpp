@@ -33,11 +33,15 @@ public:
     convert::LibraryChange change(library, context.progress);
     for (const std::string& id : m_ids) change.remove(id);
     change.commit(day);
-    if (context.common.json)
-      answerJson(librarySummary(change.library()));
-    else if (!context.common.quiet)
+    if (context.common.json) {
+      Json json = librarySummary(change.library());
+      json["gone"] = change.gone();
+      answerJson(json);
+    } else if (!context.common.quiet) {
       answer(formats::printable(m_library) + ": " +
-             counted(change.library().cases.size(), "case", "cases") + " left\n");
+             counted(change.library().cases.size(), "case", "cases") + " left\n" +
+             goneText(change.gone()));
+    }
     return 0;
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library sign: a signature of library.json, and so of all that a library has.
+#include <optional>
 #include <span>
+#include <string>
 
 #include "converters/cli/command.h"
 #include "converters/cli/value_checks.h"
@@ -30,7 +32,8 @@ public:
     addFile(
         app, "--key", m_key,
         "The secret key, of minisign or OpenSSH, or a public key of OpenSSH whose secret one an "
-        "agent has. The program asks for a password if the key has one");
+        "agent has. The program asks for a password if the key has one")
+        ->required();
     addFile(app, "--resume", m_journal,
             "Of the check: pass over cases that lumen library check --resume FILE found whole")
         ->required(false);
@@ -39,12 +42,10 @@ public:
   int run(Context& context) override {
     const convert::KeyFile key = convert::readKeyFile(m_key);
     convert::requireSigningKey(key);
-    const convert::PlainFolder folder(m_folder);
     convert::LibraryCheckOptions options;
     options.journal = m_journal;
     convert::LibraryCheck check{convert::FaultList(options.mostFaults), {}, 0, 0, 0, 0};
-    const auto text = convert::readLibraryText(folder, check.faults, context.progress);
-    if (text) check = convert::checkLibrary(folder, *text, options, context.progress);
+    const std::optional<std::string> text = checkAll(options, check, context);
     const bool isFaulty =
         check.faults.errors() > 0 || (context.common.strict && check.faults.warnings() > 0);
     if (isFaulty) {
@@ -59,6 +60,17 @@ public:
   }
 
 private:
+  /// The text of library.json that is to be signed; nothing if it cannot be read.
+  std::optional<std::string> checkAll(const convert::LibraryCheckOptions& options,
+                                      convert::LibraryCheck& check, Context& context) const {
+    using convert::LibraryLock;
+    const LibraryLock lock(m_folder, context.progress, LibraryLock::Use::Read);
+    const convert::PlainFolder folder(m_folder);
+    auto text = convert::readLibraryText(folder, check.faults, context.progress);
+    if (text) check = convert::checkLibrary(folder, *text, options, context.progress);
+    return text;
+  }
+
   void write(const convert::Signature& signature, const std::string& text, Context& context) const {
     const std::filesystem::path file = std::filesystem::path(m_folder) / signature.file;
     const auto unchanged = [&] {

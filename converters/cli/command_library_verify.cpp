@@ -3,6 +3,7 @@
 #include "converters/cli/command.h"
 #include "converters/cli/value_checks.h"
 #include "converters/engine/library_check_report.h"
+#include "converters/library/library_lock.h"
 #include "converters/library/verified_revisions.h"
 #include "converters/library/verify_library.h"
 
@@ -34,7 +35,8 @@ public:
     addFile(app, "LIBRARY", m_folder, "Folder of the library");
     addFile(app, "--key", m_key,
             "The key that you trust: a public key of minisign or OpenSSH, or a list of allowed "
-            "signers (ssh-keygen(1))");
+            "signers (ssh-keygen(1))")
+        ->required();
     app.add_option("--identity", m_identity, "Whom of the allowed signers; by default anybody")
         ->type_name("NAME");
     auto* state = addFile(app, "--state", m_state,
@@ -51,6 +53,8 @@ public:
   }
 
   int run(Context& context) override {
+    using convert::LibraryLock;
+    const LibraryLock lock(m_folder, context.progress, LibraryLock::Use::Read);
     const convert::PlainFolder folder(m_folder);
     convert::VerifyOptions options;
     options.trusted = convert::readKeyFile(m_key);

@@ -21,6 +21,7 @@ std::unique_ptr<Command> makeViewCommand();  // viewer/server
 std::unique_ptr<Command> makeLibraryInitCommand();
 std::unique_ptr<Command> makeLibraryAddCommand();
 std::unique_ptr<Command> makeLibraryRemoveCommand();
+std::unique_ptr<Command> makeLibraryExtractCommand();
 std::unique_ptr<Command> makeLibraryListCommand();
 std::unique_ptr<Command> makeLibraryIndexCommand();
 std::unique_ptr<Command> makeLibraryBuildCommand();
@@ -31,14 +32,14 @@ std::unique_ptr<Command> makeCompletionCommand();
 std::vector<std::unique_ptr<Command>> allCommands() {
   std::vector<std::unique_ptr<Command>> commands;
   for (const auto make :
-       {makeConvertCommand,       makeExportCommand,        makeTrackCommand,
-        makeFitCommand,           makeInfoCommand,          makeValidateCommand,
-        makeCompareCommand,       makeCheckCommand,         makePictureCommand,
-        makeReportCommand,        makeLibraryInitCommand,   makeLibraryAddCommand,
-        makeLibraryRemoveCommand, makeLibraryListCommand,   makeLibraryCheckCommand,
-        makeLibrarySignCommand,   makeLibraryVerifyCommand, makeLibraryIndexCommand,
-        makeLibraryBuildCommand,  makeLibrarySampleCommand, makeViewCommand,
-        makePhantomCommand,       makeCompletionCommand})
+       {makeConvertCommand,       makeExportCommand,         makeTrackCommand,
+        makeFitCommand,           makeInfoCommand,           makeValidateCommand,
+        makeCompareCommand,       makeCheckCommand,          makePictureCommand,
+        makeReportCommand,        makeLibraryInitCommand,    makeLibraryAddCommand,
+        makeLibraryRemoveCommand, makeLibraryExtractCommand, makeLibraryListCommand,
+        makeLibraryCheckCommand,  makeLibrarySignCommand,    makeLibraryVerifyCommand,
+        makeLibraryIndexCommand,  makeLibraryBuildCommand,   makeLibrarySampleCommand,
+        makeViewCommand,          makePhantomCommand,        makeCompletionCommand})
     commands.push_back(make());
   return commands;
 }

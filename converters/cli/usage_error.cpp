@@ -34,11 +34,18 @@ std::string commandsWith(const std::string& option) {
   return alternatives(found);
 }
 
+/// "--key FILE".
+std::string optionWithType(const CLI::Option& option) {
+  return option.get_name() + " " + option.get_type_name();
+}
+
 std::string usageLine(const CLI::App& app, const std::string& command) {
   std::string line = "lumen " + command;
   for (const CLI::Option* option : app.get_options())
     if (option->get_positional())
       line += " " + option->get_name(true) + (option->get_expected_max() > 1 ? "..." : "");
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_positional() && option->get_required()) line += " " + optionWithType(*option);
   return line;
 }
 
@@ -59,6 +66,11 @@ std::string superfluous(const CLI::App& app, const std::string& word, const std:
 /// The option that an error's text begins with; null if there is none.
 const CLI::Option* optionOf(const CLI::App& app, const std::string& text) {
   return app.get_option_no_throw(text.substr(0, text.find_first_of(": ")));
+}
+
+std::string missingName(const CLI::App& app, const std::string& name) {
+  const CLI::Option* const option = app.get_option_no_throw(name);
+  return option == nullptr || option->get_positional() ? name : optionWithType(*option);
 }
 
 std::string wrongCount(const CLI::Option& option) {
@@ -84,7 +96,8 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error,
                       const std::string& command) {
   const std::string text = error.what();
   if (isA(error, CLI::ExitCodes::RequiredError))
-    return text.substr(0, text.find(' ')) + " is missing; usage: " + usageLine(app, command);
+    return missingName(app, text.substr(0, text.find(' '))) +
+           " is missing; usage: " + usageLine(app, command);
   const CLI::Option* option = optionOf(app, text);
   if (option == nullptr) return text;
   if (isA(error, CLI::ExitCodes::ArgumentMismatch)) return wrongCount(*option);
@@ -95,6 +108,14 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error,
                                      ? " is a switch and takes no value but true or false"
                                      : ": " + text);
   return text;
+}
+
+/// As didYouMean(), by the second words alone: the first one makes all commands of a group look alike.
+std::string meantInGroup(const std::string& word, const std::string& group,
+                         std::vector<std::string> names) {
+  for (std::string& name : names) name.erase(0, group.size() + 1);
+  const std::string meant = closest(word.substr(group.size() + 1), names);
+  return meant.empty() ? "" : "; did you mean " + group + " " + meant + "?";
 }
 
 }  // namespace
@@ -128,7 +149,7 @@ Error unknownCommand(const std::string& word) {
   if (std::filesystem::exists(word, ignored))
     return {ErrorKind::Usage, word + ": this is a file, and a command comes first: lumen info " +
                                   word + " tells what is in it" + list};
-  const std::string meant = didYouMean(word, names);
+  const std::string meant = inGroup ? meantInGroup(word, group, names) : didYouMean(word, names);
   return {ErrorKind::Usage, word + ": there is no such command" + (meant.empty() ? list : meant)};
 }
 

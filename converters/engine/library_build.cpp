@@ -49,7 +49,7 @@ void requireOptions(const BuildRow& row, const CLI::App& convertOptions) {
 }
 
 void requireAbout(const BuildRow& row, const convert::LibraryFile& library) {
-  convert::CaseAbout about = convert::readAbout(row.about, "what is told of it");
+  convert::CaseAbout about = convert::readAbout(row.about, "the statements about it");
   if (about.licence.empty()) about.licence = library.licence;
   if (about.title.empty()) throw invalidInput("title: is empty");
   if (const std::string missing = convert::missingStatement(about); !missing.empty())
@@ -69,8 +69,8 @@ void requireRows(const std::vector<BuildRow>& rows, const convert::LibraryFile& 
       requireOptions(row, convertOptions);
       requireAbout(row, library);
     } catch (const Error& error) {
-      faults += (faults.empty() ? "" : "\n") + formats::printable(list) + ": row " +
-                std::to_string(row.number) + ": " + error.what();
+      faults += (faults.empty() ? "" : "\n") + formats::printable(list) + ": line " +
+                std::to_string(row.line) + ": " + error.what();
     }
   }
   if (!faults.empty()) throw invalidInput(faults);
@@ -94,7 +94,7 @@ std::size_t countOf(const std::vector<RowResult>& results, RowEnd end) {
 }
 
 Json resultJson(const RowResult& result) {
-  Json json{{"row", result.row},           {"id", result.id},
+  Json json{{"row", result.line},          {"id", result.id},
             {"end", endName(result.end)},  {"seconds", jsonNumber(result.seconds)},
             {"warnings", result.warnings}, {"why", nullptr}};
   if (result.end == RowEnd::Failed) {
@@ -105,17 +105,18 @@ Json resultJson(const RowResult& result) {
 }
 
 std::string resultTable(const std::vector<RowResult>& results) {
-  std::vector<std::vector<std::string>> rows{{"case", "row", "seconds", "warnings", ""}};
+  std::vector<std::vector<std::string>> rows{{"case", "line", "seconds", "warnings", ""}};
   for (const RowResult& result : results)
-    rows.push_back({result.id, std::to_string(result.row), fixed(result.seconds, 1),
+    rows.push_back({result.id, std::to_string(result.line), fixed(result.seconds, 1),
                     std::to_string(result.warnings), endName(result.end)});
   std::string text = alignColumns(std::move(rows));
   for (const RowResult& result : results)
     if (result.end == RowEnd::Failed)
-      text += Lines()
-                  .add("row " + std::to_string(result.row) + " (" + result.id + "): " + result.why)
-                  .text() +
-              (result.log.empty() ? "" : Lines().add("  see " + result.log.string()).text());
+      text +=
+          Lines()
+              .add("line " + std::to_string(result.line) + " (" + result.id + "): " + result.why)
+              .text() +
+          (result.log.empty() ? "" : Lines().add("  see " + result.log.string()).text());
   return text;
 }
 

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "formats/container/printable.h"
+
 namespace lumen::app {
 
 std::string bytesText(std::uint64_t bytes) {
@@ -15,6 +17,21 @@ std::string bytesText(std::uint64_t bytes) {
     ++unit;
   }
   return fixed(value, value < 9.95 ? 1 : 0) + " " + kUnits[unit];
+}
+
+std::string goneText(const std::vector<std::string>& gone) {
+  if (gone.empty()) return {};
+  std::string list;
+  bool isSigned = false, hasPages = false;
+  for (const std::string& path : gone) {
+    list += (list.empty() ? "" : ", ") + formats::printable(path);
+    isSigned = isSigned || path.starts_with("library.json.");
+    hasPages = hasPages || path == "site" || path == "index.html";
+  }
+  std::string text = "removed with the old revision: " + list + "\n";
+  if (isSigned) text += "lumen library sign signs the new revision\n";
+  if (hasPages) text += "lumen library index makes its pages\n";
+  return text;
 }
 
 Json librarySummary(const convert::LibraryFile& library) {

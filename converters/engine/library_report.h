@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "converters/engine/report.h"
 #include "converters/library/library_file.h"
@@ -13,6 +14,9 @@ namespace lumen::app {
 
 /// "1.2 MB"
 std::string bytesText(std::uint64_t bytes);
+
+/// What a change left out of a library, as a line of its own; empty if nothing.
+std::string goneText(const std::vector<std::string>& gone);
 
 /// id, revision, title, licence, date, and how many cases there are.
 Json librarySummary(const convert::LibraryFile& library);

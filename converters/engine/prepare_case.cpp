@@ -23,6 +23,7 @@
 #include "converters/draw/picture/draw_case.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/reachable.h"
+#include "converters/engine/replaced_case.h"
 #include "converters/engine/surface_report.h"
 #include "converters/export/export_case.h"
 #include "converters/io/mesh/write_gltf.h"
@@ -61,6 +62,17 @@ std::string pathOfFile(const std::string& file) {
   return "files/" + fs::path(file).filename().string();
 }
 
+std::string idOfDigest(const std::string& digest) {
+  return "case-" + digest.substr(0, kShortDigest);
+}
+
+/// The bytes of the case as the library has them.
+std::pair<std::vector<std::byte>, formats::Case> binaryCase(const fs::path& file) {
+  auto [bytes, value] = readCaseAndBytes(file);
+  if (!formats::hasContainerMagic(bytes)) bytes = formats::encodeBinary(value);
+  return {std::move(bytes), std::move(value)};
+}
+
 /// Refuses wishes that do not depend on the case.
 void checkWishes(const CaseWishes& wishes) {
   std::set<std::string> targets;
@@ -77,7 +89,7 @@ void checkWishes(const CaseWishes& wishes) {
     if (!convert::isRecordedPath(pathOfFile(file)))
       throw invalidInput(printable(file) +
                          ": a library cannot have a file of this name; expected " +
-                         "A to Z, a to z, 0 to 9, ., _, + and -, not beginning with a dot");
+                         convert::kPathRule);
   }
 }
 
@@ -188,16 +200,19 @@ const std::vector<std::string>& pictureViews() {
   return names;
 }
 
+std::string idOfCase(const fs::path& caseFile) {
+  return idOfDigest(sha256(binaryCase(caseFile).first));
+}
+
 IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
                          const CaseWishes& wishes, const fs::path& library, Progress& progress) {
   const std::string file = caseFile.string();
   checkWishes(wishes);
   if (const std::string fault = convert::missingStatement(about); !fault.empty())
     throw invalidInput(printable(file) + ": " + fault);
-  auto [bytes, value] = readCaseAndBytes(caseFile);
-  if (!formats::hasContainerMagic(bytes)) bytes = formats::encodeBinary(value);
+  const auto [bytes, value] = binaryCase(caseFile);
   const std::string digest = sha256(bytes);
-  const std::string id = wishes.id.empty() ? "case-" + digest.substr(0, kShortDigest) : wishes.id;
+  const std::string id = wishes.id.empty() ? idOfDigest(digest) : wishes.id;
   if (!wishes.replace) convert::requireNewId(convert::openLibrary(library), id);
   if (!value.models) requireModels(wishes, file);
   if (about.title.empty()) about.title = about.anatomy.empty() ? "Case " + id : about.anatomy;

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/library/build_row.h"
 #include "converters/library/change.h"
 #include "converters/library/library_file.h"
@@ -31,13 +32,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kWorkMark = "lumen-library-build.txt";
+constexpr const char* kMarkText =
+    "lumen library build works here, and removes this folder when all is made.\n";
 constexpr double kPatience =
     20;  // a batch waits for as many times as long as the last one took to put in
 
 CaseRecord recordIn(const fs::path& library, const std::string& id) {
   const fs::path file = library / kPayload / id / kRecordFile;
-  std::ifstream in(file, std::ios::binary);
-  return readRecord({std::istreambuf_iterator<char>(in), {}}, file);
+  return readRecord(readWholeFile(file, "record"), file);
 }
 
 /// Whether the library's case is made from what the row says. A record that cannot be read is not.
@@ -98,7 +100,7 @@ private:
   }
 
   void makeOne(std::size_t i) {
-    m_results[i].row = m_rows[i].number;
+    m_results[i].line = m_rows[i].line;
     m_results[i].id = m_rows[i].id;
     PlannedRow plan = planRow(m_rows[i], m_library, m_options, m_progress);
     m_results[i].id = plan.id;
@@ -120,9 +122,9 @@ private:
   /// Rows without an id get one of their input, which two rows may share.
   void requireOwnId(const PlannedRow& plan) {
     const std::lock_guard lock(m_mutex);
-    const auto [first, isNew] = m_ids.emplace(plan.id, plan.row->number);
+    const auto [first, isNew] = m_ids.emplace(plan.id, plan.row->line);
     if (!isNew)
-      throw invalidInput("its input is that of row " + std::to_string(first->second) +
+      throw invalidInput("its input is that of line " + std::to_string(first->second) +
                          ", so it needs an id of its own");
   }
 
@@ -134,7 +136,7 @@ private:
   }
 
   void warnOf(const RowResult& result) {
-    m_progress.warn("row " + std::to_string(result.row) + " (" + formats::printable(result.id) +
+    m_progress.warn("line " + std::to_string(result.line) + " (" + formats::printable(result.id) +
                     "): " + result.why);
   }
 
@@ -190,17 +192,16 @@ void claimWorkFolder(const fs::path& folder) {
   fs::create_directories(folder, error);
   const bool isEmpty = !error && fs::is_empty(folder, error);
   if (!error && isEmpty) {
-    std::ofstream mark(folder / kWorkMark);
-    mark << "lumen library build works here, and removes this folder when all is made.\n";
-    mark.close();
-    if (!mark) error = std::make_error_code(std::errc::io_error);
+    writeNewFile(kMarkText, folder / kWorkMark);
   }
   if (error) throw failed(formats::printable(folder.string()) + ": " + error.message());
 }
 
 void removeWorkFolder(const fs::path& folder) {
   std::error_code ignored;
-  if (fs::is_regular_file(folder / kWorkMark, ignored)) fs::remove_all(folder, ignored);
+  const fs::path mark = folder / kWorkMark;
+  if (fs::is_regular_file(mark, ignored) && readWholeFile(mark, "mark") == kMarkText)
+    fs::remove_all(folder, ignored);
 }
 
 std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows, const fs::path& library,

@@ -27,7 +27,7 @@ enum class RowEnd : std::uint8_t { Made, Kept, Failed };
 
 /// What became of a row.
 struct RowResult {
-  std::size_t row = 0;  ///< its number in the list
+  std::size_t line = 0;  ///< where it begins in the list
   std::string id;
   RowEnd end = RowEnd::Failed;
   double seconds = 0;

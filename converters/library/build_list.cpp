@@ -37,31 +37,47 @@ bool holds(const List& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-struct Table {
-  std::vector<Cells> rows;
-  Cells row;
+struct TableRow {
+  std::size_t line = 0;  ///< where it begins; the first is 1
+  Cells cells;
 };
 
+struct Table {
+  std::vector<TableRow> rows;
+  TableRow row;
+};
+
+std::string linePrefix(std::size_t line) {
+  return "line " + std::to_string(line) + ": ";
+}
+
 /// Rows and cells as libcsv finds them; throws what breaks RFC 4180.
-std::vector<Cells> cellsOf(const std::string& text, const std::string& name) {
+std::vector<TableRow> rowsOf(const std::string& text, const std::string& name) {
   csv_parser parser{};
   if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL) != 0)
     throw failed("comma-separated values cannot be read");
   const std::unique_ptr<csv_parser, void (*)(csv_parser*)> owner(&parser, csv_free);
   Table table;
   const auto cell = [](void* bytes, std::size_t size, void* data) {
-    static_cast<Table*>(data)->row.push_back(
+    static_cast<Table*>(data)->row.cells.push_back(
         trimmed(std::string(static_cast<const char*>(bytes), size)));
   };
   const auto row = [](int, void* data) {
     auto& all = *static_cast<Table*>(data);
     all.rows.push_back(std::exchange(all.row, {}));
   };
-  const std::size_t read = csv_parse(&parser, text.data(), text.size(), cell, row, &table);
-  if (read != text.size() || csv_fini(&parser, cell, row, &table) != 0)
+  bool isRead = true;
+  for (std::size_t at = 0, line = 1; isRead && at < text.size();
+       ++at) {  // as libcsv tells no lines
+    const bool isEnd = text[at] == '\n' || text[at] == '\r';
+    if (table.row.line == 0 && !isEnd) table.row.line = line;
+    isRead = csv_parse(&parser, &text[at], 1, cell, row, &table) == 1;
+    line += text[at] == '\n' ? 1 : 0;
+  }
+  if (!isRead || csv_fini(&parser, cell, row, &table) != 0)
     throw invalidInput(
-        name + ": row " + std::to_string(table.rows.size() + 1) +
-        ": found a quote inside of a text, or one without an end; expected comma-" +
+        name + ": " + linePrefix(table.row.line) +
+        "found a quote inside of a text, or one without an end; expected comma-" +
         "separated values in which a text with quotes is \"quoted \"\"like this\"\"\"");
   return std::move(table.rows);
 }
@@ -151,27 +167,29 @@ BuildRow rowOf(const Cells& names, const Cells& cells, const fs::path& folder) {
   requireFile(row.input, "input");
   if (!row.seeds.empty()) requireFile(row.seeds, "seeds");
   if (!row.id.empty() && !isCaseId(row.id))
-    throw invalidInput("id: found " + quotedText(row.id) +
-                       ", expected a to z, 0 to 9 and -, 64 at most");
+    throw invalidInput("id: found " + quotedText(row.id) + ", expected " + kCaseIdRule);
   row.about = about.dump(2) + "\n";
-  (void)readAbout(row.about, "what is told of it");
+  (void)readAbout(row.about, "the statements about it");
   return row;
 }
 
-Cells namesOf(Cells names, const std::string& name) {
+Cells namesOf(TableRow row, const std::string& name) {
+  const std::string line = linePrefix(row.line);
+  Cells names = std::move(row.cells);
   for (std::string& column : names) {
     if (column == "volume") column = "input";
     if (std::count(names.begin(), names.end(), column) > 1)
-      throw invalidInput(name + ": row 1: two columns are called " + quotedText(column));
+      throw invalidInput(name + ": " + line + "two columns are called " + quotedText(column));
     if (holds(kOwnColumns, column) || holds(kAboutColumns, column)) continue;
     if (column.starts_with("--") && column.size() > 2) continue;
     throw invalidInput(
-        name + ": row 1: found a column " + quotedText(column) +
+        name + ": " + line + "found a column " + quotedText(column) +
         ", expected input, seeds, id, targets, title, description, anatomy, codes, " +
         "laterality, modality, synthetic, licence, attribution, doi, origin, " +
         "consent, deidentification, or an option of lumen convert such as --crop");
   }
-  if (!holds(names, "input")) throw invalidInput(name + ": row 1: there is no column called input");
+  if (!holds(names, "input"))
+    throw invalidInput(name + ": " + line + "there is no column called input");
   return names;
 }
 
@@ -179,10 +197,10 @@ void requireDifferentIds(const std::vector<BuildRow>& rows, std::vector<std::str
   std::map<std::string, std::size_t> first;
   for (const BuildRow& row : rows) {
     if (row.id.empty()) continue;
-    const auto [other, isNew] = first.emplace(row.id, row.number);
+    const auto [other, isNew] = first.emplace(row.id, row.line);
     if (!isNew)
-      faults.push_back("row " + std::to_string(row.number) + ": id: " + row.id +
-                       " is that of row " + std::to_string(other->second) + ", too");
+      faults.push_back(linePrefix(row.line) + "id: " + row.id + " is that of line " +
+                       std::to_string(other->second) + ", too");
   }
 }
 
@@ -200,20 +218,20 @@ void requireDifferentIds(const std::vector<BuildRow>& rows, std::vector<std::str
 std::vector<BuildRow> readBuildList(const std::string& text, const fs::path& file) {
   const std::string name = formats::printable(file.string());
   constexpr std::string_view kMark = "\xEF\xBB\xBF";  // spreadsheets write it
-  std::vector<Cells> cells =
-      cellsOf(text.starts_with(kMark) ? text.substr(kMark.size()) : text, name);
-  if (cells.empty()) throw invalidInput(name + ": is empty; expected a row of names first");
-  const Cells names = namesOf(std::move(cells.front()), name);
+  std::vector<TableRow> table =
+      rowsOf(text.starts_with(kMark) ? text.substr(kMark.size()) : text, name);
+  if (table.empty()) throw invalidInput(name + ": is empty; expected a row of names first");
+  const Cells names = namesOf(std::move(table.front()), name);
   std::vector<BuildRow> rows;
   std::vector<std::string> faults;
-  for (std::size_t i = 1; i < cells.size(); ++i) {
-    if (std::all_of(cells[i].begin(), cells[i].end(), [](const auto& c) { return c.empty(); }))
-      continue;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const auto& [line, cells] = table[i];
+    if (std::all_of(cells.begin(), cells.end(), [](const auto& c) { return c.empty(); })) continue;
     try {
-      rows.push_back(rowOf(names, cells[i], file.parent_path()));
-      rows.back().number = i + 1;
+      rows.push_back(rowOf(names, cells, file.parent_path()));
+      rows.back().line = line;
     } catch (const Error& error) {
-      faults.push_back("row " + std::to_string(i + 1) + ": " + error.what());
+      faults.push_back(linePrefix(line) + error.what());
     }
   }
   requireDifferentIds(rows, faults);

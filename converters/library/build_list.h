@@ -11,7 +11,7 @@ namespace lumen::convert {
 
 /// A case to be made.
 struct BuildRow {
-  std::size_t number = 0;            ///< of the row, the one below the names being 2
+  std::size_t line = 0;              ///< of the file where the row begins; the first is 1
   std::filesystem::path input;       ///< volume, mesh, centerline or case; or a folder of DICOM
   std::filesystem::path seeds;       ///< may be empty
   std::string id;                    ///< may be empty: made from the input's digest

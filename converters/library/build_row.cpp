@@ -57,7 +57,7 @@ public:
   Row(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
       const Progress& progress)
       : m_plan(plan), m_library(library), m_options(options), m_progress(progress) {
-    m_result.row = plan.row->number;
+    m_result.line = plan.row->line;
     m_result.id = plan.id;
     m_result.log = options.work / "logs" / (plan.id + ".log");
   }

@@ -6,26 +6,15 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "converters/base/progress.h"
 #include "converters/library/library_file.h"
+#include "converters/library/library_lock.h"
 #include "converters/library/record.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
-
-/// A lock on a library: on its folder, so that nothing of it is left behind. Who opens the library again under its name
-/// may find another folder there.
-class LibraryLock {
-public:
-  /// Waits for other writers; tells `progress` so. Throws Error(InvalidInput) if there is no folder, Error(Cancelled).
-  LibraryLock(const std::filesystem::path& library, Progress& progress);
-  ~LibraryLock();
-  LibraryLock(const LibraryLock&) = delete;
-  LibraryLock& operator=(const LibraryLock&) = delete;
-
-private:
-  int m_descriptor = -1;
-};
 
 /// One new revision of a library.
 class LibraryChange {
@@ -49,6 +38,10 @@ public:
   /// are not what library.json states; Error(Failed) if something cannot be written; Error(Cancelled).
   void commit(const std::string& date);
 
+  /// After commit(): what the old revision had and the new one lacks, relative to the library: its signatures and pages,
+  /// and files of cases that were replaced.
+  [[nodiscard]] const std::vector<std::string>& gone() const { return m_gone; }
+
 private:
   struct Incoming {
     CaseRecord record;
@@ -63,10 +56,18 @@ private:
   LibraryFile m_library;
   std::map<std::string, Incoming> m_incoming;
   std::set<std::string> m_removed;
+  std::vector<std::string> m_gone;
 };
 
 /// Throws Error(Usage) if the library has a case of this id.
 void requireNewId(const LibraryFile& library, const std::string& id);
+
+/// The case of this id. Throws Error(Usage) if the library has none.
+const LibraryEntry& requireCase(const LibraryFile& library, const std::string& id);
+
+/// A hidden folder with an empty data/ that becomes a new library; `library` gets revision 1 and its generator. Throws as
+/// makeLibrary().
+formats::PendingFolder newLibraryFolder(const std::filesystem::path& folder, LibraryFile& library);
 
 /// A new library without cases, at revision 1; `library` has its id, texts, licence and date. Throws Error(InvalidInput)
 /// for a licence that is none, and Error(Failed) where there is something already.

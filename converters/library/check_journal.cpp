@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cerrno>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -29,9 +30,8 @@ std::string errorText(int code) {
 std::string readAll(int descriptor, const std::filesystem::path& file) {
   std::string text;
   std::array<char, 65536> piece{};
-  ssize_t n = 0;
-  while ((n = ::read(descriptor, piece.data(), piece.size())) != 0) {
-    if (n < 0 && errno == EINTR) continue;
+  std::ptrdiff_t n = 0;
+  while ((n = formats::readInto(std::as_writable_bytes(std::span(piece)), descriptor)) != 0) {
     if (n < 0) throw failed(file.string() + ": cannot be read: " + errorText(errno));
     text.append(piece.data(), static_cast<std::size_t>(n));
     if (text.size() > kMostBytes)
@@ -41,38 +41,27 @@ std::string readAll(int descriptor, const std::filesystem::path& file) {
   return text;
 }
 
-void writeAll(int descriptor, std::string_view text, const std::filesystem::path& file) {
-  while (!text.empty()) {
-    const ssize_t n = ::write(descriptor, text.data(), text.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw failed(file.string() + ": cannot be written: " + errorText(errno));
-    text.remove_prefix(static_cast<std::size_t>(n));
-  }
+void writeText(int descriptor, std::string_view text, const std::filesystem::path& file) {
+  if (!formats::writeAll(std::as_bytes(std::span(text)), descriptor))
+    throw failed(file.string() + ": cannot be written: " + errorText(errno));
 }
 
 }  // namespace
 
 CheckJournal::CheckJournal(const std::filesystem::path& file, const std::string& libraryId)
     : m_file(file) {
-  m_descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666);
-  if (m_descriptor < 0) throw failed(file.string() + ": cannot be opened: " + errorText(errno));
-  try {
-    struct stat status {};
-    if (fstat(m_descriptor, &status) != 0 || !S_ISREG(status.st_mode))
-      throw invalidInput(file.string() + ": found no file, expected one that --resume made");
-    if (flock(m_descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw failed(file.string() +
-                   ": another check is using this file; wait for it, or name another");
-    read(readAll(m_descriptor, file),
-         std::string(kFormat) + "lumen " LUMEN_VERSION ", of " + libraryId + "\n");
-  } catch (...) {
-    close(m_descriptor);
-    throw;
-  }
-}
-
-CheckJournal::~CheckJournal() {
-  if (m_descriptor >= 0) close(m_descriptor);
+  constexpr int kFlags = O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK;
+  m_descriptor = formats::FileDescriptor(::open(file.c_str(), kFlags, 0666));
+  if (!m_descriptor.isOpen())
+    throw failed(file.string() + ": cannot be opened: " + errorText(errno));
+  struct stat status {};
+  if (fstat(m_descriptor.get(), &status) != 0 || !S_ISREG(status.st_mode))
+    throw invalidInput(file.string() + ": found no file, expected one that --resume made");
+  if (flock(m_descriptor.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw failed(file.string() +
+                 ": another check is using this file; wait for it, or name another");
+  read(readAll(m_descriptor.get(), file),
+       std::string(kFormat) + "lumen " LUMEN_VERSION ", of " + libraryId + "\n");
 }
 
 /// A line for each case: the mark, a space, the id. What a killed check left of a line is cut off.
@@ -82,9 +71,9 @@ void CheckJournal::read(const std::string& text, const std::string& head) {
         m_file.string() +
         ": found something else, expected a file that --resume made; it is left as it is");
   if (!text.starts_with(head)) {
-    if (ftruncate(m_descriptor, 0) != 0)
+    if (ftruncate(m_descriptor.get(), 0) != 0)
       throw failed(m_file.string() + ": cannot be written: " + errorText(errno));
-    writeAll(m_descriptor, head, m_file);
+    writeText(m_descriptor.get(), head, m_file);
     return;
   }
   std::size_t begin = head.size();
@@ -92,7 +81,7 @@ void CheckJournal::read(const std::string& text, const std::string& head) {
     if (end - begin < kMark + 2 || text[begin + kMark] != ' ') continue;
     m_marks[text.substr(begin + kMark + 1, end - begin - kMark - 1)] = text.substr(begin, kMark);
   }
-  if (begin < text.size() && ftruncate(m_descriptor, static_cast<off_t>(begin)) != 0)
+  if (begin < text.size() && ftruncate(m_descriptor.get(), static_cast<off_t>(begin)) != 0)
     throw failed(m_file.string() + ": cannot be written: " + errorText(errno));
 }
 
@@ -102,7 +91,7 @@ bool CheckJournal::knows(const std::string& caseId, const std::string& mark) con
 }
 
 void CheckJournal::add(const std::string& caseId, const std::string& mark) {
-  writeAll(m_descriptor, mark + " " + caseId + "\n", m_file);
+  writeText(m_descriptor.get(), mark + " " + caseId + "\n", m_file);
 }
 
 }  // namespace lumen::convert

@@ -11,6 +11,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "formats/case/file_descriptor.h"
+
 namespace lumen::convert {
 
 class CheckJournal {
@@ -20,11 +22,8 @@ public:
   /// Opens or makes the file. What another version of lumen or another library wrote is not used, but begun anew. Throws
   /// Error(InvalidInput) for a file that is no journal, which stays as it is, and Error(Failed) if another check uses it.
   CheckJournal(const std::filesystem::path& file, const std::string& libraryId);
-  ~CheckJournal();
-  CheckJournal(const CheckJournal&) = delete;
-  CheckJournal& operator=(const CheckJournal&) = delete;
 
-  [[nodiscard]] bool isUsed() const { return m_descriptor >= 0; }
+  [[nodiscard]] bool isUsed() const { return m_descriptor.isOpen(); }
   /// Whether the case was found whole when `mark`, a digest, told of its files.
   [[nodiscard]] bool knows(const std::string& caseId, const std::string& mark) const;
   /// Keeps it. Throws Error(Failed).
@@ -34,7 +33,7 @@ private:
   void read(const std::string& text, const std::string& head);
 
   std::filesystem::path m_file;
-  int m_descriptor = -1;
+  formats::FileDescriptor m_descriptor;
   std::unordered_map<std::string, std::string> m_marks;
 };
 

@@ -20,6 +20,7 @@
 #include "converters/library/derived.h"
 #include "converters/library/record_faults.h"
 #include "converters/library/signature.h"
+#include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
 
@@ -78,6 +79,10 @@ void checkKindsOfOthers(const PlainFolder& folder, FaultList& faults) {
   checkKinds(folder, "site", faults);
 }
 
+bool isFileOrFolder(const PlainEntry& entry) {
+  return S_ISREG(entry.status.st_mode) || S_ISDIR(entry.status.st_mode);
+}
+
 /// The library's folder and data/, in which nothing else may be.
 void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultList& faults) {
   ExpectedFiles root;
@@ -86,6 +91,11 @@ void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultLi
         kManifestFile, kTagManifestFile, "index.html"})
     root.files.insert(name);
   root.files.insert({kPayload, "site"});  // their entries are looked at below
+  folder.list("", [&](const PlainEntry& entry) {
+    if (formats::isTemporaryName(entry.name) && isFileOrFolder(entry))
+      root.files.insert(entry.name);
+    return true;
+  });
   faults.append(walkFolder(folder, "", root, "", faults.most()).faults);
   ExpectedFiles payload;
   payload.files.insert(kCrateFile);

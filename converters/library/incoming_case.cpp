@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/library/incoming_case.h"
 
-#include <fstream>
 #include <map>
 #include <system_error>
 #include <utility>
 
+#include "converters/base/files.h"
 #include "converters/base/sha256.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
@@ -31,10 +31,9 @@ IncomingCase::IncomingCase(const fs::path& library) : m_workspace(workspaceBesid
 
 fs::path IncomingCase::newPath(const std::string& path) const {
   if (!isRecordedPath(path))
-    throw PathError(
-        quotedText(path) +
-        ": a library cannot have a file of this name; expected parts of A to Z, a to z, "
-        "0 to 9, ., _, + and -, none of which begins with a dot, 255 bytes in all");
+    throw PathError(quotedText(path) +
+                    ": a library cannot have a file of this name; expected parts of " + kPathRule +
+                    ", 255 bytes in all");
   for (const RecordedFile& file : record.files)
     if (lowerCase(file.path) == lowerCase(path))
       throw PathError(quotedText(path) + ": there are two files of this name");
@@ -52,10 +51,7 @@ void IncomingCase::note(const std::string& path, const std::string& role,
 void IncomingCase::add(const std::string& path, const std::string& role, std::string_view bytes,
                        const std::string& target) {
   const fs::path place = newPath(path);
-  std::ofstream out(place, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) throw failed(place.string() + ": cannot write this file");
+  writeNewFile(bytes, place);
   note(path, role, target);
 }
 

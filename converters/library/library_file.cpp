@@ -2,12 +2,15 @@
 #include "converters/library/library_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <random>
 
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/library/json_values.h"
-#include "formats/case/case_file.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -34,7 +37,36 @@ LibraryEntry readEntry(const JsonPlace& place) {
   return entry;
 }
 
+Json originJson(const LibraryFile& library) {
+  if (!library.origin) return {};
+  return {{"id", library.origin->id},
+          {"revision", library.origin->revision},
+          {"sha256", library.origin->sha256}};
+}
+
+std::string uuid(const JsonPlace& place) {
+  if (!isUuid(place.text())) place.refuse("a UUID in lower case");
+  return place.text();
+}
+
+LibraryOrigin readOrigin(const JsonPlace& place) {
+  place.onlyKeys({"id", "revision", "sha256"});
+  return {uuid(place.at("id")), wholeNumber(place.at("revision"), 1), digest(place.at("sha256"))};
+}
+
 }  // namespace
+
+std::string newLibraryId() {
+  std::random_device source;
+  std::array<unsigned, 8> parts{};
+  for (unsigned& part : parts) part = source() & 0xFFFFU;
+  parts[3] = (parts[3] & 0x0FFFU) | 0x4000U;
+  parts[4] = (parts[4] & 0x3FFFU) | 0x8000U;
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%04x%04x-%04x-%04x-%04x-%04x%04x%04x", parts[0],
+                parts[1], parts[2], parts[3], parts[4], parts[5], parts[6], parts[7]);
+  return text.data();
+}
 
 std::string libraryText(const LibraryFile& library) {
   Json json = {{"format", "lumen-library"},
@@ -42,12 +74,14 @@ std::string libraryText(const LibraryFile& library) {
                {"id", library.id},
                {"revision", library.revision},
                {"previous", library.previous ? Json(*library.previous) : Json()},
+               {"origin", originJson(library)},
                {"title", library.title},
                {"description", library.description},
                {"publisher", library.publisher},
                {"licence", library.licence},
                {"date", library.date},
                {"generator", library.generator}};
+  if (!library.origin) json.erase("origin");
   // a line for each case, so that two revisions can be compared by eye
   std::string text = json.dump(2);
   text.resize(text.size() - 2);  // "\n}"
@@ -69,13 +103,13 @@ LibraryFile readLibrary(const std::string& text, const fs::path& file) {
   JsonFile document(text, file);
   const JsonPlace root(document);
   requireFormat(root, "lumen-library");
-  root.onlyKeys({"format", "formatVersion", "id", "revision", "previous", "title", "description",
-                 "publisher", "licence", "date", "generator", "cases"});
+  root.onlyKeys({"format", "formatVersion", "id", "revision", "previous", "origin", "title",
+                 "description", "publisher", "licence", "date", "generator", "cases"});
   LibraryFile library;
-  library.id = root.at("id").text();
-  if (!isUuid(library.id)) root.at("id").refuse("a UUID in lower case");
+  library.id = uuid(root.at("id"));
   library.revision = wholeNumber(root.at("revision"), 1);
   if (!root.at("previous").value().isNull()) library.previous = digest(root.at("previous"));
+  if (root.has("origin")) library.origin = readOrigin(root.at("origin"));
   library.title = plainText(root.at("title"), 255, 1);
   library.description = plainText(root.at("description"), 4096);
   library.publisher = plainText(root.at("publisher"), 255);
@@ -98,9 +132,7 @@ LibraryFile openLibrary(const fs::path& folder) {
   if (!fs::is_regular_file(fs::symlink_status(file, error)))
     throw invalidInput(formats::printable(folder.string()) + ": found no " + kLibraryFile +
                        " in it, expected a library, which lumen library init makes");
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(formats::printable(file.string() + ": " + bytes.error().message));
-  return readLibrary({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file);
+  return readLibrary(readWholeFile(file, "list of cases"), file);
 }
 
 const LibraryEntry* findCase(const LibraryFile& library, const std::string& id) {

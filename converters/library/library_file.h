@@ -20,10 +20,18 @@ struct LibraryEntry {
   std::uint64_t files = 0, bytes = 0;  ///< that the record lists
 };
 
+/// The revision of another library that cases were extracted from.
+struct LibraryOrigin {
+  std::string id;  ///< UUID
+  std::uint64_t revision = 1;
+  std::string sha256;  ///< of its library.json
+};
+
 struct LibraryFile {
   std::string id;  ///< UUID
   std::uint64_t revision = 1;
   std::optional<std::string> previous;  ///< SHA-256 of library.json of the revision before
+  std::optional<LibraryOrigin> origin;  ///< of a library that lumen library extract made
   std::string title, description, publisher;
   std::string licence;  ///< an SPDX expression
   std::string date;     ///< YYYY-MM-DD
@@ -46,6 +54,9 @@ LibraryFile readLibrary(const std::string& text, const std::filesystem::path& fi
 
 /// library.json of a folder. Throws Error(InvalidInput) for a folder without one.
 LibraryFile openLibrary(const std::filesystem::path& folder);
+
+/// A random id, a UUID of version 4 (RFC 9562).
+std::string newLibraryId();
 
 /// The case of that id, or null. The cases are sorted.
 const LibraryEntry* findCase(const LibraryFile& library, const std::string& id);

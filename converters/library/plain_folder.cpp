@@ -11,35 +11,18 @@
 
 #include <dirent.h>
 #include <fcntl.h>
-#include <unistd.h>
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
+#include "converters/library/library_lock.h"
 
 namespace lumen::convert {
 
 namespace {
 
+using formats::FileDescriptor;
+
 constexpr std::size_t kPiece = std::size_t{1} << 18;  // bytes: read at once
-
-/// An open file or folder, closed with this.
-class Descriptor {
-public:
-  explicit Descriptor(int descriptor) : m_descriptor(descriptor) {}
-  Descriptor(Descriptor&& other) noexcept : m_descriptor(std::exchange(other.m_descriptor, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(m_descriptor, other.m_descriptor);
-    return *this;
-  }
-  ~Descriptor() {
-    if (m_descriptor >= 0) close(m_descriptor);
-  }
-  [[nodiscard]] int get() const { return m_descriptor; }
-  int release() { return std::exchange(m_descriptor, -1); }
-
-private:
-  int m_descriptor;
-};
 
 struct CloseFolder {
   void operator()(DIR* folder) const { closedir(folder); }
@@ -67,16 +50,16 @@ PlainRead openFault(int folder, const char* name, int code) {
 }
 
 /// The file or folder of that path below `root`, through folders only; O_NONBLOCK, as a pipe would wait for a writer.
-std::pair<Descriptor, PlainRead> openBelow(int root, const std::string& path, int flags) {
-  Descriptor at(openat(root, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (at.get() < 0) return {Descriptor(-1), fault(PlainFault::Unreadable, errorText(errno))};
+std::pair<FileDescriptor, PlainRead> openBelow(int root, const std::string& path, int flags) {
+  FileDescriptor at(openat(root, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!at.isOpen()) return {FileDescriptor(), fault(PlainFault::Unreadable, errorText(errno))};
   for (std::size_t begin = 0; begin < path.size();) {
     const std::size_t end = std::min(path.find('/', begin), path.size());
     const std::string name = path.substr(begin, end - begin);
     const int kind = end < path.size() ? O_DIRECTORY : flags;
-    Descriptor next(
+    FileDescriptor next(
         openat(at.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | kind));
-    if (next.get() < 0) return {Descriptor(-1), openFault(at.get(), name.c_str(), errno)};
+    if (!next.isOpen()) return {FileDescriptor(), openFault(at.get(), name.c_str(), errno)};
     at = std::move(next);
     begin = end + 1;
   }
@@ -97,8 +80,7 @@ PlainRead readOpen(int file, std::uint64_t size, bool isKept, const Progress& pr
   std::uint64_t total = 0;
   while (total <= size) {
     progress.check();
-    const ssize_t n = ::read(file, piece.data(), piece.size());
-    if (n < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t n = formats::readInto(piece, file);
     if (n < 0) return fault(PlainFault::Unreadable, errorText(errno));
     if (n == 0) break;
     const std::span bytes(piece.data(), static_cast<std::size_t>(n));
@@ -132,45 +114,30 @@ std::string kindText(mode_t mode) {
 }
 
 PlainFolder::PlainFolder(const std::filesystem::path& folder)
-    : m_path(folder), m_descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (m_descriptor >= 0) return;
-  const int code = errno;
-  if (code == ENOENT) throw invalidInput(folder.string() + ": there is no such library");
-  if (code == ENOTDIR)
-    throw invalidInput(folder.string() + ": found a file, expected the folder of a library");
-  throw invalidInput(folder.string() + ": this library cannot be read: " + errorText(code));
-}
-
-PlainFolder::~PlainFolder() {
-  close(m_descriptor);
-}
-
-PlainStream::~PlainStream() {
-  close(m_descriptor);
-}
+    : m_path(folder), m_descriptor(openLibraryFolder(folder)) {}
 
 std::string PlainStream::read(std::size_t most) {
   std::string bytes(most, '\0');
-  ssize_t n = 0;
-  while ((n = ::read(m_descriptor, bytes.data(), bytes.size())) < 0 && errno == EINTR) continue;
-  bytes.resize(n < 0 ? 0 : static_cast<std::size_t>(n));
+  const std::ptrdiff_t size =
+      formats::readInto(std::as_writable_bytes(std::span(bytes)), m_descriptor.get());
+  bytes.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(size, 0)));
   return bytes;
 }
 
 std::unique_ptr<PlainStream> PlainFolder::stream(const std::string& path, PlainRead& why) const {
-  auto [file, result] = openBelow(m_descriptor, path, 0);
+  auto [file, result] = openBelow(m_descriptor.get(), path, 0);
   why = result;
   if (result.fault != PlainFault::None) return {};
   struct stat status {};
   if (fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode))
-    return std::make_unique<PlainStream>(file.release());
+    return std::make_unique<PlainStream>(std::move(file));
   why = fault(PlainFault::Kind, kindText(status.st_mode));
   return {};
 }
 
 PlainRead PlainFolder::read(const std::string& path, const WantedRead& wanted,
                             const Progress& progress) const {
-  auto [file, result] = openBelow(m_descriptor, path, 0);
+  auto [file, result] = openBelow(m_descriptor.get(), path, 0);
   if (result.fault != PlainFault::None) return result;
   struct stat before {};
   struct stat after {};
@@ -189,7 +156,7 @@ PlainRead PlainFolder::read(const std::string& path, const WantedRead& wanted,
 
 PlainRead PlainFolder::list(const std::string& path,
                             const std::function<bool(const PlainEntry&)>& see) const {
-  auto [folder, result] = openBelow(m_descriptor, path, O_DIRECTORY);
+  auto [folder, result] = openBelow(m_descriptor.get(), path, O_DIRECTORY);
   if (result.fault != PlainFault::None) return result;
   const std::unique_ptr<DIR, CloseFolder> stream(fdopendir(folder.get()));
   if (!stream) return fault(PlainFault::Unreadable, errorText(errno));

@@ -9,10 +9,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <sys/stat.h>
 
 #include "converters/base/progress.h"
+#include "formats/case/file_descriptor.h"
 
 namespace lumen::convert {
 
@@ -51,24 +53,18 @@ std::string kindText(mode_t mode);
 /// An open file, read from the beginning on.
 class PlainStream {
 public:
-  explicit PlainStream(int descriptor) : m_descriptor(descriptor) {}
-  ~PlainStream();
-  PlainStream(const PlainStream&) = delete;
-  PlainStream& operator=(const PlainStream&) = delete;
-  /// The next bytes, at most so many; nothing at the end, or where it cannot be read.
+  explicit PlainStream(formats::FileDescriptor descriptor) : m_descriptor(std::move(descriptor)) {}
+  /// The next bytes, at most `most`; nothing at the end, or where it cannot be read.
   std::string read(std::size_t most);
 
 private:
-  int m_descriptor;
+  formats::FileDescriptor m_descriptor;
 };
 
 class PlainFolder {
 public:
   /// Throws Error(InvalidInput) if there is no such folder or it cannot be read. Here a link is followed.
   explicit PlainFolder(const std::filesystem::path& folder);
-  ~PlainFolder();
-  PlainFolder(const PlainFolder&) = delete;
-  PlainFolder& operator=(const PlainFolder&) = delete;
 
   /// As it was named.
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
@@ -86,7 +82,7 @@ public:
 
 private:
   std::filesystem::path m_path;
-  int m_descriptor = -1;
+  formats::FileDescriptor m_descriptor;
 };
 
 }  // namespace lumen::convert

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iterator>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/sha256.h"
 #include "converters/base/text.h"
 #include "formats/container/printable.h"
@@ -52,8 +52,7 @@ bool isHeader(const fs::path& file) {
 
 /// A header and what its voxels may be in.
 std::vector<fs::path> filesOfHeader(const fs::path& header) {
-  std::ifstream in(header, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = readWholeFile(header, "header");
   const bool isPattern = text.find('%') != std::string::npos;
   const fs::path folder = header.has_parent_path() ? header.parent_path() : fs::path(".");
   std::vector<fs::path> files = filesOf<fs::directory_iterator>(folder);

@@ -100,11 +100,17 @@ std::vector<std::pair<const char*, const std::string*>> textsToLookAt(const Case
 /// de-identification of a patient. One sentence, or nothing.
 std::string missingStatement(const CaseAbout& about);
 
-/// The keys of CaseAbout as an object of their own, such as people write for `lumen library add --about`; all may be
-/// missing. Throws as readRecord().
-CaseAbout readAbout(const std::string& text, const std::filesystem::path& file);
+/// Takes the keys of CaseAbout from an object of their own, such as people write for `lumen library add --about`, or from
+/// a whole record.json; the members of missing keys are those of `known`. Throws as readRecord().
+CaseAbout readAbout(const std::string& text, const std::filesystem::path& file,
+                    CaseAbout known = {});
 
-/// Whether spec/library.md allows it.
+/// Whether spec/library.md allows it, and in words what it allows.
+inline constexpr const char* kCaseIdRule =
+    "1 to 64 of a to z, 0 to 9 and -, not beginning with - and no device of Windows such as con";
+inline constexpr const char* kPathRule =
+    "A to Z, a to z, 0 to 9, ., _, + and -, not beginning with . or -, not ending with ., and no "
+    "device of Windows such as con";
 bool isCaseId(const std::string& id);
 bool isRecordedPath(const std::string& path);
 /// A digital object identifier, or nothing.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "converters/base/text.h"
 #include "converters/library/record.h"
 #include "converters/library/spdx.h"
 
@@ -21,15 +22,25 @@ bool isPathCharacter(char c) {
          std::string_view("._+-").find(c) != std::string_view::npos;
 }
 
+/// Names of devices, which Windows refuses for files whatever their ending ("Naming Files, Paths, and Namespaces").
+bool isOfWindows(std::string_view part) {
+  const std::string stem = lowerCase(std::string(part.substr(0, part.find('.'))));
+  if (stem.size() == 4 && (stem.starts_with("com") || stem.starts_with("lpt")))
+    return stem[3] >= '0' && stem[3] <= '9';
+  return stem == "con" || stem == "prn" || stem == "aux" || stem == "nul";
+}
+
+/// No hidden file, no option of a program, and nothing that Windows cannot keep.
 bool isPart(std::string_view part) {
-  return !part.empty() && part.size() <= kMostPart && part.front() != '.' &&
+  return !part.empty() && part.size() <= kMostPart && part.front() != '.' && part.front() != '-' &&
+         part.back() != '.' && !isOfWindows(part) &&
          std::all_of(part.begin(), part.end(), isPathCharacter);
 }
 
 }  // namespace
 
 bool isCaseId(const std::string& id) {
-  return !id.empty() && id.size() <= kMostId && id.front() != '-' &&
+  return !id.empty() && id.size() <= kMostId && id.front() != '-' && !isOfWindows(id) &&
          std::all_of(id.begin(), id.end(),
                      [](char c) { return isSmallLetterOrDigit(c) || c == '-'; });
 }

@@ -36,6 +36,7 @@ void readAnatomy(const JsonPlace& place, CaseAbout& about) {
   place.onlyKeys({"text", "codes"});
   about.anatomy = plainText(place.at("text"), 255);
   const auto codes = place.at("codes").elements();
+  about.codes.clear();
   if (codes.size() > kMostCodes) place.at("codes").refuse("at most 64 codes");
   for (const JsonPlace& code : codes) about.codes.push_back(readCode(code));
 }
@@ -198,8 +199,7 @@ RecordedFile readFile(const JsonPlace& place) {
   file.path = place.at("path").text();
   if (!isRecordedPath(file.path))
     refusePath(place.at("path"),
-               "a path relative to the folder of the case, its parts of A to Z, a to z, 0 to 9, ., "
-               "_, + and -, none of which begins with a dot");
+               std::string("a path relative to the folder of the case, its parts of ") + kPathRule);
   file.role = wordOf(place.at("role"), {"case", "surface", "export", "picture", "report", "other"});
   if (place.has("target") != (file.role == "export"))
     place.refuse("a target for an export, and for nothing else");
@@ -273,15 +273,15 @@ CaseRecord readRecord(const std::string& text, const std::filesystem::path& file
   return record;
 }
 
-CaseAbout readAbout(const std::string& text, const std::filesystem::path& file) {
+CaseAbout readAbout(const std::string& text, const std::filesystem::path& file, CaseAbout known) {
   JsonFile document(text, file);
   const JsonPlace root(document);
+  if (root.has("format")) return readRecord(text, file).about;
   root.onlyKeys({"title", "description", "anatomy", "laterality", "modality", "synthetic",
                  "licence", "attribution", "doi", "origin", "consent", "deidentification"});
-  CaseAbout about;
   for (const auto& [key, read] : aboutReaders())
-    if (root.has(key.c_str())) read(root.at(key), about);
-  return about;
+    if (root.has(key.c_str())) read(root.at(key), known);
+  return known;
 }
 
 }  // namespace lumen::convert

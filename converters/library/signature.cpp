@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/run_program.h"
 #include "converters/base/text.h"
 #include "formats/container/printable.h"
@@ -31,18 +30,6 @@ bool isOfMinisign(KeyKind kind) {
   return kind == KeyKind::MinisignSecret || kind == KeyKind::MinisignPublic;
 }
 
-void put(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw failed(file.string() + ": a temporary file cannot be written");
-}
-
-std::string get(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// minisign or ssh-keygen in a folder of its own, where it finds library.json and leaves nothing.
 class Program {
 public:
@@ -55,7 +42,7 @@ public:
                         "'s keys need; Debian has it in the package " +
                         (isMinisign ? "minisign" : "openssh-client"));
     m_path = *path;
-    put(file("library.json"), libraryText);
+    writeNewFile(libraryText, file("library.json"));
   }
 
   [[nodiscard]] fs::path file(const std::string& name) const { return m_folder.path() / name; }
@@ -96,6 +83,12 @@ private:
   PrivateFolder m_folder;
 };
 
+/// The signature that a program made, or nothing where it made none.
+std::string signatureIn(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(file, error) ? readWholeFile(file, "signature", kMostText) : "";
+}
+
 /// "Good "lumen-library" signature with ED25519 key SHA256:...": the last word.
 std::string fingerprint(const ProgramResult& result) {
   const std::string text = trimmed(result.output);
@@ -123,7 +116,7 @@ Signature signWithMinisign(const std::string& text, const LibraryFile& library, 
   const ProgramResult result = program.ask(
       {"-S", "-s", fs::absolute(key.file).string(), "-m", "library.json", "-x", "signature", "-c",
        about, "-t", about + " revision " + std::to_string(library.revision)});
-  Signature signature{kMinisignSignatureFile, get(program.file("signature")), {}, false};
+  Signature signature{kMinisignSignatureFile, signatureIn(program.file("signature")), {}, false};
   const auto signer = minisignSigner(signature.bytes);
   if (result.end != ProgramEnd::Done || !signer)
     throw failed(key.file.string() + ": not signed: " + program.words(result));
@@ -143,7 +136,8 @@ Signature signWithOpenSsh(const std::string& text, const KeyFile& key, const Pro
   const ProgramResult result =
       program.ask({"-q", "-Y", "sign", "-f", fs::absolute(key.file).string(), "-n",
                    kSignatureNamespace, "library.json"});
-  Signature signature{kOpenSshSignatureFile, get(program.file("library.json.sig")), {}, false};
+  Signature signature{
+      kOpenSshSignatureFile, signatureIn(program.file("library.json.sig")), {}, false};
   if (result.end != ProgramEnd::Done || signature.bytes.empty())
     throw failed(key.file.string() + ": not signed: " + program.words(result));
   const ProgramResult again =
@@ -166,7 +160,7 @@ TrustAnswer verifyWithMinisign(const std::string& text, const std::string& signa
             "a signature by minisign's key " + *signer,
             "one by " + trusted.id + ", which is in " + trusted.file.string()};
   const Program program(true, text, progress);
-  put(program.file("signature"), signature);
+  writeNewFile(signature, program.file("signature"));
   const ProgramResult result = program.run({"-V", "-q", "-p", fs::absolute(trusted.file).string(),
                                             "-m", "library.json", "-x", "signature"});
   if (result.end == ProgramEnd::Done) return {Trust::Trusted, {"minisign", *signer, ""}, "", ""};
@@ -186,7 +180,8 @@ std::string findIdentity(const Program& program) {
 
 /// A list of allowed signers of the key that is trusted.
 std::string allowedSigners(const KeyFile& trusted) {
-  if (trusted.kind == KeyKind::AllowedSigners) return get(trusted.file);
+  if (trusted.kind == KeyKind::AllowedSigners)
+    return readWholeFile(trusted.file, "list of allowed signers", kMostText);
   std::string text;
   for (const std::string& key : trusted.keys) text += std::string(kPublisher) + " " + key + "\n";
   return text;
@@ -196,8 +191,8 @@ TrustAnswer verifyWithOpenSsh(const std::string& text, const std::string& signat
                               const KeyFile& trusted, const std::string& identity,
                               const Progress& progress) {
   const Program program(false, text, progress);
-  put(program.file("signature"), signature);
-  put(program.file("allowed"), allowedSigners(trusted));
+  writeNewFile(signature, program.file("signature"));
+  writeNewFile(allowedSigners(trusted), program.file("allowed"));
   const ProgramResult any =
       program.run({"-Y", "check-novalidate", "-n", kSignatureNamespace, "-s", "signature"});
   if (any.end != ProgramEnd::Done)

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <fstream>
 #include <iterator>
 #include <span>
 #include <sstream>
 #include <string_view>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/text.h"
 #include "formats/case/base64.h"
 
@@ -85,25 +85,10 @@ bool readOpenSsh(const std::vector<std::string>& lines, KeyFile& key) {
   return hasAny;
 }
 
-std::string readText(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw invalidInput(file.string() + ": there is no such key file");
-  if (!std::filesystem::is_regular_file(file, error))
-    throw invalidInput(file.string() + ": found no file, expected a key of minisign or OpenSSH");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(kMostBytes, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.is_open() || stream.bad())
-    throw invalidInput(file.string() + ": this key file cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
-}
-
 }  // namespace
 
 KeyFile readKeyFile(const std::filesystem::path& file) {
-  const std::string text = readText(file);
+  const std::string text = readWholeFile(file, "key file", kMostBytes);
   KeyFile key;
   key.file = file;
   const std::vector<std::string> lines = linesOf(text);

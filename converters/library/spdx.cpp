@@ -53,11 +53,24 @@ std::vector<std::string> tokensOf(const std::string& text) {
   return tokens;
 }
 
+/// The listed identifier that is `word`, a hyphen and the greatest version number: CC-BY-4.0 for CC-BY; or nothing.
+std::string_view newestVersion(const std::string& word) {
+  std::string_view newest;
+  const std::string prefix = lowerCase(word) + "-";
+  for (const std::string_view known : kSpdxLicences)
+    if (lowerCase(std::string(known)).starts_with(prefix) &&
+        known.find_first_not_of("0123456789.", prefix.size()) == std::string_view::npos)
+      newest = std::max(newest, known);
+  return newest;
+}
+
 std::string unknown(const std::string& word) {
   std::string text = quotedText(word) + " is no identifier of SPDX's list of licences";
   for (const std::string_view known : kSpdxLicences)
     if (lowerCase(std::string(known)) == lowerCase(word))
       return text + "; did you mean " + std::string(known) + "?";
+  if (const std::string_view versioned = newestVersion(word); !versioned.empty())
+    return text + "; did you mean " + std::string(versioned) + "?";
   return text + "; a licence of your own is written LicenseRef- and a name";
 }
 

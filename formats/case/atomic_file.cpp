@@ -31,14 +31,6 @@ Issue writeError(const fs::path& file, const std::string& what, int code) {
           file.string() + ": " + what + ": " + std::generic_category().message(code)};
 }
 
-// Retries a system call that a signal interrupted.
-template <class Call>
-auto uninterrupted(Call call) {
-  auto result = call();
-  while (result == -1 && errno == EINTR) result = call();
-  return result;
-}
-
 // The file that `file` leads to through symbolic links, whether it exists or not.
 Expected<fs::path> followLinks(fs::path file) {
   std::error_code error;
@@ -82,30 +74,14 @@ std::string ownPrefix() {
   return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-";
 }
 
-// The prefix, digits, a hyphen: what a user keeps under a similar name is not ours. Earlier versions
-// tried folders out by files named .lumen-probe- and six letters.
-bool isTemporaryName(std::string_view name) {
-  constexpr std::string_view kProbe = ".lumen-probe-XXXXXX";
-  if (name.size() == kProbe.size() && name.starts_with(kProbe.substr(0, kProbe.size() - 6)))
-    return true;
-  if (!name.starts_with(kTemporaryPrefix)) return false;
-  name.remove_prefix(kTemporaryPrefix.size());
-  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-  return digits > 0 && digits < name.size() && name[digits] == '-';
-}
-
 bool tryLock(int descriptor) {
   return uninterrupted([&] { return ::flock(descriptor, LOCK_EX | LOCK_NB); }) == 0;
 }
 
 // Nobody has a lock on it, which its writer would.
 bool isAbandoned(const fs::path& path) {
-  const int descriptor = uninterrupted(
-      [&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK); });
-  if (descriptor < 0) return false;
-  const bool free = tryLock(descriptor);
-  ::close(descriptor);
-  return free;
+  const FileDescriptor open = openForReading(path, O_NOFOLLOW);
+  return open.isOpen() && tryLock(open.get());
 }
 
 // A lock taken an instant after the name appeared may have come too late.
@@ -123,15 +99,15 @@ Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string&
   for (int trial = 0; trial < kMaxNameTrials; ++trial) {
     const fs::path path =
         target.parent_path() / (ownPrefix() + std::to_string(counter.fetch_add(1)) + ending);
-    const int descriptor = uninterrupted([&] { return make(path); });
-    if (descriptor < 0) {
+    FileDescriptor open(uninterrupted([&] { return make(path); }));
+    if (!open.isOpen()) {
       error = errno;
       if (error == EEXIST) continue;
       break;
     }
-    tryLock(descriptor);  // a file system without locks has no abandoned files either
-    HiddenSibling sibling(path, descriptor);
-    if (stillExists(descriptor)) return sibling;
+    tryLock(open.get());  // a file system without locks has no abandoned files either
+    HiddenSibling sibling(path, std::move(open));
+    if (stillExists(sibling.descriptor())) return sibling;
   }
   return writeError(target, "no file can be made in the folder " + folderOf(target).string(),
                     error);
@@ -160,14 +136,9 @@ bool flushOpen(int descriptor, const FileCalls& calls) {
 // The file or folder at `path` is on the disk then, with the permissions `mode` if that is given.
 bool flushPath(const fs::path& path, int flags, const FileCalls& calls,
                std::optional<mode_t> mode = {}) {
-  const int descriptor =
-      uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags); });
-  if (descriptor < 0) return false;
-  const bool flushed = (!mode || setMode(descriptor, *mode, calls)) && flushOpen(descriptor, calls);
-  const int error = errno;
-  ::close(descriptor);
-  errno = error;
-  return flushed;
+  const FileDescriptor open = openForReading(path, flags);
+  return open.isOpen() && (!mode || setMode(open.get(), *mode, calls)) &&
+         flushOpen(open.get(), calls);
 }
 
 // Makes a rename survive a power cut. A folder that cannot be opened or flushed (some network file
@@ -193,24 +164,9 @@ bool flushFolder(const fs::path& folder, const FileCalls& calls) {
 // The same by one call, where there is one.
 bool flushSystemOf(const fs::path& folder, const FileCalls& calls) {
   if (!calls.flushSystem) return flushFolder(folder, calls);
-  const int descriptor =
-      uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
-  if (descriptor < 0) return false;
-  const bool flushed = calls.flushSystem(descriptor) == 0;
-  const int error = errno;
-  ::close(descriptor);
-  errno = error;
-  return flushed || (isUnsupported(error) && flushFolder(folder, calls));
-}
-
-int flushWholeSystem(int descriptor) {
-#ifdef __linux__
-  return ::syncfs(descriptor);
-#else
-  (void)descriptor;
-  errno = ENOSYS;
-  return -1;
-#endif
+  const FileDescriptor open = openForReading(folder, O_DIRECTORY);
+  if (!open.isOpen()) return false;
+  return calls.flushSystem(open.get()) == 0 || (isUnsupported(errno) && flushFolder(folder, calls));
 }
 
 int exchangeNames(const char* a, const char* b) {
@@ -230,30 +186,23 @@ const FileCalls& systemCalls() {
       [](int descriptor) { return ::fsync(descriptor); },
       [](int descriptor, mode_t mode) { return ::fchmod(descriptor, mode); },
       [](const char* from, const char* to) { return ::rename(from, to); }, exchangeNames,
-      flushWholeSystem};
+      [](int descriptor) { return flushFileSystem(descriptor) ? 0 : -1; }};
   return calls;
 }
 
 HiddenSibling::HiddenSibling(HiddenSibling&& other) noexcept
-    : m_path(std::exchange(other.m_path, {})),
-      m_descriptor(std::exchange(other.m_descriptor, -1)) {}
+    : m_path(std::exchange(other.m_path, {})), m_descriptor(std::move(other.m_descriptor)) {}
 
 HiddenSibling::~HiddenSibling() {
   std::error_code ignored;
   if (!m_path.empty()) fs::remove_all(m_path, ignored);
-  if (m_descriptor >= 0) ::close(m_descriptor);
 }
 
 Expected<bool> writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file,
                                    const FileCalls& calls) {
   auto pending = PendingFile::beside(file, calls);
   if (!pending) return pending.error();
-  while (!bytes.empty()) {
-    const ssize_t count =
-        uninterrupted([&] { return ::write(pending->descriptor(), bytes.data(), bytes.size()); });
-    if (count < 0) return writeError(file, "cannot write", errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-  }
+  if (!writeAll(bytes, pending->descriptor())) return writeError(file, "cannot write", errno);
   return pending->commit();
 }
 
@@ -328,6 +277,17 @@ Expected<bool> PendingFolder::replace() {
   std::error_code ignored;
   fs::remove_all(old, ignored);
   return true;
+}
+
+bool isTemporaryName(std::string_view name) {
+  // a prefix, digits and a hyphen, or a probe of a folder: a user's own file of a similar name is no temporary one
+  constexpr std::string_view kProbe = ".lumen-probe-XXXXXX";
+  if (name.size() == kProbe.size() && name.starts_with(kProbe.substr(0, kProbe.size() - 6)))
+    return true;
+  if (!name.starts_with(kTemporaryPrefix)) return false;
+  name.remove_prefix(kTemporaryPrefix.size());
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  return digits > 0 && digits < name.size() && name[digits] == '-';
 }
 
 void removeTemporaries(const fs::path& folder, Temporaries which) {

@@ -27,6 +27,7 @@
 
 #include <sys/types.h>
 
+#include "formats/case/file_descriptor.h"
 #include "formats/container/expected.h"
 
 namespace lumen::formats {
@@ -57,19 +58,19 @@ Expected<bool> writeFileAtomically(std::span<const std::byte> bytes,
 /// A hidden, empty file or folder that this process holds a lock on and removes at its end.
 class HiddenSibling {
 public:
-  HiddenSibling(std::filesystem::path path, int descriptor)
-      : m_path(std::move(path)), m_descriptor(descriptor) {}
+  HiddenSibling(std::filesystem::path path, FileDescriptor descriptor)
+      : m_path(std::move(path)), m_descriptor(std::move(descriptor)) {}
   HiddenSibling(HiddenSibling&& other) noexcept;
   HiddenSibling& operator=(HiddenSibling&&) = delete;
   ~HiddenSibling();
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
-  [[nodiscard]] int descriptor() const { return m_descriptor; }
+  [[nodiscard]] int descriptor() const { return m_descriptor.get(); }
   /// It has another name now, under which it stays.
   void release() { m_path.clear(); }
 
 private:
   std::filesystem::path m_path;
-  int m_descriptor;
+  FileDescriptor m_descriptor;
 };
 
 /// A file for a library that writes by name. It replaces its target as writeFileAtomically() does.
@@ -130,6 +131,9 @@ private:
   Existing m_existing;
   std::reference_wrapper<const FileCalls> m_calls;
 };
+
+/// Whether a file or folder of this name is one that a writer has not put in its place.
+bool isTemporaryName(std::string_view name);
 
 enum class Temporaries : std::uint8_t { Abandoned, AbandonedAndOwn };
 

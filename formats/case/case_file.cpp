@@ -5,32 +5,15 @@
 #include <optional>
 #include <system_error>
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "formats/case/atomic_file.h"
+#include "formats/case/file_descriptor.h"
 
 namespace lumen::formats {
 namespace {
 
 namespace fs = std::filesystem;
-
-class OpenFile {
-public:
-  explicit OpenFile(const fs::path& file)
-      // not blocking: opening a pipe that nobody writes to must not hang
-      : m_descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~OpenFile() {
-    if (m_descriptor >= 0) ::close(m_descriptor);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  [[nodiscard]] int descriptor() const { return m_descriptor; }
-
-private:
-  int m_descriptor;
-};
 
 Issue ioError(ErrorCode code, const fs::path& file, const std::string& what) {
   return {code, std::nullopt, file.string() + ": " + what};
@@ -63,27 +46,21 @@ std::optional<Case> decode(std::span<const std::byte> bytes, IssueList& issues) 
 }  // namespace
 
 Expected<std::vector<std::byte>> readFileBytes(const fs::path& file) {
-  const OpenFile open(file);
+  const FileDescriptor open = openForReading(file);
   const auto reason = [] { return std::generic_category().message(errno); };
-  if (open.descriptor() < 0)
+  if (!open.isOpen())
     return ioError(errno == ENOENT || errno == ENOTDIR ? ErrorCode::IoMissing : ErrorCode::IoRead,
                    file, reason());
   struct stat info {};
-  if (::fstat(open.descriptor(), &info) != 0) return ioError(ErrorCode::IoRead, file, reason());
+  if (::fstat(open.get(), &info) != 0) return ioError(ErrorCode::IoRead, file, reason());
   if (!S_ISREG(info.st_mode))
     return ioError(ErrorCode::IoNotAFile, file,
                    S_ISDIR(info.st_mode) ? "is a directory, expected a .lumen or .lumen.json file"
                                          : "is not a regular file");
   std::vector<std::byte> bytes(static_cast<std::size_t>(info.st_size));
-  std::size_t got = 0;
-  while (got < bytes.size()) {
-    const ssize_t count = ::read(open.descriptor(), bytes.data() + got, bytes.size() - got);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return ioError(ErrorCode::IoRead, file, reason());
-    if (count == 0) break;  // it shrank while being read; decoding will tell
-    got += static_cast<std::size_t>(count);
-  }
-  bytes.resize(got);
+  const std::ptrdiff_t got = readInto(bytes, open.get());
+  if (got < 0) return ioError(ErrorCode::IoRead, file, reason());
+  bytes.resize(static_cast<std::size_t>(got));  // decoding finds a file that shrank meanwhile
   if (bytes.empty()) return ioError(ErrorCode::IoEmpty, file, "the file is empty");
   return bytes;
 }

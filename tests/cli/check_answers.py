@@ -136,6 +136,7 @@ def make_cases(lumen, folder):
     go("library-add.schema.json", "library", "add", "lib", "fitted.lumen", "--synthetic", "--export", "svzerod", "--id", "one")
     go("library-add.schema.json", "library", "add", "lib", "truth.lumen", "--synthetic", "--id", "two")
     go("library-list.schema.json", "library", "list", "lib")
+    go("library.schema.json", "library", "extract", "lib", "extract", "--case", "two")
     go("library.schema.json", "library", "remove", "lib", "two")
     go("completion.schema.json", "completion", "bash")
     (folder / "library").mkdir()

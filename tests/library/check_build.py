@@ -60,7 +60,7 @@ def one_bad_row(lumen, folder):
     must(done.returncode == 3, f"a bad input: exit code {done.returncode}, {done.stderr}")
     must([rows[f"tree-{k}"]["end"] for k in range(3)] == ["made", "failed", "made"], f"ends: {rows}")
     must("1.swc" in rows["tree-1"]["why"] and rows["tree-1"]["code"] == 3, f"why: {rows['tree-1']}")
-    must("row 3 (tree-1)" in done.stderr, f"it is not told at once: {done.stderr}")
+    must("line 3 (tree-1)" in done.stderr, f"it is not told at once: {done.stderr}")
     check(lumen, folder / "lib")
 
     (folder / "1.swc").write_text(good)
@@ -130,7 +130,7 @@ def killed_again_and_again(lumen, folder, kills):
 def refused(lumen, folder):
     prepare(lumen, folder, 1)
     for text, code, said in (
-            ("input,id,title\n0.swc,a,A\n", 3, "row 2: "),  # no consent, not synthetic
+            ("input,id,title\n0.swc,a,A\n", 3, "line 2: "),  # no consent, not synthetic
             (HEAD + "0.swc,a,nowhere,A,yes,CC0-1.0\n", 3, 'targets: found "nowhere"'),
             (HEAD.strip() + ",--ray\n0.swc,a,,A,yes,CC0-1.0,42\n", 3, "--ray: lumen convert has no such option"),
             (HEAD + "0.swc,a,,,yes,CC0-1.0\n", 3, "title: is empty"),

@@ -109,7 +109,9 @@ def changing(place):
     (library / "data/full/extra.txt").write_text("somebody's")
     os.chmod(library, 0o750)
     inode = (library / "data/full/surface.glb").stat().st_ino
-    place.add("--id", "full", "--replace", "--title", "Better", case="tube.lumen")
+    done = place.add("--id", "full", "--replace", "--only", "--title", "Better", case="tube.lumen")
+    for name in ("library.json.sig", "library.json.minisig", "index.html", "site", "data/full/files/note.txt", "data/full/picture-left.png"):
+        expect(name in done.stdout, f"{name} goes without a word: {done.stdout}")
     place.add("--id", "later")
     names = sorted(p.name for p in library.iterdir())
     expect("README.md" in names and not {"library.json.sig", "library.json.minisig", "index.html", "site"} & set(names), f"left: {names}")
@@ -128,12 +130,77 @@ def changing(place):
     expect(sorted(p.name for p in place.folder.iterdir() if p.name.startswith(".")) == [], "hidden files are left")
 
 
+def replacing(place):
+    """What is not named again stays: statements, exports, pages, pictures, files; all that goes is listed."""
+    place.run("library", "add", "lib", "tube.lumen", "--id", "rich", "--consent", "Given", "--deidentification", "Done", "--no-surface",
+              "--picture", "left", "--picture", "best", "--turntable", "2", "--export", "svzerod", "--report", "--viewer", "--file", "note.txt",
+              "--code", "FMA:3947:Internal carotid artery")
+    record = lambda: json.loads((place.folder / "lib/data/rich/record.json").read_text())
+    before = record()
+    answer = json.loads(place.run("library", "add", "lib", "tube.lumen", "--id", "rich", "--replace", "--title", "Better", "--json").stdout)
+    after = record()
+    expect([f["path"] for f in after["files"]] == [f["path"] for f in before["files"]], f"files that went: {after['files']}")
+    expect(answer["gone"] == [], f"gone: {answer['gone']}")
+    expect((after["version"], after["title"], after["consent"], after["anatomy"]) == (2, "Better", "Given", before["anatomy"]), "statements")
+    answer = json.loads(place.run("library", "add", "lib", "tube.lumen", "--id", "rich", "--replace", "--picture", "none", "--json").stdout)
+    expect(answer["gone"] == [f"data/rich/{name}.png" for name in ("picture-best", "picture-left")] + ["data/rich/thumbnail.png"] * ("thumbnail.png" in
+           [f["path"] for f in before["files"]]), f"gone without pictures: {answer['gone']}")
+    expect(record()["title"] == "Better", "the title of the version before")
+    (place.folder / "old.json").write_bytes((place.folder / "lib/data/rich/record.json").read_bytes())
+    place.run("library", "add", "lib", "tube.lumen", "--id", "poor", "--about", "old.json", "--no-surface", "--picture", "none")
+    poor = json.loads((place.folder / "lib/data/poor/record.json").read_text())
+    expect((poor["title"], poor["consent"]) == ("Better", "Given"), "--about does not take a record.json")
+    place.refused(2, "--replace", "add", "lib", "tube.lumen", "--id", "lone", "--only", "--synthetic")
+    place.valid("after replacements")
+    place.run("library", "remove", "lib", "rich", "poor")
+
+
+def extracting(place):
+    first = place.library()["cases"][0]["id"]
+    place.run("library", "extract", "lib", "own", "--case", first)
+    made, whole = json.loads((place.folder / "own/library.json").read_text()), place.library()
+    expect(made["id"] != whole["id"] and made["revision"] == 1, "an extract has no identity of its own")
+    expect(made["origin"] == dict(id=whole["id"], revision=whole["revision"], sha256=bag.sha256(place.folder / "lib/library.json")), "origin")
+    for fault in bag.library_faults(place.folder / "own"): expect(False, f"an extract: {fault}")
+    place.run("library", "check", "own")
+
+
+def leaving(place):
+    """What a killed `library index` leaves is no fault, and no part of the next revision."""
+    left = place.folder / "lib/.lumen-4711-0"
+    left.mkdir()
+    (left / "page.html").write_text("half")
+    place.run("library", "check", "lib")
+    place.add("--id", "after-a-kill")
+    expect(not left.exists(), "what a killed writer left is in the next revision")
+
+
+def checking_meanwhile(place):
+    """A check during changes finds a whole library."""
+    words = [place.lumen, "library", "add", "lib", "tube.lumen", "--synthetic", "--no-surface", "--picture", "none", "--quiet", "--id"]
+    for i in range(6):
+        adding = subprocess.Popen([*words, f"meanwhile-{i}"], cwd=place.folder, env=place.environment)
+        while adding.poll() is None: place.run("library", "check", "lib", "--quiet")
+        expect(adding.wait() == 0, "an add during checks failed")
+
+
 def refusing(place):
     hurt = ["--consent", "Given", "--deidentification", "Done"]
     place.refused(2, "has a case later already", "add", "lib", "tube.lumen", "--synthetic", "--id", "later")
     place.refused(3, "no statement of consent", "add", "lib", "tube.lumen")
     place.refused(3, "no statement of de-identification", "add", "lib", "tube.lumen", "--consent", "Given")
     place.refused(2, "expected 1 to 64 of a to z", "add", "lib", "tube.lumen", "--id", "../x", *hurt)
+    for name in ("con", "nul", "com1"):
+        place.refused(2, "no device of Windows", "add", "lib", "tube.lumen", "--id", name, *hurt)
+    (place.folder / "-note.txt").write_text("x")
+    place.refused(3, "cannot have a file of this name", "add", "lib", "tube.lumen", "--file", "./-note.txt", *hurt)
+    place.refused(2, "--key FILE is missing", "sign", "lib")
+    place.refused(2, "--key FILE is missing", "verify", "lib")
+    done = place.run("library", "copy", "lib", "copy", code=2)
+    expect("did you mean" not in done.stderr, f"library copy: {done.stderr}")
+    done = place.run("library", "chek", "lib", code=2)
+    expect("did you mean library check?" in done.stderr, f"library chek: {done.stderr}")
+    place.refused(2, "did you mean CC-BY-4.0?", "add", "lib", "tube.lumen", "--licence", "CC-BY", *hurt)
     place.refused(2, "did you mean CC-BY-4.0?", "add", "lib", "tube.lumen", "--licence", "cc-by-4.0", *hurt)
     place.refused(2, "expected a DOI such as", "add", "lib", "tube.lumen", "--doi", "https://doi.org/10.1234/x", *hurt)
     place.refused(2, "expected SNOMED CT or FMA", "add", "lib", "tube.lumen", "--code", "ICD:1:x", *hurt)
@@ -193,7 +260,7 @@ def main():
         place.run("phantom", "stenosis", "tube.nrrd", "--seeds", "tube.json", "--quiet")
         place.run("convert", "tube.nrrd", "tube.lumen", "--seeds", "tube.json", "--quiet")
         place.run("track", "tube.nrrd", "tree.lumen", "--seeds", "tube.json", "--quiet")
-        for step in (making, adding, changing, refusing, at_once, crates):
+        for step in (making, adding, changing, replacing, extracting, leaving, refusing, at_once, checking_meanwhile, crates):
             step(place)
     print(f"{len(failures)} failures")
     return 1 if failures else 0

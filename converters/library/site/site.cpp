@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/library/site/site.h"
 
-#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/sha256.h"
 #include "converters/library/library_file.h"
+#include "converters/library/library_lock.h"
 #include "converters/library/record.h"
 #include "converters/library/site/case_page.h"
 #include "converters/library/site/case_texts.h"
 #include "converters/library/site/gallery_page.h"
 #include "converters/library/site/site_files.h"
 #include "formats/case/atomic_file.h"
-#include "formats/case/case_file.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -35,14 +32,12 @@ std::string shown(const fs::path& path) {
 /// A record that is what library.json states.
 CaseRecord statedRecord(const fs::path& folder, const LibraryEntry& entry) {
   const fs::path file = folder / kPayload / entry.id / kRecordFile;
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(bytes.error().message);
-  if (bytes->size() != entry.recordBytes || sha256(*bytes) != entry.recordSha256)
+  const std::string text = readWholeFile(file, "record");
+  if (text.size() != entry.recordBytes || sha256(text) != entry.recordSha256)
     throw invalidInput(shown(file) +
                        ": found another file than the one that library.json states by its SHA-256; "
                        "lumen library check tells what else is amiss");
-  CaseRecord record =
-      readRecord({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file);
+  CaseRecord record = readRecord(text, file);
   if (record.id != entry.id)
     throw invalidInput(shown(file) + ": id: found " + formats::printable(record.id) +
                        ", expected " + entry.id + ", as library.json has it");
@@ -70,9 +65,7 @@ void requireOwnPage(const fs::path& place) {
   const fs::file_status there = fs::symlink_status(place, error);
   if (!fs::exists(there)) return;
   if (!fs::is_regular_file(there)) throw notOurs(place);
-  const auto bytes = formats::readFileBytes(place);
-  if (!bytes) throw failed(bytes.error().message);
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const std::string text = readWholeFile(place, "page");
   if (text.find("<script src=\"site/gallery.js\"") == std::string_view::npos) throw notOurs(place);
 }
 
@@ -82,7 +75,7 @@ std::string signatureIn(const fs::path& folder) {
   return {};
 }
 
-/// What puts site/ in its place. Its files are flushed to disk together, by flushAll(): one at a time 10,000 of them take a
+/// What puts site/ in its place. Its files are flushed to disk together, by flushFolder(): one at a time 10,000 of them take a
 /// minute, most of it waiting.
 const formats::FileCalls& placingCalls() {
   static const formats::FileCalls calls = [] {
@@ -93,20 +86,13 @@ const formats::FileCalls& placingCalls() {
   return calls;
 }
 
-void flushAll(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool done = descriptor >= 0 && ::syncfs(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!done) throw failed(shown(folder) + ": cannot be written to disk");
-}
-
 /// Writes files into the folder that is to become site/, and counts them.
 class SiteWriter {
 public:
-  SiteWriter(fs::path folder, SiteReport& report) : m_folder(std::move(folder)), m_report(report) {
+  SiteWriter(fs::path folder, SiteReport& report)
+      : m_folder(std::move(folder)), m_cases(m_folder / "cases.js"), m_report(report) {
     fs::create_directory(m_folder / "case");
     fs::create_directory(m_folder / "page");
-    m_cases.open(m_folder / "cases.js", std::ios::binary);
     addCases("\"use strict\";\nglobalThis.lumenCases = [\n");
   }
   /// `path`: as from the folder of the library.
@@ -116,28 +102,21 @@ public:
     add(path.substr(kSite.size()), text);
   }
   void add(const std::string& name, std::string_view text) {
-    std::ofstream out(m_folder / name, std::ios::binary);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) fail(name);
+    writeNewFile(text, m_folder / name);
     m_report.bytes += text.size();
   }
   void addCases(std::string_view text) {
-    m_cases.write(text.data(), static_cast<std::streamsize>(text.size()));
+    m_cases.add(text);
     m_report.bytes += text.size();
   }
   void endCases() {
     addCases("];\n");
     m_cases.close();
-    if (!m_cases) fail("cases.js");
   }
 
 private:
-  [[noreturn]] void fail(const std::string& name) const {
-    throw failed(shown(m_folder / name) + ": cannot be written; is the disk full?");
-  }
   fs::path m_folder;
-  std::ofstream m_cases;
+  NewFile m_cases;
   SiteReport& m_report;
 };
 
@@ -175,6 +154,7 @@ std::string writePages(const fs::path& folder, const LibraryFile& library, SiteW
 }  // namespace
 
 SiteReport writeSite(const fs::path& folder, Progress& progress) {
+  const LibraryLock lock(folder, progress);
   const LibraryFile library = openLibrary(folder);
   requireOwnFolder(folder / "site");
   requireOwnPage(folder / "index.html");
@@ -187,7 +167,7 @@ SiteReport writeSite(const fs::path& folder, Progress& progress) {
   for (const EmbeddedText& file : siteFiles()) writer.add(std::string(file.name), file.bytes);
   const std::string first = writePages(folder, library, writer, progress);
   writer.endCases();
-  flushAll(site->path());
+  flushFolder(site->path());
   if (const auto done = site->commit(); !done) throw failed(done.error().message);
   const auto done = formats::writeFileAtomically(
       std::as_bytes(std::span(first.data(), first.size())), folder / "index.html");

@@ -56,7 +56,7 @@ TEST_F(BuildListTest, EveryColumnHasItsPlace) {
       "SNOMED CT:69105007:Carotid artery;FMA:3947:Internal carotid,yes,CC0-1.0,1 2 3 4 5 6\r\n");
   ASSERT_EQ(rows.size(), 1U);
   const BuildRow& row = rows.front();
-  EXPECT_EQ(row.number, 2U);
+  EXPECT_EQ(row.line, 2U);
   EXPECT_EQ(row.input, list().parent_path() / "a.nrrd");
   EXPECT_EQ(row.seeds, list().parent_path() / "a.json");
   EXPECT_EQ(row.id, "left-1");
@@ -74,37 +74,41 @@ TEST_F(BuildListTest, EveryColumnHasItsPlace) {
 TEST_F(BuildListTest, EmptyRowsAndTheMarkOfSpreadsheetsAreNoRows) {
   const auto rows = read("\xEF\xBB\xBFinput,title\na.nrrd,A\n,\n\nb.nrrd,\n");
   ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(rows[0].number, 2U);
+  EXPECT_EQ(rows[0].line, 2U);
+  EXPECT_EQ(rows[1].line, 5U);
   EXPECT_TRUE(readAbout(rows[1].about, "about").title.empty());
   const auto partly = read("input,anatomy\na.nrrd,aorta\n");
   EXPECT_EQ(readAbout(partly[0].about, "about").anatomy, "aorta");
 }
 
-TEST_F(BuildListTest, AllFaultsAreToldAtOnceWithTheirRows) {
+TEST_F(BuildListTest, AllFaultsAreReportedAtOnceWithTheirLines) {
   const std::string text = refusal(
       "input,id,synthetic\nmissing.nrrd,a,yes\na.nrrd,NO,yes\na.nrrd,b,perhaps\na.nrrd,c,no,more\n"
       "a.nrrd,d,no\nb.nrrd,d,no\n");
-  EXPECT_NE(text.find("row 2: input: there is no "), std::string::npos) << text;
-  EXPECT_NE(text.find("row 3: id: found \"NO\", expected a to z"), std::string::npos) << text;
-  EXPECT_NE(text.find("row 4: synthetic: found \"perhaps\", expected yes or no"), std::string::npos)
+  EXPECT_NE(text.find("line 2: input: there is no "), std::string::npos) << text;
+  EXPECT_NE(text.find("line 3: id: found \"NO\", expected 1 to 64 of a to z"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("row 5: found 4 cells, expected 3"), std::string::npos) << text;
-  EXPECT_NE(text.find("row 7: id: d is that of row 6, too"), std::string::npos) << text;
+  EXPECT_NE(text.find("line 4: synthetic: found \"perhaps\", expected yes or no"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("line 5: found 4 cells, expected 3"), std::string::npos) << text;
+  EXPECT_NE(text.find("line 7: id: d is that of line 6, too"), std::string::npos) << text;
 }
 
 TEST_F(BuildListTest, WhatIsNoListIsRefused) {
   EXPECT_EQ(refusal("").find("is empty"), 0U);
   EXPECT_EQ(refusal("input\n"), "there is no row below the names");
-  EXPECT_EQ(refusal("title\nA\n"), "row 1: there is no column called input");
+  EXPECT_EQ(refusal("title\nA\n"), "line 1: there is no column called input");
   EXPECT_EQ(
-      refusal("input,volume\na.nrrd,a.nrrd\n").find("row 1: two columns are called \"input\""), 0U);
+      refusal("input,volume\na.nrrd,a.nrrd\n").find("line 1: two columns are called \"input\""),
+      0U);
   EXPECT_EQ(refusal("input,colour\na.nrrd,red\n")
-                .find("row 1: found a column \"colour\", expected input"),
+                .find("line 1: found a column \"colour\", expected input"),
             0U);
-  EXPECT_EQ(refusal("input;title\na.nrrd;A\n").find("row 1: found a column \"input;title\""), 0U);
-  EXPECT_EQ(refusal("input,title\na.nrrd,A \"quote\n").find("row 2: found a quote inside"), 0U);
-  EXPECT_EQ(refusal("input,title\na.nrrd,\"no end\n").find("row 2: found a quote"), 0U);
-  EXPECT_EQ(refusal("input,title\na.nrrd,\xFF\n"), "row 2: title: is not UTF-8");
+  EXPECT_EQ(refusal("input;title\na.nrrd;A\n").find("line 1: found a column \"input;title\""), 0U);
+  EXPECT_EQ(refusal("input,title\na.nrrd,A \"quote\n").find("line 2: found a quote inside"), 0U);
+  EXPECT_EQ(refusal("input,title\na.nrrd,\"no end\n").find("line 2: found a quote"), 0U);
+  EXPECT_EQ(refusal("input,title\na.nrrd,\xFF\n"), "line 2: title: is not UTF-8");
   EXPECT_NE(refusal("input,codes\na.nrrd,SNOMED\n").find("expected SYSTEM:CODE:NAME"),
             std::string::npos);
 }

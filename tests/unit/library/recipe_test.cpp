@@ -35,6 +35,11 @@ private:
 
 }  // namespace
 
+TEST_F(RecipeTest, AHeaderThatCannotBeReadHasNoDigest) {
+  write("gone.raw", "voxels");
+  EXPECT_THROW(digest("gone.nhdr"), Error);
+}
+
 TEST_F(RecipeTest, AFileIsItsBytesWhateverItsName) {
   write("a.nrrd", "voxels");
   write("b.nrrd", "voxels");

@@ -188,13 +188,17 @@ TEST(Record, HasNoPathThatLeavesTheFolderOrClashes) {
 }
 
 TEST(Record, PathsAndIdsAreSpeltAsTheSpecificationHasThem) {
-  for (const char* path : {"case.lumen", "a/b/c-d_e+f.G", "-", "A."})
+  for (const char* path : {"case.lumen", "a/b/c-d_e+f.G", "a-", "console", "com10", "nul-1"})
     EXPECT_TRUE(isRecordedPath(path)) << path;
   EXPECT_TRUE(isRecordedPath(std::string(128, 'x')));
   EXPECT_FALSE(isRecordedPath(std::string(129, 'x')));
   const std::string part(99, 'x');
   EXPECT_TRUE(isRecordedPath(part + "/" + part));
   EXPECT_FALSE(isRecordedPath(part + "/" + part + "/" + part));
+  for (const char* path : {"-", "a/-b", "A.", "a./b", "con", "a/NUL", "aux.txt", "Com1.tar.gz"})
+    EXPECT_FALSE(isRecordedPath(path)) << path;
+  for (const char* id : {"con", "prn", "aux", "nul", "com0", "com9", "lpt1"})
+    EXPECT_FALSE(isCaseId(id)) << id;
   for (const char* id : {"a", "0", "case-0123456789ab"}) EXPECT_TRUE(isCaseId(id)) << id;
   for (const char* id : {"", "-a", "A", "a.b", "a/b", "..", "a b"})
     EXPECT_FALSE(isCaseId(id)) << id;
@@ -214,6 +218,25 @@ TEST(Record, WhatPeopleTellMayBePartial) {
   EXPECT_THROW(readAbout(R"({"laterality": "links"})", "about.json"), Error);
   EXPECT_THROW(readAbout("[]", "about.json"), Error);
   EXPECT_THROW(readAbout(R"({"title": "A", "title": "B"})", "about.json"), Error);
+}
+
+TEST(Record, IsTakenAsAWholeForWhatPeopleTell) {
+  const CaseRecord record = madeRecord();
+  const CaseAbout about = readAbout(recordText(record), "record.json");
+  EXPECT_EQ(about.title, record.about.title);
+  EXPECT_EQ(about.consent, record.about.consent);
+  ASSERT_EQ(about.codes.size(), 2U);
+}
+
+TEST(Record, KeysThatPeopleLeaveOutStayAsTheyWere) {
+  const CaseAbout known = madeRecord().about;
+  const CaseAbout about = readAbout(R"({"title": "A"})", "about.json", known);
+  EXPECT_EQ(about.title, "A");
+  EXPECT_EQ(about.consent, known.consent);
+  EXPECT_EQ(about.codes.size(), known.codes.size());
+  const CaseAbout other =
+      readAbout(R"({"anatomy": {"text": "aorta", "codes": []}})", "about.json", known);
+  EXPECT_TRUE(other.codes.empty());
 }
 
 TEST(Record, OfAPatientStatesConsentAndDeidentification) {

@@ -26,6 +26,8 @@ TEST(Spdx, WhatIsNoExpressionIsRefusedWithAReason) {
     const char* reason;
   } faults[] = {{"", "expected a licence"},
                 {"cc-by-4.0", "did you mean CC-BY-4.0?"},
+                {"CC-BY", "did you mean CC-BY-4.0?"},
+                {"apache", "did you mean Apache-2.0?"},
                 {"CC BY 4.0", "is no identifier"},
                 {"free to use", "LicenseRef-"},
                 {"MIT Apache-2.0", "expected AND or OR before \"Apache-2.0\""},

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/base/files.h"
+
+#include <cerrno>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include "converters/base/error.h"
+#include "formats/container/printable.h"
+
+namespace lumen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string nameOf(const fs::path& file) {
+  return formats::printable(file.string());
+}
+
+std::string reason() {
+  return std::generic_category().message(errno);
+}
+
+std::string sizeText(std::uint64_t bytes) {
+  constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
+  return bytes % kMebibyte == 0 ? std::to_string(bytes / kMebibyte) + " MiB"
+                                : std::to_string(bytes) + " bytes";
+}
+
+}  // namespace
+
+std::string readWholeFile(const fs::path& file, std::string_view role, std::uint64_t most) {
+  const std::string name = nameOf(file);
+  const std::string what(role);
+  const formats::FileDescriptor open = formats::openForReading(file);
+  if (!open.isOpen() && (errno == ENOENT || errno == ENOTDIR))
+    throw invalidInput(name + ": there is no such " + what);
+  struct stat status {};
+  if (!open.isOpen() || ::fstat(open.get(), &status) != 0)
+    throw invalidInput(name + ": this " + what + " cannot be read: " + reason());
+  if (!S_ISREG(status.st_mode))
+    throw invalidInput(name + ": found " +
+                       (S_ISDIR(status.st_mode) ? "a folder" : "a device or a pipe") +
+                       ", expected a file");
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (size > most)
+    throw invalidInput(name + ": has " + std::to_string(size) + " bytes; expected at most " +
+                       sizeText(most) + " for a " + what);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  const std::ptrdiff_t got =
+      formats::readInto(std::as_writable_bytes(std::span(bytes)), open.get());
+  if (got < 0) throw invalidInput(name + ": this " + what + " cannot be read: " + reason());
+  bytes.resize(static_cast<std::size_t>(got));
+  return bytes;
+}
+
+NewFile::NewFile(fs::path file) : m_file(std::move(file)), m_out(m_file, std::ios::binary) {
+  if (!m_out) refuse();
+}
+
+void NewFile::add(std::string_view bytes) {
+  m_out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void NewFile::close() {
+  m_out.close();
+  if (!m_out) refuse();
+}
+
+void NewFile::refuse() const {
+  throw failed(nameOf(m_file) + ": cannot write this file");
+}
+
+void writeNewFile(std::string_view bytes, const fs::path& file) {
+  NewFile out(file);
+  out.add(bytes);
+  out.close();
+}
+
+void flushFolder(const fs::path& folder) {
+  const formats::FileDescriptor open = formats::openForReading(folder, O_DIRECTORY);
+  if (!open.isOpen() || !formats::flushFileSystem(open.get()))
+    throw failed(nameOf(folder) + ": cannot be written to disk: " + reason());
+}
+
+}  // namespace lumen

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole files in and out. Files that appear under their name in one step: formats/case/atomic_file.h.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "formats/case/file_descriptor.h"
+
+namespace lumen {
+
+inline constexpr std::uint64_t kAnySize = UINT64_MAX;
+inline constexpr std::uint64_t kMostText = std::uint64_t{64} << 20;  // bytes of a text format
+
+/// The bytes of a regular file, which may be empty. `role` names it in messages, such as "seeds file". Throws
+/// Error(InvalidInput), naming the file, if it is missing, no regular file, larger than `most` bytes, or cannot be read.
+std::string readWholeFile(const std::filesystem::path& file, std::string_view role,
+                          std::uint64_t most = kAnySize);
+
+/// A new file in a folder that is not in its place yet, written piece by piece. Throws Error(Failed), naming the file.
+class NewFile {
+public:
+  explicit NewFile(std::filesystem::path file);
+  void add(std::string_view bytes);
+  /// Once, after the last piece.
+  void close();
+
+private:
+  [[noreturn]] void refuse() const;
+  std::filesystem::path m_file;
+  std::ofstream m_out;
+};
+
+/// A whole file, as NewFile.
+void writeNewFile(std::string_view bytes, const std::filesystem::path& file);
+
+/// Flushes to the disk all that was written to the file system of a folder. Throws Error(Failed), naming the folder.
+void flushFolder(const std::filesystem::path& folder);
+
+}  // namespace lumen
