@@ -52,7 +52,7 @@ std::array<int, 3> volumeSize(const fs::path& path, const std::vector<std::int64
   // beyond any file, and far below what overflows
   constexpr double kMostVoxels = 1e15;
   if (voxels > kMostVoxels)
-    throw invalidInput(path.string() + ": its header announces " + numberText(voxels) +
+    throw invalidInput(path.string() + ": its header announces " + longNumber(voxels) +
                        " voxels (" + text + "), more than any file can hold");
   return {static_cast<int>(sizes[0]), static_cast<int>(sizes[1]), static_cast<int>(sizes[2])};
 }

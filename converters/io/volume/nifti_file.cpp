@@ -79,7 +79,7 @@ void checkSpacings(const NiftiHeader& header, const fs::path& path) {
   for (std::size_t a = 0; a < 3; ++a)
     if (!(std::isfinite(header.pixdim[a]) && header.pixdim[a] > 0))
       throw invalidInput(path.string() + ": pixdim states a spacing of " +
-                         numberText(static_cast<double>(header.pixdim[a])) + " along axis " +
+                         longNumber(static_cast<double>(header.pixdim[a])) + " along axis " +
                          std::to_string(a + 1) +
                          "; expected a positive number; state the spacing with --spacing");
 }

@@ -52,8 +52,8 @@ Vector3d vectorOf(const std::array<float, 3>& values) {
 
 std::string vectorText(const Vector3d& v) {
   std::string text = "(";
-  text.append(numberText(v[0])).append(", ").append(numberText(v[1])).append(", ");
-  return text.append(numberText(v[2])).append(")");
+  text.append(longNumber(v[0])).append(", ").append(longNumber(v[1])).append(", ");
+  return text.append(longNumber(v[2])).append(")");
 }
 
 Transform sformOf(const NiftiHeader& header) {
@@ -91,7 +91,7 @@ Transform qformOf(const NiftiHeader& header) {
     qform.fault = "its qform has the offset " + vectorText(qform.offset);
   else if (!std::isfinite(header.handedness))
     qform.fault = "its qform has the handedness (pixdim[0]) " +
-                  numberText(static_cast<double>(header.handedness));
+                  longNumber(static_cast<double>(header.handedness));
   if (!qform.fault.empty()) return qform;
   const auto step = [&](std::size_t a) {
     return std::isfinite(header.pixdim[a]) && header.pixdim[a] > 0 ? header.pixdim[a] : 1.0F;
@@ -127,7 +127,7 @@ void tellDisagreement(const Transform& used, const char* name, const Transform& 
   if (!(apart > tolerance)) return;
   assumptions.push_back("its qform (code " + std::to_string(header.qformCode) +
                         ") and its sform (code " + std::to_string(header.sformCode) +
-                        ") place voxels up to " + numberText(apart) + " apart; the " + name +
+                        ") place voxels up to " + longNumber(apart) + " apart; the " + name +
                         " is used; if the " + otherName + " is right, remove the " + name +
                         " (set its code to 0)");
 }

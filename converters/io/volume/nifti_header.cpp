@@ -146,19 +146,19 @@ std::size_t offsetOf(const Fields& fields, const fs::path& path) {
     return static_cast<std::size_t>(offset);
   const bool inside = offset >= 0 && offset < kNiftiFirstVoxel;
   refuse(path,
-         "vox_offset is " + numberText(offset) +
+         "vox_offset is " + longNumber(offset) +
              (inside ? ", so the header itself would be read as voxels" : ""),
-         "a whole number from 352 to " + numberText(kMaxOffset));
+         "a whole number from 352 to " + longNumber(kMaxOffset));
 }
 
 void readScaling(const Fields& fields, NiftiHeader& header, const fs::path& path) {
   header.slope = fields.get<float>(112);
   header.intercept = fields.get<float>(116);
   if (!std::isfinite(header.slope))
-    refuse(path, "scl_slope is " + numberText(static_cast<double>(header.slope)),
+    refuse(path, "scl_slope is " + longNumber(static_cast<double>(header.slope)),
            "a number, 0 where values are not scaled");
   if (header.slope != 0 && !std::isfinite(header.intercept))
-    refuse(path, "scl_inter is " + numberText(static_cast<double>(header.intercept)),
+    refuse(path, "scl_inter is " + longNumber(static_cast<double>(header.intercept)),
            "a number, 0 where values are not shifted");
 }
 

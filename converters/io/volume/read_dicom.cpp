@@ -69,7 +69,7 @@ Vector3d pixelSpacing(const Slice& slice, const ReadVolumeOptions& options) {
   if (!sound && !options.spacing)
     throw invalidInput(
         slice.image->file.string() + ": its pixel spacing (0028,0030) is " +
-        (stated ? numberText((*stated)[0]) + " and " + numberText((*stated)[1]) : "not stated") +
+        (stated ? longNumber((*stated)[0]) + " and " + longNumber((*stated)[1]) : "not stated") +
         "; expected two positive numbers of mm; state the spacing with --spacing");
   const double none = std::numeric_limits<double>::quiet_NaN();
   return sound ? Vector3d((*stated)[1], (*stated)[0], none) : Vector3d(none, none, none);

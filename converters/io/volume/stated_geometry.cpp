@@ -17,7 +17,7 @@ constexpr double kLeastSpacing = 1e-6, kMostSpacing = 1e4;
 constexpr double kLeastUsual = 5e-3, kMostUsual = 50;
 
 std::string spacingText(const Eigen::Vector3d& spacing) {
-  return numberText(spacing[0]) + " x " + numberText(spacing[1]) + " x " + numberText(spacing[2]);
+  return longNumber(spacing[0]) + " x " + longNumber(spacing[1]) + " x " + longNumber(spacing[2]);
 }
 
 Eigen::Vector3d settledSpacing(const Eigen::Vector3d& stated, double unit, const fs::path& path,
@@ -41,8 +41,8 @@ void checkSpacing(const Eigen::Vector3d& spacing, const fs::path& path) {
   for (int a = 0; a < 3; ++a)
     if (!(spacing[a] >= kLeastSpacing && spacing[a] <= kMostSpacing))
       throw invalidInput(path.string() + ": the spacing along axis " + std::to_string(a + 1) +
-                         " is " + numberText(spacing[a]) + " mm; expected " +
-                         numberText(kLeastSpacing) + " to " + numberText(kMostSpacing) +
+                         " is " + longNumber(spacing[a]) + " mm; expected " +
+                         longNumber(kLeastSpacing) + " to " + longNumber(kMostSpacing) +
                          "; state it with --spacing, or the file's unit with --unit");
 }
 

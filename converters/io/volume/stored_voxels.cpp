@@ -193,7 +193,7 @@ std::uint64_t checkStored(const StoredVoxels& stored, std::vector<std::string>& 
         stored.packing == Packing::Raw && stored.lineSkip == 0 && stored.byteSkip >= 0;
     if (exact && room > needed)
       assumptions.push_back("the data in " + formats::printable(file.filename().string()) +
-                            " goes on for " + numberText(room - needed) +
+                            " goes on for " + longNumber(room - needed) +
                             " bytes after the voxels that the header announces; the rest is not "
                             "read");
   }

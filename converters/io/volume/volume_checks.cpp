@@ -64,15 +64,15 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
 
 void checkStatedSpacing(const fs::path& path, const std::string& field, int axis, double value) {
   if (std::isfinite(value) && value > 0) return;
-  throw invalidInput(path.string() + ": " + field + " states a spacing of " + numberText(value) +
+  throw invalidInput(path.string() + ": " + field + " states a spacing of " + longNumber(value) +
                      " along axis " + std::to_string(axis) +
                      "; expected a positive number; state it with --spacing");
 }
 
 void checkRoom(const fs::path& path, double needed, double available, bool compressed) {
   if (needed <= available * (compressed ? kMaxExpansion : 1)) return;
-  throw invalidInput(path.string() + ": truncated: its header announces " + numberText(needed) +
-                     " bytes of voxels, but " + numberText(std::max(available, 0.0)) +
+  throw invalidInput(path.string() + ": truncated: its header announces " + longNumber(needed) +
+                     " bytes of voxels, but " + longNumber(std::max(available, 0.0)) +
                      " bytes of data are there");
 }
 
@@ -81,7 +81,7 @@ void refuseDimensions(const fs::path& path, unsigned dimensions, const std::stri
                      "); expected a 3-D volume");
 }
 
-std::string numberText(double value) {
+std::string longNumber(double value) {
   std::ostringstream text;
   text.precision(12);
   text << value;

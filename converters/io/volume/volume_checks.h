@@ -26,7 +26,7 @@ void checkRoom(const std::filesystem::path& path, double needed, double availabl
 [[noreturn]] void refuseDimensions(const std::filesystem::path& path, unsigned dimensions,
                                    const std::string& sizes);
 
-/// As a message shows it: 12 digits.
-std::string numberText(double value);
+/// At most twelve significant digits, as headers of images state lengths and sizes.
+std::string longNumber(double value);
 
 }  // namespace lumen::convert

@@ -103,12 +103,6 @@ std::string shownBytes(std::uint64_t bytes) {
   return fixedText(value, value >= 9.95 ? 0 : 1) + kUnits[unit];
 }
 
-std::string shownCount(std::uint64_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
-
 std::string jsonInScript(const nlohmann::ordered_json& value) {
   const std::string json =
       value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);

@@ -35,9 +35,6 @@ std::string shownFigure(double value);
 /// "1.2 MB"; decimal units, as files are sold.
 std::string shownBytes(std::uint64_t bytes);
 
-/// "12,345".
-std::string shownCount(std::uint64_t count);
-
 /// JSON as a value in a script, inside of an HTML page or not: no "<", ">", "&" and no line separator in it. Bytes that are
 /// not UTF-8 become U+FFFD.
 std::string jsonInScript(const nlohmann::ordered_json& value);

@@ -76,6 +76,11 @@ TEST(PlaceSeeds, InsideIsUpToHalfAVoxelBeyondTheOutermostCentres) {
                  "(100, 0, 0) to (105, 10, 15)", "11 x 21 x 31"});
 }
 
+TEST(PlaceSeeds, DistancesInMessagesHaveSixSignificantDigits) {
+  expectRefused(placeRefusal({vessel("a", {105.123456789, 10, 15})}, volume()),
+                {"lies 0.123457 mm outside", "(105.123, 10, 15)"});
+}
+
 TEST(PlaceSeeds, OneBadSeedOfFortyIsLeftOutAndNamed) {
   std::vector<SeedBranch> seeds = seedsOfHead(39, [](const Vector3d& p) { return p; });
   seeds.insert(seeds.begin() + 7, vessel("astray", {500, 0, 0}));

@@ -123,6 +123,12 @@ TEST_F(HostileVolume, SeveralComponents) {
   expectNifti(complex, std::string(64, 'x'), {"2 components", "complex"});
 }
 
+TEST_F(HostileVolume, SpacingsInMessagesHaveTwelveSignificantDigits) {
+  MetaHeader meta;
+  meta.spacing = "1 -0.12345678912345 1";
+  expectMeta(meta, eight(), {"spacing of -0.123456789123 "});
+}
+
 TEST_F(HostileVolume, SpacingThatIsNotPositive) {
   for (const char* bad : {"0", "-1", "nan", "inf"}) {
     MetaHeader meta;
