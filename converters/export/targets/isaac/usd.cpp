@@ -9,6 +9,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/vectors.h"
+#include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/io/mesh/plain_names.h"
 #include "formats/container/printable.h"
@@ -67,31 +68,6 @@ std::string extentOf(const SurfaceMesh& mesh) {
   return text;
 }
 
-std::string wallPrim(const SurfaceMesh& mesh) {
-  std::string text =
-      "    def Mesh \"wall\" (\n"
-      "        prepend apiSchemas = [\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\", "
-      "\"PhysxSDFMeshCollisionAPI\"]\n"
-      "    )\n"
-      "    {\n"
-      "        uniform token subdivisionScheme = \"none\"\n"
-      "        uniform token orientation = \"rightHanded\"\n"
-      "        bool physics:collisionEnabled = 1\n"
-      "        uniform token physics:approximation = \"none\"\n";
-  text += "        int physxSDFMeshCollision:sdfResolution = " + std::to_string(kSdfResolution);
-  text += "\n        float3[] extent = " + extentOf(mesh);
-  text += "\n        int[] faceVertexCounts = " +
-          usdList(mesh.triangle.size(), [](std::size_t) { return std::string("3"); });
-  text += "\n        int[] faceVertexIndices = " +
-          usdList(3 * mesh.triangle.size(),
-                  [&](std::size_t i) { return std::to_string(mesh.triangle[i / 3][i % 3]); });
-  text += "\n        point3f[] points = " + usdList(mesh.position.size(), [&](std::size_t i) {
-            const Float3& p = mesh.position[i];
-            return usdTuple({p[0], p[1], p[2]});
-          });
-  return text + "\n    }\n";
-}
-
 /// Nodes of each branch, from the one that it hangs on.
 std::vector<std::vector<std::size_t>> curvesOf(const formats::CenterlineTree& tree) {
   std::vector<std::vector<std::size_t>> curves;
@@ -104,70 +80,76 @@ std::vector<std::vector<std::size_t>> curvesOf(const formats::CenterlineTree& tr
   return curves;
 }
 
-std::string centerlinePrim(const formats::CenterlineTree& tree, const ExportFrame& frame) {
-  const auto curves = curvesOf(tree);
+/// The branches as polylines, in the frame's unit.
+struct Curves {
+  std::vector<std::size_t> counts;
   std::vector<Eigen::Vector3d> points;
   std::vector<double> widths;
-  for (const auto& curve : curves)
-    for (std::size_t k = 0; k < curve.size(); ++k) {
-      points.push_back(frame.position(toEigen(tree.centre[curve[k]])));
+};
+
+Curves centerline(const formats::CenterlineTree& tree, const ExportFrame& frame) {
+  Curves made;
+  for (const auto& curve : curvesOf(tree)) {
+    made.counts.push_back(curve.size());
+    for (const std::size_t place : curve) {
+      made.points.push_back(frame.position(toEigen(tree.centre[place])));
       // where it hangs on another, a branch is as wide as at its own first node
-      const bool isOthers = tree.branch[curve[k]] != tree.branch[curve[1]];
-      const std::size_t node = isOthers ? curve[1] : curve[k];
-      widths.push_back(2 * frame.length(static_cast<double>(tree.radius[node])));
+      const bool isOthers = tree.branch[place] != tree.branch[curve[1]];
+      const std::size_t node = isOthers ? curve[1] : place;
+      made.widths.push_back(2 * frame.length(static_cast<double>(tree.radius[node])));
     }
-  std::string text =
-      "    def BasisCurves \"centerline\"\n    {\n"
-      "        uniform token type = \"linear\"\n"
-      "        uniform token wrap = \"nonperiodic\"\n";
-  text += "        int[] curveVertexCounts = " +
-          usdList(curves.size(), [&](std::size_t i) { return std::to_string(curves[i].size()); });
-  text += "\n        point3f[] points = " +
-          usdList(points.size(), [&](std::size_t i) { return usdTuple(points[i]); });
-  text += "\n        float[] widths = " +
-          usdList(widths.size(), [&](std::size_t i) { return numberText(widths[i]); }) +
-          " (\n            interpolation = \"vertex\"\n        )\n    }\n";
-  return text;
+  }
+  return made;
 }
 
 std::string endPrim(const NamedEnd& end, const std::string& word, const ExportFrame& frame) {
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), frame.direction(end.direction));
-  std::string text = "        def Xform \"" + word + "\"\n        {\n";
-  text += "            custom string lumen:name = " + usdString(end.name) + "\n";
-  text += "            custom float lumen:radius = " + numberText(frame.length(end.radius)) + "\n";
-  text += "            double3 xformOp:translate = " + usdTuple(frame.position(end.position));
-  text += "\n            quatf xformOp:orient = (" + numberText(turn.w()) + ", " +
-          numberText(turn.x()) + ", " + numberText(turn.y()) + ", " + numberText(turn.z());
-  text +=
-      ")\n            uniform token[] xformOpOrder = [\"xformOp:translate\", "
-      "\"xformOp:orient\"]\n        }\n";
-  return text;
+  return exportText("isaac/end.usda",
+                    {{"word", word},
+                     {"name", usdString(end.name)},
+                     {"radius", numberText(frame.length(end.radius))},
+                     {"position", usdTuple(frame.position(end.position))},
+                     {"turn", numberText(turn.w()) + ", " + numberText(turn.x()) + ", " +
+                                  numberText(turn.y()) + ", " + numberText(turn.z())}});
 }
 
-std::string endsPrim(const std::vector<NamedEnd>& ends, const ExportFrame& frame) {
+std::string endPrims(const std::vector<NamedEnd>& ends, const ExportFrame& frame) {
   std::vector<std::string> names;
   for (const NamedEnd& end : ends) names.push_back(end.name);
   const std::vector<std::string> words = distinct(names, usdWord);
-  std::string text = "    def Xform \"ends\"\n    {\n";
+  std::string text;
   for (std::size_t i = 0; i < ends.size(); ++i) text += endPrim(ends[i], words[i], frame);
-  return text + "    }\n";
+  return text;
 }
 
 }  // namespace
 
 std::string encodeUsda(const SurfaceMesh& mesh, const formats::CenterlineTree& tree,
                        const std::vector<NamedEnd>& ends, const ExportFrame& frame) {
-  std::string text =
-      "#usda 1.0\n(\n"
-      "    defaultPrim = \"vessel\"\n";
-  text += "    doc = \"Vessels in patient coordinates: " + std::string(axesText(frame.axes)) +
-          "\"\n    metersPerUnit = " + numberText(0.001 / frame.scale());
-  text += "\n    upAxis = \"";
-  text += frame.axes == Axes::Lsa ? "Y" : "Z";
-  text += "\"\n)\n\ndef Xform \"vessel\"\n{\n";
-  text += wallPrim(mesh) + centerlinePrim(tree, frame) + endsPrim(ends, frame);
-  return text + "}\n";
+  const Curves curves = centerline(tree, frame);
+  const auto index = [&](std::size_t i) { return std::to_string(mesh.triangle[i / 3][i % 3]); };
+  const auto point = [&](std::size_t i) {
+    const Float3& p = mesh.position[i];
+    return usdTuple({p[0], p[1], p[2]});
+  };
+  return exportText(
+      "isaac/vessel.usda",
+      {{"axes", std::string(axesText(frame.axes))},
+       {"metres", numberText(0.001 / frame.scale())},
+       {"up", frame.axes == Axes::Lsa ? "Y" : "Z"},
+       {"resolution", std::to_string(kSdfResolution)},
+       {"extent", extentOf(mesh)},
+       {"counts", usdList(mesh.triangle.size(), [](std::size_t) { return std::string("3"); })},
+       {"indices", usdList(3 * mesh.triangle.size(), index)},
+       {"points", usdList(mesh.position.size(), point)},
+       {"curves", usdList(curves.counts.size(),
+                          [&](std::size_t i) { return std::to_string(curves.counts[i]); })},
+       {"curvePoints",
+        usdList(curves.points.size(), [&](std::size_t i) { return usdTuple(curves.points[i]); })},
+       {"widths",
+        usdList(curves.widths.size(), [&](std::size_t i) { return numberText(curves.widths[i]); })},
+       {"ends", endPrims(ends, frame)}});
 }
 
 }  // namespace lumen::convert

@@ -69,23 +69,27 @@ std::string segmentCards(const OneDNetwork& network) {
 
 /// For svOneDSolver, cgs.
 std::string inputCards(const OneDNetwork& network, const std::string& name) {
-  std::string text = "# cm, g, s, dyn; patient coordinates, LPS\nMODEL " + name + "_\n\n";
+  std::string nodes;
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
     const Eigen::Vector3d p = 0.1 * network.nodes[n];
-    text +=
+    nodes +=
         line("NODE", std::to_string(n), numberText(p.x()), numberText(p.y()), numberText(p.z()));
   }
-  const std::string flow = numberText(kCm3 * network.flow);
-  text += "\n" + jointCards(network) + "\n" + segmentCards(network) +
-          "DATATABLE INFLOW LIST\n0.0 " + flow + "\n1.0 " + flow + "\nENDDATATABLE\n\n";
-  // the parabola of a Poiseuille flow has the exponent 2; radii are those at the mean pressure
-  text += line("MATERIAL MAT1 OLUFSEN", numberText(blood::kDensity / 1e3),
-               numberText(10 * blood::kViscosity), numberText(kDyn * blood::kMeanPressure), "2.0",
-               numberText(kDyn * blood::kStiffness1), numberText(blood::kStiffness2 / kCm),
-               numberText(kDyn * blood::kStiffness3));
-  // steps of 1 ms for 2 s, each fiftieth kept; Gauss points, tolerance, conservative form,
-  // stabilised
-  return text + "\nSOLVEROPTIONS 0.001 50 2000 2 INFLOW FLOW 1.0e-6 1 1\n\nOUTPUT TEXT\n";
+  // SOLVEROPTIONS in the text: steps of 1 ms for 2 s, each fiftieth kept; Gauss points, tolerance,
+  // conservative form, stabilised. The parabola of a Poiseuille flow has the exponent 2; radii are
+  // those at the mean pressure.
+  return exportText(
+      "oned/vessels.in",
+      {{"name", name},
+       {"nodes", nodes},
+       {"joints", jointCards(network)},
+       {"segments", segmentCards(network)},
+       {"flow", numberText(kCm3 * network.flow)},
+       {"material",
+        line("MATERIAL MAT1 OLUFSEN", numberText(blood::kDensity / 1e3),
+             numberText(10 * blood::kViscosity), numberText(kDyn * blood::kMeanPressure), "2.0",
+             numberText(kDyn * blood::kStiffness1), numberText(blood::kStiffness2 / kCm),
+             numberText(kDyn * blood::kStiffness3))}});
 }
 
 /// The end of a vessel of openBF: what a wave meets, the rest of the resistance, and a compliance.
@@ -102,12 +106,7 @@ std::string windkessel(const OneDVessel& vessel, double stiffness) {
 
 /// For openBF v2, SI.
 std::string yaml(const OneDNetwork& network, const std::string& name) {
-  std::string text =
-      "# SI units\nproject_name: " + name + "\ninlet_file: " + name +
-      "_inlet.dat\nwrite_results: [P, Q]\n\nblood:\n  rho: " + numberText(blood::kDensity) +
-      "\n  mu: " + numberText(blood::kViscosity) +
-      "\n\nsolver:\n  Ccfl: 0.9\n  cycles: 100\n  jump: 100\n  convergence_tolerance: 1.0\n\n"
-      "network:\n";
+  std::string text;
   for (const OneDVessel& vessel : network.vessels) {
     const double mean = vessel.meanRadius(), stiffness = blood::stiffness(mean);
     text += "  - label: \"" + vessel.name + "\"\n    sn: " + std::to_string(vessel.from + 1) +
@@ -120,7 +119,10 @@ std::string yaml(const OneDNetwork& network, const std::string& name) {
             "\n    Pext: " + numberText(blood::kMeanPressure) + "\n";
     if (vessel.resistance > 0) text += windkessel(vessel, stiffness);
   }
-  return text;
+  return exportText("oned/vessels.yml", {{"name", name},
+                                         {"density", numberText(blood::kDensity)},
+                                         {"viscosity", numberText(blood::kViscosity)},
+                                         {"vessels", text}});
 }
 
 void addTree(ExportResult& result, const OneDNetwork& network, const std::string& name) {

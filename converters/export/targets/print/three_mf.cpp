@@ -5,29 +5,17 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <zlib.h>
 
 #include "converters/base/error.h"
+#include "converters/export/shared/export_text.h"
 
 namespace lumen::convert {
 
 namespace {
-
-constexpr const char* kTypes =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-    "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
-    "<Default Extension=\"rels\" "
-    "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
-    "<Default Extension=\"model\" "
-    "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>"
-    "</Types>\n";
-constexpr const char* kRelations =
-    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-    "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
-    "<Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
-    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n";
 
 void appendFloat(std::string& text, float value) {
   std::array<char, 32> digits{};
@@ -37,30 +25,23 @@ void appendFloat(std::string& text, float value) {
 }
 
 std::string modelOf(const SurfaceMesh& mesh, const std::string& name) {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
-      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
-      "<metadata name=\"Application\">lumen " LUMEN_VERSION
-      "</metadata>\n<resources>\n<object id=\"1\" "
-      "type=\"model\" name=\"";
-  text += name;
-  text += "\">\n<mesh>\n<vertices>\n";
+  std::string vertices, triangles;
   for (const Float3& p : mesh.position) {
-    text += "<vertex x=\"";
-    appendFloat(text, p[0]);
-    text += "\" y=\"";
-    appendFloat(text, p[1]);
-    text += "\" z=\"";
-    appendFloat(text, p[2]);
-    text += "\"/>\n";
+    vertices += "<vertex x=\"";
+    appendFloat(vertices, p[0]);
+    vertices += "\" y=\"";
+    appendFloat(vertices, p[1]);
+    vertices += "\" z=\"";
+    appendFloat(vertices, p[2]);
+    vertices += "\"/>\n";
   }
-  text += "</vertices>\n<triangles>\n";
   for (const Triangle& t : mesh.triangle)
-    text += "<triangle v1=\"" + std::to_string(t[0]) + "\" v2=\"" + std::to_string(t[1]) +
-            "\" v3=\"" + std::to_string(t[2]) + "\"/>\n";
-  return text +
-         "</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item "
-         "objectid=\"1\"/>\n</build>\n</model>\n";
+    triangles += "<triangle v1=\"" + std::to_string(t[0]) + "\" v2=\"" + std::to_string(t[1]) +
+                 "\" v3=\"" + std::to_string(t[2]) + "\"/>\n";
+  return exportText("print/3dmodel.model", {{"version", LUMEN_VERSION},
+                                            {"name", name},
+                                            {"vertices", std::move(vertices)},
+                                            {"triangles", std::move(triangles)}});
 }
 
 void put(std::string& to, std::uint32_t value, int bytes) {
@@ -141,8 +122,8 @@ private:
 
 std::string encode3mf(const SurfaceMesh& mesh, const std::string& name) {
   Zip zip;
-  zip.add("[Content_Types].xml", kTypes);
-  zip.add("_rels/.rels", kRelations);
+  zip.add("[Content_Types].xml", exportText("print/content_types.xml"));
+  zip.add("_rels/.rels", exportText("print/relationships.xml"));
   zip.add("3D/3dmodel.model", modelOf(mesh, name));
   return zip.bytes();
 }
