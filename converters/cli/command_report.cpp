@@ -20,7 +20,7 @@
 #include "converters/engine/stages.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/judge/check/check.h"
-#include "converters/stages/tracking/volume_doubt.h"
+#include "converters/stages/tracking/tracking_volume.h"
 #include "formats/container/printable.h"
 
 namespace lumen::app {

@@ -14,7 +14,7 @@
 #include "converters/io/volume/read_volume.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/phantom/phantom.h"
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 
 namespace lumen::app {
 

@@ -7,7 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/place_seeds.h"
-#include "converters/stages/tracking/volume_doubt.h"
+#include "converters/stages/tracking/tracking_volume.h"
 #include "formats/container/printable.h"
 
 namespace lumen::app {
@@ -96,7 +96,7 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
   if (!placed.advice.empty()) progress.warn(file + ": " + placed.advice);
   warnOfSeeds(file, " is left out: ", placed.leftOut, progress);
   warnOfSeeds(file, " is used without one of its points: ", placed.leftPoints, progress);
-  convert::TrackResult result = convert::track(volume, placed.seeds, track.options, progress);
+  convert::TrackResult result = convert::trackCase(volume, placed.seeds, track.options, progress);
   warnOfSeeds(file, " started no track: ", result.failures, progress);
   warnOfSeeds(file, " does not pass through its ", result.missedPoints, progress);
   warnOfSeeds(file, " is not joined to its parent: ", result.unjoined, progress);

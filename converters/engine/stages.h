@@ -10,7 +10,7 @@
 #include "converters/cli/options.h"
 #include "converters/engine/file_format.h"
 #include "converters/io/seeds/seeds.h"
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 
 namespace lumen::app {
 

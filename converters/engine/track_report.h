@@ -5,7 +5,7 @@
 #include <string>
 
 #include "converters/engine/report.h"
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 
 namespace lumen::app {
 

@@ -8,12 +8,12 @@ lumen_test(tracking_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/join_to_parent_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/joins_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/cylinder_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/point_spread_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/corrections_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/rays_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/real_volumes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/smoothing_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/snap_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/track_further_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/tracker_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/vessel_at_click_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/track_into_case_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/track_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/volume_doubt_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/wall_support_test.cpp)

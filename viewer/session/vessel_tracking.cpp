@@ -10,8 +10,8 @@
 #include "converters/engine/stages.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
-#include "converters/stages/tracking/snap.h"
-#include "converters/stages/tracking/track_further.h"
+#include "converters/stages/tracking/track_case.h"
+#include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/container/printable.h"
 
 namespace lumen::viewer {
@@ -42,7 +42,7 @@ formats::Case trackedAnew(const Document& document, const Seeds& seeds,
 formats::Case trackedFurther(const convert::TrackingVolume& volume, const formats::Case& known,
                              const Seeds& seeds, std::vector<std::string>& dropped,
                              Progress& progress) {
-  convert::FurtherTracks tracks = convert::trackFurther(volume, known, seeds, progress);
+  convert::AddedTracks tracks = convert::trackIntoCase(volume, known, seeds, progress);
   warnAbout(tracks.failures, " started no track: ", progress);
   warnAbout(tracks.missedPoints, " does not pass through its ", progress);
   warnAbout(tracks.unjoined, " is not joined to its parent: ", progress);
@@ -102,7 +102,7 @@ Json vesselNear(const Eigen::Vector3d& click, const Document& document, Tracking
   seed.points.push_back({click, std::nullopt});
   Progress silent;
   const auto snap =
-      convert::snapToVessel(*cache.volumeFor(document, {seed}, options, silent), click);
+      convert::vesselAtClick(*cache.volumeFor(document, {seed}, options, silent), click);
   return {{"found", snap.found},
           {"position", json(snap.position)},
           {"direction", json(snap.direction)},

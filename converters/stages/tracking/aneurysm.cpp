@@ -11,23 +11,22 @@ namespace lumen::convert {
 
 using Eigen::Vector3d;
 
-std::optional<TrackedNode> sacNodeAt(const TrackContext& context, const SeedPoint& click,
-                                     TrackWorkspace& workspace) {
-  Candidates& points = workspace.candidates;
-  workspace.caster.cast(click.position, kRayRadii * click.radius.value(), points);
+std::optional<TrackedNode> sacNodeAt(TrackRun& run, const SeedPoint& click) {
+  Candidates& points = run.workspace.candidates;
+  run.workspace.caster.cast(click.position, kRayRadii * click.radius.value(), points);
   if (points.count() == 0) return std::nullopt;
   const float strongest = *std::max_element(points.strength.begin(), points.strength.end());
   TrackedNode node;
   node.centre = click.position;
   std::vector<double> distances;
   for (std::size_t i = 0; i < points.count(); ++i) {
-    if (points.strength[i] < context.options.aneurysmGradient * strongest) continue;
+    if (points.strength[i] < run.context.options.aneurysmGradient * strongest) continue;
     node.points.push_back(toVec3f(points.origin + points.offset(i)));
     distances.push_back(points.offset(i).norm());
   }
   node.radius = median(std::move(distances));
   node.inlierRate =
-      static_cast<double>(node.points.size()) / static_cast<double>(context.rays.size());
+      static_cast<double>(node.points.size()) / static_cast<double>(run.context.rays.size());
   return node;
 }
 
@@ -42,13 +41,11 @@ void alignWithChain(std::vector<TrackedNode>& nodes) {
   nodes[count - 1].direction = nodes[count - 2].direction;
 }
 
-TrackedBranch captureAneurysm(const TrackContext& context, const SeedBranch& seed,
-                              const TrackedBranch* parent) {
-  TrackWorkspace workspace(context);
+TrackedBranch captureAneurysm(TrackRun& run, const SeedBranch& seed, const TrackedBranch* parent) {
   TrackedBranch branch;
   branch.stopReason = formats::StopReason::EndOfSeeds;
   for (const SeedPoint& click : seed.points)
-    if (std::optional<TrackedNode> node = sacNodeAt(context, click, workspace))
+    if (std::optional<TrackedNode> node = sacNodeAt(run, click))
       branch.nodes.push_back(std::move(*node));
   if (branch.nodes.empty()) {
     branch.failure =

@@ -7,22 +7,20 @@
 #include <vector>
 
 #include "converters/io/seeds/seeds.h"
-#include "converters/stages/tracking/node_fit.h"
+#include "converters/stages/tracking/track_run.h"
 
 namespace lumen::convert {
 
-/// A node around a click with the wall points that rays find, but for direction and height; empty
+/// A node around a click with the wall points that rays find, without direction and height; empty
 /// if no ray meets a wall.
-std::optional<TrackedNode> sacNodeAt(const TrackContext& context, const SeedPoint& click,
-                                     TrackWorkspace& workspace);
+std::optional<TrackedNode> sacNodeAt(TrackRun& run, const SeedPoint& click);
 
-/// Directions and heights of a chain of at least two nodes: those of the way to the next node; the
-/// last repeats the one before.
+/// Sets the directions and heights of a chain of at least two nodes to those of the step to the
+/// next node; the last node repeats the one before.
 void alignWithChain(std::vector<TrackedNode>& nodes);
 
 /// Wall points of an aneurysm from its ordered centres, all of which have a radius. `parent`, which
-/// may be null, is what the chain hangs on, by the end that is nearer to it.
-TrackedBranch captureAneurysm(const TrackContext& context, const SeedBranch& seed,
-                              const TrackedBranch* parent);
+/// may be null, is joined to the end of the chain that is nearer to it.
+TrackedBranch captureAneurysm(TrackRun& run, const SeedBranch& seed, const TrackedBranch* parent);
 
 }  // namespace lumen::convert

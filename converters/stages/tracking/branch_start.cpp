@@ -2,57 +2,68 @@
 #include "converters/stages/tracking/branch_start.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
-#include "converters/stages/tracking/follow.h"
-#include "converters/stages/tracking/onward.h"
-#include "converters/stages/tracking/path_rules.h"
+#include "converters/stages/tracking/lumen_paths.h"
+#include "converters/stages/tracking/smoothing.h"
+#include "converters/stages/tracking/track_steps.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Voxels: the first trial radius at a click, the bound on them, and the ratio of one to the next.
-/// A cylinder is found if its radius is between a half and three halves of the trial's.
-constexpr double kFirstTrial = 1.25, kLastTrial = 24, kTrialRatio = 1.5;
-/// Of the rays: a start whose wall more of them see needs no larger trial.
-constexpr double kSeenWall = 0.5;
+/// The first trial radius at a click and the bound on them, in voxels, and the ratio of one to the
+/// next. A cylinder is found if its radius is between a half and three halves of the trial's.
+constexpr double kFirstTrialVoxels = 1.25, kLastTrialVoxels = 24, kTrialRatio = 1.5;
+/// A start whose wall is seen by more than this share of the rays needs no larger trial.
+constexpr double kSeenWallShare = 0.5;
 
-/// Of the parent's radius: a start nearer to its axis is in its lumen.
-constexpr double kInLumen = 0.75;
+/// A start nearer to the parent's axis than this share of its radius is in its lumen.
+constexpr double kInLumenShare = 0.75;
 /// Offsets from the parent's axis beyond which a click is far: the child is tracked back from it.
-constexpr double kFarClick = 2.0;
+constexpr double kFarClickOffsets = 2.0;
 /// Trial radii of a child: shares of the user's radius, which is an estimate, or of the parent's,
 /// which is an upper bound.
 constexpr double kAroundEstimate[] = {1.0, 0.7, 1.4};
 constexpr double kBelowBound[] = {1.0, 0.7, 0.5, 0.35, 0.25};
 
+/// Voxels of path around a click, by turns, and the shares of it at which places are tried.
+constexpr double kAroundVoxels[] = {6, 12};
+constexpr double kPlaceShares[] = {1.0 / 3, 2.0 / 3, 1};
+/// The wall's level, as a share of the contrast.
+constexpr double kHalfContrast = 0.5;
+
+bool isInLumen(const TrackedBranch& parent, const TrackedNode& node) {
+  const ChainPoint nearest = closestOnChain(parent.nodes, node.centre);
+  return nearest.distance < kInLumenShare * nearest.radius;
+}
+
 /// A node from one of several guesses, each with several radii: the first that leads on and is not
 /// in the lumen of `parent`, else the one that goes on farthest; well fitted ones before others.
-BranchStart startBeside(const TrackContext& context, const TrackedBranch& parent,
-                        std::span<const NodeGuess> guesses, std::span<const double> radii,
-                        Random& random, TrackWorkspace& workspace) {
-  const double accepted = context.options.inlierRate, least = leastInlierRate(context.options);
+BranchStart startBeside(TrackRun& run, const TrackedBranch& parent,
+                        std::span<const NodeGuess> guesses, std::span<const double> radii) {
+  const TrackOptions& options = run.context.options;
+  const double accepted = options.inlierRate, least = leastInlierRate(options);
   BranchStart start;
   int mostSteps = -1;
   for (const double minRate : {accepted, least})
     for (NodeGuess guess : guesses)
       for (const double radius : radii) {
         guess.radius = radius;
-        NodeFit fit = fitNode(context, guess, minRate, random, workspace);
+        NodeFit fit = fitNode(run, guess, minRate);
         if (!fit.node) {
-          // the first round asks for more than what is needed
+          // the first round asks for more than is needed
           if (minRate == least && isNearer(fit, start.best)) start.best = std::move(fit);
           continue;
         }
-        const ChainPoint nearest = closestOnChain(parent.nodes, fit.node->centre);
-        if (nearest.distance < kInLumen * nearest.radius) {
+        if (isInLumen(parent, *fit.node)) {
           start.inParent = true;
           continue;
         }
-        const int steps = stepsFrom(context, *fit.node, &parent, random, workspace);
+        const int steps = trialSteps(run, *fit.node, &parent);
         if (steps > mostSteps) {
           mostSteps = steps;
           start.nodes.assign(1, std::move(*fit.node));
@@ -72,23 +83,47 @@ std::vector<double> trialRadii(const SeedPoint& click, double parentRadius) {
   return radii;
 }
 
-}  // namespace
-
-int stepsFrom(const TrackContext& context, const TrackedNode& start, const TrackedBranch* parent,
-              Random& random, TrackWorkspace& workspace) {
-  const std::span others(&parent, parent ? 1 : 0);
-  const TrackOptions& options = context.options;
-  std::vector<TrackedNode> nodes{start};
-  for (int step = 0; step < kTrialSteps; ++step) {
-    const NodeGuess guess = predictNode(options, nodes.back(), 1, nodes.back().direction);
-    auto next = fitNode(context, guess, leastInlierRate(options), random, workspace).node;
-    if (!next || isSwollen(options, nodes, *next) || findTurningPoint(nodes, *next) ||
-        inCore(others, *next))
-      return step;
-    nodes.push_back(std::move(*next));
-  }
-  return kTrialSteps;
+LumenLevels levelsAtClick(const TrackContext& context, const Vector3d& click) {
+  SeedBranch seed;
+  seed.points.push_back({click, std::nullopt});
+  const double contrast =
+      contrastAtClicks(context.volume, {seed}, context.options, context.progress);
+  const double value = context.volume.sample(context.volume.geometry().indexFromWorld(click));
+  return {value, value - (context.options.dark ? -kHalfContrast : kHalfContrast) * contrast};
 }
+
+/// A place near a click at which nothing fits, and the direction of the lumen there (unit, away
+/// from the click).
+struct NearbyPlace {
+  Vector3d position, direction;
+};
+
+/// Places along the lumen around a click, in all directions, the nearest first, outside of
+/// `parent`, which may be null.
+std::vector<NearbyPlace> placesNearby(const TrackContext& context, const Vector3d& click,
+                                      const TrackedBranch* parent) {
+  if (!context.volume.geometry().containsWorld(click)) return {};
+  const LumenLevels levels = levelsAtClick(context, click);
+  PathStart from;
+  from.place = click;
+  if (parent) addLumen(parent->nodes, context.volume.geometry(), from.closed);
+  std::vector<NearbyPlace> places;
+  for (const double voxels : kAroundVoxels) {
+    const PathsBeyond beyond =
+        pathsBeyond(context, levels, from, voxels * context.volume.geometry().voxelSize());
+    for (const double share : kPlaceShares)
+      for (const Path& path : beyond.paths) {
+        const auto last = static_cast<double>(path.points.size() - 1);
+        const auto at = static_cast<std::size_t>(std::round(share * last));
+        if (at == 0) continue;
+        const Vector3d ahead = path.points[at] - path.points[at / 2];
+        if (ahead.norm() > 0) places.push_back({path.points[at], ahead.normalized()});
+      }
+  }
+  return places;
+}
+
+}  // namespace
 
 std::optional<Vector3d> directionOf(const SeedBranch& seed) {
   if (seed.direction) return seed.direction;
@@ -96,19 +131,19 @@ std::optional<Vector3d> directionOf(const SeedBranch& seed) {
   return (seed.points[1].position - seed.points[0].position).normalized();
 }
 
-BranchStart startAtClick(const TrackContext& context, const SeedPoint& click,
-                         const Vector3d& direction, bool smooth, Random& random,
-                         TrackWorkspace& workspace) {
+BranchStart startAtClick(TrackRun& run, const SeedPoint& click, const Vector3d& direction,
+                         bool smooth) {
+  const TrackContext& context = run.context;
   std::vector<double> radii;
   if (click.radius)
     radii = {*click.radius};
   else
-    for (double voxels = kFirstTrial; voxels < kLastTrial; voxels *= kTrialRatio)
+    for (double voxels = kFirstTrialVoxels; voxels < kLastTrialVoxels; voxels *= kTrialRatio)
       radii.push_back(voxels * context.volume.geometry().voxelSize());
   BranchStart start;
   for (const double radius : radii) {
-    NodeFit fit = fitNode(context, {click.position, direction, radius, smooth},
-                          leastInlierRate(context.options), random, workspace);
+    NodeFit fit =
+        fitNode(run, {click.position, direction, radius, smooth}, leastInlierRate(context.options));
     if (!fit.node) {
       if (isNearer(fit, start.best)) start.best = std::move(fit);
       continue;
@@ -118,53 +153,44 @@ BranchStart startAtClick(const TrackContext& context, const SeedPoint& click,
     const TrackedNode& best = start.nodes[0];
     if (best.inlierRate >= context.options.inlierRate &&
         static_cast<double>(best.points.size()) >
-            kSeenWall * static_cast<double>(context.rays.size()))
+            kSeenWallShare * static_cast<double>(context.rays.size()))
       break;
   }
   return start;
 }
 
-BranchStart startChild(const TrackContext& context, const SeedBranch& seed,
-                       const TrackedBranch& parent, Random& random, TrackWorkspace& workspace) {
+BranchStart startChild(TrackRun& run, const SeedBranch& seed, const TrackedBranch& parent) {
   const SeedPoint& click = seed.points[0];
   const ChainPoint root = closestOnChain(parent.nodes, click.position);
   const Vector3d toClick = root.distance > 0
                                ? Vector3d((click.position - root.position) / root.distance)
                                : parent.nodes[root.node].direction;
   const Vector3d outward = seed.direction.value_or(toClick);
-  const double offset = context.options.branchOffset;
+  const double offset = run.context.options.branchOffset;
   const NodeGuess atParent{root.position + offset * root.radius * outward, outward};
   const NodeGuess atClick{click.position, directionOf(seed).value_or(toClick), 0,
                           directionOf(seed).has_value()};
-  const bool far = root.distance > kFarClick * offset * root.radius;
+  const bool far = root.distance > kFarClickOffsets * offset * root.radius;
   std::vector<NodeGuess> guesses{atParent, atClick};
   if (far) std::swap(guesses[0], guesses[1]);
-  BranchStart start =
-      startBeside(context, parent, guesses, trialRadii(click, root.radius), random, workspace);
+  BranchStart start = startBeside(run, parent, guesses, trialRadii(click, root.radius));
   start.parentNode = static_cast<int>(root.node);
   if (!far || start.nodes.empty()) return start;
-  start.nodes = trackBack(context, start.nodes[0], parent, random, workspace);
+  start.nodes = trackBackTo(run, start.nodes[0], parent);
   const ChainPoint end = closestOnChain(parent.nodes, start.nodes.front().centre);
   start.parentNode = static_cast<int>(end.node);
   return start;
 }
 
-BranchStart startNearby(const TrackContext& context, const SeedPoint& click,
-                        const TrackedBranch* parent, Random& random, TrackWorkspace& workspace) {
-  std::vector<Ball> taken;
-  if (parent) addBalls(parent->nodes, context.volume.geometry(), taken);
+BranchStart startNearby(TrackRun& run, const SeedPoint& click, const TrackedBranch* parent) {
   BranchStart start;
-  for (const NearbyPlace& place : placesAround(context, click.position, taken)) {
-    BranchStart there = startAtClick(context, {place.position, click.radius}, place.direction, true,
-                                     random, workspace);
+  for (const NearbyPlace& place : placesNearby(run.context, click.position, parent)) {
+    BranchStart there = startAtClick(run, {place.position, click.radius}, place.direction, true);
     if (there.nodes.empty()) continue;
     const TrackedNode& node = there.nodes[0];
-    if (parent) {
-      const ChainPoint nearest = closestOnChain(parent->nodes, node.centre);
-      if (nearest.distance < kInLumen * nearest.radius) continue;
-    }
-    if (node.inlierRate < context.options.inlierRate ||
-        stepsFrom(context, node, parent, random, workspace) < kTrialSteps)
+    if (parent && isInLumen(*parent, node)) continue;
+    if (node.inlierRate < run.context.options.inlierRate ||
+        trialSteps(run, node, parent) < kTrialSteps)
       continue;
     start.nodes = std::move(there.nodes);
     break;

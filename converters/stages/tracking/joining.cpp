@@ -10,61 +10,62 @@
 #include <span>
 #include <utility>
 
+#include "converters/stages/tracking/lumen_paths.h"
 #include "converters/stages/tracking/nodes_along.h"
-#include "converters/stages/tracking/way.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Of the mean height and of the lesser radius: edges longer than both are gaps.
-constexpr double kLongEdge = 1.25, kLongStep = 1.0;
-/// Nodes at an end of a track that tell the levels of its lumen.
+/// An edge longer than the first share of the mean height and the second of the lesser radius is a
+/// gap.
+constexpr double kGapHeights = 1.25, kGapRadii = 1.0;
+/// Nodes at an end of a track from which the levels of its lumen are taken.
 constexpr std::size_t kLevelNodes = 12;
-/// Of the straight distance: a longer way is one along other vessels; and how far around the ends
-/// it is looked for, at least so many radii.
-constexpr double kLongestWay = 2.5, kReach = 1.5, kLeastReach = 6;
-/// Of a way: the share outside of the lumen up to which it is followed rather than a straight line.
-constexpr double kOutside = 0.5;
-/// Of the parent's radius: a way that has come so near to its axis has arrived.
-constexpr double kCore = 0.5;
+/// A path longer than this many straight distances leads along other vessels.
+constexpr double kLongestDetour = 2.5;
+/// Distance around the ends in which a path is searched for, in straight distances and at least in
+/// radii.
+constexpr double kReachDistances = 1.5, kLeastReachRadii = 6;
+/// Largest share of a path outside of the lumen; beyond it a straight line is as good.
+constexpr double kOutsideShare = 0.5;
+/// A path has arrived within this share of the parent's radius from its axis.
+constexpr double kCoreShare = 0.5;
+/// The longest bridge to a parent's wall where the volume shows no lumen, in radii of the child.
+constexpr double kLongestBridgeRadii = 12;
+/// Radii of the child that its named parent may be farther away than another branch of that tree.
+constexpr double kSurchargeRadii = 3;
 
-/// Radii of the child: the longest bridge to its parent's wall where the volume shows no lumen.
-constexpr double kLongestBridge = 12;
-
-/// Radii of the child: so much farther may its named parent be than another branch of that tree.
-constexpr double kSurcharge = 3;
-
-/// A line from one place to another, and which goal it leads to.
+/// A line from a place to one of several goals.
 struct Line {
   std::vector<Vector3d> points;
   std::size_t goal = 0;
   bool isSeen = true;  ///< the volume shows it
 };
 
-/// The way through the lumen from a place to one of some goals; straight to the first goal if there
-/// is none.
+/// The path through the lumen from a place to one of some goals; a straight line to the first goal
+/// if there is none.
 Line lineTo(const TrackContext& context, const LumenLevels& levels, const Vector3d& from,
-            std::span<const Goal> goals, double radius) {
+            std::span<const PathGoal> goals, double radius) {
   const Vector3d& straight = goals[0].position;
   const double distance = (straight - from).norm();
-  auto way =
-      findWay(context, levels, from, goals, std::max(kReach * distance, kLeastReach * radius));
-  if (way && way->length < kLongestWay * distance + 2 * radius &&
-      way->outside < kOutside * way->length)
-    return {std::move(way->points), way->goal};
+  auto path = findPath(context, levels, from, goals,
+                       std::max(kReachDistances * distance, kLeastReachRadii * radius));
+  if (path && path->length < kLongestDetour * distance + 2 * radius &&
+      path->outside < kOutsideShare * path->length)
+    return {std::move(path->points), path->goal};
   return {{from, straight}, 0, false};
 }
 
-/// Cuts off what a branch has in its parent's core before it leaves the parent's lumen for the first
-/// time, and hangs the rest where it was cut.
+/// Cuts off the nodes of a branch in its parent's core, up to the place where it leaves the
+/// parent's lumen for the first time, and joins the rest to the parent where it was cut.
 void cutInCore(const TrackedBranch& parent, TrackedBranch& branch) {
   std::size_t cut = 0;
   for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
     const ChainPoint at = closestOnChain(parent.nodes, branch.nodes[i].centre);
     if (at.distance > at.radius) break;
-    if (at.distance > kCore * at.radius) continue;
+    if (at.distance > kCoreShare * at.radius) continue;
     cut = i + 1;
     branch.parentNode = static_cast<int>(at.node);
   }
@@ -73,13 +74,13 @@ void cutInCore(const TrackedBranch& parent, TrackedBranch& branch) {
   branch.clickNode -= std::min(branch.clickNode, cut);
 }
 
-/// A way that comes to a branch behind its first node would lead back along the branch: cuts off the
-/// way from there on, and what the branch has before.
-void cutDetour(std::vector<TrackedNode>& way, TrackedBranch& branch) {
-  for (std::size_t w = 0; w < way.size(); ++w) {
-    const ChainPoint at = closestOnChain(branch.nodes, way[w].centre);
-    if (at.node == 0 || at.distance > kCore * at.radius) continue;
-    way.resize(w);
+/// A link to a parent that meets the branch behind its first node would lead back along the branch:
+/// cuts off the link from there on, and the branch up to there.
+void cutDetour(std::vector<TrackedNode>& link, TrackedBranch& branch) {
+  for (std::size_t n = 0; n < link.size(); ++n) {
+    const ChainPoint at = closestOnChain(branch.nodes, link[n].centre);
+    if (at.node == 0 || at.distance > kCoreShare * at.radius) continue;
+    link.resize(n);
     branch.nodes.erase(branch.nodes.begin(),
                        branch.nodes.begin() + static_cast<std::ptrdiff_t>(at.node));
     branch.clickNode -= std::min(branch.clickNode, at.node);
@@ -87,8 +88,8 @@ void cutDetour(std::vector<TrackedNode>& way, TrackedBranch& branch) {
   }
 }
 
-/// Makes a child a root, and says why.
-void leaveAlone(TrackedBranch& branch, const ChainPoint& parent) {
+/// Makes a child a root, and records the reason.
+void makeRoot(TrackedBranch& branch, const ChainPoint& parent) {
   std::array<char, 128> text{};
   std::snprintf(text.data(), text.size(),
                 "its first node lies %.1f mm from it, and the volume shows no lumen between them",
@@ -105,14 +106,13 @@ LumenLevels levelsAtStart(const TrackContext& context, const TrackedBranch& bran
 
 bool isGap(const TrackedNode& a, const TrackedNode& b) {
   const double distance = (b.centre - a.centre).norm();
-  return distance > kLongEdge * 0.5 * (a.height + b.height) &&
-         distance > kLongStep * std::min(a.radius, b.radius);
+  return distance > kGapHeights * 0.5 * (a.height + b.height) &&
+         distance > kGapRadii * std::min(a.radius, b.radius);
 }
 
 }  // namespace
 
-void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random,
-              TrackWorkspace& workspace) {
+void fillGaps(TrackRun& run, TrackedBranch& branch) {
   std::vector<TrackedNode> filled;
   const std::vector<TrackedNode>& nodes = branch.nodes;
   std::size_t click = branch.clickNode;
@@ -122,23 +122,24 @@ void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random
     if (i + 1 == nodes.size() || !isGap(nodes[i], nodes[i + 1])) continue;
     const std::size_t low = i + 1 > kLevelNodes ? i + 1 - kLevelNodes : 0;
     const std::size_t high = std::min(nodes.size(), i + 1 + kLevelNodes);
-    const LumenLevels levels = levelsOf(context.volume, std::span(nodes).subspan(low, high - low));
+    const LumenLevels levels =
+        levelsOf(run.context.volume, std::span(nodes).subspan(low, high - low));
     const Vector3d to = nodes[i + 1].centre;
-    const Goal goal{to, 0};
-    const Line line = lineTo(context, levels, nodes[i].centre, {&goal, 1}, nodes[i].radius);
-    auto between = nodesAlong(context, line.points, nodes[i].radius, nodes[i + 1].radius, nullptr,
-                              random, workspace);
+    const PathGoal goal{to, 0};
+    const Line line = lineTo(run.context, levels, nodes[i].centre, {&goal, 1}, nodes[i].radius);
+    auto between = nodesAlong(run, line.points, nodes[i].radius, nodes[i + 1].radius, nullptr);
     std::move(between.begin(), between.end(), std::back_inserter(filled));
   }
   branch.nodes = std::move(filled);
   branch.clickNode = click;
 }
 
-std::optional<LumenWay> wayToOther(const TrackContext& context, std::span<const TrackedBranch> all,
-                                   std::span<const int> others, const TrackedBranch& branch) {
+std::optional<PathToBranch> pathToOther(const TrackContext& context,
+                                        std::span<const TrackedBranch> all,
+                                        std::span<const int> others, const TrackedBranch& branch) {
   const TrackedNode& first = branch.nodes.front();
-  const double farthest = kLongestBridge * first.radius;
-  std::vector<Goal> goals;
+  const double farthest = kLongestBridgeRadii * first.radius;
+  std::vector<PathGoal> goals;
   std::vector<int> owner;
   double nearest = std::numeric_limits<double>::infinity();
   for (const int other : others)
@@ -150,24 +151,23 @@ std::optional<LumenWay> wayToOther(const TrackContext& context, std::span<const 
       owner.push_back(other);
     }
   if (goals.empty()) return std::nullopt;
-  const auto way = findWay(context, levelsAtStart(context, branch), first.centre, goals,
-                           std::max(kReach * nearest, kLeastReach * first.radius));
-  if (!way || way->length > kLongestWay * nearest + 2 * first.radius ||
-      way->outside > 2 * first.radius)
+  const auto path = findPath(context, levelsAtStart(context, branch), first.centre, goals,
+                             std::max(kReachDistances * nearest, kLeastReachRadii * first.radius));
+  if (!path || path->length > kLongestDetour * nearest + 2 * first.radius ||
+      path->outside > 2 * first.radius)
     return std::nullopt;
-  return LumenWay{owner[way->goal], way->outside};
+  return PathToBranch{owner[path->goal], path->outside};
 }
 
-void joinToParent(const TrackContext& context, std::span<const TrackedBranch> all,
-                  std::span<const int> others, TrackedBranch& branch, Random& random,
-                  TrackWorkspace& workspace) {
+void joinToParent(TrackRun& run, std::span<const TrackedBranch> all, std::span<const int> others,
+                  TrackedBranch& branch) {
   const TrackedNode first = branch.nodes.front();
-  const LumenLevels levels = levelsAtStart(context, branch);
+  const LumenLevels levels = levelsAtStart(run.context, branch);
   const auto at = [&](int index) -> const TrackedBranch& {
     return all[static_cast<std::size_t>(index)];
   };
   const ChainPoint straight = closestOnChain(at(branch.parentBranch).nodes, first.centre);
-  std::vector<Goal> goals{{straight.position, 0}};
+  std::vector<PathGoal> goals{{straight.position, 0}};
   std::vector<int> owner{branch.parentBranch};
   const auto add = [&](int index, double surcharge) {
     for (const TrackedNode& node : at(index).nodes) {
@@ -176,10 +176,10 @@ void joinToParent(const TrackContext& context, std::span<const TrackedBranch> al
     }
   };
   add(branch.parentBranch, 0);
-  for (const int index : others) add(index, kSurcharge * first.radius);
-  const Line line = lineTo(context, levels, first.centre, goals, first.radius);
-  if (!line.isSeen && straight.distance - straight.radius > kLongestBridge * first.radius) {
-    leaveAlone(branch, straight);
+  for (const int index : others) add(index, kSurchargeRadii * first.radius);
+  const Line line = lineTo(run.context, levels, first.centre, goals, first.radius);
+  if (!line.isSeen && straight.distance - straight.radius > kLongestBridgeRadii * first.radius) {
+    makeRoot(branch, straight);
     return;
   }
   branch.parentBranch = owner[line.goal];
@@ -188,12 +188,11 @@ void joinToParent(const TrackContext& context, std::span<const TrackedBranch> al
   const ChainPoint root = closestOnChain(parent.nodes, outward.front());
   branch.parentNode = static_cast<int>(root.node);
   outward.front() = parent.nodes[root.node].centre;
-  auto way = nodesAlong(context, outward, std::min(first.radius, root.radius), first.radius,
-                        &parent, random, workspace);
-  cutDetour(way, branch);
-  branch.clickNode += way.size();
-  branch.nodes.insert(branch.nodes.begin(), std::make_move_iterator(way.begin()),
-                      std::make_move_iterator(way.end()));
+  auto link = nodesAlong(run, outward, std::min(first.radius, root.radius), first.radius, &parent);
+  cutDetour(link, branch);
+  branch.clickNode += link.size();
+  branch.nodes.insert(branch.nodes.begin(), std::make_move_iterator(link.begin()),
+                      std::make_move_iterator(link.end()));
   cutInCore(parent, branch);
 }
 

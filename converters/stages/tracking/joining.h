@@ -7,34 +7,34 @@
 #include <optional>
 #include <span>
 
-#include "converters/stages/tracking/node_fit.h"
+#include "converters/stages/tracking/track_run.h"
 
 namespace lumen::convert {
 
-/// Puts nodes between neighbouring ones that are farther apart than their cylinders reach: fitted
-/// where the volume shows the vessel, else bridged. Throws Error(Cancelled).
-void fillGaps(const TrackContext& context, TrackedBranch& branch, Random& random,
-              TrackWorkspace& workspace);
+/// Inserts nodes between neighbours that are farther apart than their cylinders reach: fitted where
+/// the volume shows the vessel, else bridged. Throws Error(Cancelled).
+void fillGaps(TrackRun& run, TrackedBranch& branch);
 
-/// A way through the lumen from the first node of a branch to another branch.
-struct LumenWay {
+/// A path through the lumen from the first node of a branch to another branch.
+struct PathToBranch {
   int branch = -1;     ///< position in the seeds' order
-  double outside = 0;  ///< mm of it that are darker than the wall
+  double outside = 0;  ///< part of its length that is darker than the wall, mm
 };
 
-/// Whether the lumen leads from the first node of a branch to one of `others`, by position in the seeds'
-/// order, which have nodes: as near as a bridge may be long, and with no gap that is longer than the
-/// branch is wide. Throws Error(Cancelled).
-std::optional<LumenWay> wayToOther(const TrackContext& context, std::span<const TrackedBranch> all,
-                                   std::span<const int> others, const TrackedBranch& branch);
+/// The path through the lumen from the first node of a branch to one of `others`, which have nodes,
+/// by position in the seeds' order. Empty if none of them is within the length of a bridge, or if
+/// every path has a gap longer than the branch is wide. Throws Error(Cancelled).
+std::optional<PathToBranch> pathToOther(const TrackContext& context,
+                                        std::span<const TrackedBranch> all,
+                                        std::span<const int> others, const TrackedBranch& branch);
 
 /// Leads a branch back from its first node to the axis of its parent, by nodes before that one, and
-/// sets the parent's node that they hang on. A branch far from its parent with no lumen between them
-/// becomes a root, and `unjoined` says so. `others`: branches of the parent's tree; if the way
-/// through the lumen leads to one of these first, that is what the branch hangs on. All by position
-/// in the seeds' order; those that have no nodes are passed over. Throws Error(Cancelled).
-void joinToParent(const TrackContext& context, std::span<const TrackedBranch> all,
-                  std::span<const int> others, TrackedBranch& branch, Random& random,
-                  TrackWorkspace& workspace);
+/// sets the parent's node to which they are joined. A branch far from its parent with no lumen
+/// between them becomes a root, and `unjoined` gives the reason. `others`: branches of the parent's
+/// tree; if the path through the lumen leads to one of these first, the branch is joined to that
+/// one. All by position in the seeds' order; branches without nodes are ignored. Throws
+/// Error(Cancelled).
+void joinToParent(TrackRun& run, std::span<const TrackedBranch> all, std::span<const int> others,
+                  TrackedBranch& branch);
 
 }  // namespace lumen::convert

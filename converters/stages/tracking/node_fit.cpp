@@ -10,20 +10,20 @@
 
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
-#include "converters/geometry/icosphere.h"
 #include "converters/stages/tracking/wall_support.h"
 
 namespace lumen::convert {
 namespace {
 
-/// Of a node's inliers: the share that its height holds; the rest are stragglers along the axis.
-constexpr double kHeld = 0.75;
-/// Of the accepting inlier rate: a cylinder below it is no vessel (Yureidini's thesis, 3.4).
-constexpr double kLeastRate = 0.5;
+/// Share of a node's inliers that its height holds; the rest are stragglers along the axis.
+constexpr double kHeldShare = 0.75;
+/// Share of the accepting inlier rate below which a cylinder is no vessel (Yureidini's thesis,
+/// 3.4).
+constexpr double kLeastRateShare = 0.5;
 /// Times that a node whose wall is not supported is fitted anew. Each time its radius falls.
 constexpr int kRefits = 3;
-/// Of the radius that was tried: the most that is tried next.
-constexpr double kNarrower = 0.7;
+/// Largest radius that is tried next, as a share of the last one.
+constexpr double kNarrowerShare = 0.7;
 
 /// Distance along the axis from the centre of `cylinder` to a candidate, mm.
 double distanceAlong(const Cylinder& cylinder, const Candidates& points, std::size_t i) {
@@ -45,7 +45,7 @@ TrackedNode makeNode(const Cylinder& cylinder, const Candidates& points,
   node.meanSquareAlong = std::inner_product(extent.begin(), extent.end(), extent.begin(), 0.0) /
                          static_cast<double>(extent.size());
   node.strength = median(std::move(strengths));
-  const double half = nearestRank(extent, kHeld);
+  const double half = nearestRank(extent, kHeldShare);
   node.centre = cylinder.centre;
   node.direction = cylinder.axis;
   node.radius = cylinder.radius;
@@ -64,7 +64,7 @@ void holdPlace(const NodeGuess& guess, Cylinder& cylinder) {
   cylinder.centre += (std::clamp(along, -guess.slack, guess.slack) - along) * cylinder.axis;
 }
 
-/// Below it, a wall is not told from noise.
+/// The strength below which a wall cannot be distinguished from noise.
 double leastStrength(const TrackContext& context) {
   return context.options.noiseMargin * context.noiseFloor;
 }
@@ -74,7 +74,7 @@ bool isNoise(const TrackContext& context, const TrackedNode& node) {
   return node.inlierRate < context.options.inlierRate && node.strength < leastStrength(context);
 }
 
-/// To two digits, so that what is too little never reads as if it were enough.
+/// To two digits, so that a value below a limit never reads as if it reached it.
 double roundedDown(double value) {
   return std::floor(100.0 * value + 1e-9) / 100.0;
 }
@@ -88,11 +88,10 @@ std::string formatted(const char* format, double a, double b) {
   return text.data();
 }
 
-/// Fits a node to a guess, whatever it holds.
-NodeFit fitToWall(const TrackContext& context, const NodeGuess& guess, double minRate,
-                  Random& random, TrackWorkspace& workspace) {
-  const VolumeGeometry& geometry = context.volume.geometry();
-  Candidates& points = workspace.candidates;
+/// Fits a node to a guess, whether or not it is lumen inside.
+NodeFit fitToWall(TrackRun& run, const NodeGuess& guess, double minRate) {
+  const VolumeGeometry& geometry = run.context.volume.geometry();
+  Candidates& points = run.workspace.candidates;
   NodeFit fit;
   const auto stop = [&](FitStage stage, double inlierRate) {
     fit.stage = stage;
@@ -104,49 +103,37 @@ NodeFit fitToWall(const TrackContext& context, const NodeGuess& guess, double mi
     return stop(FitStage::FewWalls, 0);
   };
   if (!geometry.containsWorld(guess.centre)) return fit;
-  workspace.caster.cast(guess.centre, kRayRadii * guess.radius, points);
+  run.workspace.caster.cast(guess.centre, kRayRadii * guess.radius, points);
   if (points.count() < kFewestCandidates) return tooFew(points.count());
   Cylinder cylinder =
-      estimateCylinder(context.search, points, {guess.direction, guess.radius, guess.smooth},
-                       random, workspace.cylinder);
+      estimateCylinder(run.context.search, points, {guess.direction, guess.radius, guess.smooth},
+                       run.random, run.workspace.cylinder);
   if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
   holdPlace(guess, cylinder);
   if (!geometry.containsWorld(cylinder.centre))
     return stop(FitStage::LeftVolume, cylinder.inlierRate);
   // the first rays came from a guess: cast and fit again from the better centre
-  workspace.caster.cast(cylinder.centre, kRayRadii * cylinder.radius, points);
-  cylinder = refineCylinder(points, cylinder, context.search.band, workspace.cylinder);
+  run.workspace.caster.cast(cylinder.centre, kRayRadii * cylinder.radius, points);
+  cylinder = refineCylinder(points, cylinder, run.context.search.band, run.workspace.cylinder);
   if (points.count() < kFewestCandidates) return tooFew(points.count());
   if (cylinder.inlierRate < minRate) return stop(FitStage::LowRate, cylinder.inlierRate);
   if (!geometry.containsWorld(cylinder.centre))
     return stop(FitStage::LeftVolume, cylinder.inlierRate);
   holdPlace(guess, cylinder);
-  findInliers(points, cylinder, context.search.band, workspace.inliers);
-  if (workspace.inliers.size() < kFewestCandidates) return tooFew(workspace.inliers.size());
+  findInliers(points, cylinder, run.context.search.band, run.workspace.inliers);
+  if (run.workspace.inliers.size() < kFewestCandidates) return tooFew(run.workspace.inliers.size());
   if (cylinder.axis.dot(guess.direction) < 0) cylinder.axis = -cylinder.axis;
-  TrackedNode node = makeNode(cylinder, points, workspace.inliers);
+  TrackedNode node = makeNode(cylinder, points, run.workspace.inliers);
   fit.strength = node.strength;
-  if (isNoise(context, node)) return stop(FitStage::Noise, cylinder.inlierRate);
+  if (isNoise(run.context, node)) return stop(FitStage::Noise, cylinder.inlierRate);
   fit.node = std::move(node);
   return stop(FitStage::Found, cylinder.inlierRate);
 }
 
 }  // namespace
 
-TrackContext::TrackContext(const BsplineVolume& theVolume, const TrackOptions& theOptions,
-                           double theNoiseFloor, const Progress& theProgress)
-    : volume(theVolume),
-      options(theOptions),
-      noiseFloor(theNoiseFloor),
-      progress(theProgress),
-      search(theOptions),
-      rays(icosphere(icosphereOrder(theOptions.rays))) {}
-
-TrackWorkspace::TrackWorkspace(const TrackContext& context)
-    : caster(context.volume, context.rays, context.options.samples, context.options.dark) {}
-
 double leastInlierRate(const TrackOptions& options) {
-  return kLeastRate * options.inlierRate;
+  return kLeastRateShare * options.inlierRate;
 }
 
 bool isNearer(const NodeFit& a, const NodeFit& b) {
@@ -163,8 +150,7 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
     case FitStage::FewWalls:
       return formatted(
           "at most %.0f rays meet the wall of a vessel, at least %.0f are needed: does it lie in "
-          "one, "
-          "and are vessels bright (if not: --dark)?",
+          "one, and are vessels bright (if not: --dark)?",
           static_cast<double>(best.walls), static_cast<double>(kFewestCandidates));
     case FitStage::LowRate:
       return formatted(
@@ -193,12 +179,11 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
   return "a cylinder fits";
 }
 
-NodeFit fitNode(const TrackContext& context, const NodeGuess& guess, double minRate, Random& random,
-                TrackWorkspace& workspace) {
-  NodeFit first = fitToWall(context, guess, minRate, random, workspace);
+NodeFit fitNode(TrackRun& run, const NodeGuess& guess, double minRate) {
+  NodeFit first = fitToWall(run, guess, minRate);
   if (!first.node) return first;
   WallSupport support =
-      wallSupport(context.volume, *first.node, guess.centre, context.options.dark);
+      wallSupport(run.context.volume, *first.node, guess.centre, run.context.options.dark);
   if (isSupported(support)) return first;
   first.node.reset();
   first.stage = FitStage::DarkInside;
@@ -207,15 +192,15 @@ NodeFit fitNode(const TrackContext& context, const NodeGuess& guess, double minR
   next.centre = support.middle;
   next.radius = support.radius;
   for (int refit = 0; refit < kRefits; ++refit) {
-    NodeFit fit = fitToWall(context, next, minRate, random, workspace);
+    NodeFit fit = fitToWall(run, next, minRate);
     if (!fit.node) {
-      next.radius *= kNarrower;
+      next.radius *= kNarrowerShare;
       continue;
     }
-    support = wallSupport(context.volume, *fit.node, guess.centre, context.options.dark);
+    support = wallSupport(run.context.volume, *fit.node, guess.centre, run.context.options.dark);
     if (isSupported(support)) return fit;
     next.centre = support.middle;
-    next.radius = std::min(support.radius, kNarrower * next.radius);
+    next.radius = std::min(support.radius, kNarrowerShare * next.radius);
   }
   return first;
 }

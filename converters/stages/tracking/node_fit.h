@@ -8,58 +8,28 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
-#include "converters/base/progress.h"
-#include "converters/base/random.h"
-#include "converters/stages/tracking/cylinder.h"
-#include "converters/stages/tracking/rays.h"
-#include "converters/stages/tracking/track_options.h"
-#include "converters/stages/tracking/tracked_branch.h"
+#include "converters/stages/tracking/track_run.h"
 
 namespace lumen::convert {
 
-/// What all tracks of one volume share. Only read: any number of threads may use one. What it
-/// refers to must outlive it.
-struct TrackContext {
-  TrackContext(const BsplineVolume& theVolume, const TrackOptions& theOptions, double theNoiseFloor,
-               const Progress& theProgress);
-
-  const BsplineVolume& volume;
-  const TrackOptions& options;
-  double noiseFloor;  ///< see smoothing.h
-  const Progress& progress;
-  CylinderSearch search;
-  std::vector<Eigen::Vector3d> rays;  ///< unit directions
-};
-
-/// Buffers of a track, of no meaning between calls. One per thread.
-struct TrackWorkspace {
-  explicit TrackWorkspace(const TrackContext& context);
-
-  RayCaster caster;
-  Candidates candidates;
-  CylinderWorkspace cylinder;
-  std::vector<std::size_t> inliers;
-};
-
-/// Where a node is looked for.
+/// Place and size at which a node is looked for.
 struct NodeGuess {
   Eigen::Vector3d centre, direction;  ///< mm, LPS; unit
   double radius = 0;                  ///< mm
   bool smooth = false;                ///< `direction` is that of a path: sharp turns are unlikely
-  /// how far the centre may move along the axis, mm
+  /// length that the centre may move along the axis, mm
   double slack = std::numeric_limits<double>::infinity();
 };
 
-/// How far the search for a node came; each value is nearer to success than those before.
+/// The stage that the search for a node reached; each value is nearer to success than those before.
 enum class FitStage : std::uint8_t {
   OutsideVolume,  ///< the guess lies outside of the volume
   FewWalls,       ///< fewer than kFewestCandidates rays met a wall, or one wall
   LowRate,        ///< the best cylinder has too few inliers
-  DarkInside,     ///< a cylinder fits, but much of what it holds is no lumen
+  DarkInside,     ///< a cylinder fits, but much of its inside is no lumen
   LeftVolume,     ///< a cylinder fits, but its centre lies outside of the volume
   Noise,          ///< a cylinder fits, but not well, and its wall is as weak as noise
   Found
@@ -68,25 +38,25 @@ enum class FitStage : std::uint8_t {
 struct NodeFit {
   std::optional<TrackedNode> node;  ///< empty if nothing at the guess is accepted
   FitStage stage = FitStage::OutsideVolume;
-  double inlierRate = 0;  ///< of the cylinder that decided
-  double strength = 0;    ///< of its wall, for Noise
-  std::size_t walls = 0;  ///< rays that met it, for FewWalls
-  double dark = 0;        ///< share of what it holds, for DarkInside
+  double inlierRate = 0;  ///< rate of the cylinder that decided
+  double strength = 0;    ///< strength of its wall, for Noise
+  std::size_t walls = 0;  ///< rays that met its wall, for FewWalls
+  double dark = 0;        ///< dark share of its inside, for DarkInside
 };
 
 /// True if `a` came nearer to success than `b`.
 bool isNearer(const NodeFit& a, const NodeFit& b);
 
-/// Why nothing was accepted, with the numbers that decided and what to do; follows "at the seed ".
+/// The reason why nothing was accepted, with the numbers that decided and advice; follows "at the
+/// seed ".
 std::string failureText(const TrackContext& context, const NodeFit& best);
 
 /// The least inlier rate of any node: half of the one that accepts a cylinder at once.
 double leastInlierRate(const TrackOptions& options);
 
 /// Fits a node of at least `minRate` to a guess; where its wall is not supported by the volume (see
-/// wall_support.h), to the lumen that it holds instead. Empty if the guess or the fit lies outside of
-/// the volume, if the fit cannot be told from noise, or if no supported one is found.
-NodeFit fitNode(const TrackContext& context, const NodeGuess& guess, double minRate, Random& random,
-                TrackWorkspace& workspace);
+/// wall_support.h), to the lumen that it holds instead. Empty if the guess or the fit lies outside
+/// of the volume, if the fit cannot be distinguished from noise, or if no supported one is found.
+NodeFit fitNode(TrackRun& run, const NodeGuess& guess, double minRate);
 
 }  // namespace lumen::convert

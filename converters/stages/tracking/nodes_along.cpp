@@ -7,30 +7,30 @@
 #include <optional>
 #include <utility>
 
-#include "converters/stages/tracking/path_rules.h"
+#include "converters/stages/tracking/node_fit.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Of the radius: from one node of a bridge to the next.
-constexpr double kSpacing = 0.5;
-/// Of the interpolated radius: how far a fitted node may lie beside the way, and be narrower or
-/// wider.
-constexpr double kAside = 0.7, kNarrow = 0.6, kWide = 1.5;
+/// Distance from one node of a bridge to the next, in radii.
+constexpr double kSpacingRadii = 0.5;
+/// Largest distance of a fitted node from the line, and its least and largest radius, in
+/// interpolated radii.
+constexpr double kAsideRadii = 0.7, kNarrowRadii = 0.6, kWideRadii = 1.5;
 
 struct Station {
   Vector3d position, direction;
   double radius;
 };
 
-/// Places along a polyline, evenly, without its ends.
+/// Evenly spaced places along a polyline, without its ends.
 std::vector<Station> stationsAlong(std::span<const Vector3d> line, double first, double last) {
   std::vector<double> at(line.size(), 0.0);
   for (std::size_t i = 1; i < line.size(); ++i) at[i] = at[i - 1] + (line[i] - line[i - 1]).norm();
   const double length = at.back();
-  const int count = static_cast<int>(std::floor(length / (kSpacing * std::min(first, last))));
+  const int count = static_cast<int>(std::floor(length / (kSpacingRadii * std::min(first, last))));
   std::vector<Station> stations;
   const auto place = [&](double t) {
     const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, t);
@@ -59,26 +59,26 @@ TrackedNode bridgedNode(const Station& station) {
   node.centre = station.position;
   node.direction = station.direction;
   node.radius = station.radius;
-  node.height = 2 * kSpacing * station.radius;
+  node.height = 2 * kSpacingRadii * station.radius;
   return node;
 }
 
 }  // namespace
 
-std::vector<TrackedNode> nodesAlong(const TrackContext& context, std::span<const Vector3d> line,
-                                    double first, double last, const TrackedBranch* parent,
-                                    Random& random, TrackWorkspace& workspace) {
+std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> line, double first,
+                                    double last, const TrackedBranch* parent) {
   std::vector<TrackedNode> nodes;
   for (const Station& station : stationsAlong(line, first, last)) {
     const NodeGuess guess{station.position, station.direction, station.radius, true,
-                          0.5 * kSpacing * station.radius};
+                          0.5 * kSpacingRadii * station.radius};
     std::optional<TrackedNode> node;
     if (!inLumen(parent, station.position))
-      node = fitNode(context, guess, leastInlierRate(context.options), random, workspace).node;
+      node = fitNode(run, guess, leastInlierRate(run.context.options)).node;
     if (node) {
       const Vector3d aside = node->centre - station.position;
-      if (aside.norm() > kAside * station.radius || node->radius < kNarrow * station.radius ||
-          node->radius > kWide * station.radius ||
+      if (aside.norm() > kAsideRadii * station.radius ||
+          node->radius < kNarrowRadii * station.radius ||
+          node->radius > kWideRadii * station.radius ||
           node->direction.dot(station.direction) < std::numbers::sqrt2 / 2)
         node.reset();
     }

@@ -7,17 +7,15 @@
 
 #include <Eigen/Core>
 
-#include "converters/stages/tracking/node_fit.h"
+#include "converters/stages/tracking/track_run.h"
 
 namespace lumen::convert {
 
-/// Nodes along a polyline (mm, LPS) between its ends, which they leave out, half a radius apart.
-/// Fitted where the volume shows a wall like the one that radii from `first` to `last` mm ask for;
-/// elsewhere, and inside of the lumen of `parent` (which may be null), bridged. Throws
+/// Nodes along a polyline (mm, LPS) strictly between its ends, half a radius apart. They are fitted
+/// where the volume shows a wall of about the expected radius, which goes from `first` to `last`
+/// mm; elsewhere, and inside of the lumen of `parent` (which may be null), they are bridged. Throws
 /// Error(Cancelled).
-std::vector<TrackedNode> nodesAlong(const TrackContext& context,
-                                    std::span<const Eigen::Vector3d> line, double first,
-                                    double last, const TrackedBranch* parent, Random& random,
-                                    TrackWorkspace& workspace);
+std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,
+                                    double first, double last, const TrackedBranch* parent);
 
 }  // namespace lumen::convert

@@ -96,8 +96,8 @@ std::vector<SacBall> furtherCentres(const TrackContext& context, const SacRegion
   return centres;
 }
 
-bool isStraightWay(const VolumeGeometry& geometry, const SacRegion& region, const Vector3d& a,
-                   const Vector3d& b) {
+bool isStraightPathInside(const VolumeGeometry& geometry, const SacRegion& region,
+                          const Vector3d& a, const Vector3d& b) {
   const double half = 0.5 * geometry.spacing.minCoeff();
   const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / half)));
   for (int i = 0; i <= steps; ++i) {

@@ -10,16 +10,16 @@
 
 namespace lumen::convert {
 
-/// Balls within a region for the parts of its `wall` that are more than half a radius outside of the
-/// greatest balls around the sac's `nodes`, but for parts that only balls narrower than `least` mm
-/// reach, and such as hardly have a place that is nearer to them than to the nodes, by power. mm,
-/// LPS. Throws Error(Cancelled).
+/// Balls within a region for the parts of its `wall` that are more than half a radius outside of
+/// the greatest balls around the sac's `nodes`, but for parts that only balls narrower than `least`
+/// mm reach, and such as hardly have a place that is nearer to them than to the nodes, by power.
+/// mm, LPS. Throws Error(Cancelled).
 std::vector<SacBall> furtherCentres(const TrackContext& context, const SacRegion& region,
                                     std::span<const Eigen::Vector3d> wall,
                                     std::span<const SacBall> nodes, double least);
 
-/// True if the straight way between two places stays within the lumen of a region.
-bool isStraightWay(const VolumeGeometry& geometry, const SacRegion& region,
-                   const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+/// True if the straight line between two places stays within the lumen of a region.
+bool isStraightPathInside(const VolumeGeometry& geometry, const SacRegion& region,
+                          const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 }  // namespace lumen::convert

@@ -17,7 +17,8 @@ using Eigen::Vector3i;
 
 /// Of the least ball's radius: half of the width of a way that leads on within the sac.
 constexpr double kHalfWay = 0.25;
-/// Voxels: how far beyond what a ball of half a way's width reaches the sac still goes, for corners.
+/// Voxels: how far beyond what a ball of half a way's width reaches the sac still goes, for
+/// corners.
 constexpr double kCorner = 1.5;
 /// Voxels in a box: beyond, a radius was mistyped.
 constexpr std::size_t kMostInBox = std::size_t{1} << 24;

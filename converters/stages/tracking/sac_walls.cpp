@@ -12,27 +12,27 @@
 
 #include "converters/base/vectors.h"
 #include "converters/stages/tracking/aneurysm.h"
+#include "converters/stages/tracking/lumen_paths.h"
 #include "converters/stages/tracking/sac_centres.h"
 #include "converters/stages/tracking/sac_region.h"
-#include "converters/stages/tracking/way.h"
 
 namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-using formats::BranchKind;
 using formats::NodeOrigin;
 
-/// Radii of a cylinder from its axis at which a tube has no lumen any more.
-constexpr double kAroundTube[] = {1.25, 1.5};
-/// Of the directions around an axis: where the lumen goes on in more of them, there is no tube.
+/// Distances from its axis, in radii, at which a tube has no lumen any more.
+constexpr double kAroundTubeRadii[] = {1.25, 1.5};
+/// Share of the directions around an axis: where the lumen goes on in more of them, there is no
+/// tube.
 constexpr double kOpenShare = 1.0 / 3.0;
 constexpr int kDirections = 24;
-/// Voxels from the wall: points deeper in the lumen are on no wall.
-constexpr double kWithin = 1.75;
-/// Voxels: the distance of wall points of a sac; nearer ones say nothing new. Points of a large sac
-/// are farther apart, so that there are not many more than so many.
-constexpr double kLeastApart = 1, kMostPoints = 4000;
+/// Depth in the lumen beyond which a point is on no wall, in voxels.
+constexpr double kWithinVoxels = 1.75;
+/// Distance between the wall points of a sac, in voxels, as nearer ones add nothing; and about the
+/// most of them: points of a large sac are farther apart.
+constexpr double kApartVoxels = 1, kMostPoints = 4000;
 
 /// One sac: the aneurysms that make it up, and the vessels that open into it, as positions in the
 /// seeds' order.
@@ -42,24 +42,22 @@ struct Sac {
 
 /// A piece of a vessel between two of its nodes.
 struct Piece {
-  Vector3d start, way;
+  Vector3d start, chord;
   double radius, change;
 
   [[nodiscard]] bool holds(const Vector3d& p) const {
-    const double length2 = way.squaredNorm();
-    const double t = length2 > 0 ? std::clamp((p - start).dot(way) / length2, 0.0, 1.0) : 0.0;
-    return (p - start - t * way).norm() < radius + t * change;
+    const double length2 = chord.squaredNorm();
+    const double t = length2 > 0 ? std::clamp((p - start).dot(chord) / length2, 0.0, 1.0) : 0.0;
+    return (p - start - t * chord).norm() < radius + t * change;
   }
 };
 
-/// The aneurysms that hang on one another with their vessels, for each that hangs on none.
-std::vector<Sac> sacsOf(std::span<const SeedBranch> seeds, std::size_t known,
-                        std::span<const TrackedBranch> all) {
-  const auto isVessel = [&](int i) {
-    return i >= 0 && seeds[static_cast<std::size_t>(i)].kind == BranchKind::Vessel;
-  };
+/// The new aneurysms that hang on one another with their vessels, for each that hangs on none.
+std::vector<Sac> sacsOf(const TrackedTree& tree) {
+  const std::vector<TrackedBranch>& all = tree.branches;
+  const auto isVessel = [&](int i) { return i >= 0 && tree.isVessel(static_cast<std::size_t>(i)); };
   const auto isAneurysm = [&](int i) {
-    return i >= static_cast<int>(known) && !isVessel(i) &&
+    return i >= static_cast<int>(tree.known) && !isVessel(i) &&
            !all[static_cast<std::size_t>(i)].nodes.empty();
   };
   const auto headOf = [&](int i) {
@@ -89,17 +87,17 @@ bool isTube(const TrackContext& context, double wallLevel, const TrackedNode& no
   int open = 0;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2 * std::numbers::pi * i / kDirections;
-    const Vector3d way = node.radius * (std::cos(angle) * u + std::sin(angle) * v);
-    open += std::all_of(std::begin(kAroundTube), std::end(kAroundTube), [&](double r) {
-      const Vector3d at = geometry.indexFromWorld(node.centre + r * way);
+    const Vector3d outward = node.radius * (std::cos(angle) * u + std::sin(angle) * v);
+    open += std::all_of(std::begin(kAroundTubeRadii), std::end(kAroundTubeRadii), [&](double r) {
+      const Vector3d at = geometry.indexFromWorld(node.centre + r * outward);
       return sign * (static_cast<double>(context.volume.sample(at)) - wallLevel) > 0;
     });
   }
   return open <= kOpenShare * kDirections;
 }
 
-/// What of the vessels near a sac bounds it: of those that open into it, whose nodes near by are
-/// added to `mouth`, only tubes that were measured.
+/// The pieces of vessels near a sac that bound it. Vessels that open into it bound it only where
+/// they are measured tubes; their nodes near the sac are added to `mouth`.
 std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const Sac& sac,
                             std::span<const SacBall> balls, std::vector<TrackedBranch>& all,
                             std::vector<TrackedNode*>& mouth) {
@@ -148,18 +146,18 @@ std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& reg
       strong.push_back(wall.points[i]);
   const double voxel = context.volume.geometry().voxelSize();
   const double even = std::sqrt(static_cast<double>(strong.size()) / kMostPoints);
-  return thinnedOut(strong, std::max(kLeastApart, even) * voxel);
+  return thinnedOut(strong, std::max(kApartVoxels, even) * voxel);
 }
 
 /// Drops points that are deeper in a region's lumen than any wall.
 void dropWithin(const VolumeGeometry& geometry, const SacRegion& region, TrackedNode& node) {
   std::erase_if(node.points, [&](const formats::Vec3f& p) {
     const auto depth = region.depthAt(geometry.indexFromWorld(toEigen(p)));
-    return depth && *depth > kWithin * geometry.voxelSize();
+    return depth && *depth > kWithinVoxels * geometry.voxelSize();
   });
 }
 
-/// Each point to the node of least power.
+/// Adds each point to the node of least power.
 void shareOut(const std::vector<Vector3d>& points, std::span<TrackedNode* const> owners) {
   for (const Vector3d& p : points) {
     const auto power = [&](const TrackedNode* node) {
@@ -172,7 +170,7 @@ void shareOut(const std::vector<Vector3d>& points, std::span<TrackedNode* const>
   }
 }
 
-/// Puts a node into one of a sac's chains, behind its first node, where the way gets longer by
+/// Inserts a node into one of a sac's chains, behind its first node, where the chain gets longer by
 /// the least and stays in the lumen; nowhere if no chain can be left and reached again.
 void insertNode(const TrackContext& context, const SacRegion& region, TrackedNode node,
                 const Sac& sac, std::vector<TrackedBranch>& all) {
@@ -180,8 +178,8 @@ void insertNode(const TrackContext& context, const SacRegion& region, TrackedNod
   std::size_t at = 0;
   double least = std::numeric_limits<double>::infinity();
   const VolumeGeometry& geometry = context.volume.geometry();
-  const auto isOpen = [&](const TrackedNode& other) {
-    return isStraightWay(geometry, region, node.centre, other.centre);
+  const auto isInside = [&](const TrackedNode& other) {
+    return isStraightPathInside(geometry, region, node.centre, other.centre);
   };
   for (const std::size_t part : sac.parts) {
     std::vector<TrackedNode>& nodes = all[part].nodes;
@@ -191,7 +189,7 @@ void insertNode(const TrackContext& context, const SacRegion& region, TrackedNod
       if (!isLast)
         longer += (nodes[i + 1].centre - node.centre).norm() -
                   (nodes[i + 1].centre - nodes[i].centre).norm();
-      if (longer >= least || !isOpen(nodes[i]) || (!isLast && !isOpen(nodes[i + 1]))) continue;
+      if (longer >= least || !isInside(nodes[i]) || (!isLast && !isInside(nodes[i + 1]))) continue;
       least = longer;
       chain = &nodes;
       at = i + 1;
@@ -204,9 +202,9 @@ void insertNode(const TrackContext& context, const SacRegion& region, TrackedNod
 void addCentres(const TrackContext& context, const SacRegion& region,
                 const std::vector<Vector3d>& wall, std::span<const SacBall> nodes, double least,
                 const Sac& sac, std::vector<TrackedBranch>& all) {
-  TrackWorkspace workspace(context);
+  TrackRun run(context, Random(context.options.seed));
   for (const SacBall& ball : furtherCentres(context, region, wall, nodes, least)) {
-    auto node = sacNodeAt(context, {ball.centre, ball.radius}, workspace);
+    auto node = sacNodeAt(run, {ball.centre, ball.radius});
     if (!node) continue;
     node->radius = ball.radius;
     insertNode(context, region, std::move(*node), sac, all);
@@ -247,9 +245,8 @@ void capture(const TrackContext& context, const Sac& sac, std::vector<TrackedBra
 
 }  // namespace
 
-void captureSacs(const TrackContext& context, std::span<const SeedBranch> seeds, std::size_t known,
-                 std::vector<TrackedBranch>& branches) {
-  for (const Sac& sac : sacsOf(seeds, known, branches)) capture(context, sac, branches);
+void captureSacs(const TrackContext& context, TrackedTree& tree) {
+  for (const Sac& sac : sacsOf(tree)) capture(context, sac, tree.branches);
 }
 
 }  // namespace lumen::convert

@@ -22,8 +22,9 @@ double noiseFloor(const BsplineVolume& volume, const TrackOptions& options,
                   const Progress& progress);
 
 /// How much brighter (or darker, if `options.dark`) the vessels are than what is around them, voxel
-/// units: the median over the clicks (256 of them, if there are more) of the difference between a click and the lower quartile of
-/// what rays of sixteen voxels meet. Zero without clicks inside of the volume.
+/// units: the median over the clicks (256 of them, if there are more) of the difference between a
+/// click and the lower quartile of what rays of sixteen voxels meet. Zero without clicks inside of
+/// the volume.
 double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
                         const TrackOptions& options, const Progress& progress);
 

@@ -10,11 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a radius: a centre that is nearer to another vessel's axis is in that vessel; so much of a
-/// narrower one's own radius is.
-constexpr double kCore = 0.5;
+/// A centre nearer to another vessel's axis than this share of its radius is in that vessel; so is
+/// this share of a narrower vessel's own radius.
+constexpr double kCoreShare = 0.5;
 
-/// Closest point to `p` on the segment a-b, as a fraction of it.
+/// The point closest to `p` on the segment a-b, as a fraction of it.
 double fractionOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
   const double length2 = (b - a).squaredNorm();
   return length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
@@ -30,6 +30,13 @@ TrackedNode reversed(TrackedNode node) {
 void reverseTrack(std::vector<TrackedNode>& nodes) {
   std::reverse(nodes.begin(), nodes.end());
   for (TrackedNode& node : nodes) node = reversed(std::move(node));
+}
+
+double lengthOf(std::span<const TrackedNode> nodes) {
+  double length = 0;
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    length += (nodes[i].centre - nodes[i - 1].centre).norm();
+  return length;
 }
 
 ChainPoint closestOnChain(std::span<const TrackedNode> chain, const Vector3d& point) {
@@ -58,7 +65,8 @@ bool inCore(std::span<const TrackedBranch* const> branches, const TrackedNode& n
   return std::any_of(branches.begin(), branches.end(), [&](const TrackedBranch* branch) {
     if (branch->nodes.empty()) return false;
     const ChainPoint closest = closestOnChain(branch->nodes, node.centre);
-    const double core = std::max(kCore * closest.radius, closest.radius - kCore * node.radius);
+    const double core =
+        std::max(kCoreShare * closest.radius, closest.radius - kCoreShare * node.radius);
     return closest.distance < core;
   });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tracking makes of one vessel, before it becomes a case.
+// One tracked vessel before it becomes a case.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct TrackedNode {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitZ();
   double radius = 0, height = 0, inlierRate = 0;
   double strength = 0;         ///< median fall of intensity at the points, voxel units per mm
-  double meanSquareAlong = 0;  ///< of the inliers' places along the axis from the centre, mm^2
+  double meanSquareAlong = 0;  ///< mean over the inliers, along the axis from the centre, mm^2
   std::vector<formats::Vec3f> points;
 };
 
@@ -28,44 +28,48 @@ struct TrackedBranch {
   std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
   std::size_t clickNode = 0;       ///< the one that was fitted at the seed's first point
   formats::StopReason stopReason = formats::StopReason::Unknown;  ///< at its last node
-  formats::StopReason startReason =
-      formats::StopReason::Unknown;  ///< at its first, if it was tracked
-                                     ///< both ways from a click
-  double goesOn = 0;       ///< mm for which the lumen is seen to lead on beyond the last node
-  double startGoesOn = 0;  ///< the same beyond the first
-  std::string failure;     ///< why nothing was tracked
-  std::string unjoined;    ///< why it does not hang on its parent, if it should
+  /// at its first node, if it was tracked both ways from a click
+  formats::StopReason startReason = formats::StopReason::Unknown;
+  double goesOn = 0;       ///< mm for which the lumen is seen to continue beyond the last node
+  double startGoesOn = 0;  ///< mm for which it is seen to continue beyond the first node
+  std::string failure;     ///< reason why nothing was tracked
+  std::string unjoined;    ///< reason why it is not joined to its parent, if it should be
   std::vector<std::string> missedPoints;  ///< a sentence for each further click not reached
   int parentBranch = -1;                  ///< position in the seeds' order; -1: a root
   int parentNode = -1;                    ///< within that branch
-  bool isTail = false;                    ///< it took over from its parent what that had of it
-  int trackedBy = -1;                     ///< if it has no nodes: the branch that its click lies in
+  bool isTail = false;                    ///< it has nodes that its parent had tracked
+  int trackedBy = -1;  ///< if it has no nodes: the branch in which its click lies
 };
 
-/// Why a seed on a vessel that is tracked already starts no track.
+/// The reason why a seed on a vessel that is tracked already starts no track.
 constexpr const char* kTrackedAlready =
     "the seed leads into a vessel that another seed has tracked; one seed is enough for each";
 
-/// The same, looking the other way.
+/// A node with the opposite direction.
 TrackedNode reversed(TrackedNode node);
 
-/// The same nodes from the last to the first, each looking the other way.
+/// Reverses the order and the direction of nodes.
 void reverseTrack(std::vector<TrackedNode>& nodes);
 
-/// The same branch from its last node to its first.
+/// Makes a branch run from its last node to its first.
 void turnRound(TrackedBranch& branch);
 
-/// The closest place on a chain of nodes.
+/// The sum of the distances between consecutive nodes, mm.
+double lengthOf(std::span<const TrackedNode> nodes);
+
+/// A place on a chain of nodes.
 struct ChainPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double radius = 0;     ///< mm, interpolated
   double distance = 0;   ///< mm
   std::size_t node = 0;  ///< the nearer end of the closest segment
 };
+/// The place on a chain that is closest to a point; at infinite distance for an empty chain.
 ChainPoint closestOnChain(std::span<const TrackedNode> chain, const Eigen::Vector3d& point);
 
-/// True if half of a node's lumen or its axis lies in the core of one of `branches`: within half a
-/// radius of that one's axis or, if the node is narrower, a whole one less half of the node's own.
+/// True if half of a node's lumen or its axis lies in the core of one of `branches`: within half of
+/// that branch's radius from its axis or, if the node is narrower, a whole radius less half of the
+/// node's own.
 bool inCore(std::span<const TrackedBranch* const> branches, const TrackedNode& node);
 
 }  // namespace lumen::convert

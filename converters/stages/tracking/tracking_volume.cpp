@@ -6,10 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <utility>
+#include <variant>
 
 #include "converters/base/edit_steps.h"
+#include "converters/base/error.h"
 #include "converters/base/recorded_options.h"
-#include "converters/stages/tracking/known_tracks.h"
+#include "converters/base/shown_text.h"
+#include "converters/stages/tracking/tracked_tree.h"
 
 namespace lumen::convert {
 namespace {
@@ -17,24 +20,23 @@ namespace {
 /// The variance of a box is the square of its edge over this.
 constexpr double kEdgesToVariance = 12.0;
 
-/// The most that one edge of a voxel may be of another: beyond, rays of a vessel's size cross nothing
+/// The largest ratio of two edges of a voxel: beyond it, rays of a vessel's size cross nothing
 /// along the one axis and thousands of voxels along the other.
-constexpr double kMostUneven = 1000.0;
+constexpr double kLargestEdgeRatio = 1000.0;
 
 void checkVoxels(const Eigen::Vector3d& spacing) {
   const double uneven = spacing.maxCoeff() / spacing.minCoeff();
-  if (uneven <= kMostUneven) return;
+  if (uneven <= kLargestEdgeRatio) return;
   std::array<char, 256> text{};
   std::snprintf(text.data(), text.size(),
                 "the volume's voxels are %g x %g x %g mm, one edge %.3g times another; expected at "
                 "most %g times: if the spacing is wrong, --spacing states it, else resample",
-                spacing.x(), spacing.y(), spacing.z(), uneven, kMostUneven);
+                spacing.x(), spacing.y(), spacing.z(), uneven, kLargestEdgeRatio);
   throw invalidInput(text.data());
 }
 
-/// Times the contrast of the vessels as they should be: if they have so much the other way, they are
-/// the other way.
-constexpr double kOtherWay = 4.0;
+/// Vessels have the other sign than stated if their contrast is this many times as large with it.
+constexpr double kOtherSignContrasts = 4.0;
 
 void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
                      const TrackOptions& options, Progress& progress) {
@@ -45,7 +47,7 @@ void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
   TrackOptions other = options;
   other.dark = !options.dark;
   const double contrast = contrastAtClicks(spline, seeds, options, progress);
-  if (contrastAtClicks(spline, seeds, other, progress) <= kOtherWay * contrast) return;
+  if (contrastAtClicks(spline, seeds, other, progress) <= kOtherSignContrasts * contrast) return;
   progress.warn(
       options.dark ? "most seeds lie where it is brighter than around them, but --dark tracks dark "
                      "vessels: leave it out if vessels are bright"
@@ -72,10 +74,32 @@ std::vector<SeedBranch> clicksOf(const formats::Case& tracked) {
   return clicks;
 }
 
+/// The first two different values, in the order of the voxels, and whether there is a third.
+struct Values {
+  double first = 0;
+  std::optional<double> second;
+  bool hasMore = false;
+};
+
+template <class T>
+Values valuesOf(const std::vector<T>& voxels) {
+  Values out;
+  if (voxels.empty()) return out;
+  const T first = voxels.front();
+  out.first = static_cast<double>(first);
+  const auto isOther = [&](T v) { return v != first; };
+  const auto other = std::find_if(voxels.begin(), voxels.end(), isOther);
+  if (other == voxels.end()) return out;
+  const T second = *other;
+  out.second = static_cast<double>(second);
+  out.hasMore = std::any_of(other, voxels.end(), [&](T v) { return v != first && v != second; });
+  return out;
+}
+
 }  // namespace
 
-std::optional<TrackOptions> recordedTrackOptions(const formats::Case& value) {
-  const formats::Step* step = lastStep(value.metadata, "track");
+std::optional<TrackOptions> recordedTrackOptions(const formats::Case& vesselCase) {
+  const formats::Step* step = lastStep(vesselCase.metadata, "track");
   if (!step) return std::nullopt;
   const RecordedOptions recorded(*step);
   TrackOptions o;
@@ -102,11 +126,10 @@ std::optional<TrackOptions> recordedTrackOptions(const formats::Case& value) {
   return o;
 }
 
-WallShape wallShapeOf(const TrackingVolume& volume, const std::vector<SeedBranch>& seeds,
-                      const std::vector<TrackedBranch>& branches) {
+WallShape wallShapeOf(const TrackingVolume& volume, const TrackedTree& tree) {
   std::vector<const TrackedBranch*> vessels;
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-    if (seeds[i].kind == formats::BranchKind::Vessel) vessels.push_back(&branches[i]);
+  for (std::size_t i = 0; i < tree.seeds.size(); ++i)
+    if (tree.isVessel(i)) vessels.push_back(&tree.branches[i]);
   const VolumeGeometry& geometry = volume.geometry();
   const double edge =
       volume.options().evenBlur ? geometry.spacing.maxCoeff() : geometry.voxelSize();
@@ -116,6 +139,19 @@ WallShape wallShapeOf(const TrackingVolume& volume, const std::vector<SeedBranch
       .value_or(WallShape{least, 0});
 }
 
+std::optional<std::string> doubtAbout(const Volume& volume) {
+  const Values values =
+      std::visit([](const auto& voxels) { return valuesOf(voxels); }, volume.voxels);
+  if (!values.second)
+    throw invalidInput("every voxel is " + numberText(values.first) +
+                       ", so there is nothing to track; expected an angiogram");
+  if (values.hasMore) return std::nullopt;
+  const auto [low, high] = std::minmax(values.first, *values.second);
+  return "its voxels are " + numberText(low) + " or " + numberText(high) +
+         " only, as in a mask; expected the intensities of an angiogram: walls will be as coarse "
+         "as the voxels, so give the image that the mask was made from, if there is one";
+}
+
 TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracked,
                                Progress& progress)
     : m_options(optionsFor(tracked)) {
@@ -123,8 +159,7 @@ TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracke
   checkVoxels(volume.geometry.spacing);
   m_smoothed = smoothForNoise(volume, clicksOf(tracked), m_options, progress);
   m_options.smoothing = m_smoothed.smoothing;
-  const KnownTracks known(tracked);
-  m_wallShape = wallShapeOf(*this, known.seeds, known.branches);
+  m_wallShape = wallShapeOf(*this, trackedTreeOf(tracked));
   if (!m_options.pointSpread) return;
   m_wallShape->pointSpread = *m_options.pointSpread;
   if (*m_options.pointSpread == 0) m_wallShape->halfLevel = 0;

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// From tracks to trees: tracks go on as far as the lumen does, gaps are filled, children led to their
-// parents (docs/method.md, section 1.12).
+// From tracks to trees: tips are extended as far as the lumen goes, gaps filled, children led to
+// their parents (docs/method.md, section 1.12).
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
-#include "converters/io/seeds/seeds.h"
-#include "converters/stages/tracking/node_fit.h"
+#include "converters/stages/tracking/track_run.h"
+#include "converters/stages/tracking/tracked_tree.h"
 
 namespace lumen::convert {
 
-/// Leads all vessels on from the ends at which they found nothing, as far as the lumen is not
-/// another vessel's. What two of them find is the earlier one's. The first `known` branches stay as
-/// they are. Throws Error(Cancelled).
-void goOnwardAll(const TrackContext& context, const std::vector<SeedBranch>& seeds,
-                 std::size_t known, std::vector<TrackedBranch>& branches);
+/// Extends all vessels from the ends at which they found nothing, as far as the lumen goes on and
+/// is not another vessel's. A stretch that two of them find belongs to the earlier one. Known
+/// branches stay as they are. Throws Error(Cancelled).
+void extendTips(const TrackContext& context, TrackedTree& tree);
 
 /// Makes one lumen of each tree: fills the gaps of all vessels, leads children to the axis of their
-/// parents, and roots that the lumen ties to another tree to that. The first `known` branches, which
-/// are joined already, stay as they are. Throws Error(Cancelled).
-void joinAll(const TrackContext& context, const std::vector<SeedBranch>& seeds, std::size_t known,
-             std::vector<TrackedBranch>& branches);
+/// parents, and joins roots to another tree to which the lumen leads. Known branches, which are
+/// joined already, stay as they are. Throws Error(Cancelled).
+void joinTree(const TrackContext& context, TrackedTree& tree);
 
 }  // namespace lumen::convert

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -17,40 +18,43 @@ namespace lumen::convert {
 namespace {
 
 using Eigen::Vector3d;
-/// Of a section's wall: see Section.
+
+/// Unknowns of a section's wall: see Section.
 constexpr int kUnknowns = 7;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
-/// Of the strength of the node's wall: what is weaker is none.
-constexpr double kLeastStrength = 0.3;
-/// Of the way to a wall: where it must be in the lumen.
-constexpr double kOnTheWay[] = {0.4, 0.6, 0.8};
-/// Rounds of reweighting, and the robust width (in standard deviations) beyond which a point counts
-/// for nothing (J. Tukey's biweight).
+/// Least strength of a wall, as a share of the strength of the node's wall.
+constexpr double kLeastStrengthShare = 0.3;
+/// Shares of the distance to a wall at which a ray must be in the lumen.
+constexpr double kLumenShares[] = {0.4, 0.6, 0.8};
+/// The most rounds of reweighting, and the relative change of the unknowns below which they end.
 constexpr int kReweightings = 12;
-constexpr double kStands = 1e-3;  // of the unknowns, from round to round
-constexpr double kBiweight = 4.685, kDeviations = 1.4826;
-/// The longest section, as the ratio of its axes: a longer one is two vessels. Rays of kRayRadii show
-/// it in full around a circle that fits between its sides.
-constexpr double kMostOblong = 2.5;
-/// Times that the section is moved to its own middle, and by how much of the radius at most in all.
+constexpr double kConverged = 1e-3;
+/// Standard deviations beyond which a point has no weight (J. Tukey's biweight), and the ratio of a
+/// standard deviation to the median of absolute residuals.
+constexpr double kBiweightDeviations = 4.685, kDeviationOfMedian = 1.4826;
+/// The largest ratio of a section's axes: a longer one is two vessels. Rays of kRayRadii show it in
+/// full around a circle that fits between its sides.
+constexpr double kLargestAxisRatio = 2.5;
+/// Number of times that the section is moved to its own middle, and the largest distance of all
+/// these moves, in radii.
 constexpr int kMoves = 3;
-constexpr double kMostAside = 0.75;
-/// Sectors around the axis, and how many must have wall points.
+constexpr double kAsideRadii = 0.75;
+/// Sectors around the axis, and the number of them that must have wall points.
 constexpr std::size_t kSectors = 12, kLeastSectors = 8;
-/// Times the wall points of the cylinder: what a section must explain to be believed.
-constexpr double kMore = 1.25;
+/// Least number of points that a section must explain, relative to the cylinder.
+constexpr double kMorePoints = 1.25;
 
 /// A wall point about an axis.
 struct WallPlace {
   Vector3d position;
   double angle = 0, distance = 0;
-  Unknowns row = Unknowns::Zero();  ///< of the section's unknowns; see Section
+  Unknowns row = Unknowns::Zero();  ///< factors of the section's unknowns; see Section
 };
 
-/// An ellipse about that axis, which widens or narrows along it: the inverse square of the distance of
-/// its wall is linear in the sine and cosine of twice the angle; those of the angle itself move it, to
-/// first order; the place along the axis and its square are a taper and a throat.
+/// An ellipse about an axis, which widens or narrows along it: the inverse square of the distance
+/// of its wall is linear in the sine and cosine of twice the angle; those of the angle itself move
+/// it, to first order; the place along the axis and its square are a taper and a throat.
 struct Section {
   Unknowns curve = Unknowns::Zero();
 
@@ -66,23 +70,23 @@ struct Section {
   }
   [[nodiscard]] double oblong() const { return std::hypot(curve[3], curve[4]); }
   [[nodiscard]] bool isValid() const {
-    constexpr double kSquare = kMostOblong * kMostOblong;
+    constexpr double kSquare = kLargestAxisRatio * kLargestAxisRatio;
     return curve.allFinite() && curve[0] > 0 &&
            oblong() <= (kSquare - 1) / (kSquare + 1) * curve[0];
   }
-  /// Of a disc of the same area.
+  /// The radius of a disc of the same area.
   [[nodiscard]] double radius() const {
     return std::pow(curve[0] * curve[0] - oblong() * oblong(), -0.25);
   }
-  /// To its middle, along the two axes of the plane.
+  /// The step to its middle, along the two axes of the plane.
   [[nodiscard]] Eigen::Vector2d middle() const {
     return -0.5 * std::pow(curve[0], -1.5) * Eigen::Vector2d(curve[1], curve[2]);
   }
 };
 
-/// Points that rays from a node's centre meet: in its height, at a wall, with lumen on the way.
-std::vector<WallPlace> placesAround(const TrackContext& context, const TrackedNode& node,
-                                    const Vector3d& axis, TrackWorkspace& workspace) {
+/// Points that rays from a node's centre meet: in its height, at a wall, with lumen before them.
+std::vector<WallPlace> placesAround(TrackRun& run, const TrackedNode& node, const Vector3d& axis) {
+  const TrackContext& context = run.context;
   const VolumeGeometry& geometry = context.volume.geometry();
   const double sign = context.options.dark ? -1.0 : 1.0;
   const auto valueAt = [&](const Vector3d& p) {
@@ -91,23 +95,23 @@ std::vector<WallPlace> placesAround(const TrackContext& context, const TrackedNo
   std::vector<double> levels;
   for (const formats::Vec3f& p : node.points) levels.push_back(valueAt(toEigen(p)));
   const double level = median(std::move(levels));
-  Candidates& points = workspace.candidates;
-  workspace.caster.cast(node.centre, kRayRadii * node.radius, points);
+  Candidates& points = run.workspace.candidates;
+  run.workspace.caster.cast(node.centre, kRayRadii * node.radius, points);
   std::vector<WallPlace> places;
   for (std::size_t i = 0; i < points.count(); ++i) {
     const Vector3d offset = points.offset(i);
     if (std::abs(offset.dot(axis)) > 0.5 * node.height) continue;
-    if (points.strength[i] < kLeastStrength * node.strength) continue;
-    const bool isLumen = std::all_of(std::begin(kOnTheWay), std::end(kOnTheWay), [&](double share) {
-      return valueAt(node.centre + share * offset) > level;
-    });
+    if (points.strength[i] < kLeastStrengthShare * node.strength) continue;
+    const bool isLumen =
+        std::all_of(std::begin(kLumenShares), std::end(kLumenShares),
+                    [&](double share) { return valueAt(node.centre + share * offset) > level; });
     if (!isLumen) continue;
     places.push_back({node.centre + offset});
   }
   return places;
 }
 
-/// Angles and distances about an axis.
+/// Sets the angles and distances of places about an axis.
 void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<WallPlace>& places) {
   const auto [u, v] = planeBasis(axis);
   for (WallPlace& p : places) {
@@ -119,8 +123,8 @@ void measureAbout(const Vector3d& centre, const Vector3d& axis, std::vector<Wall
   }
 }
 
-/// The section through most of the places, by least squares of the distance to its wall with Tukey's
-/// weights, from a circle of that radius on.
+/// The section through most of the places, by least squares of the distance to its wall with
+/// Tukey's weights, from a circle of that radius on.
 Section fitWall(const std::vector<WallPlace>& places, double radius) {
   Section section;
   section.curve[0] = 1.0 / (radius * radius);
@@ -130,14 +134,14 @@ Section fitWall(const std::vector<WallPlace>& places, double radius) {
       walls.push_back(section.wallAt(p));
       residuals.push_back(std::abs(p.distance - walls.back()));
     }
-    const double scale = std::max(kDeviations * median(residuals), 1e-3 * radius);
+    const double scale = std::max(kDeviationOfMedian * median(residuals), 1e-3 * radius);
     Eigen::Matrix<double, kUnknowns, kUnknowns> normal;
     normal.setZero();
     Unknowns right = Unknowns::Zero();
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const double t = residuals[i] / (kBiweight * scale);
+      const double t = residuals[i] / (kBiweightDeviations * scale);
       if (t >= 1) continue;
-      // what a change of the inverse square moves the wall by
+      // move of the wall for a change of the inverse square
       const double slope = 0.5 * walls[i] * walls[i] * walls[i];
       const double weight = (1 - t * t) * (1 - t * t) * slope * slope;
       const double distance = std::max(places[i].distance, 1e-3 * radius);
@@ -146,7 +150,7 @@ Section fitWall(const std::vector<WallPlace>& places, double radius) {
     }
     normal.diagonal().array() += 1e-9 * normal.trace();
     const Unknowns next = normal.ldlt().solve(right);
-    const bool isDone = (next - section.curve).norm() < kStands * section.curve.norm();
+    const bool isDone = (next - section.curve).norm() < kConverged * section.curve.norm();
     section.curve = next;
     if (isDone) break;
   }
@@ -162,8 +166,8 @@ std::size_t sectorsWith(const std::vector<WallPlace>& places) {
   return seen.count();
 }
 
-/// From the nearest node before, to the nearest behind, that is a radius away, or the end: what lies
-/// nearer tells where a fit leant to rather than where the vessel runs.
+/// The chord from the nearest node before a node to the nearest behind it that are a radius away,
+/// or to the end: nearer nodes show where a fit leant to rather than where the vessel runs.
 Vector3d chordAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
   const auto isFar = [&](std::size_t i) {
     return (nodes[i].centre - nodes[n].centre).norm() >= nodes[n].radius;
@@ -174,7 +178,7 @@ Vector3d chordAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
   return nodes[behind].centre - nodes[before].centre;
 }
 
-/// The sectors that the node's own wall points lie in.
+/// The number of sectors in which the node's own wall points lie.
 std::size_t sectorsOf(const TrackedNode& node, const Vector3d& axis) {
   std::vector<WallPlace> places;
   for (const formats::Vec3f& p : node.points) places.push_back({toEigen(p)});
@@ -182,11 +186,10 @@ std::size_t sectorsOf(const TrackedNode& node, const Vector3d& axis) {
   return sectorsWith(places);
 }
 
-}  // namespace
-
-std::optional<TrackedNode> fitSection(const TrackContext& context, const TrackedNode& node,
-                                      const Vector3d& axis, TrackWorkspace& workspace) {
-  std::vector<WallPlace> places = placesAround(context, node, axis, workspace);
+/// A node with a section about `axis` (unit) as its wall; empty where it keeps its cylinder.
+std::optional<TrackedNode> fitSection(TrackRun& run, const TrackedNode& node,
+                                      const Vector3d& axis) {
+  std::vector<WallPlace> places = placesAround(run, node, axis);
   if (places.size() < kFewestCandidates) return std::nullopt;
   const auto [u, v] = planeBasis(axis);
   Vector3d centre = node.centre;
@@ -196,15 +199,15 @@ std::optional<TrackedNode> fitSection(const TrackContext& context, const Tracked
     section = fitWall(places, node.radius);
     if (!section.isValid()) return std::nullopt;
     centre += section.middle()[0] * u + section.middle()[1] * v;
-    if ((centre - node.centre).norm() > kMostAside * node.radius) return std::nullopt;
+    if ((centre - node.centre).norm() > kAsideRadii * node.radius) return std::nullopt;
   }
   std::erase_if(places, [&](const WallPlace& p) {
     const double wall = section.wallAt(p);
-    return std::abs(p.distance - wall) > context.search.band * wall;
+    return std::abs(p.distance - wall) > run.context.search.band * wall;
   });
   const std::size_t sectors = sectorsWith(places);
   if (sectors < kLeastSectors || sectors < sectorsOf(node, axis) ||
-      static_cast<double>(places.size()) < kMore * static_cast<double>(node.points.size()))
+      static_cast<double>(places.size()) < kMorePoints * static_cast<double>(node.points.size()))
     return std::nullopt;
   TrackedNode out = node;
   out.direction = axis;
@@ -215,18 +218,18 @@ std::optional<TrackedNode> fitSection(const TrackContext& context, const Tracked
   return out;
 }
 
-void fitSections(const TrackContext& context, std::vector<TrackedNode>& nodes,
-                 TrackWorkspace& workspace) {
+}  // namespace
+
+void fitSections(TrackRun& run, std::vector<TrackedNode>& nodes) {
   std::vector<TrackedNode> out = nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const TrackedNode& node = nodes[i];
     if (node.origin != formats::NodeOrigin::Measured || node.points.empty() ||
-        node.inlierRate >= context.options.inlierRate)
+        node.inlierRate >= run.context.options.inlierRate)
       continue;
     const Vector3d chord = chordAt(nodes, i);
     if (!(chord.norm() > 0)) continue;
-    if (auto fitted = fitSection(context, node, chord.normalized(), workspace))
-      out[i] = std::move(*fitted);
+    if (auto fitted = fitSection(run, node, chord.normalized())) out[i] = std::move(*fitted);
   }
   nodes = std::move(out);
 }

@@ -24,9 +24,9 @@ constexpr double kInside = 0.8;
 constexpr int kSections = 3, kRings = 3, kOnFirstRing = 6;
 /// Of the half height: where the outer sections lie. Farther out a bend leaves the cylinder.
 constexpr double kOuterSection = 0.5;
-/// Of the inside: more that is dark is another shape. A circle around the longer axis of an ellipse of
-/// axes 3:2, which is a vessel, is dark by a third; one that two touching discs of equal size share
-/// with the gap between them, by a half.
+/// Of the inside: more that is dark is another shape. A circle around the longer axis of an ellipse
+/// of axes 3:2, which is a vessel, is dark by a third; one that two touching discs of equal size
+/// share with the gap between them, by a half.
 constexpr double kMostDark = 0.28;
 /// Steps to the middle of a lumen, and of the radius: how far samples attract.
 constexpr int kShifts = 8;

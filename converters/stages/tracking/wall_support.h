@@ -19,8 +19,8 @@ struct WallSupport {
 /// Samples the inside of a node, up to four fifths of its radius, and compares it with the median
 /// intensity at its wall points. A wall around a vessel holds lumen only. One that takes in the gap
 /// to a neighbour, or that bulges into the dark, does not. `dark`: vessels are darker than their
-/// background. All of the inside is taken for lumen where the node has no points. `guess`: where the
-/// vessel was expected, mm, LPS; of several lumens inside, `middle` is that of the nearest.
+/// background. All of the inside is taken for lumen where the node has no points. `guess`: where
+/// the vessel was expected, mm, LPS; of several lumens inside, `middle` is that of the nearest.
 WallSupport wallSupport(const BsplineVolume& volume, const TrackedNode& node,
                         const Eigen::Vector3d& guess, bool dark);
 

@@ -13,8 +13,8 @@
 #include "converters/io/volume/read_volume.h"
 #include "converters/stages/editing/edit.h"
 #include "converters/stages/fitting/refit.h"
-#include "converters/stages/tracking/snap.h"
-#include "converters/stages/tracking/track_further.h"
+#include "converters/stages/tracking/track_case.h"
+#include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/case/case_field.h"
 #include "formats/case/case_file.h"
 #include "formats/case/reachability.h"
@@ -47,10 +47,10 @@ void again(const TrackingVolume& volume, const formats::Case& whole, const std::
   const double deleting = since(clock);
   refit(value, change.stale, recordedFitOptions(value), silent);
   const double refitting = since(clock);
-  const Snap snap = snapToVessel(volume, click);
+  const VesselAtClick vessel = vesselAtClick(volume, click);
   const double snapping = since(clock);
   seed.points.push_back({click, std::nullopt});
-  const FurtherTracks tracks = trackFurther(volume, value, {seed}, silent);
+  const AddedTracks tracks = trackIntoCase(volume, value, {seed}, silent);
   const double tracking = since(clock);
   std::vector<std::uint32_t> before(tracks.result.tree.nodeCount(), UINT32_MAX);
   for (std::uint32_t n = 0; n < tracks.firstNewNode; ++n) before[n] = n;
@@ -62,14 +62,15 @@ void again(const TrackingVolume& volume, const formats::Case& whole, const std::
   const bool isNew = tracks.firstNewBranch < out.tree.branches.size();
   const auto reach = formats::reachabilityOf(out.tree, formats::blendedFieldOf(out));
   std::printf(
-      "%-12s %5.1f -> %5.1f mm, parent %5d; delete %5.1f refit %5.0f (%zu) snap %5.1f%s track "
+      "%-12s %5.1f -> %5.1f mm, parent %5d; delete %5.1f refit %5.0f (%zu) click %5.1f%s track "
       "%6.0f "
       "compare %5.1f fit %6.0f (%zu) ms; reachable %.0f of %.0f; %s\n",
       label.c_str(), formats::branchLength(whole.tree, old),
       isNew ? formats::branchLength(out.tree, out.tree.branches.back()) : 0,
       isNew ? out.tree.branches.back().parentNode : -2, deleting, refitting, change.stale.size(),
-      snapping, snap.found ? "" : "!", tracking, comparing, fitting, stale.size(), reach.reachable,
-      reach.total, tracks.failures.empty() ? "" : tracks.failures[0].reason.c_str());
+      snapping, vessel.found ? "" : "!", tracking, comparing, fitting, stale.size(),
+      reach.reachable, reach.total,
+      tracks.failures.empty() ? "" : tracks.failures[0].reason.c_str());
 }
 
 int run(int count, char** arguments) {

@@ -24,7 +24,7 @@
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/phantom/phantom.h"
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 #include "formats/case/case_file.h"
 #include "tests/evaluation/reproduce/report.h"
 
@@ -83,7 +83,7 @@ void convertOnce(const std::string& stem, int threads) {
     volume = convert::readVolume(stem + ".nrrd", convert::VolumeFormat::Nrrd, {}, progress);
   });
   const auto seeds = convert::readSeeds(stem + ".json");
-  stage("track", [&] { value = convert::track(volume, seeds, {}, progress).result; });
+  stage("track", [&] { value = convert::trackCase(volume, seeds, {}, progress).result; });
   stage("fit", [&] { convert::fit(value, {}, progress); });
   stage("write", [&] {
     const auto written = formats::writeCaseFile(value, stem + ".lumen");

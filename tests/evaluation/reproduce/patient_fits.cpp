@@ -17,7 +17,7 @@
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/phantom/phantom.h"
 #include "converters/stages/surface/patches/polygonise.h"
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 #include "formats/case/case_file.h"
 #include "report.h"
 #include "seams.h"
@@ -72,7 +72,7 @@ std::vector<Patient> syntheticPatients(Progress& progress) {
     options.seed = seed;
     const convert::Phantom phantom = convert::makePhantom(options, progress);
     patients.push_back({"synthetic patient " + std::to_string(seed),
-                        convert::track(phantom.volume, phantom.seeds, {}, progress).result});
+                        convert::trackCase(phantom.volume, phantom.seeds, {}, progress).result});
   }
   return patients;
 }

@@ -7,7 +7,7 @@
 
 #include "converters/judge/compare/compare.h"
 #include "converters/stages/phantom/phantom.h"
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 
 namespace lumen::reproduce {
 

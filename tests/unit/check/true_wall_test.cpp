@@ -13,7 +13,7 @@
 #include "converters/judge/check/wall_samples.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/phantom/phantom.h"
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 #include "formats/case/case_field.h"
 
 namespace lumen::convert {
@@ -30,7 +30,7 @@ Fitted fitted(const std::string& name, int size) {
   options.size = size;
   Progress progress;
   Fitted result{makePhantom(options, progress), {}};
-  result.value = track(result.phantom.volume, result.phantom.seeds, {}, progress).result;
+  result.value = trackCase(result.phantom.volume, result.phantom.seeds, {}, progress).result;
   fit(result.value, {}, progress);
   return result;
 }

@@ -13,8 +13,8 @@
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
 #include "converters/stages/phantom/phantom.h"
-#include "converters/stages/tracking/snap.h"
-#include "converters/stages/tracking/track_further.h"
+#include "converters/stages/tracking/track_case.h"
+#include "converters/stages/tracking/vessel_at_click.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
 #include "formats/case/topology.h"
@@ -27,12 +27,12 @@ using formats::Case;
 
 Case converted(const Volume& volume, const std::vector<SeedBranch>& seeds) {
   Progress silent;
-  Case value = track(volume, seeds, TrackOptions{}, silent).result;
+  Case value = trackCase(volume, seeds, TrackOptions{}, silent).result;
   fit(value, {}, silent);
   return value;
 }
 
-std::vector<std::uint32_t> staleAfter(const Case& before, const FurtherTracks& tracks) {
+std::vector<std::uint32_t> staleAfter(const Case& before, const AddedTracks& tracks) {
   std::vector<std::uint32_t> nodeBefore(tracks.result.tree.nodeCount(), kNewNode);
   for (std::uint32_t n = 0; n < tracks.firstNewNode; ++n) nodeBefore[n] = n;
   return staleNodes(before, tracks.result, nodeBefore);
@@ -85,12 +85,12 @@ TEST(OneClick, TracksWhatTheCheckMisses) {
 
   const Clicks clicks = clicksOn(before.missing.vessels[0]);
   const TrackingVolume volume(fork.phantom.volume, fork.value, silent);
-  const Snap snap = snapToVessel(volume, clicks.points[0]);
-  EXPECT_TRUE(snap.found) << snap.reason;
+  const VesselAtClick vessel = vesselAtClick(volume, clicks.points[0]);
+  EXPECT_TRUE(vessel.found) << vessel.reason;
   SeedBranch seed;
   seed.label = "missed";
   for (const Eigen::Vector3d& p : clicks.points) seed.points.push_back({p, std::nullopt});
-  const FurtherTracks tracks = trackFurther(volume, fork.value, {seed}, silent);
+  const AddedTracks tracks = trackIntoCase(volume, fork.value, {seed}, silent);
   ASSERT_TRUE(tracks.failures.empty()) << tracks.failures[0].reason;
   EXPECT_TRUE(tracks.missedPoints.empty());
 
@@ -118,7 +118,7 @@ TEST(OneClick, IsTakenBackByDeletingTheBranch) {
   seed.points.push_back(
       {toEigen(truth.centre[branch.firstNode + branch.nodeCount / 2]), std::nullopt});
   const TrackingVolume volume(fork.phantom.volume, fork.value, silent);
-  const FurtherTracks tracks = trackFurther(volume, fork.value, {seed}, silent);
+  const AddedTracks tracks = trackIntoCase(volume, fork.value, {seed}, silent);
   Case value = tracks.result;
   refit(value, staleAfter(fork.value, tracks), recordedFitOptions(value), silent);
   const Change change = deleteBranch(value, tracks.firstNewBranch);
@@ -184,7 +184,7 @@ TEST(OneClick, OnAReal3draJoinsItsVesselToTheTree) {
   const TrackingVolume tracking(volume, known, silent);
   click.parent.reset();
   click.points.resize(1);
-  const FurtherTracks tracks = trackFurther(tracking, known, {click}, silent);
+  const AddedTracks tracks = trackIntoCase(tracking, known, {click}, silent);
   ASSERT_TRUE(tracks.failures.empty()) << tracks.failures[0].reason;
   Case value = tracks.result;
   refit(value, staleAfter(known, tracks), recordedFitOptions(value), silent);

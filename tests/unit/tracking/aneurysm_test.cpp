@@ -93,7 +93,7 @@ TEST(Aneurysm, IsTheSameWhereVesselsAreDark) {
   TrackOptions options;
   options.dark = true;
   Progress silent;
-  const TrackResult dark = track(volume, sac.seeds(), options, silent);
+  const TrackResult dark = trackCase(volume, sac.seeds(), options, silent);
   ASSERT_EQ(dark.result.tree.nodeCount(), bright.result.tree.nodeCount());
   for (const formats::Vec3f& p : dark.result.points->position)
     EXPECT_LT(std::abs(sac.wall(toEigen(p))), 1.25 * kVoxel) << toEigen(p).transpose();

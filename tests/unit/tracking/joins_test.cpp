@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/vectors.h"
-#include "converters/stages/tracking/way.h"
+#include "converters/stages/tracking/lumen_paths.h"
 #include "formats/case/node_origin.h"
 #include "seeded_tubes.h"
 
@@ -229,7 +229,7 @@ TEST(Joins, EndsSayWhyTheyAreThere) {
   EXPECT_GT(out.ends[0].goesOn, 2.0);
 }
 
-/// What a search for ways needs.
+/// The data that a search for paths needs.
 struct Searched {
   explicit Searched(const Distance& distance) : volume(draw(distance)) {}
   Volume volume;
@@ -240,70 +240,70 @@ struct Searched {
   LumenLevels levels{1000, 500};
 };
 
-TEST(Ways, KeepToTheLumenRoundACorner) {
+TEST(Paths, KeepToTheLumenRoundACorner) {
   const Searched searched(tubeAlong({{3, 6.4, 1}, {3, 6.4, 10}, {10, 6.4, 10}}, 0.7));
-  const Goal goal{{10, 6.4, 10}, 0};
-  const auto way = findWay(searched.context, searched.levels, {3, 6.4, 2}, {&goal, 1}, 12);
-  ASSERT_TRUE(way.has_value());
-  EXPECT_LT(way->outside, 0.2);
-  EXPECT_NEAR(way->length, 15, 1.5);
-  for (const Vector3d& p : way->points)
+  const PathGoal goal{{10, 6.4, 10}, 0};
+  const auto path = findPath(searched.context, searched.levels, {3, 6.4, 2}, {&goal, 1}, 12);
+  ASSERT_TRUE(path.has_value());
+  EXPECT_LT(path->outside, 0.2);
+  EXPECT_NEAR(path->length, 15, 1.5);
+  for (const Vector3d& p : path->points)
     EXPECT_LT(tubeAlong({{3, 6.4, 1}, {3, 6.4, 10}, {10, 6.4, 10}}, 0.7)(p), 0.1);
 }
 
-TEST(Ways, ThePreferredGoalIsTakenUnlessAnotherIsMuchNearer) {
+TEST(Paths, ThePreferredGoalIsTakenUnlessAnotherIsMuchNearer) {
   const Searched searched(tubeAlong({kLow, kHigh}, 0.7));
   const auto goalOf = [&](double surcharge) {
-    const Goal goals[] = {{{6.4, 6.4, 9}, 0}, {{6.4, 6.4, 4}, surcharge}};
-    return findWay(searched.context, searched.levels, {6.4, 6.4, 6}, goals, 8)->goal;
+    const PathGoal goals[] = {{{6.4, 6.4, 9}, 0}, {{6.4, 6.4, 4}, surcharge}};
+    return findPath(searched.context, searched.levels, {6.4, 6.4, 6}, goals, 8)->goal;
   };
   EXPECT_EQ(goalOf(0), 1u);
   EXPECT_EQ(goalOf(3), 0u);
 }
 
-TEST(Ways, NoGoalWithinReachIsNoWay) {
+TEST(Paths, NoGoalWithinReachIsNoPath) {
   const Searched searched(tubeAlong({kLow, kHigh}, 0.7));
-  const Goal goal{{6.4, 6.4, 11}, 0};
-  EXPECT_FALSE(findWay(searched.context, searched.levels, {6.4, 6.4, 2}, {&goal, 1}, 4));
-  EXPECT_FALSE(findWay(searched.context, searched.levels, {-40, 6.4, 2}, {&goal, 1}, 4));
+  const PathGoal goal{{6.4, 6.4, 11}, 0};
+  EXPECT_FALSE(findPath(searched.context, searched.levels, {6.4, 6.4, 2}, {&goal, 1}, 4));
+  EXPECT_FALSE(findPath(searched.context, searched.levels, {-40, 6.4, 2}, {&goal, 1}, 4));
 }
 
-TEST(Ways, OnwardThereIsOneToEachArmOfAFork) {
+TEST(PathsBeyond, OneLeadsToEachArmOfAFork) {
   const Searched searched([](const Vector3d& p) {
     return std::min({capsule(p, kLow, {6.4, 6.4, 5}, 0.6),
                      capsule(p, {6.4, 6.4, 5}, {10, 6.4, 10}, 0.6),
                      capsule(p, {6.4, 6.4, 5}, {3, 6.4, 10}, 0.6)});
   });
-  Outset outset;
-  outset.place = {6.4, 6.4, 4};
-  outset.behind.push_back({{6.4, 6.4, 3.5}, 1});
-  outset.closed.push_back({{6.4, 6.4, 2.5}, 1});
-  const WaysOnward onward = waysOnward(searched.context, searched.levels, outset, 5);
-  ASSERT_EQ(onward.ways.size(), 2u);
-  EXPECT_NEAR(onward.visible, 5, 0.3);
-  for (const Way& way : onward.ways) {
-    EXPECT_GT(way.points.back().z(), 6.5);
-    EXPECT_NEAR(way.breadth, 0.6, 0.25);
+  PathStart start;
+  start.place = {6.4, 6.4, 4};
+  start.behind.push_back({{6.4, 6.4, 3.5}, 1});
+  start.closed.push_back({{6.4, 6.4, 2.5}, 1});
+  const PathsBeyond beyond = pathsBeyond(searched.context, searched.levels, start, 5);
+  ASSERT_EQ(beyond.paths.size(), 2u);
+  EXPECT_NEAR(beyond.visible, 5, 0.3);
+  for (const Path& path : beyond.paths) {
+    EXPECT_GT(path.points.back().z(), 6.5);
+    EXPECT_NEAR(path.breadth, 0.6, 0.25);
   }
-  EXPECT_LT(onward.ways[0].points.back().x() * onward.ways[1].points.back().x(), 6.4 * 6.4);
+  EXPECT_LT(beyond.paths[0].points.back().x() * beyond.paths[1].points.back().x(), 6.4 * 6.4);
 }
 
-TEST(Ways, OnwardTheyCrossAnotherVesselOnceAndAhead) {
+TEST(PathsBeyond, CrossAnotherVesselOnceAndAhead) {
   const Searched searched([](const Vector3d& p) {
     return std::min(capsule(p, kLow, kHigh, 0.6), capsule(p, {1, 6.4, 6}, {12, 6.4, 6}, 0.6));
   });
-  Outset outset;
-  outset.place = {6.4, 6.4, 4.5};
-  outset.behind.push_back({{6.4, 6.4, 4}, 1});
-  outset.closed.push_back({{6.4, 6.4, 3}, 1});
-  for (double x = 1; x <= 12; x += 0.3) outset.others.push_back({{x, 6.4, 6}, 0.8});
-  outset.through = 2;
-  const WaysOnward onward = waysOnward(searched.context, searched.levels, outset, 5);
-  ASSERT_EQ(onward.ways.size(), 1u);
-  EXPECT_NEAR(onward.ways[0].points.back().x(), 6.4, 0.6);
-  EXPECT_GT(onward.ways[0].points.back().z(), 8.0);
-  outset.through = 0.2;
-  EXPECT_TRUE(waysOnward(searched.context, searched.levels, outset, 5).ways.empty());
+  PathStart start;
+  start.place = {6.4, 6.4, 4.5};
+  start.behind.push_back({{6.4, 6.4, 4}, 1});
+  start.closed.push_back({{6.4, 6.4, 3}, 1});
+  for (double x = 1; x <= 12; x += 0.3) start.others.push_back({{x, 6.4, 6}, 0.8});
+  start.through = 2;
+  const PathsBeyond beyond = pathsBeyond(searched.context, searched.levels, start, 5);
+  ASSERT_EQ(beyond.paths.size(), 1u);
+  EXPECT_NEAR(beyond.paths[0].points.back().x(), 6.4, 0.6);
+  EXPECT_GT(beyond.paths[0].points.back().z(), 8.0);
+  start.through = 0.2;
+  EXPECT_TRUE(pathsBeyond(searched.context, searched.levels, start, 5).paths.empty());
 }
 
 }  // namespace

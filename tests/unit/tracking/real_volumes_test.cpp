@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "converters/io/volume/read_volume.h"
+#include "converters/stages/tracking/track_case.h"
 #include "converters/stages/tracking/tracked_branch.h"
-#include "converters/stages/tracking/tracker.h"
 
 namespace lumen::convert {
 namespace {
@@ -25,7 +25,7 @@ Tracked trackFile(const std::string& volume, VolumeFormat format, const std::str
   const auto seeds = readSeeds(std::filesystem::path(LUMEN_TEST_DATA) / seedsFile);
   const auto file = std::filesystem::path(LUMEN_SHARED_DATA) / volume;
   const Volume read = readVolume(file, format, ReadVolumeOptions{}, silent);
-  return {track(read, seeds, TrackOptions{}, silent), seeds.size()};
+  return {trackCase(read, seeds, TrackOptions{}, silent), seeds.size()};
 }
 
 std::vector<TrackedNode> chainOf(const formats::Case& tracked, const std::string& label) {
@@ -136,7 +136,7 @@ TEST(Tracker, APathThatTurnsBackEnds) {
   Progress silent;
   const Volume volume = readVolume(file, VolumeFormat::Nrrd, ReadVolumeOptions{}, silent);
   const auto seeds = readSeeds(folder / "track-never-ends.seeds.json");
-  const formats::Case tracked = track(volume, seeds, TrackOptions{}, silent).result;
+  const formats::Case tracked = trackCase(volume, seeds, TrackOptions{}, silent).result;
   ASSERT_EQ(tracked.tree.branches.size(), 1u);
   EXPECT_GT(tracked.tree.nodeCount(), 150u);
   EXPECT_LT(tracked.tree.nodeCount(), 400u);

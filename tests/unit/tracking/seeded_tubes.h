@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "converters/base/random.h"
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {
@@ -33,7 +33,7 @@ inline Volume straightTube(double radius) {
 
 inline TrackResult trackOne(const Volume& volume, const std::vector<SeedBranch>& seeds) {
   Progress silent;
-  return track(volume, seeds, TrackOptions{}, silent);
+  return trackCase(volume, seeds, TrackOptions{}, silent);
 }
 
 /// A T: a child of half the trunk's radius leaves its middle along x.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/volume_doubt.h"
-
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
+#include "converters/stages/tracking/tracking_volume.h"
 
 namespace lumen::convert {
 namespace {

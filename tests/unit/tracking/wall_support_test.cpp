@@ -79,13 +79,12 @@ TEST(WallSupport, AGuessBesideAVesselFindsTheVesselOrNothing) {
   const Progress silent;
   const BsplineVolume spline(tube);
   const TrackContext context(spline, options, 0, silent);
-  TrackWorkspace workspace(context);
   int found = 0;
   for (const double aside : {0.6, 0.8, 1.0, 1.2})
     for (const double radius : {1.0, 1.5, 2.0, 2.5}) {
-      Random random(3);
+      TrackRun run(context, Random(3));
       const NodeGuess guess{{6.4 + aside, 6.4, 6.4}, Vector3d::UnitZ(), radius};
-      const NodeFit fit = fitNode(context, guess, 0.35, random, workspace);
+      const NodeFit fit = fitNode(run, guess, 0.35);
       if (!fit.node) continue;
       ++found;
       EXPECT_NEAR(fit.node->radius, 0.8, 0.05) << aside << " " << radius;
@@ -184,14 +183,15 @@ TEST(WallReview, SwollenNodesAreFittedAnewAndOthersKept) {
   const TrackOptions options;
   const Progress silent;
   const TrackContext context(spline, options, 0, silent);
-  std::vector<TrackedBranch> branches(1);
+  TrackedTree tree{{seedAt("tube", {6.4, 6.4, 6.4})}, std::vector<TrackedBranch>(1)};
+  std::vector<TrackedBranch>& branches = tree.branches;
   branches[0].nodes = nodesAlongTube(1.0);
   const auto before = branches[0].nodes;
   for (const std::size_t n : {10u, 11u}) {
     branches[0].nodes[n].radius = 1.9;
     branches[0].nodes[n].centre.x() += 0.8;
   }
-  reviewWalls(context, {seedAt("tube", {6.4, 6.4, 6.4})}, 0, branches);
+  reviewWalls(context, tree);
   ASSERT_EQ(branches[0].nodes.size(), before.size());
   for (std::size_t n = 0; n < before.size(); ++n) {
     const TrackedNode& node = branches[0].nodes[n];
@@ -214,10 +214,11 @@ TEST(WallReview, SwollenNodesWithoutAVesselAreMarkedAsBridged) {
   const TrackOptions options;
   const Progress silent;
   const TrackContext context(spline, options, 0, silent);
-  std::vector<TrackedBranch> branches(1);
+  TrackedTree tree{{seedAt("tube", {6.4, 6.4, 6.4})}, std::vector<TrackedBranch>(1)};
+  std::vector<TrackedBranch>& branches = tree.branches;
   branches[0].nodes = nodesAlongTube(1.0);
   branches[0].nodes[12].radius = 1.9;  // at z = 6.8
-  reviewWalls(context, {seedAt("tube", {6.4, 6.4, 3.0})}, 0, branches);
+  reviewWalls(context, tree);
   const TrackedNode& node = branches[0].nodes[12];
   EXPECT_EQ(node.origin, formats::NodeOrigin::Bridged);
   EXPECT_TRUE(node.points.empty());

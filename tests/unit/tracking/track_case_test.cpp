@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,6 @@ TEST(Tracker, ANarrowChildStartsFromOneClickWithoutARadius) {
   EXPECT_NEAR(out.result.tree.radius.back(), 0.4, 0.05);
 }
 
-/// Adds Gaussian noise of that standard deviation (the tubes are 1000 above their background).
 /// A tube along z that is missing between two heights.
 Volume interruptedTube(double from, double to) {
   return drawVolume(64, 0.2, [=](const Vector3d& p) {
@@ -107,7 +106,7 @@ double reachedFromBelow(const Volume& volume, int lookAhead) {
   Progress silent;
   TrackOptions options;
   options.lookAhead = lookAhead;
-  return track(volume, {seed}, options, silent).result.tree.centre.back().z;
+  return trackCase(volume, {seed}, options, silent).result.tree.centre.back().z;
 }
 
 TEST(Tracker, LooksBeyondAShortGap) {
@@ -287,7 +286,7 @@ TEST(Tracker, SeedsOnVesselsOfTheOtherSignAreWarnedOf) {
   forDark.dark = true;
   const auto warned = [&](const Volume& volume, const TrackOptions& options) {
     Warnings warnings;
-    (void)track(volume, seeds, options, warnings);
+    (void)trackCase(volume, seeds, options, warnings);
     return warnings.text;
   };
   EXPECT_EQ(warned(bright, {}), "");
@@ -354,7 +353,7 @@ TEST(Tracker, RefusesOptionsOutOfRangeByName) {
   TrackOptions options;
   options.rays = 100;
   try {
-    track(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6})}, options, silent);
+    trackCase(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6})}, options, silent);
     FAIL() << "accepted 100 rays";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
@@ -366,7 +365,7 @@ TEST(Tracker, StopsWhenCancelled) {
   Progress progress;
   progress.cancel();
   EXPECT_THROW(
-      track(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6}, 1.0)}, TrackOptions{}, progress),
+      trackCase(straightTube(1.0), {seedAt("tube", {6.4, 6.4, 6}, 1.0)}, TrackOptions{}, progress),
       Error);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/point_spread.h"
+#include "converters/stages/tracking/corrections.h"
 
 #include <algorithm>
 #include <array>
@@ -18,26 +18,26 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Nodes that are measured: the most, for the time it takes, and the least that a median is worth
-/// something of.
-constexpr std::size_t kMostNodes = 256, kLeastNodes = 8;
-/// Voxels: radii whose walls are measured, the second if the first are too few. Wider walls are
+/// The most nodes that are measured, for the time it takes, and the fewest for which a median means
+/// anything.
+constexpr std::size_t kMostNodes = 256, kFewestNodes = 8;
+/// Radii whose walls are measured, the second if there are too few of the first. Wider walls are
 /// flatter, and less of the far wall shows in their profiles.
-constexpr double kWide = 3.0, kWideEnough = 1.0;
-/// Wall points of a node that is measured: with fewer, noise makes up its profile.
+constexpr double kWideVoxels = 3.0, kWideEnoughVoxels = 1.0;
+/// The fewest wall points of a node that is measured: with fewer, its profile is mostly noise.
 constexpr std::size_t kFewestPoints = 32;
-/// Voxels: a profile's reach to either side of the wall, and the spacing of its samples.
-constexpr double kReach = 4.0, kSpacing = 0.1;
-constexpr int kSamples = 2 * static_cast<int>(kReach / kSpacing) + 1;
-/// Of a profile's samples: the steepest fall is looked for up to so far from the wall.
-constexpr std::size_t kPartNearWall = 8;  // one in so many
-/// Voxels: how far from the wall the levels of lumen and background are looked for. Farther out
+/// Reach of a profile to either side of the wall, and the spacing of its samples.
+constexpr double kReachVoxels = 4.0, kSpacingVoxels = 0.1;
+constexpr int kSamples = 2 * static_cast<int>(kReachVoxels / kSpacingVoxels) + 1;
+/// The steepest fall is searched for within one N-th of a profile's samples on either side.
+constexpr std::size_t kNearWallFraction = 8;
+/// Distance from the wall within which the levels of lumen and background are taken. Farther out
 /// other vessels begin.
-constexpr double kLevelReach = 2.5;
-/// Voxels: a half level that is nearer to the steepest fall than that is not told from it.
-constexpr double kLopsided = 0.05;
-/// Of the radius: the most that the half level moves a wall.
-constexpr double kMostLopsided = 0.1;
+constexpr double kLevelReachVoxels = 2.5;
+/// A half level nearer to the steepest fall than this cannot be distinguished from it.
+constexpr double kLopsidedVoxels = 0.05;
+/// The largest move of a wall to the half level, in radii.
+constexpr double kLopsidedRadii = 0.1;
 constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // of the Gaussian exp(-x^2/2)
 
 /// The last partial denominator of the continued fraction: it has converged to all digits for the
@@ -47,7 +47,8 @@ constexpr int kLastDenominator = 120;
 constexpr double kNearlyFlat = 50;
 /// Halvings of the interval that holds the radius: to the last bit.
 constexpr int kBisections = 50;
-/// Of the radius that was seen: the least that a ball is corrected to, as for the cylinder.
+/// The least radius to which a ball is corrected, as a share of the radius seen, as for the
+/// cylinder.
 constexpr double kLeastShare = 0.5;
 
 /// z I0(z)/I1(z) - 2 as a function of w = z^2, by the continued fraction of Bessel functions'
@@ -59,8 +60,8 @@ double besselTerm(double w) {
 }
 
 /// The mean over a node's wall points of the intensity on the line from its axis through the point,
-/// at distances radius - kReach .. radius + kReach voxels. Lined up by the cylinder, not by the
-/// points: those follow the noise, and their mean would be steeper than the wall.
+/// at distances radius - kReachVoxels .. radius + kReachVoxels voxels. Lined up by the cylinder,
+/// not by the points: those follow the noise, and their mean would be steeper than the wall.
 std::vector<double> meanProfile(const BsplineVolume& volume, const TrackedNode& node) {
   const VolumeGeometry& geometry = volume.geometry();
   const double voxel = geometry.voxelSize();
@@ -71,8 +72,8 @@ std::vector<double> meanProfile(const BsplineVolume& volume, const TrackedNode& 
     const double along = offset.dot(node.direction);
     const Vector3d outward = (offset - along * node.direction).normalized();
     const Vector3d start =
-        node.centre + along * node.direction + (node.radius - kReach * voxel) * outward;
-    const Vector3d step = (geometry.direction.transpose() * outward * (kSpacing * voxel))
+        node.centre + along * node.direction + (node.radius - kReachVoxels * voxel) * outward;
+    const Vector3d step = (geometry.direction.transpose() * outward * (kSpacingVoxels * voxel))
                               .cwiseQuotient(geometry.spacing);
     volume.sampleLine(geometry.indexFromWorld(start), step, values);
     for (std::size_t i = 0; i < values.size(); ++i) sum[i] += static_cast<double>(values[i]);
@@ -87,13 +88,13 @@ struct Fall {
   double halfLevel = 0;  ///< from the steepest place outward to the half level
 };
 
-/// From the place `peak`, refined by a parabola through the falls around it, to where the profile
-/// passes halfway between the greatest mean over a voxel before it and the least one behind; 0 if it
-/// does not.
+/// The distance from the place `peak`, refined by a parabola through the falls around it, to the
+/// place where the profile passes halfway between the greatest mean over a voxel before it and the
+/// least one behind; 0 if it does not.
 double halfLevelOf(const std::vector<double>& profile, const std::vector<double>& fall,
                    std::size_t peak) {
-  const auto reach = static_cast<std::size_t>(kLevelReach / kSpacing);
-  const auto box = static_cast<std::size_t>(1.0 / kSpacing);
+  const auto reach = static_cast<std::size_t>(kLevelReachVoxels / kSpacingVoxels);
+  const auto box = static_cast<std::size_t>(1.0 / kSpacingVoxels);
   const std::size_t half = box / 2, first = peak - std::min(peak, reach);
   const auto meanAround = [&](std::size_t i) {
     return std::accumulate(profile.begin() + static_cast<std::ptrdiff_t>(i - half),
@@ -123,7 +124,7 @@ Fall fallOf(std::vector<double> profile, double sign) {
   std::vector<double> fall(n, 0.0);
   for (std::size_t i = 1; i + 1 < n; ++i) fall[i] = profile[i - 1] - profile[i + 1];
   const auto middle = fall.begin() + static_cast<std::ptrdiff_t>(n / 2);
-  const auto near = static_cast<std::ptrdiff_t>(n / kPartNearWall);
+  const auto near = static_cast<std::ptrdiff_t>(n / kNearWallFraction);
   const auto peak =
       static_cast<std::size_t>(std::max_element(middle - near, middle + near + 1) - fall.begin());
   const double half = 0.5 * fall[peak];
@@ -141,7 +142,7 @@ Fall fallOf(std::vector<double> profile, double sign) {
 }
 
 /// Standard deviation of the blur under which a disc falls fastest at `seen` from its centre, by a
-/// curve that is `width` wide at half its height; 0 if the disc is too narrow to tell. For wide
+/// curve that is `width` wide at half its height; 0 if the disc is too narrow to show it. For wide
 /// discs 1/s^2 = 1/g^2 + 1/(2 seen^2), where g is the Gaussian's of that width; below, a table of
 /// the closed form (see cylinderRadius) for radii of 1.5, 1.75, 2, 2.5 and 3 standard deviations.
 double spreadOf(double seen, double width) {
@@ -162,9 +163,9 @@ double spreadOf(double seen, double width) {
   return 1.0 / std::sqrt(1.0 / (gaussian * gaussian) + 0.5 / (seen * seen));
 }
 
-/// The profile, `step` mm from sample to sample, of the disc that a blur of `sigma` makes fall fastest
-/// at `seen` from its centre: narrow ones have their half level elsewhere by themselves. Its fall is
-/// the blurred edge, summed around it.
+/// The profile, `step` mm from sample to sample, of the disc that a blur of `sigma` makes fall
+/// fastest at `seen` from its centre. Its fall is the blurred edge, summed around it. Narrow discs
+/// have their half level elsewhere by themselves.
 std::vector<double> blurredDisc(double seen, double sigma, double step) {
   constexpr int kParts = 64;
   const double radius = cylinderRadius(seen, sigma), s2 = sigma * sigma;
@@ -183,22 +184,41 @@ std::vector<double> blurredDisc(double seen, double sigma, double step) {
   return profile;
 }
 
-/// Nodes whose walls are measured: the wide ones, or the widest ones that there are, spread evenly.
+/// The nodes whose walls are measured: the wide ones, or the widest ones available, spread evenly.
 std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch* const> vessels,
                                             double voxel) {
   std::vector<const TrackedNode*> wide;
-  for (const double voxels : {kWide, kWideEnough}) {
+  for (const double voxels : {kWideVoxels, kWideEnoughVoxels}) {
     wide.clear();
     for (const TrackedBranch* branch : vessels)
       for (const TrackedNode& node : branch->nodes)
         if (node.radius >= voxels * voxel && node.points.size() >= kFewestPoints)
           wide.push_back(&node);
-    if (wide.size() >= kLeastNodes) break;
+    if (wide.size() >= kFewestNodes) break;
   }
   if (wide.size() <= kMostNodes) return wide;
   std::vector<const TrackedNode*> even;
   for (std::size_t i = 0; i < kMostNodes; ++i) even.push_back(wide[i * wide.size() / kMostNodes]);
   return even;
+}
+
+/// The largest shift of a centre, in radii. Vessels whose bends ask for more are bent too sharply
+/// for a circle to show by how much.
+constexpr double kLargestShiftRadii = 0.1;
+
+/// The curvature at node `n`, 1/mm, towards the middle of the bend; zero where the chain is too
+/// short.
+Vector3d curvatureAt(const std::vector<TrackedNode>& nodes, std::size_t n) {
+  const Vector3d& centre = nodes[n].centre;
+  const auto isFar = [&](const TrackedNode& node) {
+    return (node.centre - centre).norm() >= nodes[n].height;
+  };
+  const auto at = nodes.begin() + static_cast<std::ptrdiff_t>(n);
+  const auto ahead = std::find_if(at, nodes.end(), isFar);
+  const auto behind = std::find_if(std::make_reverse_iterator(at), nodes.rend(), isFar);
+  if (ahead == nodes.end() || behind == nodes.rend()) return Vector3d::Zero();
+  const Vector3d on = ahead->centre - centre, from = centre - behind->centre;
+  return 2.0 / (on.norm() + from.norm()) * (on.normalized() - from.normalized());
 }
 
 }  // namespace
@@ -227,22 +247,22 @@ std::optional<WallShape> measureWalls(const BsplineVolume& volume,
   for (const TrackedNode* node : widestNodes(vessels, voxel)) {
     const Fall fall = fallOf(meanProfile(volume, *node), dark ? -1.0 : 1.0);
     if (fall.width == 0) continue;
-    const double spread = spreadOf(node->radius, fall.width * kSpacing * voxel);
+    const double spread = spreadOf(node->radius, fall.width * kSpacingVoxels * voxel);
     if (!(spread > 0)) continue;
     spreads.push_back(spread);
-    const Fall even = fallOf(blurredDisc(node->radius, spread, kSpacing * voxel), 1);
-    halfLevels.push_back((fall.halfLevel - even.halfLevel) * kSpacing * voxel);
+    const Fall even = fallOf(blurredDisc(node->radius, spread, kSpacingVoxels * voxel), 1);
+    halfLevels.push_back((fall.halfLevel - even.halfLevel) * kSpacingVoxels * voxel);
   }
-  if (spreads.size() < kLeastNodes) return std::nullopt;
+  if (spreads.size() < kFewestNodes) return std::nullopt;
   const double halfLevel = median(std::move(halfLevels));
   return WallShape{median(std::move(spreads)),
-                   std::abs(halfLevel) > kLopsided * voxel ? halfLevel : 0.0};
+                   std::abs(halfLevel) > kLopsidedVoxels * voxel ? halfLevel : 0.0};
 }
 
 void correctWalls(TrackedBranch& branch, formats::BranchKind kind, const WallShape& shape) {
   for (TrackedNode& node : branch.nodes) {
     const bool vessel = kind == formats::BranchKind::Vessel;
-    const double most = kMostLopsided * node.radius;
+    const double most = kLopsidedRadii * node.radius;
     const double seen = node.radius + std::clamp(shape.halfLevel, -most, most);
     const double radius =
         vessel ? cylinderRadius(seen, shape.pointSpread) : ballRadius(seen, shape.pointSpread);
@@ -256,6 +276,17 @@ void correctWalls(TrackedBranch& branch, formats::BranchKind kind, const WallSha
     }
     node.radius = radius;
   }
+}
+
+void correctBends(std::vector<TrackedNode>& nodes) {
+  std::vector<Vector3d> shifts;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    Vector3d shift = -0.5 * nodes[n].meanSquareAlong * curvatureAt(nodes, n);
+    const double most = kLargestShiftRadii * nodes[n].radius;
+    if (shift.norm() > most) shift *= most / shift.norm();
+    shifts.push_back(shift);
+  }
+  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n].centre += shifts[n];
 }
 
 }  // namespace lumen::convert

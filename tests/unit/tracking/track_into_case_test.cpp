@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // New clicks in a case that is tracked, on drawn tubes.
-#include "converters/stages/tracking/track_further.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 
 #include "converters/base/vectors.h"
 #include "converters/stages/phantom/phantom.h"
+#include "converters/stages/tracking/track_case.h"
 #include "converters/stages/tracking/tracked_branch.h"
 #include "formats/case/node_origin.h"
 #include "formats/case/validate.h"
@@ -20,10 +19,9 @@ namespace {
 using formats::Case;
 using formats::kNoParent;
 
-FurtherTracks further(const Volume& volume, const Case& known,
-                      const std::vector<SeedBranch>& seeds) {
+AddedTracks further(const Volume& volume, const Case& known, const std::vector<SeedBranch>& seeds) {
   Progress silent;
-  return trackFurther(TrackingVolume(volume, known, silent), known, seeds, silent);
+  return trackIntoCase(TrackingVolume(volume, known, silent), known, seeds, silent);
 }
 
 /// The T with its trunk tracked.
@@ -56,7 +54,7 @@ void expectKept(const Case& before, const Case& after) {
   EXPECT_TRUE(valid) << valid.error().text();
 }
 
-void expectChildOfTrunk(const FurtherTracks& out) {
+void expectChildOfTrunk(const AddedTracks& out) {
   ASSERT_EQ(out.result.tree.branches.size(), 2U);
   const auto& child = out.result.tree.branches[1];
   EXPECT_EQ(child.label, "child");
@@ -72,7 +70,7 @@ TEST(TrackFurther, AddsAChildThatNamesItsParent) {
   const Tee t;
   SeedBranch seed = childSeed();
   seed.parent = "trunk";
-  const FurtherTracks out = further(t.volume, t.known, {seed});
+  const AddedTracks out = further(t.volume, t.known, {seed});
   expectKept(t.known, out.result);
   expectChildOfTrunk(out);
   EXPECT_TRUE(out.changed.empty());
@@ -80,7 +78,7 @@ TEST(TrackFurther, AddsAChildThatNamesItsParent) {
 
 TEST(TrackFurther, JoinsAVesselToWhatItRunsIntoIfItNamesNoParent) {
   const Tee t;
-  const FurtherTracks out = further(t.volume, t.known, {childSeed()});
+  const AddedTracks out = further(t.volume, t.known, {childSeed()});
   expectKept(t.known, out.result);
   expectChildOfTrunk(out);
 }
@@ -91,7 +89,7 @@ TEST(TrackFurther, LeavesAVesselAloneThatTheLumenDoesNotJoin) {
                     capsule(p, {8.5, 6.4, 0.4}, {8.5, 6.4, 12.2}, 0.6));
   });
   const Case known = trackOne(volume, {seedAt("one", {4, 6.4, 5})}).result;
-  const FurtherTracks out = further(volume, known, {seedAt("other", {8.5, 6.4, 6})});
+  const AddedTracks out = further(volume, known, {seedAt("other", {8.5, 6.4, 6})});
   ASSERT_EQ(out.result.tree.branches.size(), 2U);
   EXPECT_EQ(out.result.tree.branches[1].parentNode, kNoParent);
   expectKept(known, out.result);
@@ -99,7 +97,7 @@ TEST(TrackFurther, LeavesAVesselAloneThatTheLumenDoesNotJoin) {
 
 TEST(TrackFurther, StartsNothingInAVesselThatIsThere) {
   const Tee t;
-  const FurtherTracks out = further(t.volume, t.known, {seedAt("again", {6.4, 6.4, 9})});
+  const AddedTracks out = further(t.volume, t.known, {seedAt("again", {6.4, 6.4, 9})});
   ASSERT_EQ(out.failures.size(), 1U);
   EXPECT_EQ(out.failures[0].reason, kTrackedAlready);
   EXPECT_EQ(out.result, t.known);
@@ -112,14 +110,14 @@ TEST(TrackFurther, TracksSeveralSeedsWhateverTheirOrder) {
   known.tree.branches[0].label = "first";
   SeedBranch low = seedAt("low", {6.4, 6.4, 3}), high = seedAt("high", {6.4, 6.4, 9});
   high.parent = "low";
-  const FurtherTracks out = further(t.volume, known, {high, low});
+  const AddedTracks out = further(t.volume, known, {high, low});
   expectKept(known, out.result);
   EXPECT_GE(out.result.tree.branches.size(), 2U);
 }
 
 TEST(TrackFurther, RecordsWhatWasTracked) {
   const Tee t;
-  const FurtherTracks out = further(t.volume, t.known, {childSeed()});
+  const AddedTracks out = further(t.volume, t.known, {childSeed()});
   const auto& step = out.result.metadata.steps.back();
   EXPECT_EQ(step.name, "edit");
   EXPECT_EQ(std::get<std::string>(step.parameters.at("0001")),
@@ -133,7 +131,7 @@ TEST(TrackFurther, GivesNewNodesNoModelsAndDropsArraysThatItCannotContinue) {
   t.known.models->offset.assign(n + 1, 0);
   t.known.metadata.extensionsUsed.push_back("ACME_flow");
   t.known.nodeArrays.push_back({"ACME_flow.speed", 1, "", std::vector<float>(n, 1)});
-  const FurtherTracks out = further(t.volume, t.known, {childSeed()});
+  const AddedTracks out = further(t.volume, t.known, {childSeed()});
   EXPECT_EQ(out.result.models->offset.size(), out.result.tree.nodeCount() + 1);
   EXPECT_EQ(out.droppedArrays, std::vector<std::string>{"ACME_flow.speed"});
   expectKept(t.known, out.result);
@@ -167,7 +165,7 @@ TEST(TrackFurther, StopsWhenCancelled) {
   Progress progress;
   const TrackingVolume volume(t.volume, t.known, progress);
   progress.cancel();
-  EXPECT_THROW(trackFurther(volume, t.known, {childSeed()}, progress), Error);
+  EXPECT_THROW(trackIntoCase(volume, t.known, {childSeed()}, progress), Error);
 }
 
 TEST(TrackingVolume, HasTheOptionsThatACaseWasTrackedWith) {
@@ -180,7 +178,7 @@ TEST(TrackingVolume, HasTheOptionsThatACaseWasTrackedWith) {
   options.smoothing = 0.1;
   options.evenBlur = false;
   Progress silent;
-  const Case known = track(volume, {seedAt("trunk", {6.4, 6.4, 3})}, options, silent).result;
+  const Case known = trackCase(volume, {seedAt("trunk", {6.4, 6.4, 3})}, options, silent).result;
   const auto recorded = recordedTrackOptions(known);
   ASSERT_TRUE(recorded);
   EXPECT_EQ(recorded->parameters(), known.metadata.steps[0].parameters);
@@ -216,21 +214,21 @@ struct SacBeside {
     std::vector<SeedBranch> vessels;
     for (const SeedBranch& seed : phantom.seeds)
       (seed.kind == formats::BranchKind::Aneurysm ? sac : vessels).push_back(seed);
-    known = track(phantom.volume, vessels, TrackOptions{}, silent).result;
+    known = trackCase(phantom.volume, vessels, TrackOptions{}, silent).result;
   }
 };
 
 TEST(TrackFurther, GivesAnAneurysmItsWallAndItsVesselAnOpenNeck) {
   const SacBeside s;
   ASSERT_EQ(s.sac.size(), 1U);
-  const FurtherTracks out = further(s.phantom.volume, s.known, s.sac);
+  const AddedTracks out = further(s.phantom.volume, s.known, s.sac);
   ASSERT_GT(out.result.tree.branches.size(), out.firstNewBranch);
   const auto& sac = out.result.tree.branches[out.firstNewBranch];
   EXPECT_EQ(sac.kind, formats::BranchKind::Aneurysm);
   EXPECT_NE(sac.parentNode, kNoParent);
   // as when all is tracked at once
   Progress silent;
-  const Case whole = track(s.phantom.volume, s.phantom.seeds, TrackOptions{}, silent).result;
+  const Case whole = trackCase(s.phantom.volume, s.phantom.seeds, TrackOptions{}, silent).result;
   const auto at =
       std::find_if(whole.tree.branches.begin(), whole.tree.branches.end(),
                    [](const auto& b) { return b.kind == formats::BranchKind::Aneurysm; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/snap.h"
+#include "converters/stages/tracking/vessel_at_click.h"
 
 #include <algorithm>
 #include <optional>
@@ -14,18 +14,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Voxels: how far the wall may be from a click that is on the vessel, and around a click among which
-/// the brightest place is tried, too: people click on the rims of thin vessels.
-constexpr double kAside = 2;
-/// Voxels: trial radii, as tracks begin with. Wide ones, whose rays are long, are tried where nothing
-/// narrow is sure.
-constexpr double kNarrow[] = {1.25, 1.875, 2.8125, 4.21875, 6.328125};
-constexpr double kWide[] = {9.4921875, 14.23828125, 21.357421875};
-/// Of the rays: a cylinder whose wall more of them see is sure, if it is accepted, too; and one whose wall
-/// so many see is no part of a wider vessel's.
-constexpr double kSeenWall = 0.5, kOwnWall = 0.25;
-/// Of random numbers: those of the first seed.
-constexpr std::uint64_t kStream = 0;
+/// Largest distance of the wall from a click that is on the vessel, in voxels. The brightest place
+/// within it is tried, too: people click on the rims of thin vessels.
+constexpr double kAsideVoxels = 2;
+/// Trial radii, as tracks begin with. Wide ones, whose rays are long, are tried where no narrow one
+/// is sure.
+constexpr double kNarrowVoxels[] = {1.25, 1.875, 2.8125, 4.21875, 6.328125};
+constexpr double kWideVoxels[] = {9.4921875, 14.23828125, 21.357421875};
+/// An accepted cylinder whose wall is seen by more than the first share of the rays is sure; one
+/// seen by the second share is no part of a wider vessel's wall.
+constexpr double kSeenWallShare = 0.5, kOwnWallShare = 0.25;
 
 /// The search for the vessel under one click.
 class Search {
@@ -34,15 +32,13 @@ public:
       : m_context(context),
         m_click(click),
         m_voxel(context.volume.geometry().voxelSize()),
-        m_random(context.options.seed, kStream),
-        m_workspace(context) {}
+        m_run(context, Random(context.options.seed)) {}
 
   /// Looks for cylinders from a place whose lumen the click is in, or nearly.
   void from(const Vector3d& place, std::span<const double> radii) {
     for (const double voxels : radii) {
       if (m_isSure) return;
-      BranchStart start = startAtClick(m_context, {place, voxels * m_voxel}, Vector3d::UnitZ(),
-                                       false, m_random, m_workspace);
+      BranchStart start = startAtClick(m_run, {place, voxels * m_voxel}, Vector3d::UnitZ(), false);
       if (start.nodes.empty()) {
         if (isNearer(start.best, m_failure)) m_failure = std::move(start.best);
         continue;
@@ -50,16 +46,16 @@ public:
       TrackedNode& node = start.nodes[0];
       if (!holdsClick(node) || (m_best && node.inlierRate <= m_best->inlierRate)) continue;
       m_best = std::move(node);
-      m_isSure = m_best->inlierRate >= m_context.options.inlierRate && seen() > kSeenWall;
+      m_isSure = m_best->inlierRate >= m_context.options.inlierRate && seen() > kSeenWallShare;
     }
   }
-  /// Of the rays: those that see the wall of the best so far.
+  /// The share of the rays that see the wall of the best cylinder so far.
   [[nodiscard]] double seen() const {
     return m_best ? static_cast<double>(m_best->points.size()) /
                         static_cast<double>(m_context.rays.size())
                   : 0;
   }
-  /// The best so far.
+  /// The best cylinder so far.
   [[nodiscard]] const std::optional<TrackedNode>& found() const { return m_best; }
 
   /// The brightest place around the click.
@@ -67,12 +63,12 @@ public:
     const VolumeGeometry& geometry = m_context.volume.geometry();
     Vector3d best = m_click;
     std::optional<double> highest;
-    for (double x = -kAside; x <= kAside; ++x)
-      for (double y = -kAside; y <= kAside; ++y)
-        for (double z = -kAside; z <= kAside; ++z) {
+    for (double x = -kAsideVoxels; x <= kAsideVoxels; ++x)
+      for (double y = -kAsideVoxels; y <= kAsideVoxels; ++y)
+        for (double z = -kAsideVoxels; z <= kAsideVoxels; ++z) {
           const Vector3d place = m_click + m_voxel * Vector3d(x, y, z);
           const Vector3d index = geometry.indexFromWorld(place);
-          if (Vector3d(x, y, z).norm() > kAside || !geometry.containsIndex(index)) continue;
+          if (Vector3d(x, y, z).norm() > kAsideVoxels || !geometry.containsIndex(index)) continue;
           const double value =
               (m_context.options.dark ? -1.0 : 1.0) * double{m_context.volume.sample(index)};
           if (highest && value <= *highest) continue;
@@ -97,14 +93,13 @@ public:
 
 private:
   [[nodiscard]] bool holdsClick(const TrackedNode& node) const {
-    return (onAxis(node) - m_click).norm() <= node.radius + kAside * m_voxel;
+    return (onAxis(node) - m_click).norm() <= node.radius + kAsideVoxels * m_voxel;
   }
 
   const TrackContext& m_context;
   Vector3d m_click;
   double m_voxel;
-  Random m_random;
-  TrackWorkspace m_workspace;
+  TrackRun m_run;
   std::optional<TrackedNode> m_best;
   bool m_isSure = false;
   NodeFit m_failure;
@@ -112,28 +107,28 @@ private:
 
 }  // namespace
 
-Snap snapToVessel(const TrackingVolume& volume, const Vector3d& click) {
+VesselAtClick vesselAtClick(const TrackingVolume& volume, const Vector3d& click) {
   const Progress silent;
   const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), silent);
   Search search(context, click);
-  Snap snap;
-  snap.position = click;
-  search.from(click, kNarrow);
-  if (!search.found()) search.from(search.brightest(), kNarrow);
-  if (search.seen() < kOwnWall) search.from(click, kWide);
+  VesselAtClick vessel;
+  vessel.position = click;
+  search.from(click, kNarrowVoxels);
+  if (!search.found()) search.from(search.brightest(), kNarrowVoxels);
+  if (search.seen() < kOwnWallShare) search.from(click, kWideVoxels);
   if (!search.found()) {
-    snap.reason = search.failure();
-    return snap;
+    vessel.reason = search.failure();
+    return vessel;
   }
   const TrackedNode& node = *search.found();
-  snap.found = true;
-  snap.position = search.onAxis(node);
-  snap.direction = node.direction;
+  vessel.found = true;
+  vessel.position = search.onAxis(node);
+  vessel.direction = node.direction;
   TrackedBranch branch;
   branch.nodes.push_back(node);
   if (volume.wallShape()) correctWalls(branch, formats::BranchKind::Vessel, *volume.wallShape());
-  snap.radius = branch.nodes[0].radius;
-  return snap;
+  vessel.radius = branch.nodes[0].radius;
+  return vessel;
 }
 
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/way.h"
+#include "converters/stages/tracking/lumen_paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,91 +16,106 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Passes of smoothing of a way along lattice edges.
-constexpr int kSmoothing = 6;
+/// Passes of smoothing of a path along lattice edges.
+constexpr int kSmoothingPasses = 6;
+/// Radii beyond which voxels are outside of a lumen; the blur of its rim comes on top.
+constexpr double kRimRadii = 1.15;
+/// The price of a millimetre at the wall's level, and beyond it.
+constexpr double kAtWallPrice = 8, kBeyondWallPrice = 60;
+
+/// The price of a millimetre at an intensity: 1 in the lumen's middle, more with the square of the
+/// distance from the middle's level up to the wall's, and much more beyond.
+double priceAt(const LumenLevels& levels, double value) {
+  const double range = levels.middle - levels.wall;
+  const double missed = range != 0 ? (levels.middle - value) / range : 0;
+  if (std::isnan(value)) return kBeyondWallPrice;
+  if (missed <= 0) return 1;
+  return missed < 1 ? 1 + (kAtWallPrice - 1) * missed * missed : kBeyondWallPrice;
+}
 
 /// The price of a millimetre at a voxel.
-struct PriceAt {
+struct VoxelPrice {
   const TrackContext& context;
   const LumenLevels& levels;
   float operator()(const Cell& cell) const {
-    const double value = context.volume.sample(cell.cast<double>());
-    return static_cast<float>(lumenPrice(levels, value));
+    return static_cast<float>(priceAt(levels, context.volume.sample(cell.cast<double>())));
   }
 };
 
-Way smoothed(const TrackContext& context, const LumenLevels& levels, std::vector<Vector3d> points) {
-  for (int pass = 0; pass < kSmoothing; ++pass) {
+Path smoothed(const TrackContext& context, const LumenLevels& levels,
+              std::vector<Vector3d> points) {
+  for (int pass = 0; pass < kSmoothingPasses; ++pass) {
     std::vector<Vector3d> next = points;
     for (std::size_t i = 1; i + 1 < points.size(); ++i)
       next[i] = 0.25 * points[i - 1] + 0.5 * points[i] + 0.25 * points[i + 1];
     points = std::move(next);
   }
-  Way way;
+  Path path;
   const VolumeGeometry& geometry = context.volume.geometry();
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double step = (points[i] - points[i - 1]).norm();
     const Vector3d middle = 0.5 * (points[i] + points[i - 1]);
     const double value = context.volume.sample(geometry.indexFromWorld(middle));
-    way.length += step;
-    if (lumenPrice(levels, value) >= kBeyondWallPrice) way.outside += step;
+    path.length += step;
+    if (priceAt(levels, value) >= kBeyondWallPrice) path.outside += step;
   }
-  way.points = std::move(points);
-  return way;
+  path.points = std::move(points);
+  return path;
 }
 
-/// What a way has passed when it comes to a voxel: its own lumen only, another vessel's, or that and
-/// its own again.
-enum class Stretch : std::uint8_t { Own, Other, Beyond, Closed };
+/// The lumen that a path has passed when it comes to a voxel: its own only, another vessel's, or
+/// that and its own again.
+enum class PathPart : std::uint8_t { Own, Other, Beyond, Closed };
 
-/// The stretches of the ways of a search, and their lengths.
-class Stretches {
+/// The parts of the paths of a search, and their lengths.
+class PathParts {
 public:
-  Stretches(CubeSearch& search, const Outset& outset)
+  PathParts(CubeSearch& search, const PathStart& start)
       : m_search(search),
-        m_outset(outset),
+        m_start(start),
         m_isOther(search.count(), false),
-        m_stretch(search.count(), Stretch::Own),
+        m_part(search.count(), PathPart::Own),
         m_length(search.count(), 0.0F) {
-    for (const Ball& ball : outset.others)
+    for (const Ball& ball : start.others)
       for (const std::size_t voxel : search.voxelsIn(ball)) m_isOther[voxel] = true;
-    for (const Ball& ball : outset.closed)
+    for (const Ball& ball : start.closed)
       for (const std::size_t voxel : search.voxelsIn(ball)) search.exclude(voxel);
-    for (const Ball& ball : outset.behind)
+    for (const Ball& ball : start.behind)
       for (const std::size_t voxel : search.voxelsIn(ball))
         if (along(voxel) < 0) search.exclude(voxel);
   }
 
-  /// Of a voxel that the search has come to, after all on its way.
-  Stretch at(std::size_t voxel) {
+  /// The part at a voxel that the search has come to, after all voxels before it on its path.
+  PathPart at(std::size_t voxel) {
     const std::size_t before = m_search.before(voxel);
-    if (before == voxel) return Stretch::Own;
+    if (before == voxel) return PathPart::Own;
     m_length[voxel] =
         m_length[before] +
         static_cast<float>((m_search.position(voxel) - m_search.position(before)).norm());
-    Stretch there = m_stretch[before];
+    PathPart there = m_part[before];
     if (m_isOther[voxel]) {
-      if (there == Stretch::Beyond || (there == Stretch::Own && m_length[voxel] > m_outset.through))
-        there = Stretch::Closed;
+      if (there == PathPart::Beyond ||
+          (there == PathPart::Own && m_length[voxel] > m_start.through))
+        there = PathPart::Closed;
       else
-        there = Stretch::Other;
-    } else if (there == Stretch::Other) {
-      there = Stretch::Beyond;
+        there = PathPart::Other;
+    } else if (there == PathPart::Other) {
+      there = PathPart::Beyond;
     }
-    return m_stretch[voxel] = there;
+    return m_part[voxel] = there;
   }
   [[nodiscard]] double lengthTo(std::size_t voxel) const { return double{m_length[voxel]}; }
   [[nodiscard]] bool isAhead(std::size_t voxel) const { return along(voxel) > 0; }
 
 private:
   [[nodiscard]] double along(std::size_t voxel) const {
-    return (m_search.position(voxel) - m_outset.place).dot(m_outset.direction);
+    return (m_search.position(voxel) - m_start.place).dot(m_start.direction);
   }
 
   CubeSearch& m_search;
-  const Outset& m_outset;
+  const PathStart& m_start;
   std::vector<bool> m_isOther;
-  std::vector<Stretch> m_stretch;
+  std::vector<PathPart> m_part;
   std::vector<float> m_length;
 };
 
@@ -129,13 +144,20 @@ std::vector<std::vector<std::size_t>> groupsOf(const CubeSearch& search,
   return groups;
 }
 
-/// The radius of a disc as large as so many voxels that lie side by side, mm.
+/// The radius of a disc as large as N voxels that lie side by side, mm.
 double breadthOf(std::size_t voxels, const VolumeGeometry& geometry) {
   const double face = std::pow(geometry.spacing.prod(), 2.0 / 3.0);
   return std::sqrt(static_cast<double>(voxels) * face / std::numbers::pi);
 }
 
 }  // namespace
+
+void addLumen(std::span<const TrackedNode> nodes, const VolumeGeometry& geometry,
+              std::vector<Ball>& balls) {
+  const double blur = 0.5 * geometry.voxelSize();
+  for (const TrackedNode& node : nodes)
+    balls.push_back({node.centre, kRimRadii * node.radius + blur});
+}
 
 LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> nodes) {
   const VolumeGeometry& geometry = volume.geometry();
@@ -153,8 +175,8 @@ LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> n
   return {median(std::move(middle)), median(std::move(wall))};
 }
 
-std::optional<Way> findWay(const TrackContext& context, const LumenLevels& levels,
-                           const Vector3d& start, std::span<const Goal> goals, double reach) {
+std::optional<Path> findPath(const TrackContext& context, const LumenLevels& levels,
+                             const Vector3d& start, std::span<const PathGoal> goals, double reach) {
   CubeSearch search(context.volume.geometry(), start, reach);
   if (!search.isPossible()) return {};
   std::unordered_map<std::size_t, std::size_t> goalAt;  // the one of least surcharge in a voxel
@@ -179,39 +201,39 @@ std::optional<Way> findWay(const TrackContext& context, const LumenLevels& level
     }
     return SearchStep::GoOn;
   };
-  search.run(PriceAt{context, levels}, CheapestPaths::kFar, visit, context.progress);
+  search.run(VoxelPrice{context, levels}, CheapestPaths::kFar, visit, context.progress);
   if (!std::isfinite(best)) return {};
-  Way way = smoothed(context, levels, search.pathTo(bestVoxel));
-  way.goal = bestGoal;
-  return way;
+  Path path = smoothed(context, levels, search.pathTo(bestVoxel));
+  path.goal = bestGoal;
+  return path;
 }
 
-WaysOnward waysOnward(const TrackContext& context, const LumenLevels& levels, const Outset& outset,
-                      double distance) {
-  WaysOnward onward;
-  CubeSearch search(context.volume.geometry(), outset.place, distance);
-  if (!search.isPossible()) return onward;
-  Stretches stretches(search, outset);
+PathsBeyond pathsBeyond(const TrackContext& context, const LumenLevels& levels,
+                        const PathStart& start, double distance) {
+  PathsBeyond beyond;
+  CubeSearch search(context.volume.geometry(), start.place, distance);
+  if (!search.isPossible()) return beyond;
+  PathParts parts(search, start);
   std::vector<std::size_t> front;
   const auto visit = [&](std::size_t voxel, double) {
-    const Stretch there = stretches.at(voxel);
-    if (there == Stretch::Closed) return SearchStep::GoNoFurther;
-    const double length = stretches.lengthTo(voxel);
-    if (there != Stretch::Other)
-      onward.visible = std::max(onward.visible, std::min(length, distance));
+    const PathPart there = parts.at(voxel);
+    if (there == PathPart::Closed) return SearchStep::GoNoFurther;
+    const double length = parts.lengthTo(voxel);
+    if (there != PathPart::Other)
+      beyond.visible = std::max(beyond.visible, std::min(length, distance));
     if (length < distance) return SearchStep::GoOn;
-    onward.isAll = false;
-    if (there == Stretch::Own || (there == Stretch::Beyond && stretches.isAhead(voxel)))
+    beyond.isAll = false;
+    if (there == PathPart::Own || (there == PathPart::Beyond && parts.isAhead(voxel)))
       front.push_back(voxel);
     return SearchStep::GoNoFurther;
   };
-  search.run(PriceAt{context, levels}, static_cast<float>(kBeyondWallPrice), visit,
+  search.run(VoxelPrice{context, levels}, static_cast<float>(kBeyondWallPrice), visit,
              context.progress);
   for (const auto& group : groupsOf(search, front)) {
-    onward.ways.push_back(smoothed(context, levels, search.pathTo(group.front())));
-    onward.ways.back().breadth = breadthOf(group.size(), context.volume.geometry());
+    beyond.paths.push_back(smoothed(context, levels, search.pathTo(group.front())));
+    beyond.paths.back().breadth = breadthOf(group.size(), context.volume.geometry());
   }
-  return onward;
+  return beyond;
 }
 
 }  // namespace lumen::convert

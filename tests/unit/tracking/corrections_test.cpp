@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/point_spread.h"
+#include "converters/stages/tracking/corrections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/stages/tracking/tracker.h"
+#include "converters/stages/tracking/track_case.h"
 #include "tube_volume.h"
 
 namespace lumen::convert {
@@ -94,7 +94,7 @@ TrackResult trackTube(const Volume& volume, std::optional<double> pointSpread, d
   options.pointSpread = pointSpread;
   options.step = step;
   Progress silent;
-  return track(volume, {seed}, options, silent);
+  return trackCase(volume, {seed}, options, silent);
 }
 
 double storedSpread(const TrackResult& tracked) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/tracking/snap.h"
+#include "converters/stages/tracking/vessel_at_click.h"
 
 #include <gtest/gtest.h>
 
@@ -22,12 +22,12 @@ TEST_P(SnapOfRadius, FindsTheAxisFromAnywhereInTheLumen) {
   const Volume volume = straightTube(radius);
   const TrackingVolume tracking = readied(volume);
   for (const Vector3d& aside : {Vector3d(0, 0, 0), Vector3d(0.5, 0, 0.1), Vector3d(-0.4, 0.6, 0)}) {
-    const Snap snap = snapToVessel(tracking, Vector3d(6.4, 6.4, 6.4) + radius * aside);
-    ASSERT_TRUE(snap.found) << snap.reason;
-    EXPECT_LT(std::hypot(snap.position.x() - 6.4, snap.position.y() - 6.4), 0.1);
-    EXPECT_NEAR(snap.position.z(), 6.4 + radius * aside.z(), 0.1);
-    EXPECT_NEAR(snap.radius, radius, 0.1);
-    EXPECT_GT(std::abs(snap.direction.z()), 0.97);
+    const VesselAtClick vessel = vesselAtClick(tracking, Vector3d(6.4, 6.4, 6.4) + radius * aside);
+    ASSERT_TRUE(vessel.found) << vessel.reason;
+    EXPECT_LT(std::hypot(vessel.position.x() - 6.4, vessel.position.y() - 6.4), 0.1);
+    EXPECT_NEAR(vessel.position.z(), 6.4 + radius * aside.z(), 0.1);
+    EXPECT_NEAR(vessel.radius, radius, 0.1);
+    EXPECT_GT(std::abs(vessel.direction.z()), 0.97);
   }
 }
 
@@ -35,33 +35,33 @@ INSTANTIATE_TEST_SUITE_P(Radii, SnapOfRadius, testing::Values(0.5, 0.8, 1.2, 2.0
 
 TEST(Snap, FindsAVesselThatIsClickedAVoxelBesideItsRim) {
   const Volume volume = straightTube(0.6);
-  const Snap snap = snapToVessel(readied(volume), {7.2, 6.4, 6.4});
-  ASSERT_TRUE(snap.found) << snap.reason;
-  EXPECT_LT(std::hypot(snap.position.x() - 6.4, snap.position.y() - 6.4), 0.1);
+  const VesselAtClick vessel = vesselAtClick(readied(volume), {7.2, 6.4, 6.4});
+  ASSERT_TRUE(vessel.found) << vessel.reason;
+  EXPECT_LT(std::hypot(vessel.position.x() - 6.4, vessel.position.y() - 6.4), 0.1);
 }
 
 TEST(Snap, SaysWhenThereIsNoVessel) {
   const Volume volume = straightTube(0.6);
   const Vector3d click(2, 2, 6.4);
-  const Snap snap = snapToVessel(readied(volume), click);
-  EXPECT_FALSE(snap.found);
-  EXPECT_EQ(snap.position, click);
-  EXPECT_FALSE(snap.reason.empty());
+  const VesselAtClick vessel = vesselAtClick(readied(volume), click);
+  EXPECT_FALSE(vessel.found);
+  EXPECT_EQ(vessel.position, click);
+  EXPECT_FALSE(vessel.reason.empty());
 }
 
 TEST(Snap, SaysWhenTheClickIsOutsideOfTheVolume) {
   const Volume volume = straightTube(0.6);
-  const Snap snap = snapToVessel(readied(volume), {-50, 6.4, 6.4});
-  EXPECT_FALSE(snap.found);
-  EXPECT_NE(snap.reason.find("outside"), std::string::npos) << snap.reason;
+  const VesselAtClick vessel = vesselAtClick(readied(volume), {-50, 6.4, 6.4});
+  EXPECT_FALSE(vessel.found);
+  EXPECT_NE(vessel.reason.find("outside"), std::string::npos) << vessel.reason;
 }
 
 TEST(Snap, IsTheSameEveryTime) {
   const Volume volume = noisy(straightTube(0.8), 60);
   const TrackingVolume tracking = readied(volume);
-  const Snap once = snapToVessel(tracking, {6.6, 6.3, 5});
+  const VesselAtClick once = vesselAtClick(tracking, {6.6, 6.3, 5});
   for (int i = 0; i < 3; ++i) {
-    const Snap again = snapToVessel(tracking, {6.6, 6.3, 5});
+    const VesselAtClick again = vesselAtClick(tracking, {6.6, 6.3, 5});
     EXPECT_EQ(again.position, once.position);
     EXPECT_EQ(again.radius, once.radius);
   }

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/tracking/track_case.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+#include "converters/base/edit_steps.h"
+#include "converters/io/volume/write_volume.h"
+#include "converters/stages/tracking/corrections.h"
+#include "converters/stages/tracking/sac_walls.h"
+#include "converters/stages/tracking/track_by_depth.h"
+#include "converters/stages/tracking/tree_joins.h"
+#include "converters/stages/tracking/wall_review.h"
+#include "formats/case/node_origin.h"
+#include "formats/case/validate.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+namespace {
+
+using formats::BranchKind;
+
+/// Corrects the wall points that a sac has added to a known vessel, behind those that it kept.
+/// `before`: the branch without them.
+void correctAdded(TrackedBranch& branch, const TrackedBranch& before, BranchKind kind,
+                  const WallShape& shape) {
+  for (std::size_t n = 0; n < branch.nodes.size(); ++n) {
+    auto& points = branch.nodes[n].points;
+    auto kept = points.begin();
+    for (const formats::Vec3f& p : before.nodes[n].points)
+      if (kept != points.end() && *kept == p) ++kept;
+    if (kept == points.end()) continue;
+    TrackedBranch added;
+    added.nodes.push_back(branch.nodes[n]);
+    added.nodes[0].points.assign(kept, points.end());
+    correctWalls(added, kind, shape);
+    std::copy(added.nodes[0].points.begin(), added.nodes[0].points.end(), kept);
+  }
+}
+
+/// Tracks the seeds of a tree that are not known, and joins and corrects their branches. Known
+/// branches get wall points only, where new aneurysms open into them. Returns the shape by which
+/// walls were corrected. Throws Error(Cancelled).
+WallShape trackTree(const TrackingVolume& volume, TrackedTree& tree, Progress& progress) {
+  const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress);
+  progress.begin("track", tree.seeds.size() - tree.known);
+  trackByDepth(context, tree, progress);
+  extendTips(context, tree);
+  joinTree(context, tree);
+  reviewWalls(context, tree);
+  progress.end();
+  const WallShape shape = volume.wallShape() ? *volume.wallShape() : wallShapeOf(volume, tree);
+  const std::vector<TrackedBranch> before(
+      tree.branches.begin(), tree.branches.begin() + static_cast<std::ptrdiff_t>(tree.known));
+  captureSacs(context, tree);
+  for (std::size_t i = 0; i < tree.known; ++i)
+    correctAdded(tree.branches[i], before[i], tree.seeds[i].kind, shape);
+  for (std::size_t i = tree.known; i < tree.seeds.size(); ++i) {
+    correctWalls(tree.branches[i], tree.seeds[i].kind, shape);
+    if (tree.isVessel(i)) correctBends(tree.branches[i].nodes);
+  }
+  return shape;
+}
+
+std::string quotedLabel(const std::string& label) {
+  std::string text(1, '"');
+  text += formats::printable(label);
+  text += '"';
+  return text;
+}
+
+void requireNewLabels(const formats::Case& known, const std::vector<SeedBranch>& seeds) {
+  std::set<std::string> labels;
+  for (const formats::Branch& branch : known.tree.branches) labels.insert(branch.label);
+  for (const SeedBranch& seed : seeds) {
+    if (seed.points.empty())
+      throw invalidInput("the seed " + quotedLabel(seed.label) +
+                         " has no points; expected one or more");
+    if (!labels.insert(seed.label).second)
+      throw invalidInput("the name " + quotedLabel(seed.label) +
+                         " is that of another branch or seed; expected one that none has");
+  }
+}
+
+/// Appends seeds to those of known branches, parents before their children.
+void appendParentsFirst(std::vector<SeedBranch> seeds, std::vector<SeedBranch>& all) {
+  std::set<std::string> known;
+  for (const SeedBranch& seed : all) known.insert(seed.label);
+  while (!seeds.empty()) {
+    const std::size_t before = seeds.size();
+    std::vector<SeedBranch> later;
+    for (SeedBranch& seed : seeds) {
+      const bool isDue = !seed.parent || known.contains(*seed.parent);
+      if (isDue) known.insert(seed.label);
+      (isDue ? all : later).push_back(std::move(seed));
+    }
+    seeds = std::move(later);
+    if (seeds.size() == before)
+      throw invalidInput("the parent of " + quotedLabel(seeds[0].label) + ", " +
+                         quotedLabel(*seeds[0].parent) +
+                         ", is no branch of the case and no seed that hangs on one");
+  }
+}
+
+/// Writes the wall points of the known branches to the case. Returns the nodes whose points
+/// changed.
+std::vector<std::uint32_t> replacePoints(const TrackedTree& tree, formats::Case& out) {
+  std::vector<std::uint32_t> changed;
+  formats::PointSets points;
+  points.offset.push_back(0);
+  for (std::size_t b = 0; b < tree.known; ++b)
+    for (const TrackedNode& node : tree.branches[b].nodes) {
+      const auto index = static_cast<std::uint32_t>(points.offset.size() - 1);
+      if (out.points) {
+        const auto first = out.points->position.begin();
+        const auto& offset = out.points->offset;
+        if (!std::equal(first + offset[index], first + offset[index + 1], node.points.begin(),
+                        node.points.end()))
+          changed.push_back(index);
+      }
+      points.position.insert(points.position.end(), node.points.begin(), node.points.end());
+      points.offset.push_back(static_cast<std::uint32_t>(points.position.size()));
+    }
+  out.points = std::move(points);
+  return changed;
+}
+
+std::string sentenceOn(const SeedBranch& seed) {
+  const Eigen::Vector3d& p = seed.points[0].position;
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), " from (%.6g, %.6g, %.6g) mm", p.x(), p.y(), p.z());
+  return "tracked " + quotedLabel(seed.label) + text.data();
+}
+
+void dropOtherArrays(AddedTracks& out) {
+  std::erase_if(out.result.nodeArrays, [&](const formats::NodeArray& array) {
+    if (array.name == formats::kOriginArray) return false;
+    out.droppedArrays.push_back(array.name);
+    return true;
+  });
+}
+
+}  // namespace
+
+TrackResult trackCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                      const TrackOptions& options, Progress& progress) {
+  const TrackingVolume tracking(volume, seeds, options, progress);
+  TrackedTree tree{seeds};
+  TrackOptions used = tracking.options();
+  used.pointSpread = trackTree(tracking, tree, progress).pointSpread;
+
+  TrackResult out{remarksOn(tree), caseOfTracks(tree)};
+  out.result.metadata.voxelSize = volume.geometry.voxelSize();
+  out.result.metadata.source = describeSource(volume);
+  out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});
+  return out;
+}
+
+AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& known,
+                          const std::vector<SeedBranch>& seeds, Progress& progress) {
+  requireNewLabels(known, seeds);
+  TrackedTree tree = trackedTreeOf(known);
+  appendParentsFirst(seeds, tree.seeds);
+  AddedTracks out;
+  out.result = known;
+  out.firstNewNode = static_cast<std::uint32_t>(known.tree.nodeCount());
+  out.firstNewBranch = static_cast<std::uint32_t>(tree.known);
+  if (seeds.empty()) return out;
+  trackTree(volume, tree, progress);
+  static_cast<TrackRemarks&>(out) = remarksOn(tree);
+  for (std::size_t i = tree.known; i < tree.seeds.size(); ++i)
+    if (!tree.branches[i].nodes.empty()) recordEdit(out.result.metadata, sentenceOn(tree.seeds[i]));
+  if (out.failures.size() == seeds.size()) return out;
+  out.changed = replacePoints(tree, out.result);
+  dropOtherArrays(out);
+  appendTracks(tree, out.result);
+  formats::dropDependentChunks(out.result);
+  if (const auto valid = formats::validate(out.result); !valid)
+    throw invalidInput("the tracked vessels break a rule of the format: " + valid.error().text());
+  return out;
+}
+
+}  // namespace lumen::convert

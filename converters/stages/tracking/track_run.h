@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Data and buffers that the steps of tracking hand on to one another.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/base/progress.h"
+#include "converters/base/random.h"
+#include "converters/geometry/icosphere.h"
+#include "converters/voxels/bspline.h"
+#include "converters/stages/tracking/cylinder.h"
+#include "converters/stages/tracking/rays.h"
+#include "converters/stages/tracking/track_options.h"
+#include "converters/stages/tracking/tracked_branch.h"
+
+namespace lumen::convert {
+
+/// Data that all tracks of one volume share. Any number of threads may read one. Whatever it refers
+/// to must outlive it.
+struct TrackContext {
+  TrackContext(const BsplineVolume& theVolume, const TrackOptions& theOptions, double theNoiseFloor,
+               const Progress& theProgress)
+      : volume(theVolume),
+        options(theOptions),
+        noiseFloor(theNoiseFloor),
+        progress(theProgress),
+        search(theOptions),
+        rays(icosphere(icosphereOrder(theOptions.rays))) {}
+
+  const BsplineVolume& volume;
+  const TrackOptions& options;
+  double noiseFloor;  ///< see smoothing.h
+  const Progress& progress;
+  CylinderSearch search;
+  std::vector<Eigen::Vector3d> rays;  ///< unit directions
+};
+
+/// Buffers of a track. One per thread; no call reads what another has left in them.
+struct TrackWorkspace {
+  explicit TrackWorkspace(const TrackContext& context)
+      : caster(context.volume, context.rays, context.options.samples, context.options.dark) {}
+
+  RayCaster caster;
+  Candidates candidates;
+  CylinderWorkspace cylinder;
+  std::vector<std::size_t> inliers;
+};
+
+/// One track at work: its volume, its stream of random numbers and its buffers. One per thread.
+struct TrackRun {
+  TrackRun(const TrackContext& theContext, Random theRandom)
+      : context(theContext), random(theRandom), workspace(theContext) {}
+
+  const TrackContext& context;
+  Random random;
+  TrackWorkspace workspace;
+};
+
+/// Branches that end a track when it runs into them.
+using FinishedBranches = std::span<const TrackedBranch* const>;
+
+}  // namespace lumen::convert

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/tracking/track_steps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "converters/base/vectors.h"
+#include "converters/stages/tracking/node_fit.h"
+#include "converters/stages/tracking/path_rules.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using formats::StopReason;
+
+/// Radii before a face of the volume within which a track is at it: the rays see half of the wall,
+/// and the centre stalls there.
+constexpr double kAtFaceRadii = 1.5;
+/// Radii from the goal's axis at which a track back has arrived: in its lumen, or at its wall.
+constexpr double kArrivedRadii = 2.0;
+/// A track back that is longer than this many straight distances leads along other vessels.
+constexpr double kLongestDetour = 3.0;
+
+/// Least inlier rate and strength beyond a gap, as shares of the recent means. A find must be
+/// nearly as good a cylinder as the vessel was; its contrast may fall by more.
+constexpr double kLikeRate = 0.8, kLikeStrength = 0.5;
+/// Width of the vessel beyond a gap, in last radii. Narrowing is usual, growing is not.
+constexpr double kNarrowest = 0.6, kWidest = 1.5;
+/// Recent radii: a shorter gap is bridged in any direction of the vessel beyond it.
+constexpr double kShortGapRadii = 2.0;
+/// Cosine of 40 degrees, the largest angle between the bridge and a vessel beyond a gap; and of 50,
+/// the largest turn. Another vessel that passes by runs across.
+constexpr double kOnCourseCosine = 0.77, kLargestTurnCosine = 0.64;
+/// Directions around the last one that are tried, and the tangent of their angle to it.
+constexpr int kSides = 6;
+constexpr double kTiltTangent = 0.5;
+/// Nodes that are given up, by turns. A track goes astray for a node or a few.
+constexpr std::array<std::size_t, 3> kGivenUpNodes = {0, 3, 6};
+
+bool isAtFace(const BsplineVolume& volume, const TrackedNode& last) {
+  return !volume.geometry().containsWorld(last.centre +
+                                          kAtFaceRadii * last.radius * last.direction);
+}
+
+/// Limits on nodes beyond a gap, by the vessel so far.
+struct Likeness {
+  const TrackedNode& last;
+  RecentMeans mean;
+
+  [[nodiscard]] bool holds(const TrackedNode& node) const {
+    return node.strength >= kLikeStrength * mean.strength &&
+           node.radius >= kNarrowest * last.radius && node.radius <= kWidest * last.radius;
+  }
+  [[nodiscard]] bool onCourse(const TrackedNode& node) const {
+    const Vector3d bridge = node.centre - last.centre;
+    return bridge.norm() < kShortGapRadii * mean.radius ||
+           (bridge.normalized().dot(node.direction) > kOnCourseCosine &&
+            last.direction.dot(node.direction) > kLargestTurnCosine);
+  }
+};
+
+/// The last direction, or one tilted from it to a side in 1 .. kSides.
+Vector3d directionTo(int side, const Vector3d& straight) {
+  if (side == 0) return straight;
+  const auto [e1, e2] = planeBasis(straight);
+  const double angle = std::numbers::pi / 3.0 * side;
+  const Vector3d aside = std::cos(angle) * e1 + std::sin(angle) * e2;
+  return Vector3d(straight + kTiltTangent * aside).normalized();
+}
+
+/// Two consecutive nodes from a guess on; empty if they are not this vessel's.
+std::vector<TrackedNode> fitPair(TrackRun& run, std::span<const TrackedNode> nodes,
+                                 const Likeness& like, const NodeGuess& guess) {
+  const TrackOptions& options = run.context.options;
+  const double minRate = std::max(leastInlierRate(options), kLikeRate * like.mean.inlierRate);
+  std::optional<TrackedNode> first = fitNode(run, guess, minRate).node;
+  if (!first || !like.holds(*first) || findTurningPoint(nodes, *first)) return {};
+  const NodeGuess next = predictNode(options, *first, 1, first->direction);
+  std::optional<TrackedNode> second = fitNode(run, next, minRate).node;
+  if (!second || !like.holds(*second) || !like.onCourse(*second) ||
+      findTurningPoint(std::array{like.last, *first}, *second))
+    return {};
+  return {std::move(*first), std::move(*second)};
+}
+
+/// The two nodes of the nearest place ahead of a track that it may go on to; empty if there is
+/// none.
+std::vector<TrackedNode> findPairAhead(TrackRun& run, std::span<const TrackedNode> nodes) {
+  const TrackContext& context = run.context;
+  const Likeness like{nodes.back(), recentMeans(nodes)};
+  for (int steps = 1; steps <= context.options.lookAhead; ++steps)
+    for (int side = 0; side <= kSides; ++side) {
+      context.progress.check();
+      const Vector3d direction = directionTo(side, like.last.direction);
+      const NodeGuess guess = predictNode(context.options, like.last, steps, direction);
+      std::vector<TrackedNode> pair = fitPair(run, nodes, like, guess);
+      if (!pair.empty()) return pair;
+    }
+  return {};
+}
+
+/// Nodes beyond a gap.
+struct Continuation {
+  std::size_t kept = 0;            ///< nodes of the track that stay
+  std::vector<TrackedNode> found;  ///< the nodes after those; empty if there is no continuation
+};
+
+/// The nearest place ahead of a track's last node, where the next step finds nothing, at which two
+/// consecutive nodes fit as well as the vessel did so far. If there is none and `mayGiveUp`, looks
+/// ahead from nodes before, since the last ones may have gone astray.
+Continuation findBeyondGap(TrackRun& run, std::span<const TrackedNode> nodes, bool mayGiveUp) {
+  for (const std::size_t back : kGivenUpNodes) {
+    if (back > 0 && (!mayGiveUp || nodes.size() < back + 2)) break;
+    const std::size_t kept = nodes.size() - back;
+    std::vector<TrackedNode> found = findPairAhead(run, nodes.first(kept));
+    if (!found.empty()) return {kept, std::move(found)};
+  }
+  return {nodes.size(), {}};
+}
+
+/// The outcome of one step of a track.
+struct Step {
+  std::optional<StopReason> stop;
+  std::size_t changedFrom = 0;  ///< the first node that is new, if the track has grown
+};
+
+/// Appends the next node, or the nodes beyond a gap. `longest`: the length from which nodes were
+/// given up last; only a track that has become longer may do so again, so that it ends.
+Step trackOneStep(TrackRun& run, std::vector<TrackedNode>& nodes, std::size_t& longest) {
+  const TrackContext& context = run.context;
+  const TrackOptions& options = context.options;
+  const std::size_t before = nodes.size();
+  if (before >= static_cast<std::size_t>(options.maxNodes)) return {StopReason::StepLimit};
+  const NodeGuess guess = predictNode(options, nodes.back(), 1, courseOf(nodes));
+  if (!context.volume.geometry().containsWorld(guess.centre)) return {StopReason::LeftVolume};
+  std::optional<TrackedNode> node = fitNode(run, guess, leastInlierRate(options)).node;
+  if (node && isSwollen(options, nodes, *node)) node.reset();
+  const auto turn = node ? findTurningPoint(nodes, *node) : std::nullopt;
+  if (node && !turn) {
+    nodes.push_back(std::move(*node));
+    return {{}, before};
+  }
+  if (turn) nodes.resize(std::max<std::size_t>(*turn, 1));
+  const StopReason reason = node ? StopReason::TurnedBack : StopReason::NoValidCylinder;
+  if (isAtFace(context.volume, nodes.back())) return {reason};
+  // a track that turned back has given up nodes, and would turn back for ever if it might do so
+  // again at the same place
+  const bool isLonger = before > longest;
+  if (turn && !isLonger) return {reason};
+  Continuation next = findBeyondGap(run, nodes, isLonger);
+  if (next.found.empty()) return {reason};
+  if (next.kept < before) longest = before;
+  nodes.resize(next.kept);
+  std::move(next.found.begin(), next.found.end(), std::back_inserter(nodes));
+  return {{}, std::min(before, nodes.size() - 1)};
+}
+
+}  // namespace
+
+void trackToEnd(TrackRun& run, TrackedBranch& branch, FinishedBranches finished) {
+  const TrackContext& context = run.context;
+  std::vector<TrackedNode>& nodes = branch.nodes;
+  Step step;
+  std::size_t longest = 0;
+  while (!step.stop) {
+    context.progress.check();
+    step = trackOneStep(run, nodes, longest);
+    for (std::size_t i = step.changedFrom; !step.stop && i < nodes.size(); ++i)
+      if (inCore(finished, nodes[i])) {
+        nodes.resize(i);
+        step.stop = StopReason::MetBranch;
+      }
+  }
+  branch.stopReason = isAtFace(context.volume, nodes.back()) ? StopReason::LeftVolume : *step.stop;
+  if (branch.stopReason == StopReason::NoValidCylinder) dropTip(nodes);
+}
+
+std::vector<TrackedNode> trackBackTo(TrackRun& run, const TrackedNode& start,
+                                     const TrackedBranch& goal) {
+  TrackedBranch back;
+  back.nodes.push_back(reversed(start));
+  const TrackedBranch* const end = &goal;
+  trackToEnd(run, back, {&end, 1});
+  const ChainPoint reached = closestOnChain(goal.nodes, back.nodes.back().centre);
+  const bool arrived =
+      back.stopReason == StopReason::MetBranch || reached.distance < kArrivedRadii * reached.radius;
+  const double straight = closestOnChain(goal.nodes, start.centre).distance;
+  if (!arrived || lengthOf(back.nodes) > kLongestDetour * straight) back.nodes.resize(1);
+  reverseTrack(back.nodes);
+  return std::move(back.nodes);
+}
+
+int trialSteps(TrackRun& run, const TrackedNode& start, const TrackedBranch* parent) {
+  const FinishedBranches others(&parent, parent ? 1 : 0);
+  const TrackOptions& options = run.context.options;
+  std::vector<TrackedNode> nodes{start};
+  for (int step = 0; step < kTrialSteps; ++step) {
+    const NodeGuess guess = predictNode(options, nodes.back(), 1, nodes.back().direction);
+    auto next = fitNode(run, guess, leastInlierRate(options)).node;
+    if (!next || isSwollen(options, nodes, *next) || findTurningPoint(nodes, *next) ||
+        inCore(others, *next))
+      return step;
+    nodes.push_back(std::move(*next));
+  }
+  return kTrialSteps;
+}
+
+}  // namespace lumen::convert
