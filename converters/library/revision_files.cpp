@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using formats::PendingFolder;
 
-std::string shownPath(const fs::path& path) {
+std::string printablePath(const fs::path& path) {
   return formats::printable(path.string());
 }
 
@@ -41,7 +41,7 @@ void linkFile(const fs::path& from, const fs::path& to) {
   if (::link(from.c_str(), to.c_str()) == 0) return;
   std::error_code error;
   fs::copy_file(from, to, error);
-  if (error) throw failed(shownPath(from) + ": cannot be copied: " + error.message());
+  if (error) throw failed(printablePath(from) + ": cannot be copied: " + error.message());
 }
 
 void makeFolderLike(const fs::path& from, const fs::path& to) {
@@ -66,10 +66,10 @@ void linkAll(const fs::path& from, const fs::path& to,
     } else if (fs::is_symlink(status)) {
       fs::copy_symlink(entry.path(), target);
     } else {
-      throw invalidInput(shownPath(entry.path()) + ": found a device or a pipe, expected files");
+      throw invalidInput(printablePath(entry.path()) + ": found a device or a pipe, expected files");
     }
   }
-  if (error) throw failed(shownPath(from) + ": cannot be read: " + error.message());
+  if (error) throw failed(printablePath(from) + ": cannot be read: " + error.message());
 }
 
 void keepCase(const fs::path& from, const fs::path& to, const std::string& crate) {

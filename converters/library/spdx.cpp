@@ -2,20 +2,31 @@
 #include "converters/library/spdx.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
+#include "converters/base/embedded_text.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
-#include "converters/library/spdx_ids.h"
 
 namespace lumen::convert {
+
+/// spdx_licences.txt and spdx_exceptions.txt.
+std::span<const EmbeddedText> spdxTexts();
 
 namespace {
 
 constexpr std::size_t kMostBytes = 255;
 
-template <class List>
-bool isIn(const List& sorted, std::string_view word) {
+std::vector<std::string_view> linesOf(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos;
+       text.remove_prefix(end + 1))
+    lines.push_back(text.substr(0, end));
+  return lines;
+}
+
+bool isIn(const std::vector<std::string_view>& sorted, std::string_view word) {
   return std::binary_search(sorted.begin(), sorted.end(), word);
 }
 
@@ -57,7 +68,7 @@ std::vector<std::string> tokensOf(const std::string& text) {
 std::string_view newestVersion(const std::string& word) {
   std::string_view newest;
   const std::string prefix = lowerCase(word) + "-";
-  for (const std::string_view known : kSpdxLicences)
+  for (const std::string_view known : spdxLicences())
     if (lowerCase(std::string(known)).starts_with(prefix) &&
         known.find_first_not_of("0123456789.", prefix.size()) == std::string_view::npos)
       newest = std::max(newest, known);
@@ -66,7 +77,7 @@ std::string_view newestVersion(const std::string& word) {
 
 std::string unknown(const std::string& word) {
   std::string text = quotedText(word) + " is no identifier of SPDX's list of licences";
-  for (const std::string_view known : kSpdxLicences)
+  for (const std::string_view known : spdxLicences())
     if (lowerCase(std::string(known)) == lowerCase(word))
       return text + "; did you mean " + std::string(known) + "?";
   if (const std::string_view versioned = newestVersion(word); !versioned.empty())
@@ -105,10 +116,10 @@ private:
     std::string_view id = word;
     if (!isOwnLicence(id)) {
       if (id.ends_with('+')) id.remove_suffix(1);
-      if (!isIn(kSpdxLicences, id) && !isIn(kSpdxLicences, word)) return unknown(word);
+      if (!isIn(spdxLicences(), id) && !isIn(spdxLicences(), word)) return unknown(word);
     }
     if (!take("WITH")) return {};
-    if (m_next < m_tokens.size() && isIn(kSpdxExceptions, m_tokens[m_next])) {
+    if (m_next < m_tokens.size() && isIn(spdxExceptions(), m_tokens[m_next])) {
       ++m_next;
       return {};
     }
@@ -121,6 +132,16 @@ private:
 
 }  // namespace
 
+const std::vector<std::string_view>& spdxLicences() {
+  static const std::vector<std::string_view> lines = linesOf(spdxTexts()[0].bytes);
+  return lines;
+}
+
+const std::vector<std::string_view>& spdxExceptions() {
+  static const std::vector<std::string_view> lines = linesOf(spdxTexts()[1].bytes);
+  return lines;
+}
+
 std::string licenceFault(const std::string& expression) {
   const std::string prefix = "licence " + quotedText(expression) + ": ";
   if (expression.size() > kMostBytes) return prefix + "expected at most 255 bytes";
@@ -129,7 +150,7 @@ std::string licenceFault(const std::string& expression) {
 }
 
 bool isListedLicence(std::string_view identifier) {
-  return isIn(kSpdxLicences, identifier);
+  return isIn(spdxLicences(), identifier);
 }
 
 }  // namespace lumen::convert

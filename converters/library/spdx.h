@@ -4,8 +4,14 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lumen::convert {
+
+/// The identifiers of SPDX's list of licences and of exceptions (https://spdx.org/licenses, CC0-1.0), deprecated ones
+/// included, as the npm packages spdx-license-ids and spdx-exceptions have them; sorted by bytes.
+const std::vector<std::string_view>& spdxLicences();
+const std::vector<std::string_view>& spdxExceptions();
 
 /// Why `expression` is not an SPDX licence expression, in one sentence; empty if it is one. Identifiers must be on
 /// SPDX's list, in its spelling, or begin with LicenseRef-.

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "converters/library/spdx_ids.h"
-
 namespace lumen::convert {
 namespace {
 
@@ -49,8 +47,8 @@ TEST(Spdx, WhatIsNoExpressionIsRefusedWithAReason) {
 }
 
 TEST(Spdx, ListsAreSorted) {
-  EXPECT_TRUE(std::is_sorted(kSpdxLicences.begin(), kSpdxLicences.end()));
-  EXPECT_TRUE(std::is_sorted(kSpdxExceptions.begin(), kSpdxExceptions.end()));
+  EXPECT_TRUE(std::is_sorted(spdxLicences().begin(), spdxLicences().end()));
+  EXPECT_TRUE(std::is_sorted(spdxExceptions().begin(), spdxExceptions().end()));
 }
 
 }  // namespace
