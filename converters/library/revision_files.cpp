@@ -66,7 +66,8 @@ void linkAll(const fs::path& from, const fs::path& to,
     } else if (fs::is_symlink(status)) {
       fs::copy_symlink(entry.path(), target);
     } else {
-      throw invalidInput(printablePath(entry.path()) + ": found a device or a pipe, expected files");
+      throw invalidInput(printablePath(entry.path()) +
+                         ": found a device or a pipe, expected files");
     }
   }
   if (error) throw failed(printablePath(from) + ": cannot be read: " + error.message());
