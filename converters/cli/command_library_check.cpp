@@ -44,17 +44,17 @@ public:
     if (const auto text = convert::readLibraryText(folder, check.faults, context.progress))
       check = convert::checkLibrary(folder, *text, {m_options.mostFaults, m_options.journal},
                                     context.progress);
-    const bool isRefused = context.common.strict && check.faults.warnings() > 0;
-    const bool isWhole = check.faults.errors() == 0 && !isRefused;
+    const bool isRefused = context.common.strict && check.faults.counts().warnings > 0;
+    const bool isWhole = check.faults.counts().errors == 0 && !isRefused;
     if (context.common.json) {
       Json json = libraryCheckJson(m_folder, check);
       json["whole"] = isWhole;
       answerJson(json);
     } else if (!context.common.quiet || !isWhole) {
       const std::string verdict =
-          isWhole ? "whole" + (check.faults.warnings() > 0 ? ", with " + faultCounts(check) : "")
+          isWhole ? "whole" + (check.faults.counts().warnings > 0 ? ", with " + faultCounts(check) : "")
                   : "not whole: " + faultCounts(check) +
-                        (check.faults.errors() == 0 ? ", which --strict makes errors" : "");
+                        (check.faults.counts().errors == 0 ? ", which --strict makes errors" : "");
       answer(libraryFaultsText(m_folder, check) +
              Lines().add(m_folder + ": " + verdict + "; " + checkedText(check)).text());
     }

@@ -47,7 +47,7 @@ public:
     convert::LibraryCheck check{convert::FaultList(options.mostFaults), {}, 0, 0, 0, 0};
     const std::optional<std::string> text = checkAll(options, check, context);
     const bool isFaulty =
-        check.faults.errors() > 0 || (context.common.strict && check.faults.warnings() > 0);
+        check.faults.counts().errors > 0 || (context.common.strict && check.faults.counts().warnings > 0);
     if (isFaulty) {
       report(check, nullptr, context);
       return kFaulty;

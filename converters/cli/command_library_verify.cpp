@@ -71,7 +71,7 @@ public:
     const convert::LibraryVerdict verdict =
         convert::verifyLibrary(folder, options, context.progress);
     const bool isTrusted =
-        verdict.isTrusted() && !(context.common.strict && verdict.check.faults.warnings() > 0);
+        verdict.isTrusted() && !(context.common.strict && verdict.check.faults.counts().warnings > 0);
     report(verdict, isTrusted, context);
     return isTrusted ? 0 : kFaulty;
   }

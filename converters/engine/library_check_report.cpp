@@ -15,7 +15,7 @@ using convert::LibraryFault;
 namespace {
 
 const char* severityOf(const LibraryFault& fault) {
-  return convert::isWarning(fault.code) ? "warning" : "error";
+  return formats::severityName(severityOf(fault.code));
 }
 
 Json faultJson(const LibraryFault& fault) {
@@ -42,9 +42,9 @@ Json libraryCheckJson(const std::string& folder, const LibraryCheck& check) {
   json["passed_over"] = check.passedOver;
   json["files"] = check.files;
   json["bytes"] = check.bytes;
-  json["errors"] = check.faults.errors();
-  json["warnings"] = check.faults.warnings();
-  json["complete"] = check.faults.kept().size() == check.faults.errors() + check.faults.warnings();
+  json["errors"] = check.faults.counts().errors;
+  json["warnings"] = check.faults.counts().warnings;
+  json["complete"] = check.faults.kept().size() == check.faults.counts().total();
   json["faults"] = Json::array();
   for (const LibraryFault& fault : check.faults.kept()) json["faults"].push_back(faultJson(fault));
   return json;
@@ -55,7 +55,7 @@ std::string libraryFaultsText(const std::string& folder, const LibraryCheck& che
   for (const LibraryFault& fault : check.faults.kept())
     lines.add((std::filesystem::path(folder) / fault.path).string() + ": " + severityOf(fault) +
               " " + fault.text());
-  if (check.faults.kept().size() < check.faults.errors() + check.faults.warnings())
+  if (check.faults.kept().size() < check.faults.counts().total())
     lines.add(folder + ": " + faultCounts(check) + ", " +
               std::to_string(check.faults.kept().size()) +
               " of them listed; --max-faults N lists more");
@@ -77,7 +77,7 @@ std::string checkedText(const LibraryCheck& check) {
 }
 
 std::string faultCounts(const LibraryCheck& check) {
-  const std::size_t errors = check.faults.errors(), warnings = check.faults.warnings();
+  const std::size_t errors = check.faults.counts().errors, warnings = check.faults.counts().warnings;
   const std::string ofErrors = counted(errors, "error", "errors");
   const std::string ofWarnings = counted(warnings, "warning", "warnings");
   return warnings == 0 ? ofErrors : errors == 0 ? ofWarnings : ofErrors + " and " + ofWarnings;

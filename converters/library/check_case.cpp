@@ -63,7 +63,7 @@ private:
   [[nodiscard]] std::string pathOf(const std::string& name) const { return m_folder + "/" + name; }
   [[nodiscard]] std::string recordPath() const { return pathOf(kRecordFile); }
   [[nodiscard]] FolderState walk(const ExpectedFiles& expected) const {
-    return walkFolder(m_library, m_folder, expected, m_entry.id, m_result.faults.most());
+    return walkFolder(m_library, m_folder, expected, m_entry.id, m_result.faults.maximum());
   }
   [[nodiscard]] std::string markOf(const FolderState& state) const {
     return sha256(bytesOf(m_entry.recordSha256 + state.mark));

@@ -96,11 +96,11 @@ void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultLi
       root.files.insert(entry.name);
     return true;
   });
-  faults.append(walkFolder(folder, "", root, "", faults.most()).faults);
+  faults.append(walkFolder(folder, "", root, "", faults.maximum()).faults);
   ExpectedFiles payload;
   payload.files.insert(kCrateFile);
   for (const LibraryEntry& entry : library.cases) payload.files.insert(entry.id);
-  faults.append(walkFolder(folder, kPayload, payload, "", faults.most()).faults);
+  faults.append(walkFolder(folder, kPayload, payload, "", faults.maximum()).faults);
   checkKindsOfOthers(folder, faults);
 }
 
@@ -123,7 +123,7 @@ void checkCases(const PlainFolder& folder, const LibraryFile& library, CheckJour
   };
   const auto check = [&](std::size_t at) {
     return Checked{at, std::make_shared<CaseCheck>(checkCase(folder, library.cases[at], journal,
-                                                             result.faults.most(), progress))};
+                                                             result.faults.maximum(), progress))};
   };
   const auto collect = [&](const Checked& checked) {
     const LibraryEntry& entry = library.cases[checked.at];

@@ -46,8 +46,8 @@ const char* faultName(FaultCode code) {
   return found == kNames.end() ? "UNKNOWN" : found->second;
 }
 
-bool isWarning(FaultCode code) {
-  return code == FaultCode::Privacy;
+formats::Severity severityOf(FaultCode code) {
+  return code == FaultCode::Privacy ? formats::Severity::Warning : formats::Severity::Error;
 }
 
 std::string LibraryFault::text() const {
@@ -55,18 +55,6 @@ std::string LibraryFault::text() const {
       std::string(faultName(code)) + " (" + std::to_string(static_cast<int>(code)) + "): ";
   if (expected.empty()) return formats::printable(name + found);
   return formats::printable(name + "found " + found + ", expected " + expected);
-}
-
-void FaultList::add(LibraryFault fault) {
-  ++(isWarning(fault.code) ? m_warnings : m_errors);
-  if (m_kept.size() < m_most) m_kept.push_back(std::move(fault));
-}
-
-void FaultList::append(FaultList&& more) {
-  m_errors += more.m_errors;
-  m_warnings += more.m_warnings;
-  for (LibraryFault& fault : more.m_kept)
-    if (m_kept.size() < m_most) m_kept.push_back(std::move(fault));
 }
 
 }  // namespace lumen::convert

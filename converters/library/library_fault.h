@@ -2,10 +2,10 @@
 // What can be wrong with a library: the table of spec/library.md, Faults.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
+
+#include "formats/container/fault_list.h"
 
 namespace lumen::convert {
 
@@ -40,38 +40,20 @@ enum class FaultCode : std::uint16_t {
 /// The stable name, such as FILE_ALTERED.
 const char* faultName(FaultCode code);
 
-/// It does not make a library faulty.
-bool isWarning(FaultCode code);
+/// A warning does not make a library faulty.
+formats::Severity severityOf(FaultCode code);
 
 struct LibraryFault {
   FaultCode code = FaultCode::LibraryFile;
-  std::string caseId;  ///< nothing for what is no case's
-  std::string path;    ///< relative to the library, as it is there: perhaps no UTF-8
-  std::string found;   ///< without `expected`, a message that says all
+  std::string caseId;  ///< empty for a fault of the library itself
+  std::string path;    ///< relative to the library, in the bytes of the file system
+  std::string found;   ///< the whole message where `expected` is empty
   std::string expected;
 
   /// "FILE_ALTERED (722): found ..., expected ...", one printable line.
   [[nodiscard]] std::string text() const;
 };
 
-/// Faults in order: all are counted, and so many kept.
-class FaultList {
-public:
-  explicit FaultList(std::size_t most) : m_most(most) {}
-
-  void add(LibraryFault fault);
-  /// `more` comes after what is here.
-  void append(FaultList&& more);
-  [[nodiscard]] const std::vector<LibraryFault>& kept() const { return m_kept; }
-  [[nodiscard]] std::size_t most() const { return m_most; }
-  [[nodiscard]] std::size_t errors() const { return m_errors; }
-  [[nodiscard]] std::size_t warnings() const { return m_warnings; }
-  [[nodiscard]] bool empty() const { return m_errors + m_warnings == 0; }
-
-private:
-  std::size_t m_most;
-  std::size_t m_errors = 0, m_warnings = 0;
-  std::vector<LibraryFault> m_kept;
-};
+using FaultList = formats::FaultList<LibraryFault>;
 
 }  // namespace lumen::convert

@@ -25,7 +25,7 @@ struct LibraryVerdict {
   LibraryCheck check;
   Signer signer;                    ///< as far as it is known
   std::uint64_t knownRevision = 0;  ///< that was verified before; 0 for none
-  [[nodiscard]] bool isTrusted() const { return check.faults.errors() == 0; }
+  [[nodiscard]] bool isTrusted() const { return check.faults.counts().errors == 0; }
 };
 
 /// A revision is remembered as soon as its signature is trusted, whatever its files are like: from then on it is known that

@@ -198,7 +198,7 @@ HiddenSibling::~HiddenSibling() {
   if (!m_path.empty()) fs::remove_all(m_path, ignored);
 }
 
-Expected<bool> writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file,
+Status writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file,
                                    const FileCalls& calls) {
   auto pending = PendingFile::beside(file, calls);
   if (!pending) return pending.error();
@@ -218,13 +218,13 @@ Expected<PendingFile> PendingFile::beside(const fs::path& file, const FileCalls&
   return PendingFile(*std::move(sibling), *target, *mode, calls);
 }
 
-Expected<bool> PendingFile::commit() {
+Status PendingFile::commit() {
   if (!flushPath(path(), 0, m_calls, m_mode)) return writeError(m_target, "cannot write", errno);
   if (m_calls.get().rename(path().c_str(), m_target.c_str()) != 0)
     return writeError(m_target, "cannot replace the file", errno);
   m_sibling.release();
   finish(m_target, m_calls);
-  return true;
+  return {};
 }
 
 Expected<PendingFolder> PendingFolder::beside(const fs::path& folder, Existing existing,
@@ -245,7 +245,7 @@ Expected<PendingFolder> PendingFolder::beside(const fs::path& folder, Existing e
   return PendingFolder(*std::move(sibling), *target, existing, calls);
 }
 
-Expected<bool> PendingFolder::commit(Flush how) {
+Status PendingFolder::commit(Flush how) {
   const auto flush = how == Flush::Each ? flushFolder : flushSystemOf;
   if (!flush(path(), m_calls)) return writeError(m_target, "cannot write", errno);
   if (m_calls.get().rename(path().c_str(), m_target.c_str()) == 0) {
@@ -257,13 +257,13 @@ Expected<bool> PendingFolder::commit(Flush how) {
     if (auto replaced = replace(); !replaced) return replaced;
   }
   finish(m_target, m_calls);
-  return true;
+  return {};
 }
 
-Expected<bool> PendingFolder::replace() {
+Status PendingFolder::replace() {
   const FileCalls& calls = m_calls;
   // the sibling is the old folder from here on, and goes with this object
-  if (calls.exchange(path().c_str(), m_target.c_str()) == 0) return true;
+  if (calls.exchange(path().c_str(), m_target.c_str()) == 0) return {};
   if (!isUnsupported(errno)) return writeError(m_target, "cannot replace the folder", errno);
   const fs::path old = m_target.string() + ".lumen-old";
   if (calls.rename(m_target.c_str(), old.c_str()) != 0)
@@ -276,7 +276,7 @@ Expected<bool> PendingFolder::replace() {
   m_sibling.release();
   std::error_code ignored;
   fs::remove_all(old, ignored);
-  return true;
+  return {};
 }
 
 bool isTemporaryName(std::string_view name) {

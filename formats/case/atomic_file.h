@@ -51,7 +51,7 @@ const FileCalls& systemCalls();
 /// old file is untouched unless all of that succeeds; its permissions are kept, and a new file gets
 /// those of any newly created one. A symbolic link is followed, so the file that it leads to is
 /// replaced. A directory or device is refused: IO_NOT_A_FILE; anything else that fails: IO_WRITE.
-Expected<bool> writeFileAtomically(std::span<const std::byte> bytes,
+Status writeFileAtomically(std::span<const std::byte> bytes,
                                    const std::filesystem::path& file,
                                    const FileCalls& calls = systemCalls());
 
@@ -84,7 +84,7 @@ public:
   /// Of the empty file, for writing.
   [[nodiscard]] int descriptor() const { return m_sibling.descriptor(); }
   /// The file is complete: flushes it and puts it in its place. Once only.
-  Expected<bool> commit();
+  Status commit();
 
 private:
   PendingFile(HiddenSibling sibling, std::filesystem::path target, std::optional<mode_t> mode,
@@ -115,7 +115,7 @@ public:
   /// it replaces changes places with it in one step and is removed then; where the kernel or the
   /// file system cannot do that (RENAME_EXCHANGE), the old folder first becomes NAME.lumen-old, so
   /// for an instant, or after a power cut in it, NAME does not exist.
-  Expected<bool> commit(Flush how = Flush::Each);
+  Status commit(Flush how = Flush::Each);
 
 private:
   PendingFolder(HiddenSibling sibling, std::filesystem::path target, Existing existing,
@@ -124,7 +124,7 @@ private:
         m_target(std::move(target)),
         m_existing(existing),
         m_calls(calls) {}
-  Expected<bool> replace();
+  Status replace();
 
   HiddenSibling m_sibling;
   std::filesystem::path m_target;

@@ -82,7 +82,7 @@ Expected<Case> readCaseFile(const fs::path& file) {
   return error;
 }
 
-Expected<bool> writeCaseFile(const Case& value, const fs::path& file, CaseEncoding encoding,
+Status writeCaseFile(const Case& value, const fs::path& file, CaseEncoding encoding,
                              const EncodeOptions& options) {
   if (const auto valid = validate(value); !valid) {
     Issue error = valid.error();
@@ -102,7 +102,7 @@ Expected<bool> writeCaseFile(const Case& value, const fs::path& file, CaseEncodi
   return writeFileAtomically(std::as_bytes(std::span(text)), file);
 }
 
-Expected<bool> writeCaseFile(const Case& value, const fs::path& file) {
+Status writeCaseFile(const Case& value, const fs::path& file) {
   const bool json = file.extension() == ".json";
   return writeCaseFile(value, file, json ? CaseEncoding::Json : CaseEncoding::Binary);
 }

@@ -31,10 +31,10 @@ Expected<Case> readCaseFile(const std::filesystem::path& file);
 enum class CaseEncoding : std::uint8_t { Binary, Json };
 
 /// Validates, then writes atomically; JSON takes of the options only the points' rounding.
-Expected<bool> writeCaseFile(const Case& value, const std::filesystem::path& file,
+Status writeCaseFile(const Case& value, const std::filesystem::path& file,
                              CaseEncoding encoding, const EncodeOptions& options = {});
 /// The same: JSON if the name ends in ".json", binary otherwise.
-Expected<bool> writeCaseFile(const Case& value, const std::filesystem::path& file);
+Status writeCaseFile(const Case& value, const std::filesystem::path& file);
 
 constexpr std::size_t kDefaultMaxIssues = 100;
 

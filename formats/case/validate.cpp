@@ -64,11 +64,11 @@ void checkCase(const Case& value, IssueList& issues) {
   checkOtherChunks(value.otherChunks, issues);
 }
 
-Expected<bool> validate(const Case& value) {
+Status validate(const Case& value) {
   IssueList issues(1, IssueList::Keep::Errors);
   checkCase(value, issues);
   if (auto error = issues.firstError()) return *std::move(error);
-  return true;
+  return {};
 }
 
 void dropDependentChunks(Case& value) {

@@ -9,7 +9,7 @@ namespace lumen::formats {
 
 /// True, or the first rule of the format that `value` breaks (sizes, ranges, references,
 /// finiteness, labels).
-Expected<bool> validate(const Case& value);
+Status validate(const Case& value);
 
 /// The rules of the model, the metadata, the node arrays and the chunks of others.
 void checkCase(const Case& value, IssueList& issues);

@@ -70,7 +70,7 @@ Header parseHeader(Bytes bytes) {
 }
 
 // The signature and the checksum come before the version: they are the same in every version.
-Expected<bool> checkFrame(Bytes bytes) {
+Status checkFrame(Bytes bytes) {
   if (!startsLikeMagic(bytes))
     return Issue{ErrorCode::Magic, 0,
                  "the first ten bytes are not those of a .lumen file; a transfer in text mode "
@@ -85,10 +85,10 @@ Expected<bool> checkFrame(Bytes bytes) {
                  kHeaderChecksumAt,
                  "the header states checksum " + hex(stated) + ", its bytes have " + hex(found),
                  {{"found", hex(found)}, {"expected", hex(stated)}}};
-  return true;
+  return {};
 }
 
-Expected<bool> checkVersion(const Header& header) {
+Status checkVersion(const Header& header) {
   if (header.version.major == 0 || header.minimumReader.major == 0 ||
       header.minimumReader > header.version)
     return Issue{ErrorCode::Version,
@@ -103,10 +103,10 @@ Expected<bool> checkVersion(const Header& header) {
         "the file needs a reader of version " + versionText(header.minimumReader) +
             "; this one reads up to " + versionText(kFormatVersion),
         {{"found", versionText(header.minimumReader)}, {"expected", versionText(kFormatVersion)}}};
-  return true;
+  return {};
 }
 
-Expected<bool> checkLength(const Header& header, Bytes bytes) {
+Status checkLength(const Header& header, Bytes bytes) {
   if (header.length > bytes.size())
     return Issue{ErrorCode::Truncated, bytes.size(),
                  "the file has " + std::to_string(bytes.size()) + " of the " +
@@ -117,10 +117,10 @@ Expected<bool> checkLength(const Header& header, Bytes bytes) {
                  "the file has " + std::to_string(bytes.size()) + " bytes, its header states " +
                      std::to_string(header.length),
                  foundExpected(bytes.size(), header.length)};
-  return true;
+  return {};
 }
 
-Expected<bool> checkTable(const Header& header, Bytes bytes) {
+Status checkTable(const Header& header, Bytes bytes) {
   if (header.chunkCount > kMaxChunks ||
       header.chunkCount > (bytes.size() - kHeaderSize) / kTableEntrySize)
     return Issue{
@@ -137,10 +137,10 @@ Expected<bool> checkTable(const Header& header, Bytes bytes) {
                  "the header states checksum " + hex(header.tableChecksum) +
                      " for the chunk table, its bytes have " + hex(found),
                  {{"found", hex(found)}, {"expected", hex(header.tableChecksum)}}};
-  return true;
+  return {};
 }
 
-Expected<bool> checkHeader(const Header& header, Bytes bytes) {
+Status checkHeader(const Header& header, Bytes bytes) {
   if (auto version = checkVersion(header); !version) return version;
   if (header.headerSize != kHeaderSize)
     return Issue{ErrorCode::HeaderField, 14,
@@ -183,7 +183,7 @@ Entry parseEntry(Bytes bytes) {
   return entry;
 }
 
-Expected<bool> checkEntry(const Entry& entry, std::uint64_t entryAt, bool strict) {
+Status checkEntry(const Entry& entry, std::uint64_t entryAt, bool strict) {
   for (int i = 0; i < 4; ++i)
     if (!isLetterOrDigit(static_cast<unsigned char>(entry.chunk.type >> (8 * i))))
       return Issue{ErrorCode::ChunkType,
@@ -197,11 +197,11 @@ Expected<bool> checkEntry(const Entry& entry, std::uint64_t entryAt, bool strict
                  "chunk " + name + " has a reserved " + what + " that is not zero",
                  {{"chunk", name}}};
   };
-  if (!strict) return true;
+  if (!strict) return {};
   if ((entry.flags & ~(kCriticalFlag | kIndependentFlag)) != 0) return refuse(kFlagsAt, "flag");
   if (const std::size_t at = firstNonZero(entry.reserved); at < entry.reserved.size())
     return refuse(kTableEntrySize - entry.reserved.size() + at, "byte");
-  return true;
+  return {};
 }
 
 // Gives the chunk of a checked entry its bytes. `end` is where the chunk before ends, padding
@@ -245,7 +245,7 @@ Expected<Chunk> locateChunk(Bytes bytes, const Entry& entry, std::uint64_t entry
 }
 
 // Moves `end` over the zeros that fill the last line of 64 bytes.
-Expected<bool> skipPadding(Bytes bytes, Padding check, std::uint64_t& end) {
+Status skipPadding(Bytes bytes, Padding check, std::uint64_t& end) {
   const std::uint64_t next = alignUp(end);
   if (next > bytes.size())
     return Issue{ErrorCode::ChunkPadding, bytes.size(),
@@ -256,7 +256,7 @@ Expected<bool> skipPadding(Bytes bytes, Padding check, std::uint64_t& end) {
     if (const std::size_t at = firstNonZero(padding); at < padding.size())
       return Issue{ErrorCode::ChunkPadding, end + at, "a padding byte is not zero"};
   end = next;
-  return true;
+  return {};
 }
 
 void storeEntry(std::byte* to, const ChunkSource& chunk, std::uint64_t offset) {
@@ -332,7 +332,7 @@ Expected<Container> readContainer(std::span<const std::byte> bytes, Padding padd
   return container;
 }
 
-Expected<bool> verifyChunk(const Chunk& chunk) {
+Status verifyChunk(const Chunk& chunk) {
   const std::uint32_t found = crc32c(chunk.stored);
   if (found != chunk.checksum)
     return Issue{ErrorCode::ChunkChecksum,
@@ -342,7 +342,7 @@ Expected<bool> verifyChunk(const Chunk& chunk) {
                  {{"chunk", chunkName(chunk.type)},
                   {"found", hex(found)},
                   {"expected", hex(chunk.checksum)}}};
-  return true;
+  return {};
 }
 
 std::vector<std::byte> writeContainer(std::span<const ChunkSource> chunks) {

@@ -90,7 +90,7 @@ Expected<Container> readContainer(std::span<const std::byte> bytes,
                                   Padding padding = Padding::Check);
 
 /// True, or CHUNK_CHECKSUM. Reads the whole chunk.
-Expected<bool> verifyChunk(const Chunk& chunk);
+Status verifyChunk(const Chunk& chunk);
 
 /// A chunk to be written.
 struct ChunkSource {

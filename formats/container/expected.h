@@ -2,6 +2,7 @@
 // A value, or the issue that is the reason why there is none.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -9,9 +10,9 @@
 
 namespace lumen::formats {
 
-/// What a reader of untrusted bytes returns: nothing half-built, no exception. Test it as a bool
-/// before reading `*result` (a value) or `result.error()`; reading the wrong one throws
-/// std::bad_variant_access.
+/// A value, or why there is none. Readers of untrusted bytes return it: nothing half-built, no
+/// exception. Test it as a bool before reading `*result` or `result.error()`; reading the wrong one
+/// throws std::bad_variant_access.
 template <class T>
 class [[nodiscard]] Expected {
 public:
@@ -27,6 +28,19 @@ public:
 
 private:
   std::variant<T, Issue> m_state;
+};
+
+/// Success, or why there was none. Test it as a bool before reading `error()`, which throws
+/// std::bad_optional_access after success.
+class [[nodiscard]] Status {
+public:
+  Status() = default;
+  Status(Issue error) : m_error(std::move(error)) {}
+  [[nodiscard]] explicit operator bool() const { return !m_error; }
+  [[nodiscard]] const Issue& error() const { return m_error.value(); }
+
+private:
+  std::optional<Issue> m_error;
 };
 
 }  // namespace lumen::formats

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/container/issue.h"
 
-#include <iterator>
-
 #include "formats/container/printable.h"
 
 namespace lumen::formats {
@@ -34,36 +32,6 @@ Issue limitIssue(ErrorCode code, std::string pointer, std::size_t found, std::si
   const std::string count = std::to_string(found), most = std::to_string(limit);
   return pointerIssue(code, std::move(pointer), "found " + count + ", the limit is " + most,
                       {{"found", count}, {"limit", most}});
-}
-
-bool IssueList::count(ErrorCode code) {
-  const Severity severity = severityOf(code);
-  if (severity == Severity::Error) {
-    ++m_counts.errors;
-    return m_errors.size() < m_maximum;
-  }
-  if (m_keep == Keep::Errors) return false;
-  ++(severity == Severity::Warning ? m_counts.warnings : m_counts.information);
-  return m_errors.size() + m_others.size() < m_maximum;
-}
-
-void IssueList::keep(Issue issue) {
-  const bool isError = severityOf(issue.code) == Severity::Error;
-  if (isError && m_errors.size() + m_others.size() == m_maximum) m_others.pop_back();
-  (isError ? m_errors : m_others).push_back(std::move(issue));
-}
-
-std::optional<Issue> IssueList::firstError() const {
-  return m_errors.empty() ? std::nullopt : std::optional<Issue>(m_errors.front());
-}
-
-std::vector<Issue> IssueList::take() {
-  std::vector<Issue> issues = std::move(m_errors);
-  issues.insert(issues.end(), std::make_move_iterator(m_others.begin()),
-                std::make_move_iterator(m_others.end()));
-  m_errors.clear();
-  m_others.clear();
-  return issues;
 }
 
 }  // namespace lumen::formats

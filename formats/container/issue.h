@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/container/error_code.h"
+#include "formats/container/fault_list.h"
 
 namespace lumen::formats {
 
@@ -47,57 +47,8 @@ Issue foundIssue(ErrorCode code, std::string pointer, const std::string& found,
 /// An issue of a count beyond its published maximum, or of a text's length.
 Issue limitIssue(ErrorCode code, std::string pointer, std::size_t found, std::size_t limit);
 
-/// How many issues there are of each severity, listed or not.
-struct IssueCounts {
-  std::size_t errors = 0, warnings = 0, information = 0;
-  [[nodiscard]] std::size_t total() const { return errors + warnings + information; }
-  friend bool operator==(const IssueCounts&, const IssueCounts&) = default;
-};
-
-/// Counts all issues and keeps some. The verdict is that of the counts; what is cut is the list, so
-/// checks go on after it is full. Errors have precedence in it.
-class IssueList {
-public:
-  /// Errors: warnings are not asked for, and checks may stop once the list is full.
-  enum class Keep : std::uint8_t { All, Errors };
-
-  explicit IssueList(std::size_t maximum, Keep keep = Keep::All)
-      : m_maximum(maximum), m_keep(keep) {}
-
-  void add(Issue issue) {
-    if (count(issue.code)) keep(std::move(issue));
-  }
-  /// For checks of many values: `make` gives the issue, and is called only if that is kept.
-  template <class Make>
-  void add(ErrorCode code, Make make) {
-    if (count(code)) keep(make());
-  }
-  /// Nothing that is still to be found would change anything: a check may stop.
-  [[nodiscard]] bool done() const { return m_keep == Keep::Errors && m_errors.size() >= m_maximum; }
-  [[nodiscard]] bool keepsWarnings() const { return m_keep == Keep::All; }
-  /// True if there was an error, kept or not; warnings do not count.
-  [[nodiscard]] bool failed() const { return m_counts.errors > 0; }
-  [[nodiscard]] const IssueCounts& counts() const { return m_counts; }
-  /// The first that was kept of those that refuse the file.
-  [[nodiscard]] std::optional<Issue> firstError() const;
-  /// What is listed: errors as they were found, then the others as they were found.
-  [[nodiscard]] std::vector<Issue> take();
-  /// Lets `change` complete every issue that is kept.
-  template <class Change>
-  void forEach(Change change) {
-    for (Issue& issue : m_errors) change(issue);
-    for (Issue& issue : m_others) change(issue);
-  }
-
-private:
-  // True if an issue of this code is to be kept.
-  bool count(ErrorCode code);
-  void keep(Issue issue);
-
-  std::size_t m_maximum;
-  Keep m_keep;
-  IssueCounts m_counts;
-  std::vector<Issue> m_errors, m_others;
-};
+/// The issues of one file.
+using IssueList = FaultList<Issue>;
+using IssueCounts = FaultCounts;
 
 }  // namespace lumen::formats

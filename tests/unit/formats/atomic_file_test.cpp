@@ -54,12 +54,12 @@ protected:
     std::sort(found.begin(), found.end());
     return found;
   }
-  [[nodiscard]] Expected<bool> write(const std::string& name, const std::string& content,
+  [[nodiscard]] Status write(const std::string& name, const std::string& content,
                                      const FileCalls& calls) const {
     return writeFileAtomically(std::as_bytes(std::span(content)), path(name), calls);
   }
   /// A folder with one file, `content` in "f", and an empty folder.
-  [[nodiscard]] Expected<bool> writeFolder(const std::string& name, const std::string& content,
+  [[nodiscard]] Status writeFolder(const std::string& name, const std::string& content,
                                            PendingFolder::Existing existing,
                                            const FileCalls& calls = systemCalls()) const {
     auto pending = PendingFolder::beside(path(name), existing, calls);

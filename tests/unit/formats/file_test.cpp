@@ -74,7 +74,7 @@ protected:
     std::sort(found.begin(), found.end());
     return found;
   }
-  [[nodiscard]] Expected<bool> write(const std::string& name, const std::string& content) const {
+  [[nodiscard]] Status write(const std::string& name, const std::string& content) const {
     return writeFileAtomically(std::as_bytes(std::span(content)), path(name));
   }
   [[nodiscard]] mode_t modeOf(const std::string& name) const {

@@ -2,11 +2,13 @@
 #include "converters/library/library_file.h"
 
 #include <fstream>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
+#include "converters/library/library_fault.h"
 #include "tests/unit/library/made_library.h"
 
 namespace lumen::convert {
@@ -22,6 +24,28 @@ std::string refusal(const Json& library) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST(FaultList, CountsAllFaultsAndKeepsErrorsBeforeWarnings) {
+  FaultList faults(2);
+  faults.add({FaultCode::Privacy, "a", "", "", ""});
+  for (const char* id : {"b", "c"}) faults.add({FaultCode::Bag, id, "", "", ""});
+  faults.add({FaultCode::Privacy, "d", "", "", ""});
+  EXPECT_EQ(faults.counts(), (formats::FaultCounts{2, 2, 0}));
+  ASSERT_EQ(faults.kept().size(), 2U);
+  EXPECT_EQ(faults.kept()[0].caseId, "b");
+  EXPECT_EQ(faults.kept()[1].caseId, "c");
+}
+
+TEST(FaultList, AppendsInTheOrderOfTheLists) {
+  FaultList faults(3), more(3);
+  faults.add({FaultCode::Privacy, "a", "", "", ""});
+  more.add({FaultCode::Bag, "b", "", "", ""});
+  faults.append(std::move(more));
+  ASSERT_EQ(faults.kept().size(), 2U);
+  EXPECT_EQ(faults.kept()[0].caseId, "a");
+  EXPECT_EQ(faults.kept()[1].caseId, "b");
+  EXPECT_EQ(faults.firstError()->caseId, "b");
 }
 
 TEST(LibraryFile, IsReadAsItWasWritten) {

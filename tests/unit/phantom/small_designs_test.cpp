@@ -28,7 +28,7 @@ TEST(SmallPhantoms, AllHaveATruthThatTheFormatAccepts) {
     options.size = name == "patient" ? 128 : 64;
     Progress progress;
     const Phantom phantom = makePhantom(options, progress);
-    const formats::Expected<bool> valid = formats::validate(phantom.truth);
+    const formats::Status valid = formats::validate(phantom.truth);
     EXPECT_TRUE(valid) << name << ": " << valid.error().text();
     EXPECT_EQ(phantom.truth.metadata.source->size[0], static_cast<std::uint32_t>(options.size));
     EXPECT_EQ(phantom.truth.metadata.source->sha256.size(), 64U);

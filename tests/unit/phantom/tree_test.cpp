@@ -115,7 +115,7 @@ TEST(TreePhantom, TheBoxFitsTheTreeWhereTheFileHasIt) {
     EXPECT_TRUE(geometry.containsWorld(nodeCentre(tree, n) - reach));
     EXPECT_TRUE(geometry.containsWorld(nodeCentre(tree, n) + reach));
   }
-  const formats::Expected<bool> valid = formats::validate(phantom.truth);
+  const formats::Status valid = formats::validate(phantom.truth);
   EXPECT_TRUE(valid) << valid.error().text();
 }
 
@@ -245,7 +245,7 @@ TEST(TreePhantom, HostileShapesGiveAValidTruth) {
                            "1 0 0 0 0 1 -1\n2 0 1e-12 0 0 1 1\n3 0 5 0 0 1 2\n"}) {
     const TreeFile file(text);
     const Phantom phantom = make(optionsOf(file, 0.5));
-    const formats::Expected<bool> valid = formats::validate(phantom.truth);
+    const formats::Status valid = formats::validate(phantom.truth);
     EXPECT_TRUE(valid) << text << valid.error().text();
   }
 }
