@@ -14,7 +14,7 @@ namespace lumen::formats {
 /// text. Keys that start with "x-" are dropped.
 Expected<Case> decodeJson(std::string_view text);
 
-/// The same with all that is wrong; nothing is returned after an error.
+/// Adds every issue of the text to `issues`, too; nothing is returned after an error.
 std::optional<Case> decodeJson(std::string_view text, IssueList& issues);
 
 }  // namespace lumen::formats

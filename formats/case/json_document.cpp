@@ -190,7 +190,7 @@ private:
     return addToPair(text);
   }
 
-  // What it should be is known when the metadata have been read.
+  // The metadata, which may follow, name the type of these numbers.
   bool addTo(NumberTexts& to, std::string_view text, bool whole) {
     to.add(text, whole);
     ++m_index;

@@ -26,7 +26,7 @@ struct NumberTexts {
   void add(std::string_view text, bool whole);
 };
 
-/// Where the numbers of one long array go, without a tree of values in between.
+/// Target of the numbers of one long array, which bypass the tree of values.
 using NumberArray =
     std::variant<std::vector<Vec3f>*, std::vector<float>*, NumberTexts*, std::vector<std::int32_t>*,
                  std::vector<std::uint32_t>*, std::vector<std::array<std::uint32_t, 2>>*>;
@@ -50,7 +50,7 @@ struct ArraySlots {
 std::optional<JsonDocument> parseJson(std::string_view text, std::size_t byteOffset,
                                       const std::string& root, ArraySlots& slots,
                                       IssueList& issues);
-/// The same for a text without long arrays.
+/// Parses a text without long arrays as the function above does.
 std::optional<JsonDocument> parseJson(std::string_view text, std::size_t byteOffset,
                                       const std::string& root, IssueList& issues);
 

@@ -32,8 +32,8 @@ std::optional<Integer> integerFromText(std::string_view text) {
   return value;
 }
 
-/// A number of a JsonDocument, which must outlive it. Every reader of JSON asks it for the type that
-/// its field has; a number of any size is legal until then.
+/// A number of a JsonDocument, which must outlive it. Every reader of JSON asks it for the type of
+/// its field; a number of any size is legal until then.
 class JsonNumber {
 public:
   /// True for a number without point and exponent.

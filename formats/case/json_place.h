@@ -32,8 +32,8 @@ protected:
   ~JsonFaults() = default;
 };
 
-/// A value and where it stands. `expected` completes "expected ..." of a fault. The document and the
-/// receiver must outlive the place.
+/// A value and where it stands. `expected` completes "expected ..." of a fault. The document and
+/// the receiver must outlive the place.
 class JsonPlace {
 public:
   JsonPlace(JsonValue value, JsonFaults& faults, std::string pointer = {})
@@ -54,7 +54,8 @@ public:
   }
   /// The entries of an array.
   [[nodiscard]] std::vector<JsonPlace> entries(const std::string& expected = "an array") const;
-  /// The first key that `known` lacks; nothing if there is none. A value that is no object is a fault.
+  /// The first key that `known` lacks; nothing if there is none. A value that is no object is a
+  /// fault.
   [[nodiscard]] std::optional<JsonPlace> otherThan(std::initializer_list<const char*> known) const;
 
   [[nodiscard]] double real(const std::string& expected = "a number") const;

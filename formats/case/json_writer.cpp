@@ -70,7 +70,7 @@ void JsonWriter::breakLine() {
   m_text.append(2 * m_levels.size(), ' ');
 }
 
-// What stands between this value or key and the one before.
+// Writes what separates this value or key from the one before.
 void JsonWriter::separate() {
   if (m_afterKey || m_levels.empty()) {
     m_afterKey = false;

@@ -14,7 +14,7 @@
 
 namespace lumen::formats {
 
-/// What a rule was applied to. `name` is one of those that the rule declares, such as "found".
+/// A value that a rule was applied to. `name` is one that the rule declares, such as "found".
 struct Argument {
   std::string name, value;
   friend bool operator==(const Argument&, const Argument&) = default;

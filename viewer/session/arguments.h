@@ -17,8 +17,8 @@ namespace lumen::viewer {
 
 using app::Json;
 
-/// The members of a JSON object, whose document must outlive it. Each call throws Error(Usage) with a
-/// sentence for people for a missing member, and for a value of another kind.
+/// The members of a JSON object, whose document must outlive it. Each call throws Error(Usage) with
+/// a sentence for people for a missing member, and for a value of another kind.
 class Arguments {
 public:
   explicit Arguments(formats::JsonValue object);

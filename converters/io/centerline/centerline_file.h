@@ -15,7 +15,7 @@ namespace lumen::convert {
 constexpr std::int32_t kNoPoint = -1;
 constexpr std::int32_t kNoVessel = -1;
 
-/// What a comment of lumen's own files says of them.
+/// The comment that marks files of lumen.
 constexpr const char* kOwnCenterline = "lumen: centerline, millimetres, LPS";
 
 struct CenterlinePoint {

@@ -25,7 +25,7 @@ bool isMarkups(const fs::path& file) {
          fs::is_regular_file(file, ignored);
 }
 
-// In the order of names, with numbers as people count: (2) before (10) takes more than this.
+// The files in the order of their names; (10) comes before (2).
 std::vector<fs::path> filesOf(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return {path};

@@ -59,7 +59,7 @@ public:
 
   /// Names of vessels by the id of their first point, as write_swc.h has them.
   [[nodiscard]] const std::map<std::int32_t, std::string>& vessels() const { return m_vessels; }
-  /// What a comment says of the unit and the axes, of which SWC itself says nothing.
+  /// Unit and axes from a comment; SWC itself has neither.
   double unit = 0;
   CenterlineAxes axes = CenterlineAxes::Unknown;
   bool isOfLumen = false;
@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  // Up to the next end of line, and without a comment.
+  // The text up to the next end of line, without its comment.
   std::string_view nextLine() {
     const std::size_t end = std::min(m_text.find_first_of("\r\n"), m_text.size());
     const std::string_view line = m_text.substr(0, end);

@@ -23,7 +23,7 @@ namespace lumen::convert {
 /// cycles.
 CenterlineFile readSwc(const std::filesystem::path& file);
 
-/// The same from a text; `name` is that of the file, for messages.
+/// Reads a text as readSwc() does; `name` is the name of its file, for messages.
 CenterlineFile parseSwc(std::string_view text, const std::string& name);
 
 }  // namespace lumen::convert

@@ -33,7 +33,7 @@ constexpr std::size_t kMostColumns = 1000;
 constexpr std::size_t kTreHead = 256;  // where a comment of write_centerline.cpp stands
 constexpr int kDeepestTree = 1000;
 
-// From an object to the one that it hangs on.
+// The placement of an object within its parent.
 struct Placement {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();

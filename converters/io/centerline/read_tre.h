@@ -16,7 +16,7 @@ namespace lumen::convert {
 /// with a remark. Throws Error(InvalidInput) with `name`, the line, what was found and expected.
 CenterlineFile parseTre(std::string_view text, const std::string& name);
 
-/// The same of a file of at most 64 MiB.
+/// Reads a file of at most 64 MiB as parseTre() does.
 CenterlineFile readTre(const std::filesystem::path& file);
 
 }  // namespace lumen::convert

@@ -17,7 +17,7 @@ namespace lumen::convert {
 /// expected.
 CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name);
 
-/// The same of a file of at most 64 MiB.
+/// Reads a file of at most 64 MiB as parseVtpCenterline() does.
 CenterlineFile readVtpCenterline(const std::filesystem::path& file);
 
 }  // namespace lumen::convert

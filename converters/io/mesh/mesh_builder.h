@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of meshes share: checks on the way into a MeshFile.
+// Checks on the way into a MeshFile, which the readers of meshes share.
 #pragma once
 
 #include <cstddef>

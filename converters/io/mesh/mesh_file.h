@@ -17,9 +17,9 @@ enum class MeshFormat : std::uint8_t { Stl, Obj, Ply, Gltf, Vtp, Vtk };
 
 /// A mesh as its file has it: nothing is repaired, and triangles may be of any orientation.
 struct MeshFile {
-  /// In the file's unit, with the axes that it names turned to LPS; glTF, whose standard says metres
-  /// and +Y up, comes in mm, LPS. At least one triangle; coordinates are finite and below 1e12,
-  /// indices in range. STL has no indices: its equal points are one.
+  /// The mesh has the file's unit, and the axes that the file names are turned to LPS. glTF, in
+  /// metres with +Y up by its standard, becomes mm and LPS. There is at least one triangle,
+  /// coordinates are finite and below 1e12, indices are in range. Equal points of STL are one.
   TriangleMesh mesh;
   std::vector<std::string>
       groups;  ///< names that the file has for sets of triangles, as it has them
@@ -27,7 +27,7 @@ struct MeshFile {
       group;                 ///< of each triangle: index into `groups`; empty if there are none
   double unitMm = 0;         ///< mm in one unit of `mesh`, if the file says so; otherwise 0
   bool frameStated = false;  ///< the file names its axes
-  /// What was taken for granted or passed over, a sentence each, fit to print.
+  /// Assumptions, and parts that were passed over: a sentence each, fit to print.
   std::vector<std::string> notes;
 };
 
@@ -38,7 +38,8 @@ struct MeshFile {
 /// what was expected, and Error(Unsupported) for what the format allows and this reader does not.
 MeshFile readMesh(const std::filesystem::path& file, MeshFormat format);
 
-/// The same from bytes; `file` is for messages, and for the folder of glTF's buffers.
+/// Reads the bytes of a file as readMesh() does; `file` is for messages, and for the folder of
+/// glTF's buffers.
 MeshFile parseMesh(std::string_view bytes, const std::filesystem::path& file, MeshFormat format);
 
 }  // namespace lumen::convert

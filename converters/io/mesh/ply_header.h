@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the head of a PLY file announces.
+// The head of a PLY file.
 #pragma once
 
 #include <cstddef>

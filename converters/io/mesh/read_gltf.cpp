@@ -175,7 +175,7 @@ private:
     return found;
   }
 
-  /// Of the file's scene; without scenes, the nodes that no other has as a child.
+  /// The roots of the file's scene; without scenes, the nodes that are no child of another.
   std::vector<std::uint64_t> roots() const {
     if (m_content.size("scenes") > 0)
       return numbers(m_content.item("scenes", m_content.whole(m_content.root(), "scene", 0)),

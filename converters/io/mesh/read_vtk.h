@@ -13,8 +13,8 @@ namespace lumen::convert {
 /// ModelFaceID are groups of those names. Lines and points are passed over.
 MeshFile parseVtp(std::string_view bytes, const std::string& name);
 
-/// The same of a legacy file, versions 1 to 5, ASCII or binary; SPACE=RAS in its title, as
-/// 3D Slicer writes it, is turned to LPS.
+/// The polygons, strips and groups of a legacy file, versions 1 to 5, ASCII or binary. A file whose
+/// title has SPACE=RAS, as 3D Slicer writes it, is turned to LPS.
 MeshFile parseVtk(std::string_view bytes, const std::string& name);
 
 }  // namespace lumen::convert

@@ -32,8 +32,8 @@ std::vector<std::byte> deflated(Bytes block) {
   return out;
 }
 
-// What VTK calls binary: the number of blocks, their size, that of the last if it is another, and
-// the compressed size of each; then the blocks.
+// VTK's binary form: the number of blocks, their size, the size of a shorter last block, and the
+// compressed size of each; then the blocks.
 std::string coded(Bytes data) {
   const std::size_t blocks = (data.size() + kBlock - 1) / kBlock;
   std::vector<std::uint64_t> header{blocks, kBlock, data.size() % kBlock};

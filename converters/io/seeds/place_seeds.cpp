@@ -17,12 +17,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Voxels: a point that lies so far beyond the outermost centres is still in the outermost voxel;
-/// and how far inside of them it is put, more than rounding takes back.
+/// Voxels: the distance beyond the outermost centres at which a point is still in the outermost
+/// voxel, and the distance inside of it at which the point is put, more than rounding takes back.
 constexpr double kOutermost = 0.5, kJustInside = 1e-6;
-/// Of the volume's longest side, and of its finest voxel edge: radii that a vessel in it may have.
+/// The largest radius of a vessel as a share of the volume's longest side, and the smallest as a
+/// share of its finest voxel edge.
 constexpr double kWidest = 0.5, kThinnest = 0.1;
-/// Of the points: if so many lie inside, the others are mistakes of their own.
+/// Share of the points: with as many inside, the others are mistakes of their own.
 constexpr double kMostlyInside = 0.75;
 /// mm: a volume that is smaller may be one in metres.
 constexpr double kSmallVolume = 10.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What 3D Slicer has no place for, in the description of a control point. Private to the sources of
-// seeds.
+// Descriptions of control points, which hold what 3D Slicer has no place for. Private to the sources
+// of seeds.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for the branches of every seeds file. Private to the sources of seeds.
+// Rules for the branches of every seeds file. Private to the sources of seeds.
 #pragma once
 
 #include <filesystem>

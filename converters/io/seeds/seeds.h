@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the user says that vessels begin.
+// Points at which vessels begin, from the user.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ struct SeedPoint {
   std::optional<double> radius;                        ///< mm, > 0
 };
 
-/// What a file's coordinates are. Voxel: indices, (0, 0, 0) at the centre of the volume's first
+/// The coordinates of a file. Voxel: indices, (0, 0, 0) at the centre of the volume's first
 /// voxel.
 enum class SeedSystem : std::uint8_t { Lps, Ras, Voxel };
 
-/// From a file's coordinates to LPS millimetres. Positions and directions in voxels stay what they
-/// are, because only the volume tells where they lie.
+/// Turns a file's coordinates into LPS millimetres. Positions and directions in voxels stay as they
+/// are: the volume alone places them.
 struct SeedFrame {
   SeedSystem system = SeedSystem::Lps;
   double unit = 1;  ///< mm; of positions (but in voxels) and radii
@@ -56,7 +56,7 @@ struct SeedFailure {
   std::string reason;  ///< one sentence, with the numbers that decided
 };
 
-/// What coordinates are, whatever the file says.
+/// Coordinates that an option states; they replace those of the file.
 struct SeedReading {
   std::optional<SeedSystem> system;
   std::optional<double> unit;  ///< mm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Slicer's vtkMRMLMarkupsFiducialStorageNode writes: "# name = value" lines, then rows.
+// Files of Slicer's vtkMRMLMarkupsFiducialStorageNode: "# name = value" lines, then rows.
 #include "converters/io/seeds/seeds_fcsv.h"
 
 #include <algorithm>

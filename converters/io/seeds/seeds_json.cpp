@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What the file states, where `reading` does not say otherwise.
+/// The frame of the file, or of `reading` where that states one.
 SeedFrame parseFrame(const JsonPlace& root, const SeedReading& reading) {
   const JsonPlace system = root.at("coordinateSystem"), units = root.at("units");
   SeedFrame frame;

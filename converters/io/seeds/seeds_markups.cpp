@@ -49,7 +49,7 @@ std::vector<double> radii(const JsonPlace& markup, std::size_t points) {
   return values;
 }
 
-/// What is written in a description, of a control point or of a markup.
+/// Applies the description of a control point or of a markup to its branch.
 void describe(const JsonPlace& holder, SeedBranch& branch) {
   if (!holder.has("description")) return;
   const JsonPlace place = holder.at("description");

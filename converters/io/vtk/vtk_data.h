@@ -11,7 +11,7 @@ namespace lumen {
 
 enum class VtkForm : std::uint8_t { Ascii, Base64, Raw };
 
-/// What the head of a file says of all of its binary data.
+/// The packing of all binary data of a file, from its head.
 struct VtkPacking {
   bool bigEndian = false;
   unsigned headerBytes = 4;  ///< of each size that stands before data: 4 or 8

@@ -200,7 +200,7 @@ private:
     m_isOpen = false;  // an array that this piece is within has no end
   }
 
-  // Where the open array is kept.
+  // The list that holds the open array.
   std::vector<Element>& elements() {
     return m_section == kFieldData ? m_document.field : m_document.pieces.back().elements;
   }
@@ -236,7 +236,7 @@ private:
     m_isOpen = true;
   }
 
-  // What follows need not be XML.
+  // The appended data need not be XML.
   void beginAppended(const char** attributes) {
     m_document.isAppendedBase64 = attribute(attributes, "encoding") == "base64";
     const std::size_t from = byte() + static_cast<std::size_t>(XML_GetCurrentByteCount(m_parser));
@@ -413,7 +413,7 @@ private:
     return array;
   }
 
-  // Up to where the next array begins: no byte is of two arrays.
+  // The appended data of an array, up to the next array: no byte belongs to two.
   std::string_view appendedText(const Element& element) const {
     if (!m_document.appended)
       refuse(place(element) + " is appended, but the file has no appended data");

@@ -10,8 +10,8 @@
 
 namespace lumen {
 
-/// What `text`, a whole file, holds: all pieces as one; of the arrays of points and of cells those
-/// that `wanted` names and that all pieces have. Data may be ascii, binary (base64) or appended (raw
+/// The data of `text`, a whole file: all pieces as one, with the arrays of points and of cells that
+/// `wanted` names and that all pieces have. Data may be ascii, binary (base64) or appended (raw
 /// or base64), in either order of bytes, as they are or packed by zlib. Memory is bounded by the
 /// size of the text, packed data by what zlib can pack into it. Throws Error(InvalidInput) with
 /// `name`, the line, what was found and what was expected, and Error(Unsupported) for other packers

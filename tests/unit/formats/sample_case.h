@@ -44,8 +44,8 @@ Bytes tampered(const std::function<void(Bytes&)>& change);
 Bytes tamperedFull(const std::function<void(Bytes&)>& change);
 
 /// The name of the rule that was broken, or "OK".
-template <class T>
-std::string codeOf(const Expected<T>& result) {
+template <class Result>
+std::string codeOf(const Result& result) {
   return result ? "OK" : errorName(result.error().code);
 }
 
