@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/read_mesh.h"
 
 namespace lumen::fuzz {
 

@@ -26,7 +26,8 @@ std::size_t aligned(std::size_t size) {
 
 void checkSize(std::size_t size) {
   if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw unsupported("the mesh needs over 2 GiB of glTF buffer; expected less: try --draco");
+    throw unsupported(
+        "the mesh needs over 2 GiB of glTF buffer; expected less, such as draco makes it");
 }
 
 void putWord(std::string& out, std::uint32_t word) {

@@ -303,7 +303,7 @@ const SofaLoader& vesselLoader(const std::vector<SofaLoader>& loaders, const std
   if (found.size() != 1)
     throw invalidInput(name + ": it is not clear which of its meshes are the vessels: " +
                        listOf(found.empty() ? all : found) +
-                       "; --mesh NAME says it, by a loader's name or its node's");
+                       "; expected mesh to name one, by its loader or its node");
   const SofaLoader& loader = *found.front();
   const std::string kind = lowerCase(loader.component);
   const std::string place = name + ": line " + std::to_string(loader.line) + ": ";

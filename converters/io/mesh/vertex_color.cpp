@@ -64,9 +64,8 @@ Color hue(std::uint32_t branch) {
 ColorScale scaleOf(const SurfaceMesh& surface, ColorBy by) {
   if (by == ColorBy::Confidence && surface.confidence.empty() && !surface.position.empty())
     throw invalidInput(
-        "--color confidence: the case says of no node how much of its wall was found, as cases "
-        "that "
-        "were not tracked do not; expected branch or radius");
+        "color confidence: the case has no inlier rates, which come with tracking; expected branch "
+        "or radius");
   if (by != ColorBy::Radius || surface.radius.empty()) return {by, 0, 1};
   const auto [low, high] = std::minmax_element(surface.radius.begin(), surface.radius.end());
   return {by, *low, *high};

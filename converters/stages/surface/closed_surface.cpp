@@ -157,7 +157,7 @@ private:
       if (levels[0].error > m_options.maxError)
         throw failed("with fewer triangles the surface would lie " +
                      formats::shortText(static_cast<float>(levels[0].error)) +
-                     " mm off, which is more than --max-error");
+                     " mm off, which is more than max-error");
     }
     addCoarserLevels(levels, m_options.levels, m_field, m_progress);
     for (std::size_t i = 1; i < levels.size(); ++i)
@@ -194,7 +194,7 @@ ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOpti
   requireModels(source);
   if (options.thickness && (options.open || !options.extend.empty()))
     throw Error(ErrorKind::Usage,
-                "--thickness gives a closed wall; it goes with neither --open nor --extend");
+                "thickness gives a closed wall; it goes with neither open nor extend");
   return Making(source, options, progress).run();
 }
 

@@ -13,6 +13,7 @@
 #include "converters/base/progress.h"
 #include "converters/io/mesh/surface_mesh.h"
 #include "converters/stages/surface/length.h"
+#include "converters/stages/surface/overlaps.h"
 #include "converters/stages/surface/remesh_target.h"
 #include "formats/case/case.h"
 
@@ -28,13 +29,6 @@ struct ClosedSurfaceOptions {
   std::optional<Length> thickness;  ///< of a wall around the lumen: the solid is the wall
   double maxError = 0;              ///< mm: more than 0, triangles are dropped as far as that
   int levels = 1;                   ///< of detail
-};
-
-/// Where two vessels overlap, so that their walls were moved apart.
-struct Overlap {
-  std::uint32_t branch = 0, other = 0;  ///< of the tree, the lesser first
-  double depth = 0;                     ///< how far, mm, the wall of one was moved in at most
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< where, mm, LPS
 };
 
 /// What was made, and where it differs from the field. Places are in mm, LPS.

@@ -77,10 +77,10 @@ std::vector<std::optional<Length>> lengthsOf(const CaseSurface& surface,
     if (!length.label.empty() &&
         std::none_of(branches.begin(), branches.end(),
                      [&](const formats::Branch& b) { return b.label == length.label; }))
-      throw Error(ErrorKind::Usage, "--extend: no branch of the case is called " + label);
+      throw Error(ErrorKind::Usage, "extend: no branch of the case is called " + label);
     if (!byLabel.try_emplace(length.label, length.length).second)
       throw Error(ErrorKind::Usage,
-                  "--extend: two lengths for " + (label.empty() ? "all ends" : label));
+                  "extend: two lengths for " + (label.empty() ? "all ends" : label));
   }
   std::vector<std::optional<Length>> found(surface.ends.size());
   std::set<std::string> used;
@@ -129,7 +129,7 @@ public:
     std::vector<std::string> sentences;
     for (const auto& [end, what] : met)
       sentences.push_back("the extension of " + nameOfEnd(end) + " runs into " + what +
-                          "; expected a shorter --extend there");
+                          "; expected a shorter extend there");
     return sentences;
   }
 

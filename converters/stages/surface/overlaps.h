@@ -2,13 +2,22 @@
 // Where vessels overlap.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/closed_surface.h"
 #include "converters/stages/surface/sheet_field.h"
 
 namespace lumen::convert {
+
+/// Two vessels that overlap, so that their walls were moved apart.
+struct Overlap {
+  std::uint32_t branch = 0, other = 0;  ///< of the tree, the lesser first
+  double depth = 0;                     ///< greatest distance that a wall was moved inwards, mm
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< place of that depth, mm, LPS
+};
 
 /// The pairs of branches whose walls the surface keeps apart although the field's would overlap,
 /// the deepest first.

@@ -88,7 +88,7 @@ void requireApart(const CaseSurface& solid, const formats::Case& source) {
   const std::string& label = source.tree.branches[source.tree.branch[node]].label;
   throw failed("the wall runs through itself at " + std::to_string(found.pairs.size()) +
                " pairs of triangles, first in branch " + formats::printable(label) +
-               "; expected a thicker wall, or shorter edges (--edge)");
+               "; expected a thicker wall, or a shorter edge");
 }
 
 }  // namespace

@@ -40,15 +40,15 @@ struct Meant {
   const char* remedy;
 };
 const std::array<Meant, 5> kMeant = {{
-    {{-1, -1, 1}, "with x and y negated", "--centerline-frame ras reads it so"},
-    {{10, 10, 10}, "if they were centimetres", "--centerline-unit cm reads them so"},
-    {{1000, 1000, 1000}, "if they were metres", "--centerline-unit m reads them so"},
+    {{-1, -1, 1}, "with x and y negated", "centerline-frame ras reads it so"},
+    {{10, 10, 10}, "if they were centimetres", "centerline-unit cm reads them so"},
+    {{1000, 1000, 1000}, "if they were metres", "centerline-unit m reads them so"},
     {{-10, -10, 10},
      "if they were centimetres with x and y negated",
-     "--centerline-unit cm and --centerline-frame ras read them so"},
+     "centerline-unit cm and centerline-frame ras read them so"},
     {{-1000, -1000, 1000},
      "if they were metres with x and y negated",
-     "--centerline-unit m and --centerline-frame ras read them so"},
+     "centerline-unit m and centerline-frame ras read them so"},
 }};
 
 /// Refuses a centerline that is not one of this surface.

@@ -15,7 +15,7 @@
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
 #include "converters/geometry/disjoint_sets.h"
-#include "converters/stages/surface/patches/marching_cubes.h"
+#include "converters/geometry/marching_cubes.h"
 #include "converters/stages/trees_from_surfaces/thin_voxels.h"
 
 namespace lumen::convert {
@@ -61,8 +61,9 @@ std::set<std::int64_t> valuesOf(const std::vector<T>& voxels, const LabelNames& 
     if (value != 0 && (values.size() <= kMostLabels || wanted.contains(value)))
       values.insert(value);
     if (wanted.empty() && values.size() > kMostLabels)
-      throw invalidInput(name + ": has more than " + std::to_string(kMostLabels) +
-                         " different values; expected labels, which --label or --labels choose");
+      throw invalidInput(
+          name + ": has more than " + std::to_string(kMostLabels) +
+          " different values; expected labels, or a choice of them by label or labels");
   }
   return values;
 }

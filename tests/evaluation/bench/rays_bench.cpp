@@ -19,7 +19,7 @@
 
 #include "converters/geometry/icosphere.h"
 #include "converters/geometry/triangle_tree.h"
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/read_mesh.h"
 
 namespace lumen::bench {
 namespace {

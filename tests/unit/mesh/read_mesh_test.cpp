@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "converters/io/mesh/read_mesh.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -8,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "converters/base/error.h"
-#include "converters/io/mesh/mesh_file.h"
 #include "mesh_shapes.h"
 
 namespace lumen::test {

@@ -11,7 +11,7 @@
 
 #include "converters/base/error.h"
 #include "converters/geometry/mesh_edges.h"
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/repair/mesh_report.h"
 #include "mesh_shapes.h"
 

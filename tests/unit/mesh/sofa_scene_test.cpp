@@ -87,7 +87,7 @@ TEST(SofaScene, RefusesToGuess) {
   EXPECT_EQ(refusal(R"(<Node name="r"><MeshOBJLoader name="a" filename="a.obj"/>
       <MeshOBJLoader name="b" filename="b.obj"/></Node>)"),
             "3: s.scn: it is not clear which of its meshes are the vessels: a in r (a.obj), b in r "
-            "(b.obj); --mesh NAME says it, by a loader's name or its node's");
+            "(b.obj); expected mesh to name one, by its loader or its node");
 }
 
 TEST(SofaScene, RefusesWhatItCannotRead) {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "converters/base/random.h"
+#include "converters/geometry/marching_cubes.h"
 #include "converters/stages/surface/case_surface.h"
-#include "converters/stages/surface/patches/marching_cubes.h"
 #include "converters/stages/surface/patches/patch.h"
 #include "converters/stages/surface/sheet_field.h"
 #include "formats/case/case_field.h"

@@ -153,7 +153,7 @@ TEST(ExtendEnds, SaysWhatATubeRunsInto) {
   const auto messages = extendEnds(closed.surface, closed.source, {{"two", {0, 7}}});
   ASSERT_EQ(messages.size(), 1U);
   EXPECT_EQ(messages[0],
-            "the extension of outlet-two runs into branch one; expected a shorter --extend there");
+            "the extension of outlet-two runs into branch one; expected a shorter extend there");
 }
 
 TEST(ExtendEnds, RefusesUnknownLabelsAndTwoLengthsAndTooMuch) {

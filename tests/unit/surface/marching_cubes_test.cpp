@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/patches/marching_cubes.h"
+#include "converters/geometry/marching_cubes.h"
 
 #include <algorithm>
 #include <set>

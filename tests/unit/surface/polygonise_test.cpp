@@ -301,7 +301,7 @@ TEST(Polygonise, CellThatIsTooSmallIsRefusedWithOneThatWillDo) {
       EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
       message = error.what();
     }
-    const std::string words = "--cell ";
+    const std::string words = "expected a cell of ";
     const auto at = message.find(words);
     ASSERT_NE(at, std::string::npos) << cell << message;
     const double enough = std::stod(message.substr(at + words.size()));

@@ -11,7 +11,7 @@
 #include "converters/base/statistics.h"
 #include "converters/geometry/self_intersections.h"
 #include "converters/geometry/triangle_tree.h"
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/repair/repair.h"
 #include "converters/stages/surface/closed_surface.h"

@@ -76,7 +76,7 @@ void checkCell(const formats::Case& source, double cell) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(),
                 "a cell of %g mm is too small for this case: its mesh would not fit into memory; "
-                "expected --cell %g or more",
+                "expected a cell of %g mm or more",
                 cell, twoDigitsUp(enough));
   throw invalidInput(text.data());
 }

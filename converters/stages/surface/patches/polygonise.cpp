@@ -10,9 +10,9 @@
 
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/marching_cubes.h"
 #include "converters/geometry/surface_projection.h"
 #include "converters/stages/surface/patches/cell_size.h"
-#include "converters/stages/surface/patches/marching_cubes.h"
 #include "converters/stages/surface/patches/node_cell.h"
 #include "converters/stages/surface/patches/node_field.h"
 #include "converters/stages/surface/vessel_values.h"
@@ -73,7 +73,7 @@ int latticeFloor(double position, double cell) {
 
 Error cellTooSmall(double cell) {
   return invalidInput("a cell of " + formats::shortText(cell) +
-                      " mm is too small for this case; expected a larger --cell");
+                      " mm is too small for this case; expected a larger cell");
 }
 
 // The rows of the lattice within `low` .. `high` that may meet the surface inside the half-spaces.
@@ -272,7 +272,7 @@ double cellOf(const formats::Case& source, const PolygoniseOptions& options) {
   if (!(options.cell >= 0) || !(cell > 0) || !std::isfinite(cell))
     throw invalidInput("the mesh needs a cell size: found a cell of " +
                        formats::shortText(options.cell) +
-                       " mm and no voxel size in the case; expected --cell above 0");
+                       " mm and no voxel size in the case; expected a cell above 0");
   return cell;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/patches/marching_cubes.h"
+#include "converters/geometry/marching_cubes.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
 #include "converters/geometry/disjoint_sets.h"
-#include "converters/stages/surface/patches/marching_cubes_table.h"
+#include "converters/geometry/marching_cubes_table.h"
 
 namespace lumen::convert {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/read_mesh.h"
 
 #include <fstream>
 #include <system_error>

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/stages/surface/patches/patch.h"
+#include "converters/geometry/triangle_mesh.h"
 
 namespace lumen::convert {
 

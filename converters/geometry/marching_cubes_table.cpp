@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/surface/patches/marching_cubes_table.h"
+#include "converters/geometry/marching_cubes_table.h"
 
 #include <algorithm>
 #include <limits>
