@@ -9,6 +9,7 @@
 #include "converters/base/error.h"
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/io/centerline/read_curves.h"
 #include "converters/io/centerline/read_swc.h"
 #include "converters/io/centerline/read_tre.h"
@@ -16,7 +17,6 @@
 #include "converters/io/mesh/mesh_file.h"
 #include "converters/stages/repair/mesh_report.h"
 #include "converters/stages/repair/repair.h"
-#include "converters/stages/trees_from_surfaces/closed_mesh.h"
 #include "formats/container/printable.h"
 
 namespace lumen::app {
@@ -80,7 +80,7 @@ double unitOf(const convert::MeshFile& file, const convert::TriangleMesh& mesh,
     size.low = size.low.cwiseMin(p);
     size.high = size.high.cwiseMax(p);
   }
-  size.volume = convert::enclosedVolume(mesh);
+  size.volume = convert::signedVolume(mesh);
   const convert::UnitGuess guess = convert::guessUnit(size);
   const double radius = 2 * std::abs(size.volume) / size.area;
   if (!guess.plausible)

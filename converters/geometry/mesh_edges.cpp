@@ -6,14 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 namespace lumen::convert {
-namespace {
-
-constexpr double kFlat = 1e-6;  // height over length; coordinates of f32 have about 1e-7
-
-}  // namespace
 
 std::vector<EdgeUse> edgeUses(const std::vector<Triangle>& triangles) {
   // a counting sort by the lower point leaves short runs, in the order of the triangles
@@ -38,13 +31,24 @@ std::vector<EdgeUse> edgeUses(const std::vector<Triangle>& triangles) {
   return uses;
 }
 
-bool isDegenerate(const TriangleMesh& mesh, const Triangle& t) {
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
-  double longest = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    longest =
-        std::max(longest, (mesh.position[t[i]] - mesh.position[t[(i + 1) % 3]]).squaredNorm());
-  return 2 * vectorArea(mesh, t).norm() <= kFlat * longest;
+std::vector<std::uint32_t> oppositeSides(const std::vector<Triangle>& triangles) {
+  std::vector<std::uint32_t> opposite(3 * triangles.size(), kNoSide);
+  forEachEdge(edgeUses(triangles), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() != 2) return;
+    opposite[edge[0].side] = edge[1].side;
+    opposite[edge[1].side] = edge[0].side;
+  });
+  return opposite;
+}
+
+std::int64_t eulerCharacteristic(const TriangleMesh& mesh) {
+  std::vector<bool> isUsed(mesh.position.size(), false);
+  for (const Triangle& t : mesh.triangle)
+    for (const std::uint32_t v : t) isUsed[v] = true;
+  std::int64_t edges = 0;
+  forEachEdge(edgeUses(mesh.triangle), [&](std::span<const EdgeUse>) { ++edges; });
+  return std::count(isUsed.begin(), isUsed.end(), true) - edges +
+         static_cast<std::int64_t>(mesh.triangle.size());
 }
 
 std::vector<std::uint32_t> equalPoints(const std::vector<Eigen::Vector3d>& position) {
@@ -61,19 +65,6 @@ std::vector<std::uint32_t> equalPoints(const std::vector<Eigen::Vector3d>& posit
     same[order[i]] =
         i > 0 && position[order[i]] == position[order[i - 1]] ? same[order[i - 1]] : order[i];
   return same;
-}
-
-MeshBox boxOf(const TriangleMesh& mesh) {
-  MeshBox box;
-  bool any = false;
-  for (const Triangle& t : mesh.triangle)
-    for (const std::uint32_t v : t) {
-      const Eigen::Vector3d& p = mesh.position[v];
-      box.low = any ? box.low.cwiseMin(p) : p;
-      box.high = any ? box.high.cwiseMax(p) : p;
-      any = true;
-    }
-  return box;
 }
 
 }  // namespace lumen::convert

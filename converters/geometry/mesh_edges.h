@@ -51,25 +51,13 @@ void forEachEdge(const std::vector<EdgeUse>& uses, Edge edge) {
   }
 }
 
-/// The vector area of a triangle: its normal times its area.
-inline Eigen::Vector3d vectorArea(const TriangleMesh& mesh, const Triangle& t) {
-  const Eigen::Vector3d& a = mesh.position[t[0]];
-  const Eigen::Vector3d u = mesh.position[t[1]] - a, v = mesh.position[t[2]] - a;
-  return 0.5 * Eigen::Vector3d(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
-                               u.x() * v.y() - u.y() * v.x());
-}
+/// The other side of each side's edge, or kNoSide where an edge has not two sides.
+std::vector<std::uint32_t> oppositeSides(const std::vector<Triangle>& triangles);
 
-/// True of a triangle whose height is below 1e-6 of its longest side: its normal is rounding.
-bool isDegenerate(const TriangleMesh& mesh, const Triangle& t);
+/// V - E + F, of the points that triangles use.
+std::int64_t eulerCharacteristic(const TriangleMesh& mesh);
 
 /// Points of equal coordinates made one: for each point the first that equals it.
 std::vector<std::uint32_t> equalPoints(const std::vector<Eigen::Vector3d>& position);
-
-/// The box of the points that triangles use.
-struct MeshBox {
-  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
-  [[nodiscard]] double diagonal() const { return (high - low).norm(); }
-};
-MeshBox boxOf(const TriangleMesh& mesh);
 
 }  // namespace lumen::convert

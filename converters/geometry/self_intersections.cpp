@@ -10,37 +10,27 @@
 
 #include <tbb/parallel_for.h>
 
+#include "converters/geometry/box_tree.h"
 #include "converters/geometry/triangle_pair.h"
 
 namespace lumen::convert {
 namespace {
 
 constexpr double kGreatest = 1e50, kLeast = 1e-50;  // what orientation() takes
-constexpr std::uint32_t kLeaf = 4;                  // triangles of a leaf of the tree
 constexpr std::size_t kBlock = 1 << 14;             // leaves that are asked for at once
 constexpr int kMortonBits = 21;                     // of a coordinate, three of which fit 64 bits
 
-// Floats, rounded outwards: half the memory to walk through, and no box gets smaller.
-struct Box {
-  Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
-  Eigen::Array3f high = Eigen::Array3f::Constant(-std::numeric_limits<float>::infinity());
-
-  void add(const Eigen::Vector3d& p) {
-    for (int k = 0; k < 3; ++k) {
-      const auto near = static_cast<float>(p[k]);
-      const float infinity = std::numeric_limits<float>::infinity();
-      low[k] = std::min(low[k], double{near} > p[k] ? std::nextafter(near, -infinity) : near);
-      high[k] = std::max(high[k], double{near} < p[k] ? std::nextafter(near, infinity) : near);
-    }
+// Adds a point, rounded outwards: floats are half the memory to walk through.
+void addOutwards(Box3f& box, const Eigen::Vector3d& p) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const auto near = static_cast<float>(p[k]);
+    box.low[k] =
+        std::min(box.low[k], double{near} > p[k] ? std::nextafter(near, -kInfinity) : near);
+    box.high[k] =
+        std::max(box.high[k], double{near} < p[k] ? std::nextafter(near, kInfinity) : near);
   }
-  void add(const Box& other) {
-    low = low.min(other.low);
-    high = high.max(other.high);
-  }
-  [[nodiscard]] bool meets(const Box& other) const {
-    return (low <= other.high).all() && (other.low <= high).all();
-  }
-};
+}
 
 std::uint64_t spread(std::uint64_t bits) {
   bits = (bits | bits << 32) & 0x1f00000000ffffULL;
@@ -90,50 +80,43 @@ std::vector<std::uint32_t> inOrder(const TriangleMesh& mesh) {
   return order;
 }
 
-// Boxes over runs of triangles of `order`: a binary tree whose leaves are runs of kLeaf. Level 0
-// are the leaves; box i of a level holds boxes 2 i and 2 i + 1 of the one below.
-class BoxTree {
+// The triangles that can intersect, in a bounding-volume hierarchy along the Morton curve.
+class TriangleLeaves {
 public:
-  explicit BoxTree(const TriangleMesh& mesh) : m_mesh(mesh), m_order(inOrder(mesh)) {
+  explicit TriangleLeaves(const TriangleMesh& mesh) : m_mesh(mesh), m_order(inOrder(mesh)) {
     m_box.resize(m_order.size());
     tbb::parallel_for(std::size_t{0}, m_order.size(), [&](std::size_t i) {
-      for (const std::uint32_t v : mesh.triangle[m_order[i]]) m_box[i].add(mesh.position[v]);
+      for (const std::uint32_t v : mesh.triangle[m_order[i]])
+        addOutwards(m_box[i], mesh.position[v]);
     });
-    std::span<const Box> below = m_box;
-    for (std::size_t width = kLeaf; !below.empty(); width = 2) {
-      std::vector<Box> level((below.size() + width - 1) / width);
-      for (std::size_t i = 0; i < below.size(); ++i) level[i / width].add(below[i]);
-      m_level.push_back(std::move(level));
-      below = m_level.back();
-      if (below.size() == 1) break;
-    }
+    m_tree = BoxTree<float>(m_box);
+    for (std::uint32_t i = 0; i < m_tree.nodes().size(); ++i)
+      if (m_tree.node(i).count > 0) m_leaf.push_back(i);
   }
 
-  /// Of leaves.
-  [[nodiscard]] std::size_t size() const { return m_level.empty() ? 0 : m_level.front().size(); }
+  /// Number of leaves.
+  [[nodiscard]] std::size_t size() const { return m_leaf.size(); }
 
   /// Adds the pairs of a triangle of the leaf and one of it or behind it, until there are more than
   /// `most`.
   void findBehind(std::size_t leaf, std::size_t most,
                   std::vector<std::array<std::uint32_t, 2>>& pairs) const {
-    visit(m_level.size() - 1, 0, leaf, most, pairs);
+    visit(0, static_cast<std::uint32_t>(m_tree.nodes().size()), m_leaf[leaf], most, pairs);
   }
 
 private:
-  void visit(std::size_t level, std::size_t index, std::size_t leaf, std::size_t most,
+  // Nodes from `index` to before `end` are those of one node and all below it.
+  void visit(std::uint32_t index, std::uint32_t end, std::uint32_t leaf, std::size_t most,
              std::vector<std::array<std::uint32_t, 2>>& pairs) const {
-    const std::size_t end = (index + 1) << level;
-    if (end <= leaf || pairs.size() > most || !m_level[level][index].meets(m_level[0][leaf]))
-      return;
-    if (level > 0) {
-      visit(level - 1, 2 * index, leaf, most, pairs);
-      if (2 * index + 1 < m_level[level - 1].size())
-        visit(level - 1, 2 * index + 1, leaf, most, pairs);
+    const auto &node = m_tree.node(index), &own = m_tree.node(leaf);
+    if (end <= leaf || pairs.size() > most || !node.box.meets(own.box)) return;
+    if (node.count == 0) {
+      visit(index + 1, node.at, leaf, most, pairs);
+      visit(node.at, end, leaf, most, pairs);
       return;
     }
-    for (std::size_t i = leaf * kLeaf; i < std::min((leaf + 1) * kLeaf, m_order.size()); ++i)
-      for (std::size_t k = std::max(i + 1, index * kLeaf);
-           k < std::min(end * kLeaf, m_order.size()); ++k) {
+    for (std::uint32_t i = own.at; i < own.at + own.count; ++i)
+      for (std::uint32_t k = std::max(i + 1, node.at); k < node.at + node.count; ++k) {
         if (!m_box[k].meets(m_box[i])) continue;
         const std::uint32_t one = m_order[i], other = m_order[k];
         if (intersect(m_mesh, m_mesh.triangle[one], m_mesh.triangle[other]))
@@ -143,15 +126,16 @@ private:
 
   const TriangleMesh& m_mesh;
   std::vector<std::uint32_t> m_order;
-  std::vector<Box> m_box;
-  std::vector<std::vector<Box>> m_level;
+  std::vector<Box3f> m_box;
+  BoxTree<float> m_tree;
+  std::vector<std::uint32_t> m_leaf;  // nodes without children
 };
 
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
 // The pairs of leaves first .. last - 1, in that order. Where there are more than `most`, threads
 // may find different ones of them: then it is done again, one after the other.
-Pairs pairsOf(const BoxTree& tree, std::size_t first, std::size_t last, std::size_t most) {
+Pairs pairsOf(const TriangleLeaves& tree, std::size_t first, std::size_t last, std::size_t most) {
   std::vector<Pairs> found(last - first);
   std::atomic<std::size_t> count{0};
   tbb::parallel_for(first, last, [&](std::size_t i) {
@@ -171,7 +155,7 @@ Pairs pairsOf(const BoxTree& tree, std::size_t first, std::size_t last, std::siz
 
 SelfIntersections selfIntersections(const TriangleMesh& mesh, std::size_t limit) {
   SelfIntersections result;
-  const BoxTree tree(mesh);
+  const TriangleLeaves tree(mesh);
   for (std::size_t first = 0; first < tree.size() && result.pairs.size() <= limit;
        first += kBlock) {
     const Pairs more =

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -12,7 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kLeaf = 4;  // triangles
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Where a ray meets a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
@@ -56,11 +54,12 @@ public:
 
   /// Where it enters a box, or behind all triangles if it does not. Boxes are larger than what they
   /// hold by more than what is rounded here.
-  [[nodiscard]] double entry(const Box& box) const {
+  [[nodiscard]] double entry(const Box3f& box) const {
     double from = 0, to = kFar;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double one = (double{box.low[a]} - m_origin[a]) * m_inverse[a];
-      const double two = (double{box.high[a]} - m_origin[a]) * m_inverse[a];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = static_cast<Eigen::Index>(k);
+      const double one = (double{box.low[a]} - m_origin[k]) * m_inverse[k];
+      const double two = (double{box.high[a]} - m_origin[k]) * m_inverse[k];
       from = std::max(from, std::min(one, two));
       to = std::min(to, std::max(one, two));
     }
@@ -72,10 +71,10 @@ private:
   std::array<double, 3> m_origin{}, m_inverse{};
 };
 
-double TriangleTree::squaredDistance(const Box& box, const Vector3d& point) {
+double TriangleTree::squaredDistance(const Box3f& box, const Vector3d& point) {
   double sum = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double at = point[static_cast<Eigen::Index>(a)];
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const double at = point[a];
     const double apart = std::max({double{box.low[a]} - at, at - double{box.high[a]}, 0.0});
     sum += apart * apart;
   }
@@ -104,74 +103,47 @@ Vector3d nearestPointOf(const Vector3d& p, const Vector3d& a, const Vector3d& b,
   return sum > 0 ? Vector3d(a + ab * (vb / sum) + ac * (vc / sum)) : a;
 }
 
-TriangleTree::TriangleTree(const TriangleMesh& mesh) : m_mesh(mesh), m_order(mesh.triangle.size()) {
-  std::iota(m_order.begin(), m_order.end(), 0U);
-  std::vector<Vector3d> centre(mesh.triangle.size());
-  for (std::uint32_t t = 0; t < centre.size(); ++t)
-    centre[t] = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
-  m_boxes.reserve(mesh.triangle.size());
-  build(0, static_cast<std::uint32_t>(m_order.size()), centre);
-  m_corner.reserve(m_order.size());
-  for (const std::uint32_t t : m_order)
-    m_corner.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
-}
-
-std::uint32_t TriangleTree::build(std::uint32_t first, std::uint32_t last,
-                                  const std::vector<Vector3d>& centre) {
-  const auto self = static_cast<std::uint32_t>(m_boxes.size());
-  Vector3d low = Vector3d::Constant(kFar), high = -low, least = low, most = high;
-  for (std::uint32_t k = first; k < last; ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      least = least.cwiseMin(corner(m_order[k], i));
-      most = most.cwiseMax(corner(m_order[k], i));
-    }
-    low = low.cwiseMin(centre[m_order[k]]);
-    high = high.cwiseMax(centre[m_order[k]]);
+TriangleTree::TriangleTree(const TriangleMesh& mesh) : m_mesh(mesh) {
+  const auto count = static_cast<std::uint32_t>(mesh.triangle.size());
+  std::vector<Box3f> boxes(count);
+  std::vector<Vector3d> centre(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const Vector3d a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    centre[t] = (a + b + c) / 3;
+    boxes[t].low = a.cwiseMin(b).cwiseMin(c).unaryExpr(&below);
+    boxes[t].high = a.cwiseMax(b).cwiseMax(c).unaryExpr(&above);
   }
-  const bool isLeaf = last - first <= kLeaf;
-  m_boxes.push_back({{below(least.x()), below(least.y()), below(least.z())},
-                     {above(most.x()), above(most.y()), above(most.z())},
-                     first,
-                     isLeaf ? last - first : 0});
-  if (isLeaf) return self;
-  Eigen::Index axis = 0;
-  (high - low).maxCoeff(&axis);
-  const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(m_order.begin() + first, m_order.begin() + middle, m_order.begin() + last,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const double at = centre[a][axis], other = centre[b][axis];
-                     return at < other || (at == other && a < b);
-                   });
-  build(first, middle, centre);
-  m_boxes[self].at = build(middle, last, centre);
-  return self;
+  m_tree = Tree(boxes, centre);
+  m_corner.reserve(count);
+  for (const std::uint32_t t : m_tree.items())
+    m_corner.push_back({corner(t, 0), corner(t, 1), corner(t, 2)});
 }
 
 template <class Visit>
 void TriangleTree::eachOnRay(const Vector3d& origin, const Vector3d& direction, double least,
                              const double& most, Visit&& visit) const {
   struct Waiting {
-    std::uint32_t box;
+    std::uint32_t node;
     double from;
   };
   const Ray ray(origin, direction);
-  const auto waiting = [&](std::uint32_t i) { return Waiting{i, ray.entry(m_boxes[i])}; };
-  std::array<Waiting, kDeepest> stack;
+  const auto waiting = [&](std::uint32_t i) { return Waiting{i, ray.entry(m_tree.node(i).box)}; };
+  std::array<Waiting, Tree::kDeepest> stack;
   stack[0] = waiting(0);
   std::size_t depth = 1;
   while (depth > 0) {
     const Waiting here = stack[--depth];
     if (here.from == kFar || here.from > most) continue;
-    const Box& box = m_boxes[here.box];
-    for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
+    const Tree::Node& node = m_tree.node(here.node);
+    for (std::uint32_t k = node.at; k < node.at + node.count; ++k) {
       auto hit = meet(origin, direction, m_corner[k]);
       if (!hit || !(hit->distance >= least)) continue;
-      hit->triangle = m_order[k];
+      hit->triangle = m_tree.items()[k];
       visit(*hit);
     }
-    if (box.count > 0) continue;
+    if (node.count > 0) continue;
     // the nearer child last, so that it is looked at first
-    const Waiting one = waiting(here.box + 1), two = waiting(box.at);
+    const Waiting one = waiting(here.node + 1), two = waiting(node.at);
     const bool oneFirst = one.from < two.from;
     if (one.from != kFar || two.from != kFar) {
       stack[depth++] = oneFirst ? two : one;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Questions to a triangle mesh: where a ray meets it, what is nearest to a point, what lies inside.
+// Queries of a triangle mesh: hits of rays, nearest points, inside or outside.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/geometry/box_tree.h"
 #include "converters/geometry/triangle_mesh.h"
 
 namespace lumen::convert {
@@ -32,8 +33,8 @@ struct NearestPoint {
 Eigen::Vector3d nearestPointOf(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-/// A tree of boxes around the triangles of a mesh, in doubles and in one fixed order: the same bits
-/// on every machine, which single-precision kernels that follow the instruction set do not promise.
+/// A bounding-volume hierarchy of the triangles of a mesh that answers in doubles and in one fixed
+/// order: equal bits on every machine, which single-precision kernels that follow the instruction set do not promise.
 /// Never changed after construction: any number of threads may ask.
 class TriangleTree {
 public:
@@ -63,17 +64,9 @@ public:
   [[nodiscard]] const TriangleMesh& mesh() const { return m_mesh; }
 
 private:
-  // In floats that lie outside of what the box holds. A leaf holds m_order[at, at + count); without
-  // a count the children are the next box and box `at`.
-  struct Box {
-    std::array<float, 3> low, high;
-    std::uint32_t at, count;
-  };
+  using Tree = BoxTree<float>;
   class Ray;
-  std::uint32_t build(std::uint32_t first, std::uint32_t last,
-                      const std::vector<Eigen::Vector3d>& centre);
-  static constexpr std::size_t kDeepest = 64;  // of a tree that is split in halves
-  [[nodiscard]] static double squaredDistance(const Box& box, const Eigen::Vector3d& point);
+  [[nodiscard]] static double squaredDistance(const Box3f& box, const Eigen::Vector3d& point);
   [[nodiscard]] int winding(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
   [[nodiscard]] Eigen::Vector3d corner(std::uint32_t triangle, std::size_t i) const {
     return m_mesh.position[m_mesh.triangle[triangle][i]];
@@ -83,33 +76,32 @@ private:
                  const double& most, Visit&& visit) const;
 
   const TriangleMesh& m_mesh;
-  std::vector<Box> m_boxes;
-  std::vector<std::uint32_t> m_order;
-  std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // of m_order, as leaves ask for them
+  Tree m_tree;  // boxes lie outside of the triangles that they hold
+  std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // in the order of the tree's items
 };
 
 template <class Visit>
 void TriangleTree::visitNear(const Eigen::Vector3d& point, const double& most,
                              Visit&& visit) const {
-  std::array<std::uint32_t, kDeepest> stack{};
+  std::array<std::uint32_t, Tree::kDeepest> stack{};
   std::size_t depth = 1;
   while (depth > 0) {
     const std::uint32_t i = stack[--depth];
-    const Box& box = m_boxes[i];
-    if (squaredDistance(box, point) > most) continue;
-    if (box.count > 0) {
-      for (std::uint32_t k = box.at; k < box.at + box.count; ++k) {
+    const Tree::Node& node = m_tree.node(i);
+    if (squaredDistance(node.box, point) > most) continue;
+    if (node.count > 0) {
+      for (std::uint32_t k = node.at; k < node.at + node.count; ++k) {
         const auto& [a, b, c] = m_corner[k];
         const Eigen::Vector3d at = nearestPointOf(point, a, b, c);
         const double squared = (at - point).squaredNorm();
-        if (squared <= most) visit(m_order[k], at, squared);
+        if (squared <= most) visit(m_tree.items()[k], at, squared);
       }
       continue;
     }
-    const bool oneFirst =
-        squaredDistance(m_boxes[i + 1], point) <= squaredDistance(m_boxes[box.at], point);
-    stack[depth++] = oneFirst ? box.at : i + 1;
-    stack[depth++] = oneFirst ? i + 1 : box.at;
+    const bool oneFirst = squaredDistance(m_tree.node(i + 1).box, point) <=
+                          squaredDistance(m_tree.node(node.at).box, point);
+    stack[depth++] = oneFirst ? node.at : i + 1;
+    stack[depth++] = oneFirst ? i + 1 : node.at;
   }
 }
 

@@ -8,16 +8,6 @@
 #include "converters/base/vectors.h"
 
 namespace lumen {
-namespace {
-
-constexpr std::uint32_t kLeafSegments = 4;
-
-double distanceToBox(const Eigen::Vector3d& p, const Eigen::Vector3d& low,
-                     const Eigen::Vector3d& high) {
-  return (low - p).cwiseMax(p - high).cwiseMax(0.0).norm();
-}
-
-}  // namespace
 
 RoundCone::RoundCone(const Eigen::Vector3d& a, double radiusA, const Eigen::Vector3d& b,
                      double radiusB)
@@ -52,12 +42,12 @@ double RoundCone::distance(const Eigen::Vector3d& point, double* along) const {
 
 TubeTreeDistance::TubeTreeDistance(const formats::CenterlineTree& tree) {
   for (std::uint32_t b = 0; b < tree.branches.size(); ++b) addBranch(tree, b);
-  if (!m_segments.empty()) build(tree, 0, static_cast<std::uint32_t>(m_segments.size()));
+  build(tree);
 }
 
 TubeTreeDistance::TubeTreeDistance(const formats::CenterlineTree& tree, std::uint32_t branch) {
   addBranch(tree, branch);
-  if (!m_segments.empty()) build(tree, 0, static_cast<std::uint32_t>(m_segments.size()));
+  build(tree);
 }
 
 void TubeTreeDistance::addBranch(const formats::CenterlineTree& tree, std::uint32_t branch) {
@@ -72,61 +62,58 @@ void TubeTreeDistance::addBranch(const formats::CenterlineTree& tree, std::uint3
   }
 }
 
-std::uint32_t TubeTreeDistance::build(const formats::CenterlineTree& tree, std::uint32_t first,
-                                      std::uint32_t last) {
-  const auto index = static_cast<std::uint32_t>(m_boxes.size());
-  Box box{toEigen(tree.centre[m_segments[first].node]),
-          toEigen(tree.centre[m_segments[first].node]),
-          0,
-          first,
-          last,
-          0};
-  for (std::uint32_t s = first; s < last; ++s) {
+void TubeTreeDistance::build(const formats::CenterlineTree& tree) {
+  std::vector<convert::Box3d> boxes(m_segments.size());
+  std::vector<double> radius(m_segments.size(), 0);
+  for (std::size_t s = 0; s < boxes.size(); ++s) {
     const std::uint32_t node = m_segments[s].node;
     const formats::Branch& branch = tree.branches[m_segments[s].branch];
     const std::uint32_t next = std::min(node + 1, branch.firstNode + branch.nodeCount - 1);
     for (const std::uint32_t end : {node, next}) {
-      box.low = box.low.cwiseMin(toEigen(tree.centre[end]));
-      box.high = box.high.cwiseMax(toEigen(tree.centre[end]));
-      box.maxRadius = std::max(box.maxRadius, static_cast<double>(tree.radius[end]));
+      boxes[s].add(toEigen(tree.centre[end]));
+      radius[s] = std::max(radius[s], static_cast<double>(tree.radius[end]));
     }
   }
-  m_boxes.push_back(box);
-  if (last - first > kLeafSegments) {
-    // segments follow their branch, so halves of the list are compact without sorting
-    const std::uint32_t middle = first + (last - first) / 2;
-    build(tree, first, middle);
-    m_boxes[index].right = build(tree, middle, last);
+  // segments follow their branch, so runs of them are compact without sorting
+  m_tree = Tree(boxes);
+  m_maxRadius.assign(m_tree.nodes().size(), 0);
+  for (auto i = static_cast<std::uint32_t>(m_maxRadius.size()); i-- > 0;) {
+    const Tree::Node& node = m_tree.node(i);
+    if (node.count == 0) m_maxRadius[i] = std::max(m_maxRadius[i + 1], m_maxRadius[node.at]);
+    for (std::uint32_t s = node.at; s < node.at + node.count; ++s)
+      m_maxRadius[i] = std::max(m_maxRadius[i], radius[s]);
   }
-  return index;
+}
+
+double TubeTreeDistance::leastDistance(std::uint32_t node, const Eigen::Vector3d& point) const {
+  return m_tree.node(node).box.gap(point).norm() - m_maxRadius[node];
 }
 
 WallHit TubeTreeDistance::nearest(const Eigen::Vector3d& point) const {
   WallHit hit;
   struct Entry {
-    std::uint32_t box;
+    std::uint32_t node;
     double bound;
   };
-  std::array<Entry, 64> stack;
+  std::array<Entry, Tree::kDeepest> stack;
   std::size_t depth = 0;
-  const auto push = [&](std::uint32_t box) {
-    const Box& b = m_boxes[box];
-    stack[depth++] = {box, distanceToBox(point, b.low, b.high) - b.maxRadius};
+  const auto push = [&](std::uint32_t node) {
+    stack[depth++] = {node, leastDistance(node, point)};
   };
-  if (!m_boxes.empty()) push(0);
+  if (!m_segments.empty()) push(0);
   while (depth > 0) {
     const Entry entry = stack[--depth];
     if (entry.bound > hit.distance) continue;
-    const Box& box = m_boxes[entry.box];
-    if (box.right != 0) {
+    const Tree::Node& node = m_tree.node(entry.node);
+    if (node.count == 0) {
       // the nearer child is visited first
-      push(box.right);
-      push(entry.box + 1);
+      push(node.at);
+      push(entry.node + 1);
       if (stack[depth - 1].bound > stack[depth - 2].bound)
         std::swap(stack[depth - 1], stack[depth - 2]);
       continue;
     }
-    for (std::uint32_t s = box.first; s < box.last; ++s) lower(s, point, hit);
+    for (std::uint32_t s = node.at; s < node.at + node.count; ++s) lower(s, point, hit);
   }
   return hit;
 }
@@ -143,22 +130,22 @@ void TubeTreeDistance::lower(std::uint32_t segment, const Eigen::Vector3d& point
 void TubeTreeDistance::collect(const Eigen::Vector3d& centre, double reach,
                                std::vector<std::uint32_t>& segments) const {
   segments.clear();
-  if (m_boxes.empty()) return;
-  // distances change by no more than the way that a point moves
+  if (m_segments.empty()) return;
+  // distances change by no more than a point moves
   const double limit = nearest(centre).distance + 2 * reach;
-  std::array<std::uint32_t, 64> stack;
+  std::array<std::uint32_t, Tree::kDeepest> stack;
   std::size_t depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const std::uint32_t index = stack[--depth];
-    const Box& box = m_boxes[index];
-    if (distanceToBox(centre, box.low, box.high) - box.maxRadius > limit) continue;
-    if (box.right != 0) {
-      stack[depth++] = box.right;
+    const Tree::Node& node = m_tree.node(index);
+    if (leastDistance(index, centre) > limit) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.at;
       stack[depth++] = index + 1;
       continue;
     }
-    for (std::uint32_t s = box.first; s < box.last; ++s)
+    for (std::uint32_t s = node.at; s < node.at + node.count; ++s)
       if (m_segments[s].cone.distance(centre) <= limit) segments.push_back(s);
   }
 }

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/geometry/box_tree.h"
 #include "formats/case/case.h"
 
 namespace lumen {
@@ -67,19 +68,16 @@ private:
     RoundCone cone;
     std::uint32_t branch, node;
   };
-  // Box of the axes of segments [first, last); children of box i are i + 1 and `right` (0: a leaf).
-  struct Box {
-    Eigen::Vector3d low, high;
-    double maxRadius;
-    std::uint32_t first, last, right;
-  };
+  using Tree = convert::BoxTree<double>;
 
   void lower(std::uint32_t segment, const Eigen::Vector3d& point, WallHit& hit) const;
   void addBranch(const formats::CenterlineTree& tree, std::uint32_t branch);
-  std::uint32_t build(const formats::CenterlineTree& tree, std::uint32_t first, std::uint32_t last);
+  void build(const formats::CenterlineTree& tree);
+  [[nodiscard]] double leastDistance(std::uint32_t node, const Eigen::Vector3d& point) const;
 
   std::vector<Segment> m_segments;
-  std::vector<Box> m_boxes;
+  Tree m_tree;                      // over the axes of the segments
+  std::vector<double> m_maxRadius;  // of the segments of each of its nodes
 };
 
 }  // namespace lumen

@@ -49,12 +49,12 @@ public:
            int scale) {
     const int width =
         (5 * static_cast<int>(text.size()) + static_cast<int>(text.size()) + 1) * scale;
-    const Box box{static_cast<int>(x), static_cast<int>(y), static_cast<int>(x) + width,
-                  static_cast<int>(y) + 9 * scale};
+    const PixelBox box{static_cast<int>(x), static_cast<int>(y), static_cast<int>(x) + width,
+                       static_cast<int>(y) + 9 * scale};
     if (box.left < panel.x || box.top < panel.y || box.right > panel.x + panel.width ||
         box.bottom > panel.y + panel.height)
       return false;
-    for (const Box& other : m_boxes)
+    for (const PixelBox& other : m_boxes)
       if (box.left < other.right && other.left < box.right && box.top < other.bottom &&
           other.top < box.bottom)
         return false;
@@ -66,11 +66,11 @@ public:
   }
 
 private:
-  struct Box {
+  struct PixelBox {
     int left, top, right, bottom;
   };
   Picture& m_picture;
-  std::vector<Box> m_boxes;
+  std::vector<PixelBox> m_boxes;
 };
 
 void drawProjection(Picture& picture, const Projection& image, const Panel& panel) {

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/vectors.h"
+#include "converters/geometry/box.h"
 
 namespace lumen::convert {
 
@@ -80,29 +81,24 @@ Eigen::Matrix3d axesOf(const Eigen::Vector3d& towards) {
   return axes;
 }
 
-/// The box that a picture has to hold.
-struct Box {
+/// The part of space that a picture has to hold.
+struct Extent {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mm, LPS
   double width = 0, height = 0;                      ///< mm
 };
 
-Box boxOf(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinity), high = -low;
-  for (std::size_t n = 0; n < tree.nodeCount(); ++n) {
-    const Eigen::Vector3d v = axes * toEigen(tree.centre[n]);
-    const Eigen::Vector3d r = Eigen::Vector3d::Constant(double{tree.radius[n]});
-    low = low.cwiseMin(v - r);
-    high = high.cwiseMax(v + r);
-  }
-  return {axes.transpose() * (0.5 * (low + high)), high.x() - low.x(), high.y() - low.y()};
+Extent extentOf(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
+  Box3d box;
+  for (std::size_t n = 0; n < tree.nodeCount(); ++n)
+    box.add(axes * toEigen(tree.centre[n]), double{tree.radius[n]});
+  return {axes.transpose() * box.middle(), box.size().x(), box.size().y()};
 }
 
 /// About the upright axis through the centre all nodes stay within the width at any turn: it is a
 /// nearly least circle around them (M. Badoiu, K. L. Clarkson, Smaller core-sets for balls, 2003).
-Box boxOfTurns(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
-  Box box = boxOf(tree, axes);
-  Eigen::Vector3d centre = axes * box.centre;
+Extent extentOfTurns(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes) {
+  Extent extent = extentOf(tree, axes);
+  Eigen::Vector3d centre = axes * extent.centre;
   for (int step = 1; step <= kStepsOfCircle; ++step) {
     double farthest = -1;
     Eigen::Vector2d towards = Eigen::Vector2d::Zero();
@@ -114,12 +110,12 @@ Box boxOfTurns(const formats::CenterlineTree& tree, const Eigen::Matrix3d& axes)
       farthest = reach;
       towards = flat.norm() > 0 ? Eigen::Vector2d(flat * (reach / flat.norm())) : flat;
     }
-    box.width = 2 * farthest;
+    extent.width = 2 * farthest;
     if (step < kStepsOfCircle)
       centre += Eigen::Vector3d(towards.x(), 0, towards.y()) / (step + 1.0);
   }
-  box.centre = axes.transpose() * centre;
-  return box;
+  extent.centre = axes.transpose() * centre;
+  return extent;
 }
 
 }  // namespace
@@ -150,7 +146,8 @@ Camera cameraFor(const formats::CenterlineTree& tree, const Framing& framing) {
   const Eigen::Matrix3d unturned = camera.axes;
   const Eigen::Vector3d up = unturned.row(1);
   camera.axes = unturned * Eigen::AngleAxisd(framing.turn, up).toRotationMatrix().transpose();
-  const Box held = framing.allTurns ? boxOfTurns(tree, unturned) : boxOf(tree, camera.axes);
+  const Extent held =
+      framing.allTurns ? extentOfTurns(tree, unturned) : extentOf(tree, camera.axes);
   camera.centre = held.centre;
   const double across = (1 - 2 * kMargin) * framing.width;
   const double down =

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "converters/geometry/box.h"
+
 namespace lumen::convert {
 namespace {
 
@@ -34,10 +36,6 @@ double distanceTo(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
   return (p - a - t * along).norm();
 }
 
-struct Box {
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-};
-
 class Joiner {
 public:
   explicit Joiner(const std::vector<CenterlineCurve>& curves)
@@ -64,8 +62,7 @@ private:
     for (std::size_t i = 0; i < points.size(); ++i) {
       widest = std::max(widest, points[i].radius);
       if (i > 0) step = std::max(step, (points[i].position - points[i - 1].position).norm());
-      m_box[c].low = m_box[c].low.cwiseMin(points[i].position);
-      m_box[c].high = m_box[c].high.cwiseMax(points[i].position);
+      m_box[c].add(points[i].position);
     }
     m_reach[c] = std::max(kMet * widest, kSamePlace * step);
   }
@@ -89,7 +86,7 @@ private:
   }
 
   [[nodiscard]] bool isBeyond(Index curve, const Vector3d& p) const {
-    const Box& box = m_box[std::size_t(curve)];
+    const Box3d& box = m_box[std::size_t(curve)];
     const double reach = m_reach[std::size_t(curve)];
     return ((box.low - p).array() > reach).any() || ((p - box.high).array() > reach).any();
   }
@@ -276,7 +273,7 @@ private:
   const std::vector<CenterlineCurve>& m_curves;
   std::vector<double> m_reach;
   std::vector<std::vector<Index>> m_point;  // of the file, for each point of each placed curve
-  std::vector<Box> m_box;
+  std::vector<Box3d> m_box;
   std::vector<std::vector<Contact>> m_first, m_last;
   std::vector<std::vector<Index>> m_children;  // of the file's points
   CenterlineFile m_file;

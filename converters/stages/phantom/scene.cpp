@@ -9,6 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
+#include "converters/geometry/box.h"
 #include "converters/io/centerline/read_swc.h"
 #include "converters/stages/phantom/smooth_chain.h"
 #include "formats/case/case_file.h"
@@ -34,22 +35,13 @@ std::string shown(double value) {
   return text;
 }
 
-struct Bounds {
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d high = -low;
-  void add(const Vector3d& point, double radius) {
-    low = low.cwiseMin((point.array() - radius).matrix());
-    high = high.cwiseMax((point.array() + radius).matrix());
-  }
-};
-
 // Voxels along each edge, as whole numbers that need not fit any integer.
-Vector3d sizeOf(const Bounds& box, double voxel) {
+Vector3d sizeOf(const Box3d& box, double voxel) {
   return (((box.high - box.low) / voxel).array().ceil() + 1 + 2 * kMarginVoxels).matrix();
 }
 
 // The least voxel of two digits, mm, that makes few enough voxels.
-double workableVoxel(const Bounds& box, double voxel) {
+double workableVoxel(const Box3d& box, double voxel) {
   while (sizeOf(box, voxel).prod() > 0.98 * kMostVoxels) {
     const double digit = std::pow(10.0, std::floor(std::log10(voxel)) - 1);
     voxel = (std::floor(voxel / digit + 1e-9) + 1) * digit;
@@ -57,7 +49,7 @@ double workableVoxel(const Bounds& box, double voxel) {
   return voxel;
 }
 
-Grid gridAround(const Bounds& box, double voxel) {
+Grid gridAround(const Box3d& box, double voxel) {
   const Vector3d size = sizeOf(box, voxel);
   if (!(size.prod() <= kMostVoxels)) {
     const double workable = workableVoxel(box, voxel);
@@ -87,7 +79,7 @@ double chordLength(const CenterlineFile& file) {
 
 // Refuses what would take too much memory or time to make.
 void checkEffort(const CenterlineFile& file, double voxel, const std::string& name) {
-  Bounds box;
+  Box3d box;
   double widest = 0;
   for (const CenterlinePoint& point : file.points) {
     box.add(point.position, point.radius);
@@ -178,7 +170,7 @@ Scene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   scene.treeSha256 = digestOf(options.tree);
   scene.design = designOf(file, options.voxel, name, progress);
   fadeContrast(scene.design, options.fade);
-  Bounds box;
+  Box3d box;
   const formats::CenterlineTree& tree = scene.design.tree;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
     box.add(nodeCentre(tree, n), static_cast<double>(tree.radius[n]));

@@ -14,6 +14,7 @@
 
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/mesh_edges.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/geometry/self_intersections.h"
 #include "converters/stages/repair/repair_steps.h"
 
@@ -55,7 +56,7 @@ private:
       m_report.duplicatePoints += m_same[i] != i ? 1 : 0;
     m_report.vertices = m_mesh.position.size();
     m_report.triangles = m_mesh.triangle.size();
-    const MeshBox box = boxOf(m_mesh);
+    const Box3d box = boxOf(m_mesh);
     m_report.low = box.low;
     m_report.high = box.high;
   }
@@ -199,8 +200,8 @@ private:
   }
 
   [[nodiscard]] double pyramid(std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& c) const {
-    return (m_clean.position[a] - m_report.low).dot((m_clean.position[b] - m_report.low).cross(c)) /
-           6;
+    return tetrahedronVolume(m_clean.position[a] - m_report.low, m_clean.position[b] - m_report.low,
+                             c);
   }
 
   void conclude() {

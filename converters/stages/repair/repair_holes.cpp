@@ -208,7 +208,7 @@ void fillHoles(MeshInRepair& work) {
   text << "filled " << filled << (filled == 1 ? " hole" : " holes, the widest") << " " << widest
        << " across";
   work.repairs.push_back(text.str());
-  pairSides(work);
+  work.opposite = oppositeSides(work.mesh.triangle);
 }
 
 }  // namespace lumen::convert

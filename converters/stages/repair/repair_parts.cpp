@@ -19,19 +19,14 @@ constexpr double kTinyPart = 0.01;
 constexpr double kEnclosesNothing = 1e-6;
 
 struct Part {
-  double area = 0, sixVolume = 0;
+  double area = 0, volume = 0;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
   std::size_t triangles = 0;
 
   [[nodiscard]] bool isSheet() const {
-    const double v = sixVolume / 6;
-    return !(36 * std::numbers::pi * v * v > kEnclosesNothing * area * area * area);
+    return !(36 * std::numbers::pi * volume * volume > kEnclosesNothing * area * area * area);
   }
 };
-
-double sixVolume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  return a.dot(b.cross(c));
-}
 
 /// The parts' sizes; volumes with the openings closed by fans.
 std::vector<Part> measured(const MeshInRepair& work, const std::vector<std::uint32_t>& part,
@@ -44,8 +39,8 @@ std::vector<Part> measured(const MeshInRepair& work, const std::vector<std::uint
     Part& p = parts[part[t]];
     const Triangle& corner = work.mesh.triangle[t];
     p.area += vectorArea(work.mesh, corner).norm();
-    p.sixVolume += sixVolume(position[corner[0]] - origin, position[corner[1]] - origin,
-                             position[corner[2]] - origin);
+    p.volume += tetrahedronVolume(position[corner[0]] - origin, position[corner[1]] - origin,
+                                  position[corner[2]] - origin);
     for (const std::uint32_t v : corner) {
       partOfPoint[v] = part[t];
       p.low = p.low.cwiseMin(position[v]);
@@ -56,9 +51,9 @@ std::vector<Part> measured(const MeshInRepair& work, const std::vector<std::uint
   for (const BoundaryLoop& loop : boundaryLoopsOf(work)) {
     const std::size_t n = loop.vertex.size();
     for (std::size_t i = 0; i < n; ++i)
-      parts[partOfPoint[loop.vertex[0]]].sixVolume +=
-          sixVolume(position[loop.vertex[(i + 1) % n]] - origin, position[loop.vertex[i]] - origin,
-                    loop.centre - origin);
+      parts[partOfPoint[loop.vertex[0]]].volume +=
+          tetrahedronVolume(position[loop.vertex[(i + 1) % n]] - origin,
+                            position[loop.vertex[i]] - origin, loop.centre - origin);
   }
   return parts;
 }
@@ -91,7 +86,7 @@ std::size_t settleParts(MeshInRepair& work, const std::string& name) {
   std::size_t count = 0;
   const std::vector<std::uint32_t> part = partsOf(work, count);
   const std::vector<Part> parts = measured(work, part, count);
-  const double tiny = kTinyPart * boxOf(work.mesh).diagonal();
+  const double tiny = kTinyPart * boxOf(work.mesh).size().norm();
   std::size_t sheets = 0, small = 0, turned = 0;
   std::vector<bool> dropPart(count, false);
   for (std::size_t p = 0; p < count; ++p) {
@@ -108,11 +103,11 @@ std::size_t settleParts(MeshInRepair& work, const std::string& name) {
                    " no volume; expected a surface that is closed, or open at vessels' ends");
   turned = 0;
   for (std::size_t p = 0; p < count; ++p)
-    if (!dropPart[p] && parts[p].sixVolume < 0) ++turned;
+    if (!dropPart[p] && parts[p].volume < 0) ++turned;
   std::vector<bool> drop(n, false);
   for (std::size_t t = 0; t < n; ++t) {
     drop[t] = dropPart[part[t]];
-    if (parts[part[t]].sixVolume < 0) std::swap(work.mesh.triangle[t][1], work.mesh.triangle[t][2]);
+    if (parts[part[t]].volume < 0) std::swap(work.mesh.triangle[t][1], work.mesh.triangle[t][2]);
   }
   work.dropTriangles(drop);
   work.say("dropped", sheets, "part that encloses nothing", "parts that enclose nothing");
@@ -120,7 +115,7 @@ std::size_t settleParts(MeshInRepair& work, const std::string& name) {
            "parts smaller than a hundredth of the mesh");
   work.say("turned", turned, "part, which was inside out", "parts, which were inside out");
   dropUnusedPoints(work);
-  pairSides(work);
+  work.opposite = oppositeSides(work.mesh.triangle);
   return kept;
 }
 

@@ -120,7 +120,7 @@ std::vector<Leaf> pairSheets(MeshInRepair& work, const std::vector<Leaf>& leaves
 /// Pairs the triangles of an edge that have the inside between them. A triangle that runs along
 /// the edge's direction has its normal towards growing angles, so the inside is before it: pairs
 /// are one that runs back followed by one that runs along.
-/// Of a mesh that is inside out it is the other way round.
+/// A mesh that is inside out has it the other way round.
 void pairLeaves(MeshInRepair& work, const std::vector<Leaf>& leaves, bool insideOut) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const Leaf &here = leaves[i], &next = leaves[(i + 1) % leaves.size()];
@@ -128,16 +128,6 @@ void pairLeaves(MeshInRepair& work, const std::vector<Leaf>& leaves, bool inside
     work.opposite[here.side] = next.side;
     work.opposite[next.side] = here.side;
   }
-}
-
-double signedVolume(const TriangleMesh& mesh) {
-  double six = 0;
-  const Eigen::Vector3d origin =
-      mesh.position.empty() ? Eigen::Vector3d(0, 0, 0) : mesh.position[0];
-  for (const Triangle& t : mesh.triangle)
-    six += (mesh.position[t[0]] - origin)
-               .dot((mesh.position[t[1]] - origin).cross(mesh.position[t[2]] - origin));
-  return six / 6;
 }
 
 std::string countOf(std::size_t count, const char* one, const char* many) {
@@ -154,17 +144,8 @@ std::string countOf(std::size_t count, const char* one, const char* many) {
 
 }  // namespace
 
-void pairSides(MeshInRepair& work) {
-  work.opposite.assign(3 * work.mesh.triangle.size(), kNoSide);
-  forEachEdge(edgeUses(work.mesh.triangle), [&](std::span<const EdgeUse> edge) {
-    if (edge.size() != 2) return;
-    work.opposite[edge[0].side] = edge[1].side;
-    work.opposite[edge[1].side] = edge[0].side;
-  });
-}
-
 std::size_t orientSheets(MeshInRepair& work, const std::string& name) {
-  pairSides(work);
+  work.opposite = oppositeSides(work.mesh.triangle);
   std::size_t disagreeing = 0;
   const std::size_t turned = propagate(work, disagreeing);
   if (disagreeing > 0) refuseOneSided(name, disagreeing);
@@ -189,8 +170,7 @@ std::size_t splitPoints(MeshInRepair& work) {
   std::vector<bool> taken(points, false), done(3 * triangle.size(), false);
   std::size_t split = 0;
   const auto across = [&](std::uint32_t corner) {  // the same point's corner beyond the side before
-    const std::uint32_t o = work.opposite[previousSide(corner)];
-    return o;
+    return work.opposite[previousSide(corner)];
   };
   for (std::uint32_t corner = 0; corner < 3 * triangle.size(); ++corner) {
     if (done[corner]) continue;

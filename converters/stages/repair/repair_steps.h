@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "converters/geometry/mesh_edges.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/stages/repair/repair.h"
 
 namespace lumen::convert {
@@ -16,7 +17,7 @@ namespace lumen::convert {
 struct MeshInRepair {
   TriangleMesh mesh;
   std::vector<std::uint32_t> source;    ///< of each triangle, as in RepairResult
-  std::vector<std::uint32_t> opposite;  ///< of each side, or kNoSide; set by pairSides()
+  std::vector<std::uint32_t> opposite;  ///< as of oppositeSides(), once it is set
   std::vector<std::string> repairs;
 
   /// "merged 12 duplicate points"; nothing for none.
@@ -35,10 +36,8 @@ void dropDuplicates(MeshInRepair& work);
 void dropUnusedPoints(MeshInRepair& work);
 
 // repair_sheets.cpp
-/// Sets `opposite` across the edges of two triangles.
-void pairSides(MeshInRepair& work);
-/// Does that, and turns triangles until all neighbours agree, as few as can be; gives how many.
-/// Refuses a surface that cannot be oriented.
+/// Sets `opposite` across the edges of two triangles, and turns as few triangles as possible until
+/// all neighbours agree; gives their number. Refuses a surface that cannot be oriented.
 std::size_t orientSheets(MeshInRepair& work, const std::string& name);
 /// Sets `opposite` at edges of more than two triangles: pairs have the inside between them, what is
 /// left is open. Gives how many such edges there are.

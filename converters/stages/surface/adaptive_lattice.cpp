@@ -13,6 +13,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/vectors.h"
+#include "converters/geometry/box.h"
 
 namespace lumen::convert {
 namespace {
@@ -112,21 +113,17 @@ private:
   void layOut() {
     const auto [least, greatest] = std::minmax_element(m_tree.radius.begin(), m_tree.radius.end());
     const double finest = m_share * *least;
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
-    for (std::uint32_t i = 0; i < m_tree.nodeCount(); ++i) {
-      const Eigen::Vector3d c = toEigen(m_tree.centre[i]);
-      const Eigen::Vector3d reach = Eigen::Vector3d::Constant(reachOf(i));
-      low = low.cwiseMin(c - reach);
-      high = high.cwiseMax(c + reach);
-    }
+    Box3d box;
+    for (std::uint32_t i = 0; i < m_tree.nodeCount(); ++i)
+      box.add(toEigen(m_tree.centre[i]), reachOf(i));
     m_lattice.m_step = 0.5 * finest;
     std::int32_t size = 2;
     while (size * m_lattice.m_step < m_share * *greatest && size < kMaxPosition) size *= 2;
     m_lattice.m_largest = size;
     const double edge = size * m_lattice.m_step;
-    for (int a = 0; a < 3; ++a) low[a] = edge * (std::floor(low[a] / edge) - 1);
-    m_lattice.m_origin = low;
-    if (!((high - low).maxCoeff() + 2 * edge < kMaxPosition * m_lattice.m_step)) throw tooFine();
+    for (int a = 0; a < 3; ++a) box.low[a] = edge * (std::floor(box.low[a] / edge) - 1);
+    m_lattice.m_origin = box.low;
+    if (!(box.size().maxCoeff() + 2 * edge < kMaxPosition * m_lattice.m_step)) throw tooFine();
   }
 
   std::vector<Cube> coarsest() {

@@ -6,12 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "converters/geometry/box_tree.h"
 #include "converters/geometry/triangle_mesh.h"
 
 namespace lumen::convert {
 
-/// A tree of boxes around the triangles of a mesh, which follows when triangles get other corners or
-/// go. Vertices never move.
+/// A bounding-volume hierarchy of the triangles of a mesh that follows when triangles get other
+/// corners or go. Vertices never move.
 class ChangingTriangles {
 public:
   /// The mesh has at least one triangle; triangles keep their indices.
@@ -28,20 +29,16 @@ public:
 
 private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
-  // Children of box i are i + 1 and `right` (0: a leaf of triangles m_order[first, last)).
-  struct Box {
-    Eigen::Vector3d low, high;
-    std::uint32_t first = 0, last = 0, right = 0, parent = kNone;
-  };
-  std::uint32_t build(std::uint32_t first, std::uint32_t last, std::uint32_t parent,
-                      const std::vector<Eigen::Vector3d>& centre);
-  void fit(Box& box, std::uint32_t self) const;
+  using Tree = BoxTree<double>;
+  [[nodiscard]] Box3d boxAround(const Triangle& corners) const;
+  [[nodiscard]] Box3d boxOfNode(std::uint32_t index) const;
   void refit(std::uint32_t leaf);
 
   TriangleMesh m_mesh;
   std::vector<bool> m_isRemoved;
-  std::vector<Box> m_boxes;
-  std::vector<std::uint32_t> m_order, m_leafOf;
+  Tree m_tree;
+  std::vector<std::uint32_t> m_parent;  // of each node of the tree
+  std::vector<std::uint32_t> m_leafOf;  // of each triangle
 };
 
 }  // namespace lumen::convert

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "converters/base/error.h"
+#include "converters/geometry/box.h"
 #include "converters/geometry/self_intersections.h"
 #include "converters/stages/surface/cut_ends.h"
 #include "converters/stages/surface/flat_region.h"
@@ -100,17 +101,6 @@ std::vector<std::optional<Length>> lengthsOf(const CaseSurface& surface,
   return found;
 }
 
-struct Box {
-  Eigen::Array3d low = Eigen::Array3d::Constant(1e300), high = -low;
-  void add(const Eigen::Vector3d& p) {
-    low = low.min(p.array());
-    high = high.max(p.array());
-  }
-  [[nodiscard]] bool meets(const Box& other) const {
-    return (low <= other.high).all() && (other.low <= high).all();
-  }
-};
-
 // What tubes run into. Vertices from `firstNew` on are those of tubes; `owner` is the end of each.
 class Collisions {
 public:
@@ -149,12 +139,12 @@ private:
     return "branch " + formats::printable(m_source.tree.branches[branch].label);
   }
   [[nodiscard]] TriangleMesh trianglesNear() const {
-    std::map<std::uint32_t, Box> boxes;
+    std::map<std::uint32_t, Box3d> boxes;
     for (std::size_t i = 0; i < m_owner.size(); ++i)
       boxes[m_owner[i]].add(m_surface.mesh.position[m_firstNew + i]);
     TriangleMesh near{m_surface.mesh.position, {}};
     for (const Triangle& t : m_surface.mesh.triangle) {
-      Box box;
+      Box3d box;
       for (const std::uint32_t v : t) box.add(near.position[v]);
       if (std::any_of(boxes.begin(), boxes.end(),
                       [&box](const auto& entry) { return entry.second.meets(box); }))

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "converters/geometry/mesh_edges.h"
+
 namespace lumen::convert {
 namespace {
 
@@ -16,40 +18,51 @@ std::size_t pieceSize(std::size_t triangles) {
   return std::clamp(triangles / kLeastPieces, kLeastTriangles, kPieceTriangles);
 }
 
-// Directed edges of the piece that have no opposite one, as pairs (from, to), sorted.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> openEdges(
-    std::span<const Triangle> triangles) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> all, open;
-  all.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i) all.emplace_back(t[i], t[(i + 1) % 3]);
-  std::sort(all.begin(), all.end());
-  for (const auto& [from, to] : all)
-    if (!std::binary_search(all.begin(), all.end(), std::pair(to, from)))
-      open.emplace_back(from, to);
-  return open;
-}
+// A part of a mesh with vertices of its own.
+struct LocalMesh {
+  std::vector<Triangle> triangle;
+  std::vector<std::uint32_t> home;  // of each vertex: its number in the mesh, ascending
+};
 
-std::vector<Triangle> trianglesOf(const TriangleMesh& mesh, const TriangleList& list) {
-  std::vector<Triangle> triangles;
-  triangles.reserve(list.size());
-  for (const std::uint32_t t : list) triangles.push_back(mesh.triangle[t]);
-  return triangles;
-}
-
-// Vertices from which two open edges start: two fans of triangles meet there. Sorted.
-std::vector<std::uint32_t> pinchedVertices(std::span<const Triangle> triangles) {
-  const auto open = openEdges(triangles);
-  std::vector<std::uint32_t> pinched;
-  for (std::size_t i = 1; i < open.size(); ++i)
-    if (open[i].first == open[i - 1].first && (pinched.empty() || pinched.back() != open[i].first))
-      pinched.push_back(open[i].first);
-  return pinched;
+LocalMesh localMesh(const TriangleMesh& mesh, const TriangleList& list) {
+  LocalMesh local;
+  local.triangle.reserve(list.size());
+  local.home.reserve(3 * list.size());
+  for (const std::uint32_t t : list) {
+    local.triangle.push_back(mesh.triangle[t]);
+    local.home.insert(local.home.end(), mesh.triangle[t].begin(), mesh.triangle[t].end());
+  }
+  std::sort(local.home.begin(), local.home.end());
+  local.home.erase(std::unique(local.home.begin(), local.home.end()), local.home.end());
+  for (Triangle& t : local.triangle)
+    for (std::uint32_t& v : t)
+      v = static_cast<std::uint32_t>(std::lower_bound(local.home.begin(), local.home.end(), v) -
+                                     local.home.begin());
+  return local;
 }
 
 std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t v) {
   while (parent[v] != v) v = parent[v] = parent[parent[v]];
   return v;
+}
+
+// The vertices from which two sides without an opposite one start, since two fans of triangles meet
+// there; ascending.
+std::vector<std::uint32_t> pinchedVertices(const std::vector<Triangle>& triangles) {
+  std::vector<std::uint32_t> starts;
+  forEachEdge(edgeUses(triangles), [&](std::span<const EdgeUse> edge) {
+    const std::uint32_t start = startOf(triangles, edge[0].side);
+    const bool isOpen = std::all_of(edge.begin(), edge.end(), [&](const EdgeUse& use) {
+      return startOf(triangles, use.side) == start;
+    });
+    if (isOpen) starts.insert(starts.end(), edge.size(), start);
+  });
+  std::sort(starts.begin(), starts.end());
+  std::vector<std::uint32_t> pinched;
+  for (std::size_t i = 1; i < starts.size(); ++i)
+    if (starts[i] == starts[i - 1] && (pinched.empty() || pinched.back() != starts[i]))
+      pinched.push_back(starts[i]);
+  return pinched;
 }
 
 PieceVertex vertexOf(const RemeshState& state, std::uint32_t v) {
@@ -167,27 +180,20 @@ std::vector<TriangleList> piecesAround(const TriangleMesh& mesh, std::vector<std
 
 Piece cutOut(const RemeshState& state, TriangleList& triangles) {
   const TriangleMesh& mesh = state.surface.mesh;
-  std::vector<Triangle> corners = trianglesOf(mesh, triangles);
-  for (auto pinched = pinchedVertices(corners); !pinched.empty();
-       pinched = pinchedVertices(corners)) {
+  LocalMesh local = localMesh(mesh, triangles);
+  for (auto pinched = pinchedVertices(local.triangle); !pinched.empty();
+       pinched = pinchedVertices(local.triangle)) {
+    for (std::uint32_t& v : pinched) v = local.home[v];
     std::erase_if(triangles, [&](std::uint32_t t) {
       return std::ranges::any_of(mesh.triangle[t], [&](std::uint32_t v) {
         return std::binary_search(pinched.begin(), pinched.end(), v);
       });
     });
-    corners = trianglesOf(mesh, triangles);
+    local = localMesh(mesh, triangles);
   }
-  std::vector<std::uint32_t> used;
-  used.reserve(3 * corners.size());
-  for (const Triangle& t : corners) used.insert(used.end(), t.begin(), t.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
   Piece piece;
-  for (const std::uint32_t v : used) piece.vertex.push_back(vertexOf(state, v));
-  for (Triangle& t : corners)
-    for (std::uint32_t& v : t)
-      v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
-  piece.triangle = std::move(corners);
+  for (const std::uint32_t v : local.home) piece.vertex.push_back(vertexOf(state, v));
+  piece.triangle = std::move(local.triangle);
   for (const std::uint32_t t : triangles) piece.group.push_back(state.surface.group[t]);
   return piece;
 }

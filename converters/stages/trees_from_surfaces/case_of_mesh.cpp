@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/geometry/mesh_edges.h"
 #include "converters/geometry/triangle_tree.h"
 #include "converters/stages/repair/repair.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"

@@ -5,10 +5,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "converters/geometry/mesh_edges.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
 namespace {
@@ -41,28 +45,6 @@ constexpr std::size_t kFewest = 16;
 // Of the area around: what the normals there may add up to across the end's; all around a tube they add up to nothing.
 constexpr double kUneven = 0.3;
 
-struct Edge {
-  std::uint32_t low, high;  ///< vertices
-  std::uint32_t triangle;
-  bool forward;  ///< the triangle runs from low to high
-};
-
-/// All sides of all triangles, by their vertices.
-std::vector<Edge> edgesOf(const TriangleMesh& mesh) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangle.size());
-  for (std::uint32_t t = 0; t < mesh.triangle.size(); ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = mesh.triangle[t][i], b = mesh.triangle[t][(i + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), t, a < b});
-    }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::pair(a.low, a.high) < std::pair(b.low, b.high) ||
-           (a.low == b.low && a.high == b.high && a.triangle < b.triangle);
-  });
-  return edges;
-}
-
 /// Twice the area times the normal.
 Vector3d areaVector(const TriangleMesh& mesh, const Triangle& t) {
   const Vector3d& a = mesh.position[t[0]];
@@ -72,16 +54,10 @@ Vector3d areaVector(const TriangleMesh& mesh, const Triangle& t) {
 /// The loops of edges that only one triangle has, each against the way of its triangles.
 std::vector<std::vector<std::uint32_t>> openLoops(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> next(mesh.position.size(), kNone);
-  const std::vector<Edge> edges = edgesOf(mesh);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto same = [&](std::size_t j) {
-      return j < edges.size() && edges[i].low == edges[j].low && edges[i].high == edges[j].high;
-    };
-    if (same(i + 1) || (i > 0 && same(i - 1))) continue;
-    const auto [from, to] = edges[i].forward ? std::pair(edges[i].high, edges[i].low)
-                                             : std::pair(edges[i].low, edges[i].high);
-    next[from] = to;
-  }
+  forEachEdge(edgeUses(mesh.triangle), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() == 1)
+      next[endOf(mesh.triangle, edge[0].side)] = startOf(mesh.triangle, edge[0].side);
+  });
   std::vector<std::vector<std::uint32_t>> loops;
   for (std::uint32_t v = 0; v < next.size(); ++v) {
     std::vector<std::uint32_t> loop;
@@ -134,21 +110,10 @@ void measure(MeshEnd& end, const TriangleMesh& mesh, const std::vector<std::uint
 
 /// Beside each side of each triangle, the triangle there.
 std::vector<std::array<std::uint32_t, 3>> besides(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> opposite = oppositeSides(mesh.triangle);
   std::vector<std::array<std::uint32_t, 3>> beside(mesh.triangle.size(), {kNone, kNone, kNone});
-  const std::vector<Edge> edges = edgesOf(mesh);
-  const auto put = [&](const Edge& edge, std::uint32_t other) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = mesh.triangle[edge.triangle][i],
-                          b = mesh.triangle[edge.triangle][(i + 1) % 3];
-      if (std::min(a, b) == edge.low && std::max(a, b) == edge.high)
-        beside[edge.triangle][i] = other;
-    }
-  };
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i)
-    if (edges[i].low == edges[i + 1].low && edges[i].high == edges[i + 1].high) {
-      put(edges[i], edges[i + 1].triangle);
-      put(edges[i + 1], edges[i].triangle);
-    }
+  for (std::size_t side = 0; side < opposite.size(); ++side)
+    if (opposite[side] != kNoSide) beside[side / 3][side % 3] = opposite[side] / 3;
   return beside;
 }
 
@@ -317,33 +282,12 @@ private:
 
 }  // namespace
 
-double enclosedVolume(const TriangleMesh& mesh) {
-  if (mesh.position.empty()) return 0;
-  const Vector3d origin = mesh.position.front();
-  double volume = 0;
-  for (const Triangle& t : mesh.triangle)
-    volume += (mesh.position[t[0]] - origin).dot(areaVector(mesh, t)) / 6;
-  return volume;
-}
-
-std::int64_t eulerCharacteristic(const TriangleMesh& mesh) {
-  std::vector<bool> isUsed(mesh.position.size(), false);
-  for (const Triangle& t : mesh.triangle)
-    for (const std::uint32_t v : t) isUsed[v] = true;
-  const std::vector<Edge> all = edgesOf(mesh);
-  std::int64_t edges = 0;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    edges += i == 0 || all[i].low != all[i - 1].low || all[i].high != all[i - 1].high ? 1 : 0;
-  return std::count(isUsed.begin(), isUsed.end(), true) - edges +
-         static_cast<std::int64_t>(mesh.triangle.size());
-}
-
 ClosedMesh closeMesh(TriangleMesh mesh) {
   ClosedMesh out;
   out.mesh = std::move(mesh);
   out.end.assign(out.mesh.triangle.size(), ClosedMesh::kWall);
   for (const auto& loop : openLoops(out.mesh)) addFan(out, loop);
-  if (enclosedVolume(out.mesh) < 0)
+  if (signedVolume(out.mesh) < 0)
     for (Triangle& t : out.mesh.triangle) std::swap(t[1], t[2]);
   std::vector<std::vector<std::uint32_t>> ofEnd(out.ends.size());
   for (std::uint32_t t = 0; t < out.end.size(); ++t)

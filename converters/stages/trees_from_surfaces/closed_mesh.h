@@ -33,10 +33,4 @@ struct ClosedMesh {
 /// volume that it encloses must not be zero.
 ClosedMesh closeMesh(TriangleMesh mesh);
 
-/// The volume that a mesh without boundary encloses; negative if its normals point inward.
-double enclosedVolume(const TriangleMesh& mesh);
-
-/// V - E + F.
-std::int64_t eulerCharacteristic(const TriangleMesh& mesh);
-
 }  // namespace lumen::convert

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
 namespace {
@@ -169,7 +170,7 @@ VolumeGeometry insideGrid(const ClosedMesh& surface, double width) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const double volume = std::abs(enclosedVolume(surface.mesh));
+  const double volume = std::abs(signedVolume(surface.mesh));
   const double edge = std::max({width / kVoxelsAcross, std::cbrt(volume / kMostVoxels),
                                 (high - low).maxCoeff() / (kMostAlong - 3)});
   VolumeGeometry grid;

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/geometry/mesh_edges.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/stages/repair/repair.h"
 #include "tests/unit/trees_from_surfaces/tube_mesh.h"
 
@@ -82,8 +84,8 @@ TEST(ClosedMesh, SeesNoEndOnRoundAndPointedTips) {
 TEST(ClosedMesh, TurnsWhatIsInsideOut) {
   TriangleMesh mesh = test::tube(test::straight(20), 2, true);
   for (Triangle& t : mesh.triangle) std::swap(t[0], t[1]);
-  EXPECT_LT(enclosedVolume(mesh), 0);
-  EXPECT_GT(enclosedVolume(closeMesh(mesh).mesh), 0);
+  EXPECT_LT(signedVolume(mesh), 0);
+  EXPECT_GT(signedVolume(closeMesh(mesh).mesh), 0);
 }
 
 TEST(ClosedMesh, SeesNoEndOnARing) {

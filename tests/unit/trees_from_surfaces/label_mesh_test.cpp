@@ -8,6 +8,8 @@
 #include <tbb/global_control.h>
 
 #include "converters/base/error.h"
+#include "converters/geometry/mesh_edges.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 #include "converters/stages/trees_from_surfaces/closed_mesh.h"
 
@@ -59,7 +61,7 @@ TEST(LabelMesh, LiesOnTheWallOfATubeWhateverTheSpacing) {
     EXPECT_NEAR(sum / static_cast<double>(surface.mesh.position.size()), 0, 0.012);
     const double length = (b - a).norm();
     // its triangles, up to a voxel and a half long, are chords
-    EXPECT_NEAR(enclosedVolume(surface.mesh) /
+    EXPECT_NEAR(signedVolume(surface.mesh) /
                     (std::numbers::pi * radius * radius * (length + 4 * radius / 3)),
                 1, 0.03);
   }
@@ -87,7 +89,7 @@ TEST(LabelMesh, KeepsWhatIsOneVoxelWide) {
   Progress progress;
   const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
   EXPECT_EQ(eulerCharacteristic(surface.mesh), 2);
-  EXPECT_GT(enclosedVolume(surface.mesh), 0);
+  EXPECT_GT(signedVolume(surface.mesh), 0);
 }
 
 TEST(LabelMesh, KeepsTheWidthOfWhatIsOneVoxelWide) {
@@ -96,7 +98,7 @@ TEST(LabelMesh, KeepsTheWidthOfWhatIsOneVoxelWide) {
   });
   Progress progress;
   const LabelSurface surface = surfaceOf(maskOf(volume, {}, "m.nrrd"), progress);
-  EXPECT_GT(enclosedVolume(surface.mesh), 0.3 * 24);  // a third of what was drawn
+  EXPECT_GT(signedVolume(surface.mesh), 0.3 * 24);  // a third of what was drawn
 }
 
 TEST(LabelMesh, HoldsTogetherALineOfVoxelsThatMeetAtCorners) {

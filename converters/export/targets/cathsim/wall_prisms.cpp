@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "converters/geometry/mesh_measures.h"
+
 namespace lumen::convert {
 
 namespace {
@@ -55,10 +57,10 @@ double volumeOf(const SurfaceMesh& mesh) {
   double sum = 0;
   const Eigen::Vector3d origin = vectorOf(mesh.position.front());
   for (const auto& [a, b, c] : mesh.triangle)
-    sum += (vectorOf(mesh.position[a]) - origin)
-               .cross(vectorOf(mesh.position[b]) - origin)
-               .dot(vectorOf(mesh.position[c]) - origin);
-  return sum / 6;
+    sum +=
+        tetrahedronVolume(vectorOf(mesh.position[a]) - origin, vectorOf(mesh.position[b]) - origin,
+                          vectorOf(mesh.position[c]) - origin);
+  return sum;
 }
 
 }  // namespace

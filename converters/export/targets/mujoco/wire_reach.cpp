@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "converters/geometry/mesh_edges.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/geometry/triangle_mesh.h"
 #include "converters/geometry/triangle_tree.h"
 
@@ -59,7 +59,7 @@ std::vector<double> distancesFrom(const CenterlineTree& tree, std::uint32_t node
 class PieceSolid {
 public:
   explicit PieceSolid(const SurfaceMesh& piece) : m_mesh(meshOf(piece)), m_tree(m_mesh) {
-    const MeshBox box = boxOf(m_mesh);
+    const Box3d box = boxOf(m_mesh);
     m_low = box.low;
     m_high = box.high;
   }

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Areas, volumes and boxes of triangle meshes.
+#pragma once
+
+#include "converters/geometry/box.h"
+#include "converters/geometry/triangle_mesh.h"
+
+namespace lumen::convert {
+
+/// The vector area of a triangle: its normal times its area.
+inline Eigen::Vector3d vectorArea(const TriangleMesh& mesh, const Triangle& t) {
+  const Eigen::Vector3d& a = mesh.position[t[0]];
+  const Eigen::Vector3d u = mesh.position[t[1]] - a, v = mesh.position[t[2]] - a;
+  return 0.5 * Eigen::Vector3d(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
+                               u.x() * v.y() - u.y() * v.x());
+}
+
+/// True for a triangle whose height is below 1e-6 of its longest side: its normal is rounding.
+bool isDegenerate(const TriangleMesh& mesh, const Triangle& t);
+
+/// The volume of a tetrahedron with a corner at the origin; positive if a, b, c run counter-clockwise
+/// seen from outside.
+inline double tetrahedronVolume(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                const Eigen::Vector3d& c) {
+  const Eigen::Vector3d across(b.y() * c.z() - b.z() * c.y(), b.z() * c.x() - b.x() * c.z(),
+                               b.x() * c.y() - b.y() * c.x());
+  return a.dot(across) / 6;
+}
+
+/// The volume that a mesh without boundary encloses; negative if its normals point inwards.
+double signedVolume(const TriangleMesh& mesh);
+
+/// The box of the points that triangles use; the origin alone if there are no triangles.
+Box3d boxOf(const TriangleMesh& mesh);
+
+}  // namespace lumen::convert
