@@ -153,11 +153,13 @@ Pairs pairsOf(const TriangleLeaves& tree, std::size_t first, std::size_t last, s
 
 }  // namespace
 
-SelfIntersections selfIntersections(const TriangleMesh& mesh, std::size_t limit) {
+SelfIntersections selfIntersections(const TriangleMesh& mesh, std::size_t limit,
+                                    const Progress* progress) {
   SelfIntersections result;
   const TriangleLeaves tree(mesh);
   for (std::size_t first = 0; first < tree.size() && result.pairs.size() <= limit;
        first += kBlock) {
+    if (progress != nullptr) progress->check();
     const Pairs more =
         pairsOf(tree, first, std::min(tree.size(), first + kBlock), limit - result.pairs.size());
     result.pairs.insert(result.pairs.end(), more.begin(), more.end());

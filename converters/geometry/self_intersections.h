@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "converters/base/progress.h"
 #include "converters/geometry/triangle_mesh.h"
 
 namespace lumen::convert {
@@ -21,7 +22,9 @@ struct SelfIntersections {
 /// index: that cross, touch, overlap in a plane, or are folded onto one another; of a pair with the
 /// same three vertices too. Exact for the given doubles. Triangles without area are left out, and so
 /// are those with positions that are not finite or beyond what orientation() takes. At most `limit`
-/// pairs, always the same ones, in a fixed order.
-SelfIntersections selfIntersections(const TriangleMesh& mesh, std::size_t limit = 1'000'000);
+/// pairs, always the same ones, in a fixed order. Throws Error(Cancelled) if `progress`, which may be
+/// null, is cancelled.
+SelfIntersections selfIntersections(const TriangleMesh& mesh, std::size_t limit = 1'000'000,
+                                    const Progress* progress = nullptr);
 
 }  // namespace lumen::convert

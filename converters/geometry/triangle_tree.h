@@ -54,7 +54,15 @@ public:
   /// Calls visit(triangle, its nearest point, squared distance) for the triangles whose boxes are
   /// within the square root of `most`, which `visit` may lower, of the point: near ones first.
   template <class Visit>
-  void visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit) const;
+  void visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit) const {
+    visitNear(point, most, visit, [](std::uint32_t, double) { return true; });
+  }
+  /// Passes over a node of boxes() and all below it where enters(node, squared distance of its box)
+  /// is false; otherwise as visitNear() without it, in the same order.
+  template <class Visit, class Enters>
+  void visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit,
+                 const Enters& enters) const;
+  [[nodiscard]] const BoxTree<float>& boxes() const { return m_tree; }
   /// Whether a closed mesh goes round the point: as most of three rays say, each by the number of
   /// times it leaves less that of the times it enters.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const;
@@ -80,15 +88,16 @@ private:
   std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // in the order of the tree's items
 };
 
-template <class Visit>
-void TriangleTree::visitNear(const Eigen::Vector3d& point, const double& most,
-                             Visit&& visit) const {
+template <class Visit, class Enters>
+void TriangleTree::visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit,
+                             const Enters& enters) const {
   std::array<std::uint32_t, Tree::kDeepest> stack{};
   std::size_t depth = 1;
   while (depth > 0) {
     const std::uint32_t i = stack[--depth];
     const Tree::Node& node = m_tree.node(i);
-    if (squaredDistance(node.box, point) > most) continue;
+    const double apart = squaredDistance(node.box, point);
+    if (apart > most || !enters(i, apart)) continue;
     if (node.count > 0) {
       for (std::uint32_t k = node.at; k < node.at + node.count; ++k) {
         const auto& [a, b, c] = m_corner[k];

@@ -51,6 +51,7 @@ lumen_test(read_mesh_test
   LABELS memory
   LIBS lumen_repair
   SOURCES
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/box_tree_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/mesh_report_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_faults_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/mesh/read_mesh_test.cpp

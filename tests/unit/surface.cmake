@@ -21,4 +21,5 @@ lumen_test(ends_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/ends_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/extension_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/flat_region_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/surface_size_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/surface/thick_wall_test.cpp)

@@ -18,8 +18,10 @@
 namespace lumen::convert {
 namespace {
 
-constexpr std::int32_t kMaxPosition = 1 << 19;  // keys have 19 bits an axis
-constexpr std::size_t kMaxCubes = std::size_t{1} << 25;
+constexpr std::int32_t kMaxPosition = 1 << 19;           // keys have 19 bits an axis
+constexpr std::size_t kMaxCubes = std::size_t{1} << 25;  // 2 GB with their vertices
+constexpr std::size_t kMaxNodes = std::size_t{1} << 29;  // near the cubes of a level, in all: 2 GB
+constexpr std::size_t kBatch = 256;                      // cubes between two looks at the progress
 constexpr double kReach = 2.4;   // radii from its centre to which a node's model is followed
 constexpr double kNear = 1.35;   // radii within which a node says how fine the lattice is
 constexpr double kSafety = 1.5;  // the distance is an estimate: of half a cube's diagonal
@@ -78,7 +80,6 @@ public:
     while (!level.empty()) {
       m_progress.check();
       level = refine(level);
-      if (m_lattice.m_cubes.size() + level.size() > kMaxCubes) throw tooFine();
     }
     balance();
     dropParents();
@@ -91,11 +92,13 @@ private:
     std::vector<std::uint32_t> near;  // nodes whose reach meets it
   };
 
-  static Error tooFine() {
+  [[nodiscard]] Error tooFine() const {
+    const bool hasWall = m_field.options().offset > 0 || m_field.options().offsetShare > 0;
     return invalidInput(
-        "the case is too large for the lattice that its thinnest vessels need; expected less "
-        "than " +
-        std::to_string(kMaxCubes) + " cubes");
+        (hasWall ? "the wall is too thick for the lattice that the thinnest vessels need"
+                 : "the case is too large for the lattice that its thinnest vessels need") +
+        std::string("; expected less than ") + std::to_string(kMaxCubes) + " cubes" +
+        (hasWall ? ": a thinner wall" : ""));
   }
 
   [[nodiscard]] double reachOf(std::uint32_t node) const {
@@ -130,7 +133,12 @@ private:
     std::map<Position, std::vector<std::uint32_t>> found;
     const std::int32_t size = m_lattice.m_largest;
     const double edge = size * m_lattice.m_step;
+    double entries = 0;
+    for (std::uint32_t i = 0; i < m_tree.nodeCount(); ++i)
+      entries += std::pow(2 * reachOf(i) / edge + 2, 3);
+    if (!(entries < static_cast<double>(kMaxNodes))) throw tooFine();
     for (std::uint32_t i = 0; i < m_tree.nodeCount(); ++i) {
+      m_progress.check();
       const Eigen::Vector3d c = toEigen(m_tree.centre[i]) - m_lattice.m_origin;
       const double reach = reachOf(i);
       Position first{}, last{};
@@ -187,22 +195,29 @@ private:
   }
 
   std::vector<Cube> refine(std::vector<Cube>& level) {
-    std::vector<std::vector<Cube>> children(level.size());
+    std::vector<std::uint8_t> isSplit(level.size(), 0);
     tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t i) {
+      if (i % kBatch == 0) m_progress.check();
       chooseNodes(level[i]);
-      if (level[i].near.empty() || isFineEnough(level[i])) return;
-      for (int octant = 0; octant < 8; ++octant) {
-        children[i].push_back({childOf(level[i].cube, octant), level[i].near});
-      }
+      isSplit[i] = !level[i].near.empty() && !isFineEnough(level[i]) ? 1 : 0;
     });
-    std::vector<Cube> next;
+    std::size_t cubes = 0, nodes = 0;
     for (std::size_t i = 0; i < level.size(); ++i) {
-      if (children[i].empty()) {
+      cubes += isSplit[i] != 0 ? 8 : 0;
+      nodes += isSplit[i] != 0 ? 8 * level[i].near.size() : 0;
+    }
+    if (m_lattice.m_cubes.size() + cubes > kMaxCubes || nodes > kMaxNodes) throw tooFine();
+    std::vector<Cube> next;
+    next.reserve(cubes);
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      if (isSplit[i] == 0) {
         addLeaf(level[i].cube);
         continue;
       }
       markParent(level[i].cube);
-      std::move(children[i].begin(), children[i].end(), std::back_inserter(next));
+      for (int octant = 0; octant < 8; ++octant)
+        next.push_back({childOf(level[i].cube, octant), level[i].near});
+      level[i].near = {};
     }
     return next;
   }
@@ -227,6 +242,7 @@ private:
   // Splits the leaves that are more than twice as wide as one that they touch.
   void balance() {
     for (std::size_t i = 0; i < m_lattice.m_cubes.size(); ++i) {
+      if (i % kBatch == 0) m_progress.check();
       const LatticeCube cube = m_lattice.m_cubes[i];
       if (cube.size * 4 > m_lattice.m_largest) continue;
       for (int n = 0; n < 27; ++n) {

@@ -16,6 +16,7 @@
 #include "converters/stages/surface/offset_field.h"
 #include "converters/stages/surface/overlaps.h"
 #include "converters/stages/surface/remesh.h"
+#include "converters/stages/surface/surface_size.h"
 #include "converters/stages/surface/thick_wall.h"
 #include "converters/stages/surface/thin_walls.h"
 #include "converters/stages/surface/to_surface_mesh.h"
@@ -58,9 +59,10 @@ EdgeLength edgeOf(const ClosedSurfaceOptions& options) {
   return edge;
 }
 
-class Making {
+class ClosedSurfaceMaker {
 public:
-  Making(const formats::Case& source, const ClosedSurfaceOptions& options, Progress& progress)
+  ClosedSurfaceMaker(const formats::Case& source, const ClosedSurfaceOptions& options,
+                     Progress& progress)
       : m_source(source),
         m_options(options),
         m_progress(progress),
@@ -113,6 +115,7 @@ private:
     noteEnds(std::move(ends));
     refine(outer, around, edgeOf(m_options));
     mendCrossings(outer, around, m_progress);
+    m_progress.check();
     for (std::string& sentence : thinWalls(outer, around))
       m_result.report.messages.push_back(std::move(sentence));
     return thickWall(inner, outer, m_source);
@@ -195,7 +198,8 @@ ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOpti
   if (options.thickness && (options.open || !options.extend.empty()))
     throw Error(ErrorKind::Usage,
                 "thickness gives a closed wall; it goes with neither open nor extend");
-  return Making(source, options, progress).run();
+  requireFewTriangles(source.tree, edgeOf(options), options.thickness);
+  return ClosedSurfaceMaker(source, options, progress).run();
 }
 
 }  // namespace lumen::convert

@@ -56,8 +56,8 @@ struct ClosedSurface {
 /// The blended surface of a case, docs/method.md, section 5: for each connected tree a closed,
 /// oriented 2-manifold whose genus is the number of loops that links close, with planar ends.
 /// Vertices lie within 1e-3 of the local radius of the blended field, but on ends and where vessels
-/// overlap. Throws Error(InvalidInput) if the case has no models, Error(Usage) for options
-/// that do not go together, Error(Failed) where a wall of that thickness would meet itself, and
+/// overlap. Throws Error(InvalidInput) if the case has no models or the surface would not fit into
+/// memory, Error(Usage) for options that do not go together, Error(Failed) where a wall of that thickness would meet itself, and
 /// Error(Cancelled).
 ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
                             Progress& progress);

@@ -9,6 +9,7 @@
 namespace lumen::convert {
 namespace {
 
+constexpr std::size_t kMostPairs = 1'000'000;
 constexpr int kMostRounds = 8;
 
 std::vector<bool> isOnEnd(const CaseSurface& surface) {
@@ -24,8 +25,7 @@ std::vector<bool> isOnEnd(const CaseSurface& surface) {
 std::size_t mendCrossings(CaseSurface& surface, const SheetField& field, Progress& progress) {
   const std::vector<bool> isFixed = isOnEnd(surface);
   for (int round = 0;; ++round) {
-    progress.check();
-    const SelfIntersections found = selfIntersections(surface.mesh);
+    const SelfIntersections found = selfIntersections(surface.mesh, kMostPairs, &progress);
     if (found.pairs.empty() || round == kMostRounds) return found.pairs.size();
     std::vector<std::uint32_t> moved;
     for (const auto& pair : found.pairs)

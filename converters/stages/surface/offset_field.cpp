@@ -16,9 +16,10 @@ namespace {
 // times their width: 1 / sin(10 degrees).
 constexpr double kLeastWay = 6;
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-constexpr double kReach = 3;      // thicknesses: what is farther off is nobody's wall
-constexpr double kOnEdge = 1e-6;  // of a triangle: a foot so near to an edge is on it
-constexpr double kOnWall = 1e-9;  // mm: where the way to the foot has no direction
+constexpr double kReach = 3;            // thicknesses: what is farther off is nobody's wall
+constexpr double kOnEdge = 1e-6;        // of a triangle: a foot so near to an edge is on it
+constexpr double kRounding = 1 + 1e-9;  // of a thickness that is interpolated
+constexpr double kOnWall = 1e-9;        // mm: where the way to the foot has no direction
 
 // The corners' angles are the weights (J. Baerentzen and H. Aanaes, *Signed distance computation
 // using the angle weighted pseudonormal*, 2005).
@@ -52,6 +53,16 @@ OffsetField::OffsetField(const formats::Case& source, const field::BlendedField&
   for (double& t : m_thickness) t = thickness.at(t);
   gradeLengths(inner.mesh, m_thickness);
   m_thickest = *std::max_element(m_thickness.begin(), m_thickness.end());
+  const BoxTree<float>& boxes = m_tree.boxes();
+  m_thickestBelow.assign(boxes.nodes().size(), 0);
+  for (auto i = static_cast<std::uint32_t>(m_thickestBelow.size()); i-- > 0;) {
+    double& most = m_thickestBelow[i];
+    const BoxTree<float>::Node& node = boxes.node(i);
+    if (node.count == 0) most = std::max(m_thickestBelow[i + 1], m_thickestBelow[node.at]);
+    for (std::uint32_t k = node.at; k < node.at + node.count; ++k)
+      for (const std::uint32_t v : inner.mesh.triangle[boxes.items()[k]])
+        most = std::max(most, kRounding * m_thickness[v]);
+  }
 }
 
 bool OffsetField::isOther(std::uint32_t a, std::uint32_t b) const {
@@ -95,7 +106,7 @@ OffsetField::Foot OffsetField::footOf(const Eigen::Vector3d& point, double reach
                                       const Takes& takes) const {
   double most = reach * reach, nearest = std::numeric_limits<double>::infinity(), least = nearest;
   Foot best, plain;
-  m_tree.visitNear(point, most, [&](std::uint32_t t, const Eigen::Vector3d& at, double squared) {
+  const auto visit = [&](std::uint32_t t, const Eigen::Vector3d& at, double squared) {
     const double distance = std::sqrt(squared);
     if (distance >= nearest && distance - m_thickest >= least) return;
     const Foot foot = footOn(t, at, point);
@@ -109,7 +120,13 @@ OffsetField::Foot OffsetField::footOf(const Eigen::Vector3d& point, double reach
     best = foot;
     // a greater distance cannot give less, whatever the thickness
     most = std::min(most, (least + m_thickest) * (least + m_thickest));
-  });
+  };
+  // neither nearer than the nearest foot, nor with less of d - t than the best one
+  const auto enters = [&](std::uint32_t node, double squared) {
+    const double distance = std::sqrt(squared);
+    return distance < nearest || distance - m_thickestBelow[node] < least;
+  };
+  m_tree.visitNear(point, most, visit, enters);
   // inside the lumen the nearest point says how deep
   return plain.distance < 0 ? plain : best;
 }

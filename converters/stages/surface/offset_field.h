@@ -58,6 +58,7 @@ private:
   TriangleTree m_tree;
   std::vector<double> m_thickness;        ///< of each vertex
   std::vector<Eigen::Vector3d> m_normal;  ///< of each vertex, by the angles of its faces
+  std::vector<double> m_thickestBelow;    ///< of each node of m_tree's boxes
   double m_thickest = 0;
 };
 

@@ -20,6 +20,7 @@ constexpr int kMendRings = 4;
 constexpr int kStretchRings = 10;  // six may leave the field
 constexpr int kStretchRounds = 2;
 constexpr double kMendBelow = 1.2 * kSharpAngle;  // as in each piece
+constexpr std::size_t kBatch = 1024;              // vertices between two looks at the progress
 constexpr double kFieldStep = 0.5;  // of the radius: more is no distance from the wall
 
 // Asks the field about every vertex, and moves those of the wall by one step onto it.
@@ -30,6 +31,7 @@ void moveOntoField(RemeshState& state, const PieceRules& rules) {
     if (rules.plane[surface.group[t]])
       for (const std::uint32_t v : surface.mesh.triangle[t]) isFlat[v] = 1;
   tbb::parallel_for(std::size_t{0}, isFlat.size(), [&](std::size_t v) {
+    if (v % kBatch == 0) rules.progress.check();
     Eigen::Vector3d& position = surface.mesh.position[v];
     const SheetSample sample = rules.field.at(position, surface.node[v]);
     if (sample.gradient.isZero()) return;
@@ -50,6 +52,7 @@ void workOn(RemeshState& state, std::vector<TriangleList> lists, const PieceRule
     progress.check();
     pieces[i] = cutOut(state, lists[i]);
     remeshPiece(pieces[i], rules, work, progress);
+    progress.advance();
   };
   tbb::parallel_for(std::size_t{0}, lists.size(), workOnPiece, tbb::simple_partitioner());
   progress.check();
@@ -94,7 +97,7 @@ RemeshReport reportOf(const RemeshState& state, const PieceRules& rules) {
 
 RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
                     Progress& progress) {
-  const PieceRules rules = rulesOf(surface, field);
+  const PieceRules rules = rulesOf(surface, field, progress);
   const std::size_t vertices = surface.mesh.position.size();
   RemeshState state{surface, targetLengths(surface, field, edge), {}, {}, {}, {}};
   state.gradient.assign(vertices, Eigen::Vector3d::Zero());
@@ -103,7 +106,10 @@ RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLen
   moveOntoField(state, rules);
   // What no piece holds inside is a boundary as well.
   state.isBoundary.assign(vertices, 1);
-  workOn(state, piecesByNode(surface), rules, PieceWork::Remesh, progress);
+  std::vector<TriangleList> pieces = piecesByNode(surface);
+  progress.begin("remeshing", pieces.size());
+  workOn(state, std::move(pieces), rules, PieceWork::Remesh, progress);
+  progress.end();
   workOn(state, piecesAround(surface.mesh, state.isBoundary, kSeamRings), rules, PieceWork::Seam,
          progress);
   workOn(state, piecesAround(surface.mesh, sharpVertices(state, rules), kMendRings), rules,

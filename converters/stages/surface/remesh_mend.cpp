@@ -173,8 +173,10 @@ void mendFaces(RemeshMesh& mesh, const Progress& progress) {
     const auto bad = facesToMend(mesh);
     if (bad.empty() || bad.size() > before) return;
     before = bad.size();
-    for (const Mesh::FaceHandle face : bad)
+    for (const Mesh::FaceHandle face : bad) {
+      progress.check();
       if (!mesh.status(face).deleted() && needsMending(mesh, face)) mendFace(mesh, face);
+    }
   }
 }
 

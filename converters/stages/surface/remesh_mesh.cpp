@@ -135,14 +135,6 @@ RemeshMesh::EdgeHandle RemeshMesh::longestOf(FaceHandle face) const {
   return longest;
 }
 
-bool RemeshMesh::isInPlane(EdgeHandle edge) const {
-  for (const unsigned side : {0U, 1U}) {
-    const FaceHandle face = face_handle(halfedge_handle(edge, side));
-    if (face.is_valid() && m_rules.plane[data(face).group]) return true;
-  }
-  return false;
-}
-
 Eigen::Vector3d RemeshMesh::outward(std::uint32_t group,
                                     const std::array<VertexHandle, 3>& vertices) const {
   if (const auto& plane = m_rules.plane[group]) return *plane;

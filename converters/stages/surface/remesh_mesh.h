@@ -58,6 +58,10 @@ public:
   RemeshMesh(const Piece& piece, const PieceRules& rules);
   [[nodiscard]] Piece toPiece() const;
   [[nodiscard]] const PieceRules& rules() const { return m_rules; }
+  /// One element of a long loop is done: now and then throws Error(Cancelled) if it is to stop.
+  void pulse() {
+    if (++m_pulse % kPulses == 0) m_rules.progress.check();
+  }
 
   [[nodiscard]] double lengthOf(EdgeHandle edge) const;
   [[nodiscard]] double targetOf(EdgeHandle edge) const;
@@ -77,8 +81,6 @@ public:
     } while (h != first);
   }
   [[nodiscard]] EdgeHandle longestOf(FaceHandle face) const;
-  /// True if both faces are of the same flat end, or one is.
-  [[nodiscard]] bool isInPlane(EdgeHandle edge) const;
 
   /// Where a face of these vertices should look, of any length: zero if nobody knows.
   [[nodiscard]] Eigen::Vector3d outward(std::uint32_t group,
@@ -115,7 +117,9 @@ public:
 
 private:
   void findKinds();
+  static constexpr std::uint32_t kPulses = 4096;  // elements that take a few milliseconds
   const PieceRules& m_rules;
+  std::uint32_t m_pulse = 0;
   std::vector<std::uint32_t> m_rimEdges;  ///< of each group
 };
 

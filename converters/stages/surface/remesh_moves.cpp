@@ -112,17 +112,22 @@ void splitLong(RemeshMesh& mesh) {
   for (int sweep = 0; sweep < kSplitSweeps; ++sweep) {
     tooLong.clear();
     for (const Mesh::EdgeHandle edge : mesh.edges()) {
+      mesh.pulse();
       const double share = mesh.lengthOf(edge) / mesh.targetOf(edge);
       if (share > kLong && !mesh.is_boundary(edge)) tooLong.emplace_back(-share, edge.idx());
     }
     std::sort(tooLong.begin(), tooLong.end());
-    for (const auto& [share, edge] : tooLong) mesh.splitEdge(Mesh::EdgeHandle(edge));
+    for (const auto& [share, edge] : tooLong) {
+      mesh.pulse();
+      mesh.splitEdge(Mesh::EdgeHandle(edge));
+    }
     if (tooLong.empty()) return;
   }
 }
 
 void collapseShort(RemeshMesh& mesh) {
   for (std::size_t i = 0; i < mesh.n_edges(); ++i) {
+    mesh.pulse();
     const Mesh::EdgeHandle edge(static_cast<int>(i));
     if (mesh.status(edge).deleted() || mesh.is_boundary(edge) ||
         mesh.lengthOf(edge) >= kShort * mesh.targetOf(edge))
@@ -147,6 +152,7 @@ void flipToSix(RemeshMesh& mesh) {
     for (const unsigned side : {0U, 1U})
       ++mesh.data(mesh.to_vertex_handle(mesh.halfedge_handle(edge, side))).valence;
   for (const Mesh::EdgeHandle edge : mesh.edges()) {
+    mesh.pulse();
     if (mesh.is_boundary(edge)) continue;
     const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
     const Mesh::VertexHandle from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h),
@@ -166,6 +172,7 @@ void flipToSix(RemeshMesh& mesh) {
 
 void flipForAngles(RemeshMesh& mesh) {
   for (const Mesh::EdgeHandle edge : mesh.edges()) {
+    mesh.pulse();
     if (mesh.is_boundary(edge) || isDelaunay(mesh, edge) || !mesh.mayFlip(edge)) continue;
     const Mesh::Outcome outcome = mesh.afterFlip(edge);
     if (!outcome.isTurned && outcome.quality > outcome.before) mesh.flip(edge);
@@ -174,6 +181,7 @@ void flipForAngles(RemeshMesh& mesh) {
 
 void relax(RemeshMesh& mesh) {
   for (const Mesh::VertexHandle v : mesh.vertices()) {
+    mesh.pulse();
     const auto& here = mesh.data(v);
     if (here.kind == VertexKind::Locked) continue;
     Eigen::Vector3d move;
@@ -207,6 +215,7 @@ bool settle(RemeshMesh& mesh, RemeshMesh::VertexHandle v) {
 
 void moveOntoField(RemeshMesh& mesh, bool exactly) {
   for (const Mesh::VertexHandle v : mesh.vertices()) {
+    mesh.pulse();
     auto& here = mesh.data(v);
     if (here.kind == VertexKind::Locked || here.kind == VertexKind::Flat) continue;
     if (exactly || (here.kind == VertexKind::Rim && here.drift > 0))
@@ -221,6 +230,7 @@ void refineSlits(RemeshMesh& mesh) {
   const double allowed = kChordInSlit * field.options().gap;
   if (!(allowed > 0)) return;
   for (const Mesh::EdgeHandle edge : mesh.edges()) {
+    mesh.pulse();
     const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
     const Mesh::VertexHandle from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
     if (!mesh.data(from).isSeparated && !mesh.data(to).isSeparated) continue;

@@ -38,6 +38,7 @@ struct Piece {
 /// What all pieces of a surface share.
 struct PieceRules {
   const SheetField& field;
+  const Progress& progress;  ///< asked by long loops whether they go on
   /// Of each group, the unit normal of its plane if it is a flat end.
   std::vector<std::optional<Eigen::Vector3d>> plane;
 };

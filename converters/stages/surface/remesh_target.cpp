@@ -75,6 +75,16 @@ void gradeLengths(const TriangleMesh& mesh, std::vector<double>& length) {
   }
 }
 
+double edgeAt(const EdgeLength& edge, double radius) {
+  const double longest = 2 * std::numbers::pi * radius / kEdgesAround;
+  double length =
+      std::clamp(edge.share * radius, std::min(edge.minimum, edge.maximum), edge.maximum);
+  length = std::min(length, longest);
+  if (const double sag = edge.sag.at(radius); sag > 0)
+    length = std::min(length, std::sqrt(8 * radius * sag));
+  return length;
+}
+
 std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& field) {
   const formats::CenterlineTree& tree = field.source().tree;
   const formats::Neighbours edges(tree);
@@ -88,13 +98,7 @@ std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& fi
 std::vector<double> targetLengths(const CaseSurface& surface, const SheetField& field,
                                   const EdgeLength& edge) {
   std::vector<double> length = vesselRadii(surface, field);
-  for (double& l : length) {
-    const double radius = l, longest = 2 * std::numbers::pi * radius / kEdgesAround;
-    l = std::clamp(edge.share * radius, std::min(edge.minimum, edge.maximum), edge.maximum);
-    l = std::min(l, longest);
-    if (const double sag = edge.sag.at(radius); sag > 0)
-      l = std::min(l, std::sqrt(8 * radius * sag));
-  }
+  for (double& l : length) l = edgeAt(edge, l);
   gradeLengths(surface.mesh, length);
   return length;
 }

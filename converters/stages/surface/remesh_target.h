@@ -20,6 +20,9 @@ struct EdgeLength {
   Length sag{};
 };
 
+/// Length that `edge` asks for at a vessel of that radius, mm; at most an eighth of its circumference.
+double edgeAt(const EdgeLength& edge, double radius);
+
 /// The radius of the vessel at each vertex, mm: between nodes of a branch it is linear.
 std::vector<double> vesselRadii(const CaseSurface& surface, const SheetField& field);
 

@@ -11,13 +11,19 @@ SampledLattice::SampledLattice(const SheetField& field, double share, Progress& 
   m_distance.resize(size());
   m_node.resize(size());
   m_isInside.resize(size());
+  progress.begin("lattice", size());
   tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t i) {
+    if (i % kBlock == 0) {
+      progress.check();
+      progress.advance(std::min(kBlock, size() - i));
+    }
     const auto v = static_cast<std::uint32_t>(i);
     const SheetSample sample = m_field.deepest(place(v), m_vertices.cubeOf(v).node);
     m_node[i] = sample.node;
     m_distance[i] = sample.distance;
     m_isInside[i] = sample.distance < 0 && !isOutermost(v);
   });
+  progress.end();
   progress.check();
   update();
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -18,6 +19,8 @@
 #include "../mesh/synthetic.h"
 #include "closed_surface.h"
 #include "converters/geometry/triangle_quality.h"
+#include "converters/stages/surface/remesh_moves.h"
+#include "converters/stages/surface/remesh_pieces.h"
 
 namespace lumen::convert {
 namespace {
@@ -257,6 +260,25 @@ TEST(Remesh, StopsWhenCancelled) {
   Progress progress;
   progress.cancel();
   EXPECT_THROW(remesh(surface, of.sheet, {}, progress), Error);
+}
+
+TEST(Remesh, APassOverAPieceStopsWhenCancelled) {
+  const FieldOfCase of(forkCase());
+  CaseSurface surface = roughFork(of);
+  Progress progress;
+  const PieceRules rules = rulesOf(surface, of.sheet, progress);
+  RemeshState state{surface, std::vector<double>(surface.mesh.position.size(), 0.005), {}, {}, {},
+                    {}};
+  state.gradient.assign(surface.mesh.position.size(), Eigen::Vector3d::Zero());
+  state.isSeparated.assign(surface.mesh.position.size(), 0);
+  state.isOffField.assign(surface.mesh.position.size(), 0);
+  state.isBoundary.assign(surface.mesh.position.size(), 0);
+  TriangleList all(surface.mesh.triangle.size());
+  std::iota(all.begin(), all.end(), 0U);
+  RemeshMesh mesh(cutOut(state, all), rules);
+  progress.cancel();
+  EXPECT_THROW(splitLong(mesh), Error);
+  EXPECT_THROW(relax(mesh), Error);
 }
 
 TEST(TriangleQuality, KnowsTheAnglesOfKnownTriangles) {

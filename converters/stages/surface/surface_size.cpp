@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/surface/surface_size.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "converters/base/error.h"
+#include "converters/base/vectors.h"
+
+namespace lumen::convert {
+namespace {
+
+// The step by which an edge that is enough is looked for.
+constexpr double kCoarser = 1.1, kMostCoarse = 1e15;
+
+std::string shown(const char* format, double value) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+// Length of vessel between a node and its parent, mm.
+double lengthAt(const formats::CenterlineTree& tree, std::size_t node) {
+  const std::int32_t parent = tree.parent[node];
+  if (parent < 0) return tree.height[node];
+  const Eigen::Vector3d from = toEigen(tree.centre[static_cast<std::size_t>(parent)]);
+  return (toEigen(tree.centre[node]) - from).norm();
+}
+
+EdgeLength longer(EdgeLength edge, double factor) {
+  edge.share *= factor;
+  edge.minimum *= factor;
+  edge.maximum *= factor;
+  return edge;
+}
+
+// A length rounded up to two digits.
+std::string roundedUp(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return shown("%.12g", std::ceil(value / unit) * unit);
+}
+
+}  // namespace
+
+double expectedTriangles(const formats::CenterlineTree& tree, const EdgeLength& edge,
+                         const std::optional<Length>& thickness) {
+  const double areaInEdges = std::numbers::sqrt3 / 4;  // of an equilateral triangle
+  double triangles = 0;
+  for (std::size_t node = 0; node < tree.nodeCount(); ++node) {
+    const double radius = tree.radius[node], length = edgeAt(edge, radius);
+    const double around = thickness ? 2 * radius + thickness->at(radius) : radius;
+    triangles +=
+        2 * std::numbers::pi * around * lengthAt(tree, node) / (areaInEdges * length * length);
+  }
+  return triangles;
+}
+
+void requireFewTriangles(const formats::CenterlineTree& tree, const EdgeLength& edge,
+                         const std::optional<Length>& thickness) {
+  const double expected = expectedTriangles(tree, edge, thickness);
+  if (expected <= kMaxSurfaceTriangles) return;
+  const std::string found =
+      "the surface would have about " + shown("%.2g", expected) + " triangles, which take " +
+      shown("%.2g", std::max(1.0, expected * kBytesPerTriangle / 1e9)) +
+      " GB while it is made; expected at most " + shown("%.2g", kMaxSurfaceTriangles) + ": ";
+  EdgeLength withoutSag = edge;
+  withoutSag.sag = {};
+  if (expectedTriangles(tree, withoutSag, thickness) <= kMaxSurfaceTriangles)
+    throw invalidInput(found + "a thicker wall has longer edges");
+  // the bound in mm is what makes edges short, unless they are as short without it
+  EdgeLength shareAlone = withoutSag;
+  shareAlone.maximum = std::numeric_limits<double>::infinity();
+  const bool isShare =
+      edge.share > 0 && expectedTriangles(tree, shareAlone, thickness) > kMaxSurfaceTriangles;
+  double factor = 1;
+  while (factor < kMostCoarse &&
+         expectedTriangles(tree, longer(withoutSag, factor), thickness) > kMaxSurfaceTriangles)
+    factor *= kCoarser;
+  if (factor >= kMostCoarse) throw invalidInput(found + "the vessels are too long for their width");
+  throw invalidInput(
+      found + "an edge of " +
+      (isShare ? roundedUp(factor * edge.share) + "r" : roundedUp(factor * edge.maximum) + " mm") +
+      " or more");
+}
+
+}  // namespace lumen::convert
