@@ -15,6 +15,7 @@
 #include "converters/io/centerline/read_tre.h"
 #include "converters/io/centerline/read_vtp.h"
 #include "converters/io/centerline/write_centerline.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/write_gltf.h"
 #include "converters/io/mesh/write_plain.h"
 #include "converters/io/mesh/write_vtp.h"

@@ -6,6 +6,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/text.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/sofa_scene.h"
 #include "converters/io/volume/detached_data.h"
 #include "formats/container/printable.h"

@@ -9,7 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/io/mesh/gltf_content.h"
-#include "converters/io/mesh/mesh_file.h"
+#include "converters/io/mesh/read_mesh.h"
 #include "tests/unit/formats/json_samples.h"
 
 namespace lumen::test {

@@ -24,12 +24,18 @@ std::string refusalOf(const ClosedSurfaceOptions& options) {
 }
 
 EdgeLength inMm(double length) {
-  return {.share = 0, .minimum = length, .maximum = length};
+  return {0, length, length, {}};
+}
+
+ClosedSurfaceOptions withEdge(const EdgeLength& edge) {
+  ClosedSurfaceOptions options;
+  options.edge = edge;
+  return options;
 }
 
 TEST(SurfaceSize, TinyEdgeIsRefusedWithTheNumberOfTrianglesAndOneThatIsEnough) {
   for (const double length : {1e-12, 1e-9, 1e-4}) {
-    const std::string text = refusalOf({.edge = inMm(length)});
+    const std::string text = refusalOf(withEdge(inMm(length)));
     EXPECT_NE(text.find(" triangles, which take "), std::string::npos) << text;
     EXPECT_NE(text.find("expected at most 1.7e+07"), std::string::npos) << text;
     const std::string words = ": an edge of ";
@@ -43,17 +49,19 @@ TEST(SurfaceSize, TinyEdgeIsRefusedWithTheNumberOfTrianglesAndOneThatIsEnough) {
 }
 
 TEST(SurfaceSize, TinyShareOfTheRadiusIsRefusedWithAShareThatIsEnough) {
-  const std::string text = refusalOf({.edge = {.share = 1e-6}});
+  const std::string text = refusalOf(withEdge({1e-6, 0, 1e9, {}}));
   EXPECT_NE(text.find("r or more"), std::string::npos) << text;
 }
 
 TEST(SurfaceSize, TinyGreatestEdgeIsRefusedInMm) {
-  const std::string text = refusalOf({.edge = {.maximum = 1e-6}});
+  const std::string text = refusalOf(withEdge({0.25, 0, 1e-6, {}}));
   EXPECT_NE(text.find(" mm or more"), std::string::npos) << text;
 }
 
 TEST(SurfaceSize, WallTooThinForItsEdgesIsRefusedWithAThickerOne) {
-  const std::string text = refusalOf({.thickness = Length{1e-12, 0}});
+  ClosedSurfaceOptions options;
+  options.thickness = Length{1e-12, 0};
+  const std::string text = refusalOf(options);
   EXPECT_NE(text.find("a thicker wall"), std::string::npos) << text;
 }
 
