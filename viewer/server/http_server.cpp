@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstring>
 
 #include <arpa/inet.h>
@@ -66,7 +67,7 @@ public:
 private:
   /// Until the request is late; zero if it is.
   [[nodiscard]] milliseconds remaining() const {
-    const auto until = m_start + kHead + kEachMiB * (m_arrived >> 20);
+    const auto until = m_start + kHead + kEachMiB * static_cast<std::int64_t>(m_arrived >> 20);
     return std::max(std::chrono::duration_cast<milliseconds>(until - Clock::now()),
                     milliseconds(0));
   }
