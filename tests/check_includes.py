@@ -28,19 +28,21 @@ ROOMS = [
     {"base": []},
     {"geometry": []},
     {"voxels": []},
-    {"io/vtk": [], "io/volume": [], "io/mesh": ["io/vtk"], "io/seeds": ["io/volume"],
+    {"io/content": [], "io/vtk": [], "io/volume": [], "io/mesh": ["io/vtk"], "io/seeds": ["io/volume"],
      "io/centerline": ["io/seeds", "io/vtk", "io/volume"]},
     {"stages/tracking": [], "stages/fitting": [], "stages/editing": ["stages/fitting"], "stages/repair": [],
      "stages/surface": [], "stages/surface/patches": ["stages/surface"],
      "stages/trees_from_surfaces": ["stages/repair"], "stages/phantom": []},
     {"judge/compare": [], "judge/check": []},
-    {"draw/overlay": [], "draw/picture": ["draw/overlay"], "draw/report": []},
+    {"judge/facts": []},
+    {"draw/overlay": [], "draw/picture": ["draw/overlay"], "draw/report": ["draw/overlay"]},
     {"export/shared": []},
     {"export/targets/" + name: [] for name in ("cathsim", "engines", "grid", "isaac", "mujoco", "oned", "openfoam", "print",
                                                "simvascular", "slicer", "sofa", "steve", "svzerod")},
     {"export": []},
     {"library": [], "library/site": ["library"]},
     {"engine": []},
+    {"engine/operations": []},
 ]
 CONVERTERS = []
 for room in ROOMS:

@@ -148,7 +148,7 @@ def convert_case(folder):
     folder.run("to-meshopt", "convert", "case.lumen", "meshopt.glb", "--meshopt", "--lod", "2", "--mesh-per", "branch")
     folder.run("to-colors", "convert", "case.lumen", "colors.glb", "--color", "radius")
     folder.run("to-solids", "convert", "case.lumen", "solids.stl", "--stl-solids")
-    folder.run("to-fine-ply", "convert", "case.lumen", "fine.ply", "--cell", "0.1")
+    folder.run("to-fine-ply", "convert", "case.lumen", "fine.ply", "--patches", "--cell", "0.1")
 
 
 def try_options(folder, name):

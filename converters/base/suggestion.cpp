@@ -5,7 +5,7 @@
 
 #include "converters/base/text.h"
 
-namespace lumen::app {
+namespace lumen {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::string alternatives(const std::vector<std::string>& names) {
   return text;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen

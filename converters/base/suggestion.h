@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lumen::app {
+namespace lumen {
 
 /// The candidate that `word` is most likely a slip of: fewest letters inserted, dropped, replaced
 /// or swapped with a neighbour, whatever the case, and at most a third of them; or the only one that
@@ -19,4 +19,4 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 /// "a, b or c".
 std::string alternatives(const std::vector<std::string>& names);
 
-}  // namespace lumen::app
+}  // namespace lumen

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen completion: what a shell offers when the tabulator key is pressed.
+#include "converters/cli/command_completion.h"
+
 #include <map>
 #include <sstream>
 
-#include "converters/cli/command_line.h"
-#include "converters/cli/value_checks.h"
+#include "converters/cli/command_completion.h"
+#include "converters/cli/commands.h"
 #include "converters/engine/file_format.h"
-#include "converters/engine/report.h"
 
-namespace lumen::app {
+namespace lumen::cli {
 
 namespace {
 
 /// "--from --to --seeds ...": the long names of a command's options.
-std::string optionNames(Command& command) {
-  CLI::App app;
+std::string optionNames(const OptionTable& own) {
   CommonOptions common;
-  bindOptions(app, command, common);
-  std::string names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames())
-      names += (names.empty() ? "--" : " --") + name;
-  return names;
+  OptionTable shared;
+  common.addRows(shared);
+  std::string names = "--help";
+  for (const OptionTable* table : {&own, static_cast<const OptionTable*>(&shared)})
+    for (const OptionRow& row : table->rows()) {
+      if (row.isArgument) continue;
+      names += " " + row.shownName();
+      if (!row.negative.empty()) names += " --" + row.negative;
+    }
+  return names + " --" + configRow().name;
 }
 
 std::string spaced(std::string list) {
@@ -30,17 +33,17 @@ std::string spaced(std::string list) {
 }
 
 /// File names are completed by the shell itself wherever nothing here answers.
-std::string bashScript() {
+std::string bashScript(const engine::Engine& commands) {
   std::map<std::string, std::string> seconds;  // by the word of their group
   std::string names, last;
   std::ostringstream options, groups;
-  for (const auto& command : allCommands()) {
-    const std::string first = firstWord(command->name());
+  for (const auto& [command, table] : commands.commands()) {
+    const std::string first = engine::firstWord(command->name());
     const bool isGroup = groupSummary(first) != nullptr;
     if (first != last) names += (names.empty() ? "" : " ") + first;
     if (isGroup) seconds[first] += command->name().substr(first.size());
     options << "      \"" << command->name() << (isGroup ? "\"" : " \"*") << ") words=\""
-            << optionNames(*command) << "\" ;;\n";
+            << optionNames(*table) << "\" ;;\n";
     last = first;
   }
   for (const auto& [first, words] : seconds)
@@ -53,9 +56,9 @@ std::string bashScript() {
             "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
          << "    words=\"" << names << " help --help --version\"\n"
          << groups.str() << "  elif [ \"$before\" = --from ]; then\n"
-         << "    words=\"" << spaced(formatNames(canRead)) << "\"\n"
+         << "    words=\"" << spaced(engine::formatNames(engine::canRead)) << "\"\n"
          << "  elif [ \"$before\" = --to ]; then\n"
-         << "    words=\"" << spaced(formatNames(canWrite)) << "\"\n"
+         << "    words=\"" << spaced(engine::formatNames(engine::canWrite)) << "\"\n"
          << "  elif [[ $word == -* ]]; then\n"
             "    case \"${COMP_WORDS[1]} ${COMP_WORDS[2]}\" in\n"
          << options.str()
@@ -67,7 +70,7 @@ std::string bashScript() {
   return script.str();
 }
 
-class CompletionCommand : public Command {
+class CompletionCommand : public engine::Command {
 public:
   [[nodiscard]] std::string name() const override { return "completion"; }
   [[nodiscard]] std::string summary() const override {
@@ -77,19 +80,13 @@ public:
     return "  lumen completion bash > ~/.local/share/bash-completion/completions/lumen";
   }
 
-  void bind(CLI::App& app) override {
-    app.add_option("SHELL", m_shell, "bash")
-        ->required()
-        ->configurable(false)
-        ->check(oneOf(std::vector<std::string>{"bash"}));
+  void addRows(OptionTable& table) override {
+    table.argument("SHELL", &m_shell, "bash", oneOf({"bash"}));
   }
 
-  int run(Context& context) override {
-    if (context.common.json)
-      answerJson({{"script", bashScript()}});
-    else
-      answer(bashScript());
-    return 0;
+  engine::Answer run(engine::Surroundings& around) override {
+    std::string script = bashScript(around.engine);
+    return {{{"script", script}}, std::move(script), 0, true};
   }
 
 private:
@@ -98,8 +95,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Command> makeCompletionCommand() {
+std::unique_ptr<engine::Command> makeCompletionCommand() {
   return std::make_unique<CompletionCommand>();
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

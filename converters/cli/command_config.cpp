@@ -4,35 +4,36 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "converters/base/error.h"
 #include "converters/base/suggestion.h"
 #include "converters/base/text.h"
-#include "converters/cli/command_line.h"
 
-namespace lumen::app {
+namespace lumen::cli {
 
 namespace {
-
-struct ConfigLine {
-  std::string place;    ///< "FILE: line 3: "
-  std::string section;  ///< empty: for every command
-  std::string key;
-  std::vector<std::string> values;
-};
 
 [[noreturn]] void refuse(const std::string& place, const std::string& text) {
   throw Error(ErrorKind::Usage, place + text);
 }
 
-/// Without what follows a "#" outside of quotes, and without white space at the ends.
+/// A quote opens a text only where a text can begin: at the start, and after "=", "," or "[". An apostrophe within a
+/// word is a letter.
+bool opensText(const std::string& line, std::size_t at) {
+  if (line[at] != '"' && line[at] != '\'') return false;
+  const std::size_t before = at == 0 ? std::string::npos : line.find_last_not_of(" \t", at - 1);
+  return before == std::string::npos || std::string("=,[").find(line[before]) != std::string::npos;
+}
+
+/// The line up to a "#" outside of quotes, trimmed.
 std::string withoutComment(const std::string& line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (quote != 0)
       quote = c == quote ? '\0' : quote;
-    else if (c == '"' || c == '\'')
+    else if (opensText(line, i))
       quote = c;
     else if (c == '#')
       return trimmed(line.substr(0, i));
@@ -44,14 +45,15 @@ std::string withoutComment(const std::string& line) {
 std::vector<std::string> splitAtCommas(const std::string& text) {
   std::vector<std::string> parts(1);
   char quote = 0;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     if (c == ',' && quote == 0) {
       parts.emplace_back();
       continue;
     }
     if (quote != 0)
       quote = c == quote ? '\0' : quote;
-    else if (c == '"' || c == '\'')
+    else if (opensText(text, i))
       quote = c;
     parts.back() += c;
   }
@@ -75,11 +77,23 @@ std::vector<std::string> valuesOf(const std::string& place, const std::string& t
   return values;
 }
 
-std::vector<ConfigLine> parseLines(std::istream& input, const std::string& file) {
-  std::vector<ConfigLine> lines;
+}  // namespace
+
+struct CommandConfig::Line {
+  std::string place;    ///< "FILE: line 3: "
+  std::string section;  ///< empty: for every command
+  std::string key;
+  std::vector<std::string> values;
+};
+
+std::vector<CommandConfig::Line> CommandConfig::linesIn(std::istream& input,
+                                                        const std::string& file) {
+  std::vector<Line> lines;
   std::string section, text;
   for (int number = 1; std::getline(input, text); ++number) {
     const std::string place = file + ": line " + std::to_string(number) + ": ";
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (number == 1 && text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
     const std::string line = withoutComment(text);
     if (line.empty()) continue;
     if (line.front() == '[') {
@@ -97,26 +111,18 @@ std::vector<ConfigLine> parseLines(std::istream& input, const std::string& file)
   return lines;
 }
 
-/// The option that a line of a file may set; null if there is none.
-const CLI::Option* configurable(const CLI::App& app, const std::string& key) {
-  const CLI::Option* option = app.get_option_no_throw("--" + key);
-  return option != nullptr && option->get_configurable() ? option : nullptr;
-}
-
-std::vector<std::string> keysOf(const CLI::App& app) {
-  std::vector<std::string> keys;
-  for (const CLI::Option* option : app.get_options())
-    if (option->get_configurable())
-      for (const auto& name : option->get_lnames()) keys.push_back(name);
-  return keys;
-}
-
-void checkLine(const ConfigLine& line, const CLI::App& app, const std::string& command) {
-  const CLI::Option* option = configurable(app, line.key);
-  if (option == nullptr)
-    refuse(line.place, line.key + ": lumen " + command + " has no such option" +
-                           didYouMean(line.key, keysOf(app)));
-  if (option->get_expected_min() > 0) return;
+void CommandConfig::checkLine(const Line& line, const engine::BoundCommand& command) const {
+  const OptionRow* row = command.table->find(line.key);
+  if (row == nullptr) row = m_common.find(line.key);
+  if (row == nullptr) {
+    std::vector<std::string> keys;
+    for (const OptionTable* table : {command.table.get(), const_cast<OptionTable*>(&m_common)})
+      for (const OptionRow& one : table->rows())
+        if (!one.isArgument) keys.push_back(one.name);
+    refuse(line.place, line.key + ": lumen " + command.command->name() + " has no such option" +
+                           didYouMean(line.key, keys));
+  }
+  if (!row->isFlag()) return;
   static const std::set<std::string> kSwitch = {"true", "false", "yes", "no",
                                                 "on",   "off",   "1",   "0"};
   const std::string& value = line.values.front();
@@ -126,29 +132,23 @@ void checkLine(const ConfigLine& line, const CLI::App& app, const std::string& c
 }
 
 /// Sections of other commands do not matter to this one, but a misspelt one would never matter.
-void checkOtherLine(const ConfigLine& line) {
-  std::vector<std::string> names;
-  for (const auto& command : allCommands()) {
-    names.push_back(command->name());
-    if (command->name() != line.section) continue;
-    if (line.key.empty()) return;
-    CLI::App app;
-    CommonOptions common;
-    bindOptions(app, *command, common);
-    return checkLine(line, app, line.section);
+void CommandConfig::checkOtherLine(const Line& line) const {
+  if (const engine::BoundCommand other = m_commands.find(line.section); other.command) {
+    if (!line.key.empty()) checkLine(line, other);
+    return;
   }
+  std::vector<std::string> names;
+  for (const auto& [command, table] : m_commands.commands()) names.push_back(command->name());
   refuse(line.place,
          "[" + line.section + "] is not a command of lumen" + didYouMean(line.section, names));
 }
-
-}  // namespace
 
 std::vector<CLI::ConfigItem> CommandConfig::from_config(std::istream& input) const {
   const auto file = m_app.get_config_ptr()->as<std::string>();
   std::vector<CLI::ConfigItem> own, common;
   std::map<std::string, std::string> seen;
-  for (const ConfigLine& line : parseLines(input, file)) {
-    const bool isOwn = line.section.empty() || line.section == m_command;
+  for (const Line& line : linesIn(input, file)) {
+    const bool isOwn = line.section.empty() || line.section == m_command.command->name();
     if (!isOwn) checkOtherLine(line);
     if (line.key.empty()) continue;
     const auto [first, isNew] = seen.emplace(line.section + "/" + line.key, line.place);
@@ -156,7 +156,7 @@ std::vector<CLI::ConfigItem> CommandConfig::from_config(std::istream& input) con
       refuse(line.place,
              line.key + " is set twice; see " + first->second.substr(0, first->second.size() - 2));
     if (!isOwn) continue;
-    checkLine(line, m_app, m_command);
+    checkLine(line, m_command);
     // what the command line gives wins
     if (const std::string name = "--" + line.key; m_app.get_option(name)->count() == 0) {
       if (!line.section.empty()) m_places[name] = line.place;
@@ -177,4 +177,4 @@ std::string CommandConfig::placeOf(const std::string& option) const {
   return place == m_places.end() ? "" : place->second;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

@@ -12,14 +12,18 @@
 
 #include <CLI/CLI.hpp>
 
-namespace lumen::app {
+#include "converters/base/option_table.h"
+#include "converters/engine/command.h"
 
-/// Of one command, whose parser it must not outlive. All that is wrong in the file throws
-/// Error(Usage) with the file's name and the line.
+namespace lumen::cli {
+
+/// Reads the file for one command, whose parser it must not outlive. Throws Error(Usage) with the file's name and
+/// the line for everything that is wrong in it.
 class CommandConfig : public CLI::Config {
 public:
-  CommandConfig(const CLI::App& app, std::string command)
-      : m_app(app), m_command(std::move(command)) {}
+  CommandConfig(const CLI::App& app, const engine::Engine& commands,
+                const engine::BoundCommand& command, const OptionTable& common)
+      : m_app(app), m_commands(commands), m_command(command), m_common(common) {}
 
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
   std::string to_config(const CLI::App*, bool, bool, std::string) const override { return {}; }
@@ -28,9 +32,16 @@ public:
   [[nodiscard]] std::string placeOf(const std::string& option) const;
 
 private:
+  struct Line;
+  static std::vector<Line> linesIn(std::istream& input, const std::string& file);
+  void checkLine(const Line& line, const engine::BoundCommand& command) const;
+  void checkOtherLine(const Line& line) const;
+
   const CLI::App& m_app;
-  std::string m_command;
+  const engine::Engine& m_commands;
+  const engine::BoundCommand& m_command;
+  const OptionTable& m_common;
   mutable std::map<std::string, std::string> m_places;  ///< by the option's name with its dashes
 };
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

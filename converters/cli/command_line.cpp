@@ -7,20 +7,22 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "converters/base/message_text.h"
-#include "converters/cli/command.h"
-#include "converters/cli/command_config.h"
+#include "converters/cli/commands.h"
 #include "converters/cli/help_text.h"
+#include "converters/cli/interrupt.h"
+#include "converters/cli/parser.h"
+#include "converters/cli/terminal_progress.h"
 #include "converters/cli/usage_error.h"
-#include "converters/cli/value_checks.h"
-#include "converters/engine/report.h"
+#include "converters/engine/operation_process.h"
 
-namespace lumen::app {
+namespace lumen::cli {
 
 namespace {
 
@@ -44,7 +46,23 @@ void limitThreads(int threads, std::optional<tbb::global_control>& control) {
   setenv("ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS", std::to_string(threads).c_str(), 1);
 }
 
-int execute(Command& command, const CommonOptions& common) {
+void print(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0) throw failed("standard output cannot be written to");
+}
+
+void print(const engine::Answer& answer, const CommonOptions& common) {
+  using Json = engine::Json;
+  if (!common.json) {
+    if (answer.isAsked || !common.quiet) print(answer.text);
+  } else if (!answer.json.is_null()) {
+    print(answer.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  }
+}
+
+/// A terminal around work: progress, Ctrl-C, threads.
+template <class Work>
+int atTerminal(const engine::Engine& commands, const CommonOptions& common, const Work& work) {
   const Verbosity verbosity = common.quiet     ? Verbosity::Quiet
                               : common.verbose ? Verbosity::Verbose
                                                : Verbosity::Normal;
@@ -57,42 +75,57 @@ int execute(Command& command, const CommonOptions& common) {
   const int available = tbb::this_task_arena::max_concurrency();
   progress.detail(
       std::string("lumen " LUMEN_VERSION ", threads: ").append(std::to_string(available)));
-  Context context{common, progress, interrupts};
-  return command.run(context);
+  engine::Surroundings around{commands, progress};
+  around.threads = common.threads;
+  around.strict = common.strict;
+  around.willWrite = [&](const auto& file) { interrupts.watchOutput(file); };
+  around.answerEarly = [&](const engine::Answer& answer) { print(answer, common); };
+  return work(around);
 }
 
-int runCommand(Command& command, int argc, const char* const* argv) {
+int runCommand(const engine::Engine& commands, const engine::BoundCommand& bound, int argc,
+               const char* const* argv) {
   CommonOptions common;
-  CLI::App app(command.summary(), "lumen " + command.name());
-  bindOptions(app, command, common);
-  app.formatter(std::make_shared<HelpFormatter>());
-  app.footer("Example:\n" + command.example() + "\n\n" + kExitCodes);
-  const auto config = std::make_shared<CommandConfig>(app, command.name());
-  app.config_formatter(config);
+  OptionTable commonTable;
+  common.addRows(commonTable);
+  CommandParser parser(commands, bound, commonTable);
   try {
-    app.parse(argc, argv);
+    parser.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    answer(app.help());
+    print(parser.help("Example:\n" + bound.command->example() + "\n\n" + kExitCodes));
     return 0;
-  } catch (const CLI::ParseError& error) {
-    throw usageError(app, error, command.name(), *config);
   }
-  return execute(command, common);
+  return atTerminal(commands, common, [&](const engine::Surroundings& around) {
+    const engine::Answer answer = commands.run(bound, around);
+    print(answer, common);
+    return answer.code;
+  });
+}
+
+/// The side of `lumen library build` that does one operation.
+int runOperation(const engine::Engine& commands, const char* file) {
+  const engine::ProcessOptions options = engine::operationOptions(file);
+  CommonOptions common;
+  common.threads = options.threads;
+  common.strict = options.strict;
+  return atTerminal(commands, common, [&](engine::Surroundings& around) {
+    return engine::runOperationFile(file, commands, around);
+  });
 }
 
 std::string listOfCommands(CLI::App& app, const std::string& how) {
   app.formatter(std::make_shared<HelpFormatter>());
   app.footer(how + " --help, or " + how.substr(0, 5) + " help" + how.substr(5) +
-             ", tells more, with an example.\n" + kExitCodes);
+             " prints more, with an example.\n" + kExitCodes);
   return app.help();
 }
 
-std::string topLevelHelp() {
+std::string topLevelHelp(const engine::Engine& commands) {
   CLI::App app("From an angiography volume to a simulator-ready vessel case.", "lumen");
   app.set_version_flag("-V,--version", "", "Print the version");
   std::string last;
-  for (const auto& command : allCommands()) {
-    const std::string word = firstWord(command->name());
+  for (const auto& [command, table] : commands.commands()) {
+    const std::string word = engine::firstWord(command->name());
     const char* const group = groupSummary(word);
     if (word != last) app.add_subcommand(word, group != nullptr ? group : command->summary());
     last = word;
@@ -100,77 +133,60 @@ std::string topLevelHelp() {
   return listOfCommands(app, "lumen COMMAND");
 }
 
-std::string groupHelp(const std::string& word) {
+std::string groupHelp(const engine::Engine& commands, const std::string& word) {
   CLI::App app(groupSummary(word), "lumen " + word);
-  for (const auto& command : allCommands())
+  for (const auto& [command, table] : commands.commands())
     if (command->name().starts_with(word + " "))
       app.add_subcommand(command->name().substr(word.size() + 1), command->summary());
   return listOfCommands(app, "lumen " + word + " COMMAND");
 }
 
 /// `arguments`: the words of the command's name, then its own.
-int runNamed(std::span<const char* const> arguments) {
+int runNamed(const engine::Engine& commands, std::span<const char* const> arguments) {
   std::string name = arguments[0];
   if (groupSummary(name) != nullptr) {
     const std::string second = arguments.size() > 1 ? arguments[1] : "";
     if (second == "--help" || second == "-h") {
-      answer(groupHelp(name));
+      print(groupHelp(commands, name));
       return 0;
     }
     if (second.empty()) {
-      std::fputs(groupHelp(name).c_str(), stderr);
+      std::fputs(groupHelp(commands, name).c_str(), stderr);
       throw Error(ErrorKind::Usage, "lumen " + name + ": a command is missing");
     }
     name += " " + second;
     arguments = arguments.subspan(1);
   }
-  for (const auto& command : allCommands())
-    if (command->name() == name)
-      return runCommand(*command, static_cast<int>(arguments.size()), arguments.data());
-  throw unknownCommand(name);
+  const engine::BoundCommand bound = commands.find(name);
+  if (!bound.command) throw unknownCommand(name, commands);
+  return runCommand(commands, bound, static_cast<int>(arguments.size()), arguments.data());
 }
 
 int dispatch(std::span<const char* const> words) {
+  const engine::Engine commands = allCommands();
   const std::string first = words.size() > 1 ? words[1] : "";
   if (words.size() < 2) {
-    std::fputs(topLevelHelp().c_str(), stderr);
+    std::fputs(topLevelHelp(commands).c_str(), stderr);
     throw Error(ErrorKind::Usage, "a command is missing");
   }
   if (first == "help" && words.size() > 2) {
     std::vector<const char*> question(words.begin() + 2, words.end());
     question.push_back("--help");
-    return runNamed(question);
+    return runNamed(commands, question);
   }
   if (first == "help" || first == "--help" || first == "-h") {
-    answer(topLevelHelp());
+    print(topLevelHelp(commands));
     return 0;
   }
   if (first == "version" || first == "--version" || first == "-V") {
-    answer(kVersion);
+    print(kVersion);
     return 0;
   }
-  return runNamed(words.subspan(1));
+  if (first == engine::kOperationWord && words.size() == 3) return runOperation(commands, words[2]);
+  return runNamed(commands, words.subspan(1));
 }
 
 }  // namespace
-
-void bindOptions(CLI::App& app, Command& command, CommonOptions& common) {
-  command.bind(app);
-  app.add_option("--threads", common.threads, "Threads to run on; 0: all cores")
-      ->type_name("N")
-      ->check(wholeIn(0, 1024))
-      ->capture_default_str();
-  auto* quiet = app.add_flag("--quiet", common.quiet, "Print errors and the asked-for answer only");
-  app.add_flag("--verbose", common.verbose, "Also print details")->excludes(quiet);
-  app.add_flag("--strict", common.strict,
-               "Every warning is an error: exit with 3 and write nothing");
-  app.add_flag("--json", common.json, "Answer with one JSON object on standard output");
-  app.set_config(
-         "--config", "",
-         "Options from a file of lines such as \"inlier-rate = 0.6\"; the command line wins")
-      ->type_name("FILE")
-      ->check(fileName());
-}
 
 int runCommandLine(int argc, const char* const* argv) {
   reportFileSizeLimit();
@@ -190,4 +206,4 @@ int runCommandLine(int argc, const char* const* argv) {
   return exitCode(ErrorKind::Failed);
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

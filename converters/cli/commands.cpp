@@ -1,46 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of commands. Each is defined in command_NAME.cpp.
-#include "converters/cli/command.h"
+#include "converters/cli/commands.h"
 
-namespace lumen::app {
+#include "converters/cli/command_completion.h"
+#include "viewer/server/command_view.h"
 
-std::unique_ptr<Command> makeConvertCommand();
-std::unique_ptr<Command> makeExportCommand();
-std::unique_ptr<Command> makeTrackCommand();
-std::unique_ptr<Command> makeFitCommand();
-std::unique_ptr<Command> makeInfoCommand();
-std::unique_ptr<Command> makeValidateCommand();
-std::unique_ptr<Command> makeCompareCommand();
-std::unique_ptr<Command> makeCheckCommand();
-std::unique_ptr<Command> makePictureCommand();
-std::unique_ptr<Command> makeLibraryCheckCommand();
-std::unique_ptr<Command> makeLibrarySignCommand();
-std::unique_ptr<Command> makeLibraryVerifyCommand();
-std::unique_ptr<Command> makeReportCommand();
-std::unique_ptr<Command> makeViewCommand();  // viewer/server
-std::unique_ptr<Command> makeLibraryInitCommand();
-std::unique_ptr<Command> makeLibraryAddCommand();
-std::unique_ptr<Command> makeLibraryRemoveCommand();
-std::unique_ptr<Command> makeLibraryExtractCommand();
-std::unique_ptr<Command> makeLibraryListCommand();
-std::unique_ptr<Command> makeLibraryIndexCommand();
-std::unique_ptr<Command> makeLibraryBuildCommand();
-std::unique_ptr<Command> makeLibrarySampleCommand();
-std::unique_ptr<Command> makePhantomCommand();
-std::unique_ptr<Command> makeCompletionCommand();
+namespace lumen::cli {
 
-std::vector<std::unique_ptr<Command>> allCommands() {
-  std::vector<std::unique_ptr<Command>> commands;
-  for (const auto make :
-       {makeConvertCommand,       makeExportCommand,         makeTrackCommand,
-        makeFitCommand,           makeInfoCommand,           makeValidateCommand,
-        makeCompareCommand,       makeCheckCommand,          makePictureCommand,
-        makeReportCommand,        makeLibraryInitCommand,    makeLibraryAddCommand,
-        makeLibraryRemoveCommand, makeLibraryExtractCommand, makeLibraryListCommand,
-        makeLibraryCheckCommand,  makeLibrarySignCommand,    makeLibraryVerifyCommand,
-        makeLibraryIndexCommand,  makeLibraryBuildCommand,   makeLibrarySampleCommand,
-        makeViewCommand,          makePhantomCommand,        makeCompletionCommand})
-    commands.push_back(make());
+engine::Engine allCommands() {
+  engine::Engine commands = engine::makeEngine();
+  commands.add(viewer::makeViewCommand);
+  commands.add(makeCompletionCommand);
   return commands;
 }
 
@@ -48,4 +17,20 @@ const char* groupSummary(const std::string& word) {
   return word == "library" ? "Make, change, check, sign and publish libraries of cases" : nullptr;
 }
 
-}  // namespace lumen::app
+void CommonOptions::addRows(OptionTable& table) {
+  table.add("threads", &threads, "N", "Threads to run on; 0: all cores").in(WholeRange{0, 1024});
+  table.flag("quiet", quiet, "Print errors and the asked-for answer only");
+  table.flag("verbose", verbose, "Also print details").without("quiet");
+  table.flag("strict", strict, "Every warning is an error: exit with 3 and write nothing");
+  table.flag("json", json, "Answer with one JSON object on standard output");
+}
+
+OptionRow configRow() {
+  OptionRow row;
+  row.name = "config";
+  row.type = "FILE";
+  row.help = "Options from a file of lines such as \"inlier-rate = 0.6\"; the command line wins";
+  return row;
+}
+
+}  // namespace lumen::cli

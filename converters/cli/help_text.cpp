@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/cli/help_text.h"
 
-namespace lumen::app {
+namespace lumen::cli {
 
 std::string HelpFormatter::make_option_name(const CLI::Option* option, bool positional) const {
   std::string name = CLI::Formatter::make_option_name(option, positional);
   for (std::size_t at = name.find('{'); at != std::string::npos; at = name.find('{', at))
     name.erase(at, name.find('}', at) - at + 1);
+  for (const std::string& hidden : m_hidden)
+    if (name.ends_with(hidden)) name.erase(name.size() - hidden.size());
   return name;
 }
 
@@ -25,4 +27,4 @@ std::string HelpFormatter::make_group(std::string group, bool positional,
   return text;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

@@ -3,19 +3,27 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
-namespace lumen::app {
+namespace lumen::cli {
 
-/// Without the parser's own marks: how a switch is negated, what excludes what.
+/// Leaves out the parser's own marks of negated and excluded options.
 class HelpFormatter : public CLI::Formatter {
 public:
-  HelpFormatter() { column_width(36); }
+  /// `hidden`: ends of option names that are not shown, ",--color".
+  explicit HelpFormatter(std::vector<std::string> hidden = {}) : m_hidden(std::move(hidden)) {
+    column_width(36);
+  }
   std::string make_option_name(const CLI::Option* option, bool positional) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
   std::string make_group(std::string group, bool positional,
                          std::vector<const CLI::Option*> options) const override;
+
+private:
+  std::vector<std::string> m_hidden;
 };
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

@@ -2,5 +2,5 @@
 #include "converters/cli/command_line.h"
 
 int main(int argc, char** argv) {
-  return lumen::app::runCommandLine(argc, argv);
+  return lumen::cli::runCommandLine(argc, argv);
 }

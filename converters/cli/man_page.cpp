@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "converters/cli/command_line.h"
+#include "converters/cli/commands.h"
 
-namespace lumen::app {
+namespace lumen::cli {
 
 namespace {
 
@@ -48,8 +48,6 @@ constexpr const char* kTail =
     ".I spec\n"
     "beside the licence in lumen's folder of documentation, such as /usr/local/share/doc/lumen.\n";
 
-constexpr const char* kCommonGroup = "Options";
-
 /// Text that troff prints as it is: no escapes, no requests, and hyphens that can be copied.
 std::string literal(std::string_view text) {
   std::string safe;
@@ -76,79 +74,44 @@ std::string italic(std::string_view text) {
 }
 
 /// "--name N", every spelling of it.
-std::string optionTitle(const CLI::Option& option) {
-  std::string title;
-  const auto add = [&title](const std::string& name) {
-    title += (title.empty() ? "" : ", ") + bold(name);
-  };
-  for (const std::string& name : option.get_snames()) add("-" + name);
-  for (const std::string& name : option.get_lnames()) add("--" + name);
-  if (option.get_type_size() == 0) return title;
-  const std::string& own = option.get_option_text();
-  return title + " " + italic(own.empty() ? option.get_type_name() : own);
+std::string optionTitle(const OptionRow& row) {
+  std::string title = bold(row.shownName());
+  if (!row.negative.empty()) title += ", " + bold("--" + row.negative);
+  return row.isFlag() ? title : title + " " + italic(row.type);
 }
 
-void writeOption(std::ostream& page, const CLI::Option& option) {
-  const bool isPositional = option.get_positional();
+void writeOption(std::ostream& page, const OptionRow& row) {
   page << ".TP\n"
-       << (isPositional ? italic(option.get_single_name()) : optionTitle(option)) << "\n"
-       << literal(option.get_description()) << ".\n";
-  if (!isPositional && option.get_type_size() != 0 && !option.get_default_str().empty())
-    page << "Default: " << literal(option.get_default_str()) << ".\n";
+       << (row.isArgument ? italic(row.name) : optionTitle(row)) << "\n"
+       << literal(row.help) << ".\n";
+  if (!row.isArgument && !row.isFlag() && !row.defaultText.empty())
+    page << "Default: " << literal(row.defaultText) << ".\n";
 }
 
-std::string synopsis(const std::string& name, const std::vector<const CLI::Option*>& options) {
+std::string synopsis(const std::string& name, const OptionTable& table) {
   std::string line = "\\fBlumen " + literal(name) + "\\fR";
-  for (const CLI::Option* option : options)
-    if (option->get_positional())
-      line += " " + italic(option->get_single_name()) +
-              (option->get_expected_max() >= CLI::detail::expected_max_vector_size ? "..." : "");
+  for (const OptionRow& row : table.rows())
+    if (row.isArgument) line += " " + italic(row.name) + (row.repeats ? "..." : "");
   return line + " [" + italic("OPTION") + "...]\n";
 }
 
-/// The options of one group, in the order of the help.
-void writeGroup(std::ostream& page, const std::vector<const CLI::Option*>& options,
-                const std::string& group) {
-  for (const CLI::Option* option : options)
-    if (!option->get_positional() && option->get_group() == group) writeOption(page, *option);
-}
-
-bool isCommon(const CLI::App& common, const CLI::Option& option) {
-  return !option.get_lnames().empty() &&
-         common.get_option_no_throw("--" + option.get_lnames().front()) != nullptr;
-}
-
-void writeCommand(std::ostream& page, Command& command, const CLI::App& common) {
-  CLI::App app;
-  CommonOptions values;
-  bindOptions(app, command, values);
-  std::vector<const CLI::Option*> options;
+void writeCommand(std::ostream& page, const engine::BoundCommand& bound) {
+  const OptionTable& table = *bound.table;
   std::vector<std::string> groups;
-  for (const CLI::Option* option : app.get_options()) {
-    if (isCommon(common, *option) || option->get_group().empty()) continue;
-    options.push_back(option);
-    if (std::find(groups.begin(), groups.end(), option->get_group()) == groups.end())
-      groups.push_back(option->get_group());
-  }
-  page << ".SS " << synopsis(command.name(), options) << literal(command.summary()) << ".\n";
-  for (const CLI::Option* option : options)
-    if (option->get_positional()) writeOption(page, *option);
+  for (const OptionRow& row : table.rows())
+    if (!row.isArgument && std::find(groups.begin(), groups.end(), row.group) == groups.end())
+      groups.push_back(row.group);
+  page << ".SS " << synopsis(bound.command->name(), table) << literal(bound.command->summary())
+       << ".\n";
+  for (const OptionRow& row : table.rows())
+    if (row.isArgument) writeOption(page, row);
   for (const std::string& group : groups) {
-    if (group != kCommonGroup) page << ".PP\n" << bold(group) << "\n";
-    writeGroup(page, options, group);
+    if (!group.empty()) page << ".PP\n" << bold(group) << "\n";
+    for (const OptionRow& row : table.rows())
+      if (!row.isArgument && row.group == group) writeOption(page, row);
   }
-  page << ".PP\nExample:\n.PP\n.nf\n" << literal(command.example()) << "\n.fi\n";
+  page << ".PP\nExample:\n.PP\n.nf\n" << literal(bound.command->example()) << "\n.fi\n";
 }
-
-/// A command with no option of its own: what is left are those that every command has.
-class NoCommand : public Command {
-public:
-  [[nodiscard]] std::string name() const override { return "COMMAND"; }
-  [[nodiscard]] std::string summary() const override { return ""; }
-  [[nodiscard]] std::string example() const override { return ""; }
-  void bind(CLI::App&) override {}
-  int run(Context&) override { return 0; }
-};
 
 }  // namespace
 
@@ -156,16 +119,17 @@ std::string manPage() {
   std::ostringstream page;
   page << ".\\\" Made from the options of the program; see converters/cli/man_page.cpp.\n"
        << R"(.TH LUMEN 1 "" "lumen )" << LUMEN_VERSION << R"(" "User Commands")" << kHead;
-  NoCommand none;
-  CLI::App common;
-  CommonOptions values;
-  bindOptions(common, none, values);
   page << ".SH COMMANDS\n";
-  for (const auto& command : allCommands()) writeCommand(page, *command, common);
+  const engine::Engine commands = allCommands();
+  for (const engine::BoundCommand& bound : commands.commands()) writeCommand(page, bound);
+  CommonOptions common;
+  OptionTable table;
+  common.addRows(table);
   page << ".SH OPTIONS OF EVERY COMMAND\n";
-  for (const CLI::Option* option : common.get_options()) writeOption(page, *option);
+  for (const OptionRow& row : table.rows()) writeOption(page, row);
+  writeOption(page, configRow());
   page << kTail;
   return page.str();
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

@@ -5,9 +5,9 @@
 #include <system_error>
 
 #include "converters/base/suggestion.h"
-#include "converters/cli/command_line.h"
+#include "converters/cli/commands.h"
 
-namespace lumen::app {
+namespace lumen::cli {
 
 namespace {
 
@@ -22,44 +22,40 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
-/// "lumen convert and lumen track" for the commands that have an option; empty if there is none.
-std::string commandsWith(const std::string& option) {
+/// "lumen convert or lumen track" for the commands that have an option; empty if there is none.
+std::string commandsWith(const std::string& option, const engine::Engine& commands) {
   std::vector<std::string> found;
-  for (const auto& command : allCommands()) {
-    CLI::App app;
-    CommonOptions common;
-    bindOptions(app, *command, common);
-    if (app.get_option_no_throw(option) != nullptr) found.push_back("lumen " + command->name());
-  }
+  for (const auto& [command, table] : commands.commands())
+    if (option.starts_with("--") && table->find(option.substr(2)) != nullptr)
+      found.push_back("lumen " + command->name());
   return alternatives(found);
 }
 
 /// "--key FILE".
-std::string optionWithType(const CLI::Option& option) {
-  return option.get_name() + " " + option.get_type_name();
+std::string nameWithType(const OptionRow& row) {
+  return row.isArgument ? row.name : row.shownName() + " " + row.type;
 }
 
-std::string usageLine(const CLI::App& app, const std::string& command) {
-  std::string line = "lumen " + command;
-  for (const CLI::Option* option : app.get_options())
-    if (option->get_positional())
-      line += " " + option->get_name(true) + (option->get_expected_max() > 1 ? "..." : "");
-  for (const CLI::Option* option : app.get_options())
-    if (!option->get_positional() && option->get_required()) line += " " + optionWithType(*option);
+std::string usageLine(const engine::BoundCommand& command) {
+  std::string line = "lumen " + command.command->name();
+  for (const OptionRow& row : command.table->rows())
+    if (row.isArgument) line += " " + row.name + (row.repeats ? "..." : "");
+  for (const OptionRow& row : command.table->rows())
+    if (!row.isArgument && row.isRequired) line += " " + nameWithType(row);
   return line;
 }
 
 std::string unknownOption(const CLI::App& app, const std::string& word,
-                          const std::string& command) {
+                          const engine::Engine& commands, const engine::BoundCommand& command) {
   const std::string option = word.substr(0, word.find('='));
-  std::string text = option + ": lumen " + command + " has no such option";
-  const std::string others = commandsWith(option);
+  std::string text = option + ": lumen " + command.command->name() + " has no such option";
+  const std::string others = commandsWith(option, commands);
   if (!others.empty()) return text + "; it is one of " + others;
   return text + didYouMean(option, optionNames(app));
 }
 
-std::string superfluous(const CLI::App& app, const std::string& word, const std::string& command) {
-  return word + ": one argument too many for " + usageLine(app, command) +
+std::string superfluous(const std::string& word, const engine::BoundCommand& command) {
+  return word + ": one argument too many for " + usageLine(command) +
          " (a name with spaces needs quotes)";
 }
 
@@ -68,9 +64,10 @@ const CLI::Option* optionOf(const CLI::App& app, const std::string& text) {
   return app.get_option_no_throw(text.substr(0, text.find_first_of(": ")));
 }
 
-std::string missingName(const CLI::App& app, const std::string& name) {
-  const CLI::Option* const option = app.get_option_no_throw(name);
-  return option == nullptr || option->get_positional() ? name : optionWithType(*option);
+std::string missingName(const engine::BoundCommand& command, const std::string& name) {
+  for (const OptionRow& row : command.table->rows())
+    if (row.shownName() == name) return nameWithType(row);
+  return name;
 }
 
 std::string wrongCount(const CLI::Option& option) {
@@ -93,11 +90,11 @@ Error noConfig(const CLI::App& app) {
 }
 
 std::string complaint(const CLI::App& app, const CLI::ParseError& error,
-                      const std::string& command) {
+                      const engine::BoundCommand& command) {
   const std::string text = error.what();
   if (isA(error, CLI::ExitCodes::RequiredError))
-    return missingName(app, text.substr(0, text.find(' '))) +
-           " is missing; usage: " + usageLine(app, command);
+    return missingName(command, text.substr(0, text.find(' '))) +
+           " is missing; usage: " + usageLine(command);
   const CLI::Option* option = optionOf(app, text);
   if (option == nullptr) return text;
   if (isA(error, CLI::ExitCodes::ArgumentMismatch)) return wrongCount(*option);
@@ -120,26 +117,26 @@ std::string meantInGroup(const std::string& word, const std::string& group,
 
 }  // namespace
 
-Error usageError(const CLI::App& app, const CLI::ParseError& error, const std::string& command,
-                 const CommandConfig& config) {
+Error usageError(const CLI::App& app, const CLI::ParseError& error, const engine::Engine& commands,
+                 const engine::BoundCommand& command, const CommandConfig& config) {
   if (isA(error, CLI::ExitCodes::FileError)) return noConfig(app);
   const auto left = app.remaining();
   if (isA(error, CLI::ExitCodes::RequiredError) || isA(error, CLI::ExitCodes::ExtrasError)) {
     for (const auto& word : left)
       if (word.size() > 1 && word[0] == '-')
-        return {ErrorKind::Usage, unknownOption(app, word, command)};
-    if (!left.empty()) return {ErrorKind::Usage, superfluous(app, left.front(), command)};
+        return {ErrorKind::Usage, unknownOption(app, word, commands, command)};
+    if (!left.empty()) return {ErrorKind::Usage, superfluous(left.front(), command)};
   }
   const std::string text = complaint(app, error, command);
   return {ErrorKind::Usage, config.placeOf(text.substr(0, text.find_first_of(": "))) + text};
 }
 
-Error unknownCommand(const std::string& word) {
-  const std::string group = firstWord(word);
+Error unknownCommand(const std::string& word, const engine::Engine& commands) {
+  const std::string group = engine::firstWord(word);
   const bool inGroup = group != word && groupSummary(group) != nullptr;
   std::vector<std::string> names;
-  for (const auto& command : allCommands()) {
-    const std::string name = inGroup ? command->name() : firstWord(command->name());
+  for (const auto& [command, table] : commands.commands()) {
+    const std::string name = inGroup ? command->name() : engine::firstWord(command->name());
     if ((!inGroup || name.starts_with(group + " ")) && (names.empty() || names.back() != name))
       names.push_back(name);
   }
@@ -148,9 +145,9 @@ Error unknownCommand(const std::string& word) {
   if (word.starts_with('-')) return {ErrorKind::Usage, word + ": options follow a command" + list};
   if (std::filesystem::exists(word, ignored))
     return {ErrorKind::Usage, word + ": this is a file, and a command comes first: lumen info " +
-                                  word + " tells what is in it" + list};
+                                  word + " reports what is in it" + list};
   const std::string meant = inGroup ? meantInGroup(word, group, names) : didYouMean(word, names);
   return {ErrorKind::Usage, word + ": there is no such command" + (meant.empty() ? list : meant)};
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of arguments that make no sense.
+// Messages about arguments that make no sense.
 #pragma once
 
 #include <string>
@@ -9,15 +9,14 @@
 #include "converters/base/error.h"
 #include "converters/cli/command_config.h"
 
-namespace lumen::app {
+namespace lumen::cli {
 
-/// The complaint for what the parser refused: what is wrong, in which line of which file if it came
-/// from one, and what was probably meant.
-Error usageError(const CLI::App& app, const CLI::ParseError& error, const std::string& command,
-                 const CommandConfig& config);
+/// The error for an argument that the parser refused, with the line of the configuration file if it came from one, and
+/// a suggestion.
+Error usageError(const CLI::App& app, const CLI::ParseError& error, const engine::Engine& commands,
+                 const engine::BoundCommand& command, const CommandConfig& config);
 
-/// "; did you mean lumen convert?" or where the word would make sense, for a first word that is not a
-/// command.
-Error unknownCommand(const std::string& word);
+/// The error for a first word that is not a command, with a suggestion.
+Error unknownCommand(const std::string& word, const engine::Engine& commands);
 
-}  // namespace lumen::app
+}  // namespace lumen::cli

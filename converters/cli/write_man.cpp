@@ -7,6 +7,6 @@
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   std::ofstream file(argv[1], std::ios::binary);
-  file << lumen::app::manPage() << std::flush;
+  file << lumen::cli::manPage() << std::flush;
   return file.good() ? 0 : 1;
 }

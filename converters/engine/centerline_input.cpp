@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "converters/cli/value_checks.h"
+#include "converters/engine/scope.h"
 #include "formats/container/printable.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -37,13 +37,15 @@ std::size_t rootCount(const convert::CenterlineFile& file) {
 
 }  // namespace
 
-void addCenterlineOptions(CLI::App& app, CenterlineArguments& centerline) {
-  app.add_option("--frame", centerline.frame,
-                 "Axes of a centerline's coordinates, whatever its file says: lps, or ras [lps "
-                 "where the file does not say]")
-      ->type_name("FRAME")
-      ->group("Centerline")
-      ->check(oneOf(std::vector<std::string>{"lps", "ras"}));
+void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline) {
+  table.group("Centerline");
+  table
+      .add("frame", &centerline.frame, "FRAME",
+           "Axes of a centerline's coordinates, whatever its file says: lps, or ras [lps where the "
+           "file does not say]")
+      .among(std::vector<std::string>{"lps", "ras"})
+      .forInputs(kCenterline);
+  table.group("");
 }
 
 LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFormat& format,
@@ -110,4 +112,4 @@ Json centerlineInfoJson(const LoadedCenterline& centerline) {
   return json;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

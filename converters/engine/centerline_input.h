@@ -5,21 +5,19 @@
 #include <filesystem>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
-#include "converters/cli/options.h"
+#include "converters/engine/answer_text.h"
 #include "converters/engine/file_format.h"
-#include "converters/engine/report.h"
+#include "converters/engine/stage_options.h"
 #include "converters/io/centerline/case_of_centerline.h"
 #include "converters/stages/fitting/fit_options.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 struct CenterlineArguments {
   std::string frame;  ///< empty, lps or ras
 };
 
-void addCenterlineOptions(CLI::App& app, CenterlineArguments& centerline);
+void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline);
 
 struct LoadedCenterline {
   convert::CenterlineFile file;  ///< in mm and LPS
@@ -39,4 +37,4 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::Fit
 std::string centerlineInfoText(const LoadedCenterline& centerline);
 Json centerlineInfoJson(const LoadedCenterline& centerline);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -8,7 +8,7 @@
 #include "formats/container/crc32c.h"
 #include "formats/view/case_chunks.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::string chunkInfoText(const FileInfo& info) {
          std::to_string(info.length) + "\n\n" + alignColumns(rows);
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

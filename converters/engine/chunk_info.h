@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
-#include "converters/engine/report.h"
+#include "converters/engine/answer_text.h"
 #include "formats/container/container.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 struct ChunkInfo {
   formats::Chunk chunk;  ///< without its bytes
@@ -30,4 +30,4 @@ FileInfo describeChunks(const std::filesystem::path& file);
 Json chunkInfoJson(const FileInfo& info);
 std::string chunkInfoText(const FileInfo& info);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -15,7 +15,7 @@
 #include "converters/base/sha256.h"
 #include "formats/case/atomic_file.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace fs = std::filesystem;
 
@@ -32,9 +32,9 @@ std::string errorText(const fs::path& file, formats::Issue error) {
 }
 
 /// Files that somebody made or measured are not replaced by files of another kind.
-bool isPrecious(ContentKind kind) {
-  return kind == ContentKind::Volume || kind == ContentKind::Seeds || kind == ContentKind::Case ||
-         kind == ContentKind::Centerline;
+bool isPrecious(convert::ContentKind kind) {
+  return kind == convert::ContentKind::Volume || kind == convert::ContentKind::Seeds ||
+         kind == convert::ContentKind::Case || kind == convert::ContentKind::Centerline;
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(const fs::path
   if (!bytes) throw invalidInput(errorText(file, bytes.error()));
   auto value = formats::decodeCase(*bytes);
   if (value) return {std::move(*bytes), std::move(*value)};
-  const std::string other = notA(ContentKind::Case, file);
+  const std::string other = convert::notA(convert::ContentKind::Case, file);
   if (value.error().code == formats::ErrorCode::NotLumen && !other.empty())
     throw invalidInput(file.string() + ": " + other);
   throw invalidInput(errorText(file, value.error()));
@@ -90,20 +90,20 @@ void requireInput(const fs::path& path, std::string_view what) {
 }
 
 void requireOrder(const fs::path& input, const fs::path& output) {
-  const FileContent content = contentOf(output);
+  const convert::FileContent content = convert::contentOf(output);
   const std::string swapped = "; are the two swapped?";
   std::error_code ignored;
   if (!fs::exists(input, ignored) && isPrecious(content.kind))
     throw invalidInput(input.string() + ": there is no such input, and the output is there (" +
                        output.string() + ": " + content.sentence() + ")" + swapped);
-  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Seeds)
+  if (content.kind == convert::ContentKind::Volume || content.kind == convert::ContentKind::Seeds)
     throw Error(ErrorKind::Usage, output.string() + ": " + content.sentence() +
                                       ", but given as the output" + swapped);
 }
 
-void requireWritable(const fs::path& path, ContentKind written) {
+void requireWritable(const fs::path& path, convert::ContentKind written) {
   std::error_code ignored;
-  const FileContent content = contentOf(path);
+  const convert::FileContent content = convert::contentOf(path);
   if (isPrecious(content.kind) && content.kind != written)
     throw Error(ErrorKind::Usage, path.string() + ": " + content.sentence() +
                                       ", which would be lost; another name, please");
@@ -123,4 +123,4 @@ void requireWritable(const fs::path& path, ContentKind written) {
   if (!begun) throw failed(errorText(path, begun.error()));
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -2,6 +2,8 @@
 // What a command reads and writes by name, and what it refuses before any work.
 #pragma once
 
+#include "converters/engine/app_alias.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -9,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "converters/engine/file_content.h"
+#include "converters/io/content/file_content.h"
 #include "formats/case/case_file.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 /// A case in either encoding, by its content. Throws Error(InvalidInput) with the file's name and
 /// what is wrong in it.
@@ -49,6 +51,6 @@ void requireOrder(const std::filesystem::path& input, const std::filesystem::pat
 /// Throws Error(Failed) unless `path` can be created: its folder must exist and take new files, and
 /// it must not itself be a folder. Leaves nothing behind. Throws Error(Usage) if `path` is a volume,
 /// seeds or a case, and something else is going to be written.
-void requireWritable(const std::filesystem::path& path, ContentKind written);
+void requireWritable(const std::filesystem::path& path, convert::ContentKind written);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -7,8 +7,8 @@
 #include "converters/base/error.h"
 #include "converters/base/suggestion.h"
 #include "converters/base/text.h"
+#include "converters/engine/case_losses.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/loss_report.h"
 #include "converters/engine/mesh_of_case.h"
 #include "converters/io/centerline/read_curves.h"
 #include "converters/io/centerline/read_swc.h"
@@ -21,7 +21,7 @@
 #include "converters/io/mesh/write_vtp.h"
 #include "converters/io/volume/write_volume.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace fs = std::filesystem;
 using convert::MeshFormat;
@@ -177,9 +177,10 @@ const FileFormat* findFolder(const fs::path& folder) {
 
 /// The format of a file whose name may stand for several kinds.
 const FileFormat* findByContent(const fs::path& path) {
-  const FileContent content = contentOf(path);
+  const convert::FileContent content = convert::contentOf(path);
   const bool isVtk = lowerCase(path.extension().string()) == ".vtp";
-  return isVtk && content.kind == ContentKind::Centerline ? findByName("centerline.vtp") : nullptr;
+  return isVtk && content.kind == convert::ContentKind::Centerline ? findByName("centerline.vtp")
+                                                                   : nullptr;
 }
 
 const FileFormat* findByEnding(const fs::path& path) {
@@ -236,14 +237,15 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
 
 /// An input whose name does not tell its format, but whose content does.
 void refuseByContent(const fs::path& path) {
-  const FileContent content = contentOf(path);
-  if (content.kind == ContentKind::Volume || content.kind == ContentKind::Case ||
-      content.kind == ContentKind::Mesh || content.kind == ContentKind::Centerline)
+  const convert::FileContent content = convert::contentOf(path);
+  if (content.kind == convert::ContentKind::Volume || content.kind == convert::ContentKind::Case ||
+      content.kind == convert::ContentKind::Mesh ||
+      content.kind == convert::ContentKind::Centerline)
     throw unsupported(path.string() + ": " + content.sentence() +
                       ", but its name does not say so; --from says it, which takes " +
                       formatNames(canRead));
-  if (content.kind != ContentKind::Unknown)
-    throw unsupported(path.string() + ": " + notA(ContentKind::Volume, path));
+  if (content.kind != convert::ContentKind::Unknown)
+    throw unsupported(path.string() + ": " + convert::notA(convert::ContentKind::Volume, path));
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& last) {
@@ -262,18 +264,18 @@ const std::vector<FileFormat>& fileFormats() {
   return table;
 }
 
-ContentKind contentKind(const FileFormat& format) {
+convert::ContentKind contentKind(const FileFormat& format) {
   switch (format.kind) {
     case FormatKind::Volume:
-      return ContentKind::Volume;
+      return convert::ContentKind::Volume;
     case FormatKind::Mesh:
-      return ContentKind::Mesh;
+      return convert::ContentKind::Mesh;
     case FormatKind::Centerline:
-      return ContentKind::Centerline;
+      return convert::ContentKind::Centerline;
     case FormatKind::Case:
       break;
   }
-  return ContentKind::Case;
+  return convert::ContentKind::Case;
 }
 
 bool canRead(const FileFormat& format) {
@@ -357,4 +359,4 @@ const FileFormat& volumeOutputFormat(const fs::path& path, const std::string& wh
                     formatEndings(canWriteVolume));
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -3,6 +3,8 @@
 // report and shell completion are made from the table.
 #pragma once
 
+#include "converters/engine/app_alias.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,9 +12,9 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/engine/file_content.h"
 #include "converters/engine/scene_input.h"
 #include "converters/io/centerline/centerline_file.h"
+#include "converters/io/content/file_content.h"
 #include "converters/io/mesh/mesh_file.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/io/volume/read_volume.h"
@@ -21,7 +23,7 @@
 #include "formats/case/case.h"
 #include "formats/case/case_file.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 enum class FormatKind { Volume, Case, Mesh, Centerline };
 
@@ -69,7 +71,7 @@ struct FileFormat {
 const std::vector<FileFormat>& fileFormats();
 
 /// What a file of this format is.
-ContentKind contentKind(const FileFormat& format);
+convert::ContentKind contentKind(const FileFormat& format);
 
 /// What a list of formats is about.
 using FormatTest = bool (*)(const FileFormat&);
@@ -98,4 +100,4 @@ const FileFormat& caseOutputFormat(const std::filesystem::path& path, std::strin
                                    const std::string& what);
 const FileFormat& volumeOutputFormat(const std::filesystem::path& path, const std::string& what);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

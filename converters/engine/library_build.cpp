@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
+#include <string_view>
+#include <thread>
 
 #include "converters/base/error.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/suggestion.h"
-#include "converters/cli/about_options.h"
-#include "converters/cli/value_checks.h"
+#include "converters/engine/about_options.h"
+#include "converters/engine/answer_text.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/report.h"
+#include "converters/engine/operation_process.h"
 #include "converters/export/export_case.h"
 #include "converters/library/build.h"
 #include "converters/library/library_file.h"
@@ -19,9 +20,7 @@
 #include "formats/case/case_file.h"
 #include "formats/container/printable.h"
 
-namespace lumen::app {
-
-std::unique_ptr<Command> makeConvertCommand();
+namespace lumen::engine {
 
 namespace fs = std::filesystem;
 
@@ -42,9 +41,9 @@ void requireTargets(const BuildRow& row) {
 }
 
 /// Options of lumen convert but those that every command has.
-void requireOptions(const BuildRow& row, const CLI::App& convertOptions) {
+void requireOptions(const BuildRow& row, const OptionTable& convertOptions) {
   for (const auto& [name, value] : row.options)
-    if (convertOptions.get_option_no_throw(name) == nullptr)
+    if (convertOptions.find(std::string_view(name).substr(2)) == nullptr)
       throw invalidInput(formats::printable(name) + ": lumen convert has no such option");
 }
 
@@ -58,15 +57,13 @@ void requireAbout(const BuildRow& row, const convert::LibraryFile& library) {
 
 /// Refuses, all at once, what would only fail after work.
 void requireRows(const std::vector<BuildRow>& rows, const convert::LibraryFile& library,
-                 const std::string& list) {
-  CLI::App convertOptions;
-  const std::unique_ptr<Command> command = makeConvertCommand();
-  command->bind(convertOptions);
+                 const std::string& list, const Engine& engine) {
+  const BoundCommand convertCommand = engine.find("convert");
   std::string faults;
   for (const BuildRow& row : rows) {
     try {
       requireTargets(row);
-      requireOptions(row, convertOptions);
+      requireOptions(row, *convertCommand.table);
       requireAbout(row, library);
     } catch (const Error& error) {
       faults += (faults.empty() ? "" : "\n") + formats::printable(list) + ": line " +
@@ -120,21 +117,6 @@ std::string resultTable(const std::vector<RowResult>& results) {
   return text;
 }
 
-void report(const std::vector<RowResult>& results, const std::string& library,
-            const Context& context) {
-  const std::size_t made = countOf(results, RowEnd::Made), kept = countOf(results, RowEnd::Kept),
-                    missing = countOf(results, RowEnd::Failed);
-  if (context.common.json) {
-    Json rows = Json::array();
-    for (const RowResult& result : results) rows.push_back(resultJson(result));
-    answerJson(Json{{"made", made}, {"kept", kept}, {"failed", missing}, {"rows", rows}});
-  } else if (!context.common.quiet || missing > 0) {
-    answer(resultTable(results) + formats::printable(library) + ": " +
-           counted(results.size(), "row", "rows") + ": " + std::to_string(made) + " made, " +
-           std::to_string(kept) + " kept, " + std::to_string(missing) + " failed\n");
-  }
-}
-
 int exitCodeOf(const std::vector<RowResult>& results) {
   bool isInputAlone = true, isFailed = false;
   for (const RowResult& result : results) {
@@ -146,19 +128,28 @@ int exitCodeOf(const std::vector<RowResult>& results) {
   return static_cast<int>(isInputAlone ? ErrorKind::InvalidInput : ErrorKind::Failed);
 }
 
+Answer answerOf(const std::vector<RowResult>& results, const std::string& library) {
+  const std::size_t made = countOf(results, RowEnd::Made), kept = countOf(results, RowEnd::Kept),
+                    missing = countOf(results, RowEnd::Failed);
+  Json rows = Json::array();
+  for (const RowResult& result : results) rows.push_back(resultJson(result));
+  return {Json{{"made", made}, {"kept", kept}, {"failed", missing}, {"rows", rows}},
+          resultTable(results) + formats::printable(library) + ": " +
+              counted(results.size(), "row", "rows") + ": " + std::to_string(made) + " made, " +
+              std::to_string(kept) + " kept, " + std::to_string(missing) + " failed\n",
+          exitCodeOf(results), missing > 0};
+}
+
 }  // namespace
 
-void addBuildOptions(CLI::App& app, BuildArguments& arguments) {
-  app.add_option("--jobs", arguments.jobs, "Rows at once; --threads are shared between them")
-      ->type_name("N")
-      ->check(wholeIn(1, kMostJobs))
-      ->capture_default_str();
-  addFile(
-      app, "--work", arguments.work,
-      "Folder for what is being made, which a run that was interrupted goes on with; by default "
-      "LIBRARY.build")
-      ->required(false)
-      ->type_name("PATH");
+void addBuildRows(OptionTable& table, BuildArguments& arguments) {
+  table.add("jobs", &arguments.jobs, "N", "Rows at once; --threads are shared between them")
+      .in(WholeRange{1, kMostJobs});
+  table
+      .add("work", &arguments.work, "PATH",
+           "Folder of the work in progress, from which an interrupted run continues "
+           "[LIBRARY.build]")
+      .checkedBy(fileName());
 }
 
 std::vector<BuildRow> loadBuildList(const std::string& file) {
@@ -169,22 +160,28 @@ std::vector<BuildRow> loadBuildList(const std::string& file) {
                                 file);
 }
 
-int buildAndReport(const std::vector<BuildRow>& rows, const std::string& list,
-                   const std::string& library, const BuildArguments& arguments, Context& context) {
-  requireRows(rows, convert::openLibrary(library), list);
+Answer buildLibrary(const std::vector<BuildRow>& rows, const std::string& list,
+                    const std::string& library, const BuildArguments& arguments,
+                    const Surroundings& around) {
+  requireRows(rows, convert::openLibrary(library), list, around.engine);
+  const auto cores = std::max(1U, std::thread::hardware_concurrency());
+  const int all = around.threads > 0 ? around.threads : static_cast<int>(cores);
+  ProcessOptions process;
+  process.threads = std::max(1, all / arguments.jobs);
+  process.strict = around.strict;
   convert::BuildOptions options;
-  options.program = fs::read_symlink("/proc/self/exe");
+  options.run = [process](const Operation& operation, const fs::path& log,
+                          const Progress& progress) {
+    return runInProcess(operation, process, log, progress);
+  };
   options.version = LUMEN_VERSION;
   const fs::path folder = fs::absolute(library) / "";
   options.work = arguments.work.empty() ? folder.parent_path().string() + ".build" : arguments.work;
   options.jobs = arguments.jobs;
-  options.threads = context.common.threads;
-  options.strict = context.common.strict;
   options.day = revisionDay("");
-  const auto results = convert::buildLibrary(rows, folder.parent_path(), options, context.progress);
+  const auto results = convert::buildLibrary(rows, folder.parent_path(), options, around.progress);
   if (countOf(results, RowEnd::Failed) == 0) convert::removeWorkFolder(options.work);
-  report(results, library, context);
-  return exitCodeOf(results);
+  return answerOf(results, library);
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -5,19 +5,17 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
-#include "converters/cli/command.h"
+#include "converters/engine/command.h"
 #include "converters/library/build_list.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 struct BuildArguments {
   int jobs = 1;
   std::string work;  ///< empty: LIBRARY.build
 };
 
-void addBuildOptions(CLI::App& app, BuildArguments& arguments);
+void addBuildRows(OptionTable& table, BuildArguments& arguments);
 
 /// Throws Error(InvalidInput) as convert::readBuildList(), and for a file that cannot be read.
 std::vector<convert::BuildRow> loadBuildList(const std::string& file);
@@ -25,7 +23,8 @@ std::vector<convert::BuildRow> loadBuildList(const std::string& file);
 /// Makes the rows and answers with a table of what failed and why. Throws Error(InvalidInput) for a row that cannot
 /// succeed, as far as that is seen before any work. Returns the exit code: 0 if every row is in the library, 3 if
 /// the inputs alone are to blame for those that are not, else 1.
-int buildAndReport(const std::vector<convert::BuildRow>& rows, const std::string& list,
-                   const std::string& library, const BuildArguments& arguments, Context& context);
+Answer buildLibrary(const std::vector<convert::BuildRow>& rows, const std::string& list,
+                    const std::string& library, const BuildArguments& arguments,
+                    const Surroundings& around);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/cli/options.h"
-#include "converters/engine/stages.h"
+#include "converters/engine/stage_options.h"
+#include "converters/engine/tracking_input.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 #include "formats/container/printable.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -68,4 +68,4 @@ formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat
   return std::move(made.result);
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -10,7 +10,7 @@
 #include "converters/engine/file_format.h"
 #include "converters/stages/trees_from_surfaces/label_mesh.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 struct VolumeArguments;
 
@@ -32,4 +32,4 @@ formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat
                              const VolumeArguments& volume, const MaskArguments& arguments,
                              Progress& progress);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

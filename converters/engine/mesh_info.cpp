@@ -13,7 +13,7 @@
 
 #include "formats/container/printable.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -243,4 +243,4 @@ std::string meshInfoText(const MeshInfo& info) {
   return lines.text();
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -5,11 +5,11 @@
 #include <string>
 
 #include "converters/base/progress.h"
-#include "converters/engine/report.h"
+#include "converters/engine/answer_text.h"
 #include "converters/io/mesh/mesh_file.h"
 #include "converters/stages/repair/mesh_report.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 struct MeshInfo {
   convert::MeshFile file;
@@ -26,4 +26,4 @@ MeshInfo describeMesh(convert::MeshFile file, const std::string& name, const std
 Json meshInfoJson(const MeshInfo& info);
 std::string meshInfoText(const MeshInfo& info);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

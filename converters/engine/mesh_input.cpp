@@ -19,7 +19,7 @@
 #include "converters/stages/repair/repair.h"
 #include "formats/container/printable.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace fs = std::filesystem;
 
@@ -119,4 +119,4 @@ formats::Case caseOfMeshFile(const fs::path& file, const FileFormat& format,
   return std::move(made.result);
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

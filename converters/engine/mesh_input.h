@@ -9,7 +9,7 @@
 #include "converters/engine/file_format.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 /// What a user says of a mesh.
 struct MeshArguments {
@@ -25,4 +25,4 @@ struct MeshArguments {
 formats::Case caseOfMeshFile(const std::filesystem::path& file, const FileFormat& format,
                              const MeshArguments& arguments, Progress& progress);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "converters/engine/loss_report.h"
-#include "converters/engine/surface_report.h"
+#include "converters/engine/case_losses.h"
+#include "converters/engine/surface_answer.h"
 #include "converters/stages/surface/patches/polygonise.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -38,4 +38,4 @@ CaseMesh meshOfCase(const formats::Case& value, const std::filesystem::path& fil
   return {std::move(made.levels), std::move(made.report)};
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

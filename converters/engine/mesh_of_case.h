@@ -12,7 +12,7 @@
 #include "converters/stages/surface/closed_surface.h"
 #include "formats/case/case.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 struct CaseMesh {
   /// The surface, and coarser ones behind it, all with the same groups and labels.
@@ -25,4 +25,4 @@ struct CaseMesh {
 CaseMesh meshOfCase(const formats::Case& value, const std::filesystem::path& file,
                     const OutputOptions& options, bool hasLevels, Progress& progress);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -11,22 +11,19 @@
 #include <string_view>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "converters/base/error.h"
 #include "converters/base/privacy.h"
 #include "converters/base/run_program.h"
 #include "converters/base/sha256.h"
-#include "converters/cli/export_options.h"
-#include "converters/cli/run_lumen.h"
 #include "converters/draw/overlay/picture.h"
 #include "converters/draw/picture/draw_case.h"
+#include "converters/engine/export_options.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/reachable.h"
 #include "converters/engine/replaced_case.h"
-#include "converters/engine/surface_report.h"
+#include "converters/engine/surface_answer.h"
 #include "converters/export/export_case.h"
 #include "converters/io/mesh/write_gltf.h"
+#include "converters/judge/facts/reachable.h"
 #include "converters/library/change.h"
 #include "converters/library/record_of_case.h"
 #include "converters/stages/surface/closed_surface.h"
@@ -34,7 +31,7 @@
 #include "formats/container/container.h"
 #include "formats/container/printable.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -155,8 +152,8 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
                IncomingCase& incoming, Progress& progress) {
   const convert::ExportTarget& target = exportTarget(name);
   convert::ExportOptions options;
-  CLI::App defaults;
-  addExportOptions(defaults, options);
+  OptionTable defaults;
+  addExportRows(defaults, options);
   try {
     const convert::ExportResult result =
         convert::exportCase(target, value, options, exportOptionTexts(defaults, target), progress);
@@ -169,22 +166,38 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
   }
 }
 
-/// Pages that other commands make of the case, under its id: the name of a file may tell whose it is.
+/// Passes on that the user has cancelled, and shows nothing.
+class QuietProgress : public Progress {
+public:
+  explicit QuietProgress(const Progress& asked) : m_asked(asked) {}
+  void begin(std::string_view, std::size_t) override { m_asked.check(); }
+  void advance(std::size_t) override { m_asked.check(); }
+  void end() override { m_asked.check(); }
+
+private:
+  const Progress& m_asked;
+};
+
+/// Adds pages that other commands make of the case. They see it under its id, as the name of a file may identify a
+/// patient.
 void addPages(std::string_view caseBytes, const CaseWishes& wishes, IncomingCase& incoming,
-              Progress& progress) {
+              const Surroundings& around) {
   if (!wishes.report && !wishes.viewer) return;
   const convert::PrivateFolder folder;
   const fs::path file = folder.path() / (incoming.record.id + ".lumen");
   writeText(caseBytes, file);
+  QuietProgress quiet(around.progress);
+  const Surroundings within{around.engine, quiet};
   if (wishes.report) {
     const fs::path page = folder.path() / "report.html";
-    runLumen({"report", file.string(), page.string(), "--title", incoming.record.about.title},
-             progress);
+    Operation report{"report", {file.string(), page.string()}, {}};
+    (void)around.engine.run(report.with("title", incoming.record.about.title), within);
     incoming.addFile("report.html", "report", page);
   }
   if (wishes.viewer) {
     const fs::path page = folder.path() / "view.html";
-    runLumen({"view", file.string(), "--html", page.string()}, progress);
+    Operation view{"view", {file.string()}, {}};
+    (void)around.engine.run(view.with("html", page.string()), within);
     incoming.addFile("view.html", "other", page);
   }
 }
@@ -205,7 +218,9 @@ std::string idOfCase(const fs::path& caseFile) {
 }
 
 IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
-                         const CaseWishes& wishes, const fs::path& library, Progress& progress) {
+                         const CaseWishes& wishes, const fs::path& library,
+                         const Surroundings& around) {
+  Progress& progress = around.progress;
   const std::string file = caseFile.string();
   checkWishes(wishes);
   if (const std::string fault = convert::missingStatement(about); !fault.empty())
@@ -230,13 +245,13 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   }
   if (!wishes.recipe.empty()) incoming.record.provenance["recipe_sha256"] = wishes.recipe;
   for (const std::string& one : wishes.files) incoming.addFile(pathOfFile(one), "other", one);
-  warnOfClosed(reachOf(value, progress), progress);
+  convert::warnOfClosed(convert::reachOf(value, progress), progress);
   if (value.models && wishes.surface) addSurface(value, incoming, progress);
   if (value.models) addPictures(value, wishes, incoming, progress);
   for (const std::string& target : wishes.targets)
     addExport(target, value, file, incoming, progress);
-  addPages(textOf(bytes), wishes, incoming, progress);
+  addPages(textOf(bytes), wishes, incoming, around);
   return incoming;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "converters/base/progress.h"
+#include "converters/engine/command.h"
 #include "converters/library/incoming_case.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 /// What of a case is to be made for a library, besides the case itself.
 struct CaseWishes {
@@ -37,6 +37,6 @@ const std::vector<std::string>& pictureViews();
 /// a person's, and as exports and surfaces do. `about` gets a title if it has none.
 convert::IncomingCase prepareCase(const std::filesystem::path& caseFile, convert::CaseAbout about,
                                   const CaseWishes& wishes, const std::filesystem::path& library,
-                                  Progress& progress);
+                                  const Surroundings& around);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

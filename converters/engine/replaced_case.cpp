@@ -7,7 +7,7 @@
 #include "converters/library/change.h"
 #include "converters/library/library_file.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -55,4 +55,4 @@ void keepWishes(const convert::CaseRecord& before, const std::filesystem::path& 
   wishes.surface = wishes.surface && hasSurface;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

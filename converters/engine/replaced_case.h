@@ -9,7 +9,7 @@
 #include "converters/engine/prepare_case.h"
 #include "converters/library/record.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 /// The id that a case gets without another wish: case- and the first 12 digits of its digest. Throws as readCase().
 std::string idOfCase(const std::filesystem::path& caseFile);
@@ -24,4 +24,4 @@ std::optional<convert::CaseRecord> replacedVersion(const std::filesystem::path& 
 void keepWishes(const convert::CaseRecord& before, const std::filesystem::path& library,
                 bool keepsViews, bool keepsTurntable, CaseWishes& wishes);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

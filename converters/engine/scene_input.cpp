@@ -11,7 +11,7 @@
 #include "converters/io/volume/detached_data.h"
 #include "formats/container/printable.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace fs = std::filesystem;
 
@@ -55,4 +55,4 @@ convert::MeshFile readSceneMesh(const fs::path& file, const SceneArguments& argu
   return read;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -8,7 +8,7 @@
 
 #include "converters/io/mesh/mesh_file.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 /// What a user says of a scene.
 struct SceneArguments {
@@ -21,4 +21,4 @@ struct SceneArguments {
 /// the vessels are, or takes it from elsewhere than it may; and what the mesh's reader throws.
 convert::MeshFile readSceneMesh(const std::filesystem::path& file, const SceneArguments& arguments);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -8,7 +8,7 @@
 #include "converters/io/volume/read_volume.h"
 #include "converters/io/volume/write_volume.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::string volumeInfoText(const VolumeInfo& info) {
   return text.str();
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "converters/base/progress.h"
-#include "converters/engine/report.h"
+#include "converters/engine/answer_text.h"
 #include "converters/io/volume/volume_header.h"
 #include "converters/voxels/volume.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 struct VolumeInfo {
   convert::VolumeHeader header;
@@ -33,4 +33,4 @@ std::string volumeInfoText(const VolumeInfo& info);
 /// The geometry and digest alone, as a case's provenance shows them.
 Json sourceVolumeJson(const formats::SourceVolume& source);
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -4,23 +4,25 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "converters/base/operation.h"
 #include "converters/base/progress.h"
 #include "converters/library/build_list.h"
 
 namespace lumen::convert {
 
 struct BuildOptions {
-  std::filesystem::path program;  ///< lumen itself
-  std::string version;            ///< of it: another one makes every case again
+  /// Does an operation in a process of its own, which appends its messages to a file.
+  std::function<OperationEnd(const Operation&, const std::filesystem::path& log, const Progress&)>
+      run;
+  std::string version;  ///< of lumen: another one makes every case again
   std::filesystem::path
-      work;             ///< where rows are made: what is there from another run is gone on with
-  int jobs = 1;         ///< rows at once
-  int threads = 0;      ///< for all of them together; 0: all cores
-  bool strict = false;  ///< a warning fails the row
-  std::string day;      ///< YYYY-MM-DD: of the revisions that come of it
+      work;         ///< where rows are made: what is there from another run is gone on with
+  int jobs = 1;     ///< rows at once
+  std::string day;  ///< YYYY-MM-DD: of the revisions that come of it
 };
 
 enum class RowEnd : std::uint8_t { Made, Kept, Failed };

@@ -130,8 +130,8 @@ TEST_F(TubeTest, TrackThenFitGivesConvertsCaseAndNamesItsParentForAnyNumberOfThr
 
 TEST_F(TubeTest, ACaseBecomesEveryOtherFormatAndBothEncodingsHoldTheSame) {
   ASSERT_EQ(lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"}).code, 0);
-  for (const auto& format : app::fileFormats()) {
-    if (!app::canWrite(format)) continue;
+  for (const auto& format : engine::fileFormats()) {
+    if (!engine::canWrite(format)) continue;
     const std::string name = std::string("a").append(format.endings.front());
     const Outcome made = lumen({"convert", "tube.lumen", name});
     EXPECT_EQ(made.code, 0) << name << ": " << made.err;
@@ -143,8 +143,8 @@ TEST_F(TubeTest, ACaseBecomesEveryOtherFormatAndBothEncodingsHoldTheSame) {
 
 TEST_F(TubeTest, EveryVolumeFormatThatIsWrittenReadsBackTheSame) {
   const Json info = Json::parse(lumen({"info", "tube.nrrd", "--json", "--voxels"}).out);
-  for (const auto& format : app::fileFormats()) {
-    if (!app::canWriteVolume(format)) continue;
+  for (const auto& format : engine::fileFormats()) {
+    if (!engine::canWriteVolume(format)) continue;
     const std::string name = std::string("other").append(format.endings.front());
     ASSERT_EQ(lumen({"phantom", "tube", name, "--size", "64"}).code, 0) << name;
     EXPECT_EQ(Json::parse(lumen({"info", name, "--json", "--voxels"}).out)["sha256"],

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a file is by its content, and that outputs spare what cannot be made again.
-#include "converters/engine/file_content.h"
+#include "converters/io/content/file_content.h"
 
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
 
-using app::ContentKind;
+using convert::ContentKind;
 
 class FileContentTest : public TubeTest {
 protected:
   [[nodiscard]] ContentKind kindOf(const std::string& name) const {
-    return app::contentOf(path(name)).kind;
+    return convert::contentOf(path(name)).kind;
   }
 };
 
@@ -37,8 +37,8 @@ TEST_F(FileContentTest, NothingIsSaidOfWhatIsNotKnown) {
   write("text", "some words");
   for (const char* name : {"empty", "short", "text", "gone", "."})
     EXPECT_EQ(kindOf(name), ContentKind::Unknown) << name;
-  EXPECT_EQ(app::notA(ContentKind::Case, path("text")), "");
-  EXPECT_EQ(app::notA(ContentKind::Case, path("truth.lumen")), "");
+  EXPECT_EQ(convert::notA(ContentKind::Case, path("text")), "");
+  EXPECT_EQ(convert::notA(ContentKind::Case, path("truth.lumen")), "");
 }
 
 TEST_F(FileContentTest, NoOutputReplacesAFileOfAnotherKind) {

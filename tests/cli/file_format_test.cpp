@@ -10,7 +10,7 @@
 #include "converters/base/error.h"
 #include "converters/engine/file_access.h"
 
-namespace lumen::app {
+namespace lumen::engine {
 
 namespace {
 
@@ -103,4 +103,4 @@ TEST(WriteText, NamesTheFileThatItCannotWrite) {
 
 }  // namespace
 
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/engine/loss_report.h"
-
 #include <gtest/gtest.h>
 
-namespace lumen::app {
+#include "converters/engine/case_losses.h"
+
+namespace lumen::engine {
 namespace {
 
 class Warnings : public Progress {
@@ -38,4 +38,4 @@ TEST(LossReport, AsksForFinerCellsOnlyWhereTheseWereTooCoarse) {
 }
 
 }  // namespace
-}  // namespace lumen::app
+}  // namespace lumen::engine

@@ -26,19 +26,19 @@ TEST(MessageText, ControlCharactersAreEscapedAndLinesStayLines) {
 TEST(Suggestion, ASlipIsAnInsertedDroppedReplacedOrSwappedLetter) {
   const std::vector<std::string> options = {"--seeds", "--series", "--dark", "--step"};
   for (const char* typed : {"--seed", "--seedss", "--sedes", "--saeds", "-seeds", "--SEEDS"})
-    EXPECT_EQ(app::closest(typed, options), "--seeds") << typed;
+    EXPECT_EQ(closest(typed, options), "--seeds") << typed;
 }
 
 TEST(Suggestion, TheBeginningOfOneNameMeansThatName) {
-  EXPECT_EQ(app::closest("gau", {"cauchy", "gaussian"}), "gaussian");
-  EXPECT_EQ(app::closest("com", {"compare", "completion"}), "");
+  EXPECT_EQ(closest("gau", {"cauchy", "gaussian"}), "gaussian");
+  EXPECT_EQ(closest("com", {"compare", "completion"}), "");
 }
 
 TEST(Suggestion, NothingNearIsNoSuggestion) {
-  EXPECT_EQ(app::closest("polish", {"convert", "track", "fit"}), "");
-  EXPECT_EQ(app::closest("", {"fit"}), "");
-  EXPECT_EQ(app::didYouMean("polish", {"convert"}), "");
-  EXPECT_EQ(app::didYouMean("confert", {"convert"}), "; did you mean convert?");
+  EXPECT_EQ(closest("polish", {"convert", "track", "fit"}), "");
+  EXPECT_EQ(closest("", {"fit"}), "");
+  EXPECT_EQ(didYouMean("polish", {"convert"}), "");
+  EXPECT_EQ(didYouMean("confert", {"convert"}), "; did you mean convert?");
 }
 
 }  // namespace lumen::test

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every option of every command, found by asking the parsers for their options.
+// Rules for every option of every command, found in the rows of their tables.
 #include <set>
 
 #include "converters/cli/command_line.h"
+#include "converters/cli/commands.h"
 #include "tests/cli/run_lumen.h"
 
 namespace lumen::test {
@@ -18,28 +19,27 @@ struct Argument {
 
 std::vector<Argument> everyArgument() {
   std::vector<Argument> all;
-  for (const auto& command : app::allCommands()) {
-    CLI::App parser;
-    app::CommonOptions common;
-    app::bindOptions(parser, *command, common);
+  const engine::Engine commands = cli::allCommands();
+  cli::CommonOptions common;
+  OptionTable shared;
+  common.addRows(shared);
+  for (const auto& [command, table] : commands.commands()) {
     std::size_t before = 0;
-    for (const CLI::Option* option : parser.get_options()) {
-      const bool takesValue = option->get_expected_max() > 0;
-      if (takesValue)
-        all.push_back({command->name(), option->get_name(option->get_positional()),
-                       option->get_option_text().empty() ? option->get_type_name()
-                                                         : option->get_option_text(),
-                       option->get_positional(), before});
-      before += option->get_positional();
-    }
+    for (const OptionTable* rows :
+         {static_cast<const OptionTable*>(table.get()), static_cast<const OptionTable*>(&shared)})
+      for (const OptionRow& row : rows->rows()) {
+        if (!row.isFlag())
+          all.push_back({command->name(), row.shownName(), row.type, row.isArgument, before});
+        before += row.isArgument ? 1 : 0;
+      }
   }
   return all;
 }
 
 bool isNumber(const Argument& argument) {
-  static const std::set<std::string> kWords = {"FILE",  "F",    "ID",   "NAME",  "UNIT",
-                                               "FRAME", "PATH", "LIST", "LABEL", "TEXT",
-                                               "SPDX",  "DAY",  "UUID", "CODE",  "DOI"};
+  static const std::set<std::string> kWords = {
+      "FILE", "F",   "ID",   "NAME", "UNIT", "FRAME", "PATH",   "LIST", "LABEL",         "TEXT",
+      "SPDX", "DAY", "UUID", "CODE", "DOI",  "WORD",  "LENGTH", "WxH",  "[LABEL=]LENGTH"};
   return !argument.positional && !kWords.contains(argument.type);
 }
 
@@ -51,13 +51,13 @@ bool isFile(const Argument& argument) {
 
 /// Exit code and standard error of a run in this process; the first argument is the name of a command.
 std::pair<int, std::string> runHere(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {"lumen", app::firstWord(arguments.front())};
+  std::vector<std::string> words = {"lumen", engine::firstWord(arguments.front())};
   if (words[1] != arguments.front()) words.push_back(arguments.front().substr(words[1].size() + 1));
   words.insert(words.end(), arguments.begin() + 1, arguments.end());
   std::vector<const char*> argv;
   for (const auto& word : words) argv.push_back(word.c_str());
   testing::internal::CaptureStderr();
-  const int code = app::runCommandLine(static_cast<int>(argv.size()), argv.data());
+  const int code = cli::runCommandLine(static_cast<int>(argv.size()), argv.data());
   return {code, testing::internal::GetCapturedStderr()};
 }
 

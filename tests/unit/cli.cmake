@@ -17,6 +17,7 @@ lumen_test(cli_test
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/mesh_info_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/message_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/cli/option_scope_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/options_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/picture_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/cli/privacy_test.cpp

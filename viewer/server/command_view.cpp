@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen view: the viewer, as a page that this program serves.
+#include "viewer/server/command_view.h"
+
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -9,11 +11,9 @@
 #include <vector>
 
 #include "converters/base/error.h"
-#include "converters/cli/command.h"
-#include "converters/cli/options.h"
-#include "converters/cli/value_checks.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/report.h"
+#include "converters/engine/scope.h"
+#include "converters/engine/stage_options.h"
 #include "formats/container/printable.h"
 #include "viewer/server/browser.h"
 #include "viewer/server/html_page.h"
@@ -32,7 +32,7 @@ constexpr std::chrono::seconds kLook{1};           // between two looks at the f
 constexpr std::chrono::seconds kKeep{5};           // between two copies of unsaved work
 constexpr std::chrono::seconds kWithoutPages{60};  // a page that is loaded again takes seconds
 
-class ViewCommand : public app::Command {
+class ViewCommand : public engine::Command {
 public:
   [[nodiscard]] std::string name() const override { return "view"; }
   [[nodiscard]] std::string summary() const override {
@@ -47,42 +47,63 @@ public:
            "end, with exit code 0.";
   }
 
-  void bind(CLI::App& app) override {
-    app.add_option("FILE", m_files,
-                   "Volumes, cases, seeds, centerlines and meshes, in any order; of two cases the "
-                   "second is the truth. A case that is not there yet, beside a volume, is where "
-                   "the page saves. Or one folder of cases, among which the page chooses")
-        ->type_name("")
-        ->check(app::fileName());
-    app.add_flag("--no-browser", m_noBrowser, "Print the address only, and open no browser");
-    app.add_flag("--keep", m_keep, "Go on when the last page has been gone for a minute");
-    app.add_option("--port", m_port, "Port of 127.0.0.1 to listen on; 0: any that is free")
-        ->type_name("N")
-        ->check(app::wholeIn(0, 65535))
-        ->capture_default_str();
-    app.add_option("--html", m_html, "Write the page as one file, and serve nothing")
-        ->type_name("FILE")
-        ->check(app::fileName());
-    app.add_flag("--html-volume", m_htmlVolume,
-                 "With --html: the volume too, around the case and with 8 bits a voxel");
-    app.add_flag("--html-points", m_htmlPoints,
-                 "With --html: the wall points too, which are most of a case");
-    app::addVolumeOptions(app, m_options.volume);
+  void addRows(OptionTable& table) override {
+    OptionRow& files = table.argument(
+        "FILE", &m_files,
+        "Volumes, cases, seeds, centerlines and meshes, in any order; of two cases the second is "
+        "the truth. A case that is not there yet, beside a volume, is where the page saves. Or one "
+        "folder of cases, among which the page chooses");
+    files.isRequired = false;
+    files.many();
+    table.flag("no-browser", m_noBrowser, "Print the address only, and open no browser")
+        .without("html");
+    table.flag("keep", m_keep, "Go on when the last page has been gone for a minute")
+        .without("html");
+    table.add("port", &m_port, "N", "Port of 127.0.0.1 to listen on; 0: any that is free")
+        .in(WholeRange{0, 65535})
+        .without("html");
+    table.file("html", m_html, "Write the page as one file, and serve nothing");
+    table
+        .flag("html-volume", m_htmlVolume,
+              "With --html: the volume too, around the case and with 8 bits a voxel")
+        .onlyWith("html");
+    table
+        .flag("html-points", m_htmlPoints,
+              "With --html: the wall points too, which are most of a case")
+        .onlyWith("html");
+    engine::addVolumeRows(table, m_options.volume);
   }
 
-  int run(app::Context& context) override {
-    if ((m_htmlVolume || m_htmlPoints) && m_html.empty())
-      throw Error(ErrorKind::Usage, std::string(m_htmlVolume ? "--html-volume" : "--html-points") +
-                                        " needs --html FILE");
-    if (!m_html.empty()) app::requireWritable(m_html, app::ContentKind::Other);
+  engine::Answer run(engine::Surroundings& around) override {
+    engine::requireInScope(*around.table, {contentOfFiles(), kAnyContent, filesText(), {}},
+                           around.progress);
+    if (!m_html.empty()) engine::requireWritable(m_html, convert::ContentKind::Other);
     Session session(m_options);
-    if (!openFolder(session)) openFiles(session, context);
-    warnOfUnsaved(session, context);
-    if (!m_html.empty()) return writeHtml(session, context);
-    return serve(session, context);
+    if (!openFolder(session)) openFiles(session, around);
+    warnOfUnsaved(session, around);
+    if (!m_html.empty()) return writeHtml(session, around);
+    return serve(session, around);
   }
 
 private:
+  /// Contents of the given files, as far as options depend on them.
+  [[nodiscard]] ContentMask contentOfFiles() const {
+    ContentMask content = engine::kFittedCase;
+    for (const std::string& file : m_files) {
+      std::error_code ignored;
+      if (!fs::exists(file, ignored)) continue;
+      const FileRole role = roleOf({file, file});
+      if (role == FileRole::Volume)
+        content |= engine::inputContent(engine::inputFormat(file, ""), false);
+      if (role == FileRole::Mesh) content |= engine::kMeshes;
+    }
+    return content;
+  }
+
+  [[nodiscard]] std::string filesText() const {
+    return m_files.empty() ? "the empty page" : m_files.front();
+  }
+
   /// A folder that holds cases; one without is a series of images.
   bool openFolder(Session& session) const {
     if (m_files.size() != 1 || !fs::is_directory(m_files.front())) return false;
@@ -96,30 +117,31 @@ private:
   }
 
   /// Warns of unsaved work of an earlier program.
-  void warnOfUnsaved(Session& session, app::Context& context) const {
+  void warnOfUnsaved(Session& session, engine::Surroundings& around) const {
     if (!m_html.empty()) return;
     for (const std::string& file : session.findUnsaved())
-      context.progress.warn(formats::printable(file) +
-                            " holds work that was not saved; the page offers it under \"Files\"");
+      around.progress.warn(formats::printable(file) +
+                           " holds work that was not saved; the page offers it under \"Files\"");
   }
 
   /// Volumes first, which seeds in voxels need, then cases.
-  void openFiles(Session& session, app::Context& context) {
+  void openFiles(Session& session, engine::Surroundings& around) {
     const std::optional<std::string> output = newCase();
     for (const FileRole wanted :
          {FileRole::Volume, FileRole::Case, FileRole::Mesh, FileRole::Seeds})
       for (const std::string& file : m_files)
         if (file != output && roleOf({file, file}) == wanted)
-          openOne(session, file, wanted, context);
+          openOne(session, file, wanted, around);
     if (output) session.saveTo(*output);
   }
 
   static void openOne(Session& session, const std::string& file, FileRole role,
-                      app::Context& context) {
+                      engine::Surroundings& around) {
     const bool isTruth = role == FileRole::Case && session.now().document.value != nullptr;
-    session.open({file, fs::path(file).filename().string(), false, isTruth}, context.progress);
-    const app::FileFormat* format = role == FileRole::Case ? &app::inputFormat(file, "") : nullptr;
-    if (format != nullptr && app::canWriteCase(*format) && !isTruth) session.saveTo(file);
+    session.open({file, fs::path(file).filename().string(), false, isTruth}, around.progress);
+    const engine::FileFormat* format =
+        role == FileRole::Case ? &engine::inputFormat(file, "") : nullptr;
+    if (format != nullptr && engine::canWriteCase(*format) && !isTruth) session.saveTo(file);
   }
 
   /// The file that is not there yet, if it can be made: a case of a volume.
@@ -135,61 +157,54 @@ private:
       } else if (!output && (file.ends_with(".lumen") || file.ends_with(".lumen.json"))) {
         output = file;
       } else {
-        app::requireInput(file, "file");
+        engine::requireInput(file, "file");
       }
     }
-    if (output && (!hasVolume || hasCase)) app::requireInput(*output, "file");
-    if (output) app::requireWritable(*output, app::ContentKind::Case);
+    if (output && (!hasVolume || hasCase)) engine::requireInput(*output, "file");
+    if (output) engine::requireWritable(*output, convert::ContentKind::Case);
     return output;
   }
 
-  int writeHtml(Session& session, app::Context& context) {
-    context.interrupts.watchOutput(m_html);
+  engine::Answer writeHtml(Session& session, engine::Surroundings& around) {
+    around.willWrite(m_html);
     HtmlOptions options;
     options.volume = m_htmlVolume;
     options.points = m_htmlPoints;
-    const std::string page = htmlPage(session, findPageFiles(), options, context.progress);
-    app::writeText(page, m_html);
-    if (context.common.json)
-      app::answerJson({{"html", m_html}, {"bytes", page.size()}});
-    else if (!context.common.quiet)
-      app::answer(m_html + ": " + std::to_string(page.size()) + " bytes\n");
-    return 0;
+    const std::string page = htmlPage(session, findPageFiles(), options, around.progress);
+    engine::writeText(page, m_html);
+    return {{{"html", m_html}, {"bytes", page.size()}},
+            m_html + ": " + std::to_string(page.size()) + " bytes\n"};
   }
 
-  int serve(Session& session, app::Context& context) {
+  engine::Answer serve(Session& session, engine::Surroundings& around) {
     PageFiles page = findPageFiles();
     if (page.empty())
-      context.progress.warn(
+      around.progress.warn(
           "the page of the viewer was not built, so there is nothing to see; ./bootstrap.sh demo "
           "builds it, with npm");
     Server server(session, std::move(page), {m_port});
     // dropped files lie there; an interrupt removes them, too
-    context.interrupts.watchOutput(fs::temp_directory_path() / "lumen-view");
-    if (context.common.json)
-      app::answerJson({{"address", server.address()}});
-    else
-      app::answer(server.address() + "\n");
-    std::fflush(stdout);
+    around.willWrite(fs::temp_directory_path() / "lumen-view");
+    around.answerEarly({{{"address", server.address()}}, server.address() + "\n", 0, true});
     if (!m_noBrowser && !openBrowser(server.address()))
-      context.progress.warn("no browser could be opened; open the address in one");
-    waitForEnd(session, context);
+      around.progress.warn("no browser could be opened; open the address in one");
+    waitForEnd(session, around);
     // first: a job that cannot be cancelled may outlast the grace of an interrupt
     session.keepUnsaved();
     session.cancelAll();
     session.wait();
     server.stop();
     for (const std::string& file : session.keepUnsaved())
-      context.progress.warn("unsaved work is in " + formats::printable(file));
-    return 0;
+      around.progress.warn("unsaved work is in " + formats::printable(file));
+    return {};
   }
 
   /// Until Ctrl-C, or until the last page has been gone for long enough.
-  void waitForEnd(Session& session, const app::Context& context) const {
+  void waitForEnd(Session& session, const engine::Surroundings& around) const {
     Clock::time_point lastLook = Clock::now(), lastKept = lastLook;
     IdleEnd idle(kWithoutPages, lastLook);
     bool kept = true;
-    while (!context.progress.cancelled()) {
+    while (!around.progress.cancelled()) {
       std::this_thread::sleep_for(kTick);
       const auto now = Clock::now();
       const bool isOver = idle.isOver(session.events().count(), session.isBusy(), now);
@@ -199,18 +214,17 @@ private:
       session.lookAtFiles();
       if (now - lastKept < kKeep) continue;
       lastKept = now;
-      kept = keep(session, context, kept);
+      kept = keep(session, around, kept);
     }
   }
 
   /// Writes copies of unsaved work; false if that failed, which is reported once.
-  static bool keep(Session& session, const app::Context& context, bool before) {
+  static bool keep(Session& session, const engine::Surroundings& around, bool before) {
     try {
       session.keepUnsaved();
       return true;
     } catch (const std::exception& error) {
-      if (before)
-        context.progress.warn("unsaved work cannot be kept: " + std::string(error.what()));
+      if (before) around.progress.warn("unsaved work cannot be kept: " + std::string(error.what()));
       return false;
     }
   }
@@ -224,12 +238,8 @@ private:
 
 }  // namespace
 
-}  // namespace lumen::viewer
-
-namespace lumen::app {
-
-std::unique_ptr<Command> makeViewCommand() {
-  return std::make_unique<viewer::ViewCommand>();
+std::unique_ptr<engine::Command> makeViewCommand() {
+  return std::make_unique<ViewCommand>();
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::viewer

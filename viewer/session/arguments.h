@@ -9,13 +9,13 @@
 
 #include <Eigen/Core>
 
-#include "converters/engine/report.h"
+#include "converters/engine/answer_text.h"
 #include "converters/io/seeds/seeds.h"
 #include "formats/case/json_place.h"
 
 namespace lumen::viewer {
 
-using app::Json;
+using engine::Json;
 
 /// The members of a JSON object, whose document must outlive it. Each call throws Error(Usage) with
 /// a sentence for people for a missing member, and for a value of another kind.

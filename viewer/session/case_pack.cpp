@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "converters/engine/case_info.h"
-#include "converters/engine/reachable.h"
+#include "converters/judge/facts/case_info.h"
+#include "converters/judge/facts/reachable.h"
 #include "converters/stages/fitting/error_of_fit.h"
 #include "formats/case/enum_names.h"
 #include "formats/case/node_origin.h"
@@ -27,8 +27,8 @@ Json branchesJson(const formats::CenterlineTree& tree) {
                     {"firstNode", branch.firstNode},
                     {"nodeCount", branch.nodeCount},
                     {"stopReason", formats::enumName(formats::kStopReasonNames, branch.stopReason)},
-                    {"confidence", mean ? app::jsonNumber(*mean) : Json(nullptr)},
-                    {"length", app::jsonNumber(formats::branchLength(tree, branch))}});
+                    {"confidence", mean ? engine::jsonNumber(*mean) : Json(nullptr)},
+                    {"length", engine::jsonNumber(formats::branchLength(tree, branch))}});
   }
   return list;
 }
@@ -55,10 +55,10 @@ std::vector<float> rootDistances(const formats::CenterlineTree& tree) {
 }
 
 Json reachableJson(const formats::Case& value, const Progress& progress) {
-  const auto reach = app::reachOf(value, progress);
+  const auto reach = convert::reachOf(value, progress);
   if (!reach) return nullptr;
   Json closed = Json::array();
-  for (const app::ClosedWay& way : reach->closed)
+  for (const convert::ClosedWay& way : reach->closed)
     closed.push_back({{"node", way.node},
                       {"position", {way.position.x, way.position.y, way.position.z}},
                       {"beyond", way.beyond}});
@@ -102,7 +102,7 @@ std::string casePack(const formats::Case& value, bool withPoints, Progress& prog
   }
   pack.set("branches", branchesJson(value.tree));
   const auto& voxel = value.metadata.voxelSize;
-  pack.set("voxelSize", voxel ? app::jsonNumber(*voxel) : Json(nullptr));
+  pack.set("voxelSize", voxel ? engine::jsonNumber(*voxel) : Json(nullptr));
   pack.set("hasModels", value.models.has_value());
   pack.set("reachable", reachableJson(value, progress));
   pack.set("steps", stepsJson(value.metadata));

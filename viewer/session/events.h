@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "converters/engine/report.h"
+#include "converters/engine/answer_text.h"
 
 namespace lumen::viewer {
 
-using app::Json;
+using engine::Json;
 
 struct Event {
   std::string name;  ///< "state", "progress", "message" or "done"

@@ -88,7 +88,7 @@ void Library::read() {
     Figures figures;
     try {
       const fs::path& file = m_list.cases[i].file;
-      const formats::Case value = app::inputFormat(file, "").readCase(file);
+      const formats::Case value = engine::inputFormat(file, "").readCase(file);
       figures.branches = value.tree.branches.size();
       for (const formats::Branch& branch : value.tree.branches)
         figures.length += formats::branchLength(value.tree, branch);
@@ -116,7 +116,7 @@ Json Library::json() const {
                   {"error", nullptr}};
     if (const auto& figures = m_figures[i]; figures && figures->error.empty()) {
       entry["branches"] = figures->branches;
-      entry["length"] = app::jsonNumber(figures->length);
+      entry["length"] = engine::jsonNumber(figures->length);
     } else if (figures) {
       entry["error"] = figures->error;
     }

@@ -14,12 +14,12 @@
 #include <thread>
 #include <vector>
 
-#include "converters/engine/report.h"
+#include "converters/engine/answer_text.h"
 #include "viewer/session/tagged.h"
 
 namespace lumen::viewer {
 
-using app::Json;
+using engine::Json;
 
 /// A case of a folder.
 struct ListedCase {

@@ -7,10 +7,10 @@
 #include "converters/base/error.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
-#include "converters/engine/file_content.h"
 #include "converters/engine/file_format.h"
-#include "converters/engine/stages.h"
+#include "converters/engine/tracking_input.h"
 #include "converters/io/centerline/case_of_centerline.h"
+#include "converters/io/content/file_content.h"
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/stages/fitting/fit.h"
 #include "viewer/session/surface_pack.h"
@@ -36,12 +36,12 @@ Seeds placed(const convert::Volume* volume, Seeds seeds, const Opening& opening,
   return std::move(result.seeds);
 }
 
-formats::Case caseOf(const Opening& opening, const app::FileFormat& format,
-                     const app::VolumeArguments& volume, Progress& progress) {
-  if (format.kind == app::FormatKind::Case) return format.readCase(opening.path);
-  const auto loaded = app::loadCenterline(opening.path, format, volume, {}, progress);
+formats::Case caseOf(const Opening& opening, const engine::FileFormat& format,
+                     const engine::VolumeArguments& volume, Progress& progress) {
+  if (format.kind == engine::FormatKind::Case) return format.readCase(opening.path);
+  const auto loaded = engine::loadCenterline(opening.path, format, volume, {}, progress);
   formats::Case value = convert::caseOfCenterline(loaded.file, opening.label);
-  convert::fit(value, app::fitOptionsFor(value, {}), progress);
+  convert::fit(value, engine::fitOptionsFor(value, {}), progress);
   return value;
 }
 
@@ -50,17 +50,17 @@ void dropFiles(Document& document, FileRole role) {
 }
 
 Document add(Document document, const Opening& opening, FileRole role, int id,
-             const app::VolumeArguments& arguments, Progress& progress) {
+             const engine::VolumeArguments& arguments, Progress& progress) {
   const FileStamp stamp = stampOf(opening.path);
   switch (role) {
     case FileRole::Volume:
-      document.volume = std::make_shared<const convert::Volume>(
-          app::loadVolume(opening.path, app::inputFormat(opening.path, ""), arguments, progress));
+      document.volume = std::make_shared<const convert::Volume>(engine::loadVolume(
+          opening.path, engine::inputFormat(opening.path, ""), arguments, progress));
       break;
     case FileRole::Case:
     case FileRole::Truth: {
       auto value = std::make_shared<const formats::Case>(
-          caseOf(opening, app::inputFormat(opening.path, ""), arguments, progress));
+          caseOf(opening, engine::inputFormat(opening.path, ""), arguments, progress));
       (role == FileRole::Truth ? document.truth : document.value) = std::move(value);
       break;
     }
@@ -69,9 +69,10 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
           placed(document.volume.get(), convert::readSeeds(opening.path), opening, progress));
       break;
     case FileRole::Mesh:
-      document.meshes.push_back({id, opening.label,
-                                 std::make_shared<const convert::MeshFile>(inMillimetres(
-                                     app::inputFormat(opening.path, "").readMesh(opening.path)))});
+      document.meshes.push_back(
+          {id, opening.label,
+           std::make_shared<const convert::MeshFile>(
+               inMillimetres(engine::inputFormat(opening.path, "").readMesh(opening.path)))});
       break;
   }
   if (role != FileRole::Mesh) dropFiles(document, role);
@@ -83,25 +84,25 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
 }  // namespace
 
 FileRole roleOf(const Opening& opening) {
-  app::requireInput(opening.path, "file");
-  if (app::contentOf(opening.path).kind == app::ContentKind::Seeds) return FileRole::Seeds;
-  const app::FileFormat& format = app::inputFormat(opening.path, "");
-  if (opening.asTruth && format.kind != app::FormatKind::Case)
+  engine::requireInput(opening.path, "file");
+  if (convert::contentOf(opening.path).kind == convert::ContentKind::Seeds) return FileRole::Seeds;
+  const engine::FileFormat& format = engine::inputFormat(opening.path, "");
+  if (opening.asTruth && format.kind != engine::FormatKind::Case)
     throw Error(ErrorKind::Usage, opening.label + ": the truth must be a case");
   switch (format.kind) {
-    case app::FormatKind::Volume:
+    case engine::FormatKind::Volume:
       return FileRole::Volume;
-    case app::FormatKind::Mesh:
+    case engine::FormatKind::Mesh:
       return FileRole::Mesh;
-    case app::FormatKind::Case:
-    case app::FormatKind::Centerline:
+    case engine::FormatKind::Case:
+    case engine::FormatKind::Centerline:
       break;
   }
   return opening.asTruth ? FileRole::Truth : FileRole::Case;
 }
 
 Document withFile(const Document& document, const Opening& opening, int id,
-                  const app::VolumeArguments& volume, Progress& progress) {
+                  const engine::VolumeArguments& volume, Progress& progress) {
   return add(document, opening, roleOf(opening), id, volume, progress);
 }
 

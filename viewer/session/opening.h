@@ -6,7 +6,7 @@
 #include <string>
 
 #include "converters/base/progress.h"
-#include "converters/cli/options.h"
+#include "converters/engine/stage_options.h"
 #include "viewer/session/document.h"
 
 namespace lumen::viewer {
@@ -26,7 +26,7 @@ FileRole roleOf(const Opening& opening);
 /// those that were open; meshes are added. A centerline becomes a case, and is fitted. Throws what
 /// its reader throws.
 Document withFile(const Document& document, const Opening& opening, int id,
-                  const app::VolumeArguments& volume, Progress& progress);
+                  const engine::VolumeArguments& volume, Progress& progress);
 
 /// The document without that file and its part. Throws Error(Usage) if there is none.
 Document withoutFile(const Document& document, int id);

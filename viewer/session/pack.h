@@ -11,12 +11,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "converters/engine/report.h"
+#include "converters/engine/answer_text.h"
 #include "formats/case/case.h"
 
 namespace lumen::viewer {
 
-using app::Json;
+using engine::Json;
 
 enum class NumberType : std::uint8_t { F32, U8, U16, U32, I32 };
 

@@ -84,7 +84,7 @@ fs::path Saving::checkedTarget(const Document& document, bool force) const {
 fs::path Saving::save(Document& document, bool force) {
   const fs::path file = checkedTarget(document, force);
   Progress silent;
-  app::caseOutputFormat(file, "", "the saved case").writeCase(*document.value, file, {}, silent);
+  engine::caseOutputFormat(file, "", "the saved case").writeCase(*document.value, file, {}, silent);
   const OpenFile* seeds = document.fileOf(FileRole::Seeds);
   if (seeds != nullptr && !seeds->path.empty() && unsaved(document).hasSeeds)
     convert::writeSeeds(*document.seeds, seeds->path);

@@ -2,15 +2,15 @@
 // Settings of a session.
 #pragma once
 
-#include "converters/cli/options.h"
+#include "converters/engine/stage_options.h"
 
 namespace lumen::viewer {
 
 /// How the session reads, tracks and fits; the same settings as on the command line.
 struct SessionOptions {
-  app::VolumeArguments volume;
-  app::TrackArguments track;
-  app::FitArguments fit;
+  engine::VolumeArguments volume;
+  engine::TrackArguments track;
+  convert::FitOptions fit;
 };
 
 }  // namespace lumen::viewer

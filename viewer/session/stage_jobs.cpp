@@ -8,9 +8,9 @@
 #include "converters/base/error.h"
 #include "converters/base/text.h"
 #include "converters/engine/centerline_input.h"
-#include "converters/engine/check_report.h"
-#include "converters/engine/comparison_report.h"
-#include "converters/engine/stages.h"
+#include "converters/engine/check_answer.h"
+#include "converters/engine/comparison_answer.h"
+#include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/judge/compare/compare.h"
 #include "converters/stages/fitting/fit.h"
@@ -73,7 +73,7 @@ Json StageJobs::fit(const Moment& from) {
   Workspace& workspace = m_workspace;
   return workspace.startJob("fitting", true, [&workspace, from](Progress& progress) {
     auto value = std::make_shared<formats::Case>(*from.document.value);
-    convert::fit(*value, app::fitOptionsFor(*value, workspace.options.fit.options()), progress);
+    convert::fit(*value, engine::fitOptionsFor(*value, workspace.options.fit), progress);
     Document document = from.document;
     document.value = std::move(value);
     workspace.commit("fit", from, std::move(document));
@@ -101,7 +101,7 @@ Json StageJobs::check(const Moment& from) {
     const convert::Volume& volume = *from.document.volume;
     const auto result =
         convert::checkCase(volume, *value, convert::recordedEdgeOptions(*value), progress);
-    Json answer = app::checkJson(result.report, value->tree, sourceOf(*value, volume));
+    Json answer = engine::checkJson(result.report, value->tree, sourceOf(*value, volume));
     addClicks(answer, result.report.missing);
     workspace.findings.setCheck(std::move(answer), value);
     return missingSentence(result.report.missing.vessels.size());
@@ -115,7 +115,7 @@ Json StageJobs::compare(const Moment& from) {
   return workspace.startJob("comparing", false, [&workspace, from](Progress& progress) {
     const auto& [value, truth] = std::tie(from.document.value, from.document.truth);
     const auto comparison = convert::compareCases(*value, *truth, progress);
-    workspace.findings.setFigures(app::comparisonJson(comparison), value, truth);
+    workspace.findings.setFigures(engine::comparisonJson(comparison), value, truth);
     return std::string("compared");
   });
 }

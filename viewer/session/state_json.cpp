@@ -56,9 +56,9 @@ Json meshesJson(const Document& document) {
 Json formatsJson(const Document& document) {
   Json list = Json::array();
   if (document.value)
-    for (const app::FileFormat& format : app::fileFormats())
-      if (app::canWrite(format) && (!app::canWriteMesh(format) || document.hasModels() ||
-                                    document.value->points.has_value()))
+    for (const engine::FileFormat& format : engine::fileFormats())
+      if (engine::canWrite(format) && (!engine::canWriteMesh(format) || document.hasModels() ||
+                                       document.value->points.has_value()))
         list.push_back(format.name);
   if (!document.seeds->empty()) list.push_back("seeds");
   if (document.value || document.volume) list.push_back("html");

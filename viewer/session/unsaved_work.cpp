@@ -93,7 +93,7 @@ std::vector<fs::path> UnsavedWork::keep(const fs::path& place,
     m_seeds = nullptr;
   }
   keepPart(m_caseFile, m_case, value, kCase, [](const formats::Case& part, const fs::path& file) {
-    app::writeCase(part, file, formats::CaseEncoding::Binary, {});
+    engine::writeCase(part, file, formats::CaseEncoding::Binary, {});
   });
   keepPart(m_seedsFile, m_seeds, seeds, kSeeds,
            [](const Seeds& part, const fs::path& file) { convert::writeSeeds(part, file); });

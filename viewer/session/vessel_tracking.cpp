@@ -7,7 +7,7 @@
 
 #include "converters/base/error.h"
 #include "converters/engine/centerline_input.h"
-#include "converters/engine/stages.h"
+#include "converters/engine/tracking_input.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
 #include "converters/stages/tracking/track_case.h"
@@ -31,10 +31,10 @@ void warnAbout(const std::vector<convert::SeedFailure>& failures, const std::str
 /// A case that has its tree, wall points and models from these seeds alone.
 formats::Case trackedAnew(const Document& document, const Seeds& seeds,
                           const SessionOptions& options, Progress& progress) {
-  app::TrackArguments arguments = options.track;
+  engine::TrackArguments arguments = options.track;
   arguments.seeds = "the seeds";
-  formats::Case value = app::trackSeeds(*document.volume, seeds, arguments, progress).result;
-  convert::fit(value, app::fitOptionsFor(value, options.fit.options()), progress);
+  formats::Case value = engine::trackSeeds(*document.volume, seeds, arguments, progress).result;
+  convert::fit(value, engine::fitOptionsFor(value, options.fit), progress);
   return value;
 }
 

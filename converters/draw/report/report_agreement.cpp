@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/shown_figures.h"
+#include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/draw/report/report_page.h"
 #include "converters/draw/report/tree_profiles.h"
-#include "converters/engine/report.h"
 #include "formats/case/topology.h"
 
-namespace lumen::app {
+namespace lumen::convert {
 
 namespace {
 
@@ -217,4 +218,4 @@ Markup agreementSection(const ReportFacts& facts) {
   return convert::section("agreement", kTitle, content);
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::convert

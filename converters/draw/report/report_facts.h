@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "converters/engine/case_info.h"
-#include "converters/engine/check_report.h"
-#include "converters/engine/examination.h"
 #include "converters/judge/check/check.h"
+#include "converters/judge/facts/case_info.h"
+#include "converters/judge/facts/check_facts.h"
+#include "converters/judge/facts/examination.h"
 #include "formats/case/case.h"
 
-namespace lumen::app {
+namespace lumen::convert {
 
 /// A picture in the PNG format.
 struct DrawnView {
@@ -51,4 +51,4 @@ struct ReportFacts {
   }
 };
 
-}  // namespace lumen::app
+}  // namespace lumen::convert

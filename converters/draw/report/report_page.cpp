@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "converters/base/html.h"
+#include "converters/base/shown_figures.h"
+#include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/tree_profiles.h"
-#include "converters/engine/report.h"
 
-namespace lumen::app {
+namespace lumen::convert {
 
 namespace {
 
@@ -255,4 +256,4 @@ std::string reportPage(const ReportFacts& facts) {
   return page;
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::convert

@@ -7,7 +7,7 @@
 #include "converters/draw/report/markup.h"
 #include "converters/draw/report/report_facts.h"
 
-namespace lumen::app {
+namespace lumen::convert {
 
 /// One HTML file to read and to print on A4: it holds its pictures and style, has no script, and a policy that lets it
 /// load nothing. The same facts give the same bytes. What the case or the volume lacks is told in a sentence.
@@ -23,4 +23,4 @@ convert::Markup agreementLegend(bool withMissing);
 convert::Markup parameterSection(const ReportFacts& facts);   ///< report_provenance.cpp
 convert::Markup provenanceSection(const ReportFacts& facts);  ///< report_provenance.cpp
 
-}  // namespace lumen::app
+}  // namespace lumen::convert

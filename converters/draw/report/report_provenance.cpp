@@ -7,11 +7,12 @@
 #include <variant>
 #include <vector>
 
+#include "converters/base/shown_figures.h"
+#include "converters/base/text.h"
 #include "converters/draw/report/report_page.h"
-#include "converters/engine/report.h"
 #include "formats/case/enum_names.h"
 
-namespace lumen::app {
+namespace lumen::convert {
 
 namespace {
 
@@ -140,4 +141,4 @@ Markup provenanceSection(const ReportFacts& facts) {
   return convert::section("provenance", "Provenance", convert::factList(list));
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::convert

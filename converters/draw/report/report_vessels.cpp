@@ -6,12 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "converters/base/shown_figures.h"
+#include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/report_page.h"
 #include "converters/draw/report/tree_profiles.h"
-#include "converters/engine/report.h"
 
-namespace lumen::app {
+namespace lumen::convert {
 
 namespace {
 
@@ -150,4 +151,4 @@ Markup confidenceSection(const ReportFacts& facts) {
   return convert::section("confidence", "Confidence", content);
 }
 
-}  // namespace lumen::app
+}  // namespace lumen::convert

@@ -13,16 +13,22 @@ namespace {
 /// Voxels: what Yureidini's thesis, table 4.5, gives in mm for voxels of 0.2 mm.
 constexpr double kIsoLevel = 0.5, kAccuracy = 1.5, kMaxDistance = 100, kMinWidth = 0.1;
 
-void requireRange(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  throw invalidInput("--" + std::string(name) + ": found " + formats::shortText(value) +
-                     ", expected a number from " + formats::shortText(low) + " to " +
-                     formats::shortText(high));
+constexpr NumberRange kWeight{0, 1e6};
+constexpr NumberRange kScale{1e-3, 1e3};
+
+const std::map<std::string, formats::Kernel>& kernelsByName() {
+  static const std::map<std::string, formats::Kernel> kernels = [] {
+    std::map<std::string, formats::Kernel> named;
+    for (std::size_t i = 0; i < field::kKernelNames.size(); ++i)
+      named.emplace(field::kKernelNames[i], static_cast<formats::Kernel>(i));
+    return named;
+  }();
+  return kernels;
 }
 
 void requireLength(const char* name, double value) {
   if (value > 0 && std::isfinite(value)) return;
-  throw invalidInput("--" + std::string(name) + ": found " + formats::shortText(value) +
+  throw invalidInput(std::string(name) + ": found " + formats::shortText(value) +
                      ", expected a length above 0 mm");
 }
 
@@ -30,7 +36,7 @@ void scaleWithVoxel(const char* name, std::optional<double>& value, double voxel
                     double voxelSize) {
   if (!value) {
     if (!(voxelSize > 0) || !std::isfinite(voxelSize)) {
-      throw invalidInput("--" + std::string(name) +
+      throw invalidInput(std::string(name) +
                          ": it scales with the voxel size, which the case does not state; "
                          "expected a value in mm");
     }
@@ -41,18 +47,59 @@ void scaleWithVoxel(const char* name, std::optional<double>& value, double voxel
 
 }  // namespace
 
+void FitOptions::addRows(OptionTable& table) {
+  table.group("Fitting");
+  OptionRow& kernelRow =
+      table.choice("kernel", kernel, kernelsByName(), "Radial kernel").recorded();
+  kernelRow.type = "NAME";
+  table
+      .add("kernel-parameter", &kernelParameter, "X",
+           "Cauchy's s^2 [0.2] or the Gaussian's a^2 [0.5]")
+      .in(kScale)
+      .recorded();
+  table.add("cohesion-weight", &cohesionWeight, "W", "Weight alpha of the Lennard-Jones energy")
+      .in(kWeight)
+      .recorded();
+  table.add("curvature-weight", &curvatureWeight, "W", "Weight beta of the curvature energy")
+      .in(kWeight)
+      .recorded();
+  table.add("cohesion-scale", &cohesionScale, "S", "Scale s of the Lennard-Jones energy")
+      .in(kScale)
+      .recorded();
+  table.add("max-subdivisions", &maxSubdivisions, "N", "Most blob subdivisions in one node")
+      .in(WholeRange{0, 1000})
+      .recorded();
+  table
+      .add("neighbourhood", &neighbourhood, "N",
+           "Topological distance of the nodes whose points a node is fitted to")
+      .in(WholeRange{0, 100})
+      .recorded();
+  table.add("seam-sweeps", &seamSweeps, "N", "Sweeps that tie adjacent models to one another")
+      .in(WholeRange{0, 100})
+      .recorded();
+  table.add("seam-weight", &seamWeight, "W", "Weight of a tie, in wall points")
+      .in(kWeight)
+      .recorded();
+  table.scaled("iso-level", isoLevel, "Iso-level T", "half a voxel").recorded();
+  table.scaled("accuracy", accuracy, "Subdivide until no point is farther than this", "1.5 voxels")
+      .recorded();
+  table
+      .scaled("max-distance", maxDistance, "Drop blobs farther than this from their node",
+              "100 voxels")
+      .recorded();
+  table.scaled("min-width", minWidth, "Drop blobs narrower than this", "0.1 voxel").recorded();
+}
+
 FitOptions FitOptions::resolved(double voxelSize) const {
   FitOptions full = *this;
   if (!full.kernelParameter) full.kernelParameter = field::usualParameter(kernel);
-  if (field::hasParameter(kernel))
-    requireRange("kernel-parameter", *full.kernelParameter, 1e-3, 1e3);
-  requireRange("cohesion-weight", cohesionWeight, 0, 1e6);
-  requireRange("curvature-weight", curvatureWeight, 0, 1e6);
-  requireRange("cohesion-scale", cohesionScale, 1e-3, 1e3);
-  requireRange("max-subdivisions", maxSubdivisions, 0, 1000);
-  requireRange("neighbourhood", neighbourhood, 0, 100);
-  requireRange("seam-sweeps", seamSweeps, 0, 100);
-  requireRange("seam-weight", seamWeight, 0, 1e6);
+  OptionTable table;
+  full.addRows(table);
+  if (!field::hasParameter(kernel)) table.find("kernel-parameter")->range.reset();
+  // lengths are checked below, and may be longer than a person is tall
+  for (const char* const name : {"iso-level", "accuracy", "max-distance", "min-width"})
+    table.find(name)->range.reset();
+  table.requireValues("");
   scaleWithVoxel("iso-level", full.isoLevel, kIsoLevel, voxelSize);
   scaleWithVoxel("accuracy", full.accuracy, kAccuracy, voxelSize);
   scaleWithVoxel("max-distance", full.maxDistance, kMaxDistance, voxelSize);
@@ -61,24 +108,10 @@ FitOptions FitOptions::resolved(double voxelSize) const {
 }
 
 std::map<std::string, formats::ParameterValue> FitOptions::parameters() const {
-  std::map<std::string, formats::ParameterValue> values{
-      {"kernel", std::string(field::kKernelNames[static_cast<std::size_t>(kernel)])},
-      {"cohesion-weight", cohesionWeight},
-      {"curvature-weight", curvatureWeight},
-      {"cohesion-scale", cohesionScale},
-      {"max-subdivisions", std::int64_t{maxSubdivisions}},
-      {"neighbourhood", std::int64_t{neighbourhood}},
-      {"seam-sweeps", std::int64_t{seamSweeps}},
-      {"seam-weight", seamWeight}};
-  const auto add = [&values](const char* name, const std::optional<double>& value) {
-    if (value) values.emplace(name, *value);
-  };
-  add("kernel-parameter", kernelParameter);
-  add("iso-level", isoLevel);
-  add("accuracy", accuracy);
-  add("max-distance", maxDistance);
-  add("min-width", minWidth);
-  return values;
+  FitOptions copy = *this;
+  OptionTable table;
+  copy.addRows(table);
+  return table.recordedValues();
 }
 
 }  // namespace lumen::convert

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "converters/base/option_table.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -27,9 +28,11 @@ struct FitOptions {
   std::optional<double> maxDistance;  ///< farther blobs are dropped, mm from the node *: 100 voxels
   std::optional<double> minWidth;     ///< narrower blobs are dropped, mm *: 0.1 voxel
 
-  /// The same with every optional value set. Throws Error(InvalidInput) for values out of range.
+  /// Adds the rows of all values above, which are stored in this object.
+  void addRows(OptionTable& table);
+  /// These options with every optional value set. Throws Error(InvalidInput) for values out of range.
   [[nodiscard]] FitOptions resolved(double voxelSize) const;
-  /// Every value by its option's name, as a case stores it.
+  /// The values that are set, by option name, as a case stores them.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
 };
 

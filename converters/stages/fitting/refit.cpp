@@ -5,7 +5,6 @@
 #include <string>
 
 #include "converters/base/edit_steps.h"
-#include "converters/base/recorded_options.h"
 #include "converters/stages/fitting/node_models.h"
 #include "converters/stages/fitting/open_edges.h"
 #include "formats/case/enum_names.h"
@@ -16,24 +15,10 @@ namespace {
 constexpr int kMostWhole = 1000;  ///< of an option that counts; a file may say anything
 
 FitOptions readOptions(const formats::Step& step) {
-  const RecordedOptions recorded(step);
   FitOptions options;
-  recorded.read("cohesion-weight", options.cohesionWeight);
-  recorded.read("curvature-weight", options.curvatureWeight);
-  recorded.read("cohesion-scale", options.cohesionScale);
-  recorded.read("max-subdivisions", options.maxSubdivisions);
-  recorded.read("neighbourhood", options.neighbourhood);
-  recorded.read("seam-sweeps", options.seamSweeps);
-  recorded.read("seam-weight", options.seamWeight);
-  recorded.read("accuracy", options.accuracy);
-  recorded.read("max-distance", options.maxDistance);
-  recorded.read("min-width", options.minWidth);
-  recorded.read("iso-level", options.isoLevel);
-  recorded.read("kernel-parameter", options.kernelParameter);
-  std::string kernel;
-  recorded.read("kernel", kernel);
-  options.kernel = formats::enumFromName<formats::Kernel>(formats::kKernelNames, kernel)
-                       .value_or(formats::Kernel::Cauchy);
+  OptionTable table;
+  options.addRows(table);
+  table.takeRecorded(step);
   for (auto* value : {&options.accuracy, &options.maxDistance, &options.minWidth, &options.isoLevel,
                       &options.kernelParameter})
     if (*value && !(**value > 0)) value->reset();  // no fit has such, but a file may

@@ -87,17 +87,46 @@ VolumeGeometry geometryOf(const Scene& scene, const Image& image) {
 
 }  // namespace
 
+void PhantomOptions::addRows(OptionTable& table) {
+  constexpr NumberRange kTwice{0, 2};
+  table.group("Phantom");
+  table.add("size", &size, "N", "Voxels along an edge; 0: 128, or 256 for patient; not with --tree")
+      .in(WholeRange{0, kLargestSize})
+      .recorded();
+  table.add("voxel", &voxel, "MM", "Edge of a voxel").in(NumberRange{0.01, 10}).recorded();
+  table
+      .add("slice-thickness", &sliceThickness, "MM",
+           "Thickness of a slice along z, which is the mean over it; 0: a voxel, or five for "
+           "thick-slices")
+      .in(kNotNegative)
+      .recorded();
+  table
+      .add("fade", &fade, "SHARE",
+           "Share of the contrast that is lost at the end farthest from the root")
+      .in(NumberRange{0, 1})
+      .recorded();
+  table.add("noise", &noise, "SHARE", "Standard deviation of the noise, as a share of the contrast")
+      .in(kTwice)
+      .recorded();
+  table.add("bias", &bias, "SHARE", "Amplitude of the slow bias field, as a share of the contrast")
+      .in(kTwice)
+      .recorded();
+  table.add("psf", &psf, "VOXELS", "Standard deviation of the Gaussian point-spread function")
+      .in(NumberRange{0, 5})
+      .recorded();
+  table.add("seed", &seed, "K", "Seed of the random numbers")
+      .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
+      .recorded("random-seed");
+}
+
 std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() const {
-  std::map<std::string, formats::ParameterValue> parameters = {
-      {"name", name},
-      {"size", static_cast<std::int64_t>(size)},
-      {"voxel", voxel},
-      {"noise", noise},
-      {"bias", bias},
-      {"psf", psf},
-      {"random-seed", static_cast<std::int64_t>(seed)}};
-  if (sliceThickness != 0) parameters["slice-thickness"] = sliceThickness;
-  if (fade != 0) parameters["fade"] = fade;
+  PhantomOptions copy = *this;
+  OptionTable table;
+  copy.addRows(table);
+  std::map<std::string, formats::ParameterValue> parameters = table.recordedValues();
+  parameters["name"] = name;
+  if (sliceThickness == 0) parameters.erase("slice-thickness");
+  if (fade == 0) parameters.erase("fade");
   return parameters;
 }
 

@@ -49,6 +49,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/option_table.h"
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/voxels/volume.h"
@@ -68,6 +69,10 @@ struct PhantomOptions {
   double sliceThickness = 0;  ///< mm along z; 0: a voxel, or the phantom's own
   double fade = 0;  ///< share of the contrast that is lost at the end farthest from the root
   std::uint64_t seed = 1;
+
+  /// Adds the rows of the values above but name and tree, which are stored in this object.
+  void addRows(OptionTable& table);
+  /// The values that are set, as a case states them.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
 };
 

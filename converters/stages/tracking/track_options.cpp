@@ -2,61 +2,120 @@
 #include "converters/stages/tracking/track_options.h"
 
 #include "converters/base/error.h"
-#include "converters/geometry/icosphere.h"
 #include "converters/voxels/bspline.h"
 
 namespace lumen::convert {
 namespace {
 
-void require(bool holds, const char* rule) {
-  if (!holds) throw invalidInput(std::string("tracking options: ") + rule);
+constexpr NumberRange kShare{0, 1};
+constexpr NumberRange kOpenShare{0, 1, true};
+constexpr int kMostTrials = 1000000;
+
+void addSearchRows(TrackOptions& o, OptionTable& table) {
+  table.add("inlier-rate", &o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
+      .in(kOpenShare)
+      .recorded();
+  table
+      .add("inlier-band", &o.inlierBand, "SHARE",
+           "Half width of the inlier band, relative to the radius")
+      .in(NumberRange{0, 1, true, true})
+      .recorded();
+  table.add("rays", &o.rays, "N", "Rays of a node: 12, 42, 162 or 642")
+      .among({12, 42, 162, 642})
+      .recorded();
+  table.add("axes", &o.axes, "N", "Candidate axes of a node: 6, 21, 81 or 321")
+      .among({6, 21, 81, 321})
+      .recorded();
+  table.add("samples", &o.samples, "N", "Samples on a ray").in(WholeRange{8, 4096}).recorded();
+  table.add("min-trials", &o.minTrials, "N", "Fewest random circles for each axis")
+      .in(WholeRange{1, kMostTrials})
+      .recorded();
+  table.add("max-trials", &o.maxTrials, "N", "Most random circles for each axis")
+      .in(WholeRange{1, kMostTrials})
+      .recorded();
+}
+
+void addAdvanceRows(TrackOptions& o, OptionTable& table) {
+  table.add("step", &o.step, "S", "Prediction step, in cylinder heights")
+      .in(NumberRange{0, 2, true})
+      .recorded();
+  table
+      .add("noise-margin", &o.noiseMargin, "X",
+           "A node below the inlier rate needs a wall this many times as strong as noise")
+      .in(NumberRange{0, 100})
+      .recorded();
+  table
+      .add("look-ahead", &o.lookAhead, "N",
+           "Steps to look beyond a place where nothing fits; 0: stop there")
+      .in(WholeRange{0, 100})
+      .recorded();
+  table
+      .add("branch-offset", &o.branchOffset, "S",
+           "A child starts this many parent radii from its parent's centerline")
+      .in(NumberRange{0, 10, true})
+      .recorded();
+  table
+      .add("aneurysm-gradient", &o.aneurysmGradient, "SHARE",
+           "Aneurysm points need this share of the strongest gradient seen from their centre")
+      .in(kShare)
+      .recorded();
+}
+
+void addVolumeRows(TrackOptions& o, OptionTable& table) {
+  table
+      .add("point-spread", &o.pointSpread, "MM",
+           "Standard deviation of the blur that displaces the walls; 0: no correction [measured in "
+           "the volume]")
+      .in(NumberRange{0, 1000})
+      .recorded();
+  table
+      .add("smoothing", &o.smoothing, "MM",
+           "Standard deviation of the Gaussian that the volume is smoothed by; 0: none [by its "
+           "noise]")
+      .in(kNotNegative)
+      .recorded();
+  OptionRow& evenBlur = table.flag(
+      "even-blur", o.evenBlur,
+      "Smooth the finer axes of a volume whose coarsest edge is over 1.5 times as long, until all "
+      "are about as blurred [on]");
+  evenBlur.recorded().negative = "no-even-blur";
 }
 
 }  // namespace
 
+void TrackOptions::addRows(OptionTable& table) {
+  table.group("Volume");
+  table.flag("dark", dark, "Vessels are darker than their background").recorded();
+  table.group("Tracking");
+  addSearchRows(*this, table);
+  addAdvanceRows(*this, table);
+  addVolumeRows(*this, table);
+  table.add("max-nodes", &maxNodes, "N", "Bound on the nodes of one branch")
+      .in(WholeRange{2})
+      .recorded();
+  table.add("random-seed", &seed, "K", "Seed of the random numbers")
+      .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
+      .recorded();
+}
+
 void TrackOptions::check(double smallestEdge) const {
-  require(inlierRate > 0 && inlierRate <= 1, "inlier-rate must be in (0, 1]");
-  require(inlierBand > 0 && inlierBand < 1, "inlier-band must be in (0, 1)");
-  require(icosphereOrder(rays) > 0, "rays must be 12, 42, 162 or 642");
-  require(icosphereOrder(2 * axes) > 0, "axes must be 6, 21, 81 or 321");
-  require(samples >= 8 && samples <= 4096, "samples must be in 8 .. 4096");
-  require(minTrials >= 1 && maxTrials >= minTrials,
-          "min-trials must be at least 1 and max-trials at least min-trials");
-  require(step > 0 && step <= 2, "step must be in (0, 2]");
-  require(lookAhead >= 0 && lookAhead <= 100, "look-ahead must be in 0 .. 100");
-  require(noiseMargin >= 0 && noiseMargin <= 100, "noise-margin must be in 0 .. 100");
-  require(branchOffset > 0 && branchOffset <= 10, "branch-offset must be in (0, 10]");
-  require(aneurysmGradient >= 0 && aneurysmGradient <= 1, "aneurysm-gradient must be in [0, 1]");
-  require(!pointSpread || (*pointSpread >= 0 && *pointSpread <= 1000),
-          "point-spread must be in 0 .. 1000");
-  require(!smoothing || *smoothing >= 0, "smoothing must not be negative");
-  require(maxNodes >= 2, "max-nodes must be at least 2");
-  require(smoothing.value_or(0.0) <= BsplineVolume::kMostSmoothing * smallestEdge,
-          "smoothing must be at most twice the smallest edge of a voxel");
+  TrackOptions copy = *this;
+  OptionTable table;
+  copy.addRows(table);
+  table.requireValues("tracking options: ");
+  if (maxTrials < minTrials)
+    throw invalidInput("tracking options: max-trials: found " + std::to_string(maxTrials) +
+                       ", expected at least min-trials, " + std::to_string(minTrials));
+  if (smoothing.value_or(0.0) > BsplineVolume::kMostSmoothing * smallestEdge)
+    throw invalidInput(
+        "tracking options: smoothing must be at most twice the smallest edge of a voxel");
 }
 
 std::map<std::string, formats::ParameterValue> TrackOptions::parameters() const {
-  const auto integer = [](int value) { return static_cast<std::int64_t>(value); };
-  std::map<std::string, formats::ParameterValue> values{
-      {"inlier-rate", inlierRate},
-      {"inlier-band", inlierBand},
-      {"rays", integer(rays)},
-      {"axes", integer(axes)},
-      {"samples", integer(samples)},
-      {"min-trials", integer(minTrials)},
-      {"max-trials", integer(maxTrials)},
-      {"step", step},
-      {"noise-margin", noiseMargin},
-      {"look-ahead", integer(lookAhead)},
-      {"branch-offset", branchOffset},
-      {"aneurysm-gradient", aneurysmGradient},
-      {"max-nodes", integer(maxNodes)},
-      {"dark", dark},
-      {"even-blur", evenBlur},
-      {"random-seed", static_cast<std::int64_t>(seed)}};
-  if (smoothing) values["smoothing"] = *smoothing;
-  if (pointSpread) values["point-spread"] = *pointSpread;
-  return values;
+  TrackOptions copy = *this;
+  OptionTable table;
+  copy.addRows(table);
+  return table.recordedValues();
 }
 
 }  // namespace lumen::convert

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "converters/base/option_table.h"
 #include "formats/case/case.h"
 
 namespace lumen::convert {
@@ -23,7 +24,7 @@ struct TrackOptions {
   double step = 0.5;         ///< s: prediction step, in cylinder heights
   double noiseMargin = 1.8;  ///< a node below p_inl needs a wall this many times as strong as noise
   int lookAhead = 4;         ///< steps to look beyond a place where nothing fits; 0: stop there
-  double branchOffset = 1.25;  ///< a child starts so many parent radii from its parent's axis
+  double branchOffset = 1.25;  ///< a child starts this many parent radii from its parent's axis
   /// aneurysm points need this share of the strongest gradient seen from their centre
   double aneurysmGradient = 0.3;
   /// standard deviation of the blur, mm, by which walls are corrected; 0: not at all; empty:
@@ -39,10 +40,12 @@ struct TrackOptions {
   bool dark = false;       ///< vessels are darker than their background
   std::uint64_t seed = 1;  ///< of the random numbers
 
-  /// Throws Error(InvalidInput) if a value is out of range for a volume whose voxels' smallest edge
-  /// is so long (mm).
+  /// Adds the rows of all values above, which are stored in this object.
+  void addRows(OptionTable& table);
+  /// Throws Error(InvalidInput) if a value is out of range for a volume whose voxels' smallest edge is
+  /// `smallestEdge` mm.
   void check(double smallestEdge) const;
-  /// Every value above that is set, by its option's name, as a case stores it.
+  /// The values that are set, by option name, as a case stores them.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
 };
 

@@ -10,7 +10,6 @@
 
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
-#include "converters/base/recorded_options.h"
 #include "converters/base/shown_text.h"
 #include "converters/stages/tracking/tracked_tree.h"
 
@@ -101,28 +100,10 @@ Values valuesOf(const std::vector<T>& voxels) {
 std::optional<TrackOptions> recordedTrackOptions(const formats::Case& vesselCase) {
   const formats::Step* step = lastStep(vesselCase.metadata, "track");
   if (!step) return std::nullopt;
-  const RecordedOptions recorded(*step);
   TrackOptions o;
-  recorded.read("inlier-rate", o.inlierRate);
-  recorded.read("inlier-band", o.inlierBand);
-  recorded.read("rays", o.rays);
-  recorded.read("axes", o.axes);
-  recorded.read("samples", o.samples);
-  recorded.read("min-trials", o.minTrials);
-  recorded.read("max-trials", o.maxTrials);
-  recorded.read("step", o.step);
-  recorded.read("noise-margin", o.noiseMargin);
-  recorded.read("look-ahead", o.lookAhead);
-  recorded.read("branch-offset", o.branchOffset);
-  recorded.read("aneurysm-gradient", o.aneurysmGradient);
-  recorded.read("max-nodes", o.maxNodes);
-  recorded.read("dark", o.dark);
-  recorded.read("even-blur", o.evenBlur);
-  recorded.read("smoothing", o.smoothing);
-  recorded.read("point-spread", o.pointSpread);
-  std::int64_t seed = static_cast<std::int64_t>(o.seed);
-  recorded.read("random-seed", seed);
-  o.seed = static_cast<std::uint64_t>(seed);
+  OptionTable table;
+  o.addRows(table);
+  table.takeRecorded(*step);
   return o;
 }
 

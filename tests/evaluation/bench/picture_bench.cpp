@@ -40,7 +40,7 @@ void measure(const char* name, const std::function<void()>& work) {
 }
 
 void run(const std::string& file) {
-  const formats::Case value = app::readCase(file);
+  const formats::Case value = engine::readCase(file);
   Progress progress;
   convert::PictureOptions options;
   options.view = convert::View::Anterior;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figures, lines and columns for people.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lumen {
+
+/// Fixed-point text; "-" for nothing or a value that is not finite.
+std::string fixed(std::optional<double> value, int digits);
+
+/// Lines of a name, padded to a column, and a value. Names and values are made printable, so that
+/// no text of a file can end a line or begin one.
+class Lines {
+public:
+  Lines& add(std::string_view name, std::string_view value);
+  /// A line without a name.
+  Lines& add(std::string_view line);
+  [[nodiscard]] const std::string& text() const { return m_text; }
+
+private:
+  std::string m_text;
+};
+
+/// Rows of equal length as columns: the first left-aligned, the others right-aligned. Cells are
+/// made printable.
+std::string alignColumns(std::vector<std::vector<std::string>> rows);
+
+}  // namespace lumen

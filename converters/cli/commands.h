@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// All commands of the program, and the options that each has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "converters/engine/command.h"
+
+namespace lumen::cli {
+
+/// The commands of the engine, `lumen view` and `lumen completion`.
+engine::Engine allCommands();
+
+/// Summary, in one line, of the commands whose names begin with this word and a space; null for another word.
+const char* groupSummary(const std::string& word);
+
+/// The options that every command has.
+struct CommonOptions {
+  int threads = 0;  ///< 0: all cores
+  bool quiet = false;
+  bool verbose = false;
+  bool strict = false;  ///< a warning is an error: Progress::warn() throws
+  bool json = false;    ///< the answer on standard output is one JSON object
+
+  /// Adds their rows, whose values are stored in this object.
+  void addRows(OptionTable& table);
+};
+
+/// The row of --config, which the parser itself reads.
+OptionRow configRow();
+
+}  // namespace lumen::cli

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/about_options.h"
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/files.h"
+#include "converters/library/json_values.h"
+#include "converters/library/spdx.h"
+#include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
+
+namespace lumen::engine {
+
+namespace {
+
+constexpr const char* kGroup = "Statements about the case";
+
+std::string refusal(const std::string& found, const std::string& expected) {
+  return "found " + formats::printable(found) + ", expected " + expected;
+}
+
+template <class Test>
+ValueCheck checked(Test test, std::string expected) {
+  return [test, expected = std::move(expected)](const std::string& text) {
+    return test(text) ? std::string() : refusal(text, expected);
+  };
+}
+
+/// "SNOMED CT:86117002:Internal carotid artery".
+convert::AnatomyCode codeOf(const std::string& text) {
+  const std::size_t first = text.find(':');
+  const std::size_t second = first == std::string::npos ? first : text.find(':', first + 1);
+  if (second == std::string::npos) return {};
+  return {text.substr(0, first), text.substr(first + 1, second - first - 1),
+          text.substr(second + 1)};
+}
+
+bool isCode(const std::string& text) {
+  const convert::AnatomyCode code = codeOf(text);
+  return (code.system == "SNOMED CT" || code.system == "FMA") && !code.code.empty() &&
+         code.code.size() <= 18 && code.code.find_first_not_of("0123456789") == std::string::npos &&
+         !formats::checkText(code.name, 255, "");
+}
+
+void addText(OptionTable& table, const std::string& name, std::string& value,
+             const std::string& help, std::size_t most) {
+  table.add(name, &value, "TEXT", help).checkedBy(textOf(0, most));
+}
+
+void addWord(OptionTable& table, const std::string& name, std::string& value,
+             const std::string& help, const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? ": " : ", ") + word;
+  table.add(name, &value, "WORD", help + all).among(words);
+}
+
+void take(const std::string& given, std::string& value) {
+  if (!given.empty()) value = given;
+}
+
+}  // namespace
+
+ValueCheck textOf(std::size_t least, std::size_t most) {
+  return checked(
+      [=](const std::string& text) {
+        return text.size() >= least && !formats::checkText(text, most, "");
+      },
+      std::string("a text of ")
+          .append(std::to_string(least))
+          .append(" to ")
+          .append(std::to_string(most))
+          .append(" bytes of UTF-8 without control characters"));
+}
+
+ValueCheck licence() {
+  return [](const std::string& text) { return convert::licenceFault(text); };
+}
+
+ValueCheck uuidText() {
+  return checked([](const std::string& text) { return convert::isUuid(text); },
+                 "a UUID such as 0b8f2ac0-58a8-4d3c-93c9-3f3f39f1f2a4");
+}
+
+ValueCheck caseIdText() {
+  return checked([](const std::string& text) { return convert::isCaseId(text); },
+                 convert::kCaseIdRule);
+}
+
+void addAboutRows(OptionTable& table, AboutArguments& about) {
+  table.group(kGroup);
+  table.file("about", about.file,
+             "JSON file of the statements below, under the keys of record.json, or a record.json");
+  addText(table, "title", about.title, "Title [the anatomy, or the id]", 255);
+  addText(table, "description", about.description, "Description", 4096);
+  addText(table, "anatomy", about.anatomy, "Anatomy, such as \"carotid siphon\"", 255);
+  table
+      .add("code", &about.codes, "CODE",
+           "Anatomy as a code, such as \"SNOMED CT:86117002:Internal carotid artery\", or of FMA; "
+           "may be repeated")
+      .many()
+      .checkedBy(checked(
+          isCode, "SNOMED CT or FMA, the code's digits and its name, with colons between them"));
+  addWord(table, "laterality", about.laterality, "Side of the body",
+          {"left", "right", "bilateral", "midline", "unknown"});
+  addWord(table, "modality", about.modality, "Modality of the source",
+          {"XA", "CT", "MR", "US", "mesh", "synthetic", "other"});
+  table
+      .add("licence", &about.licence, "SPDX",
+           "Licence, as an SPDX expression such as CC-BY-4.0 [the library's]")
+      .checkedBy(licence());
+  addText(table, "attribution", about.attribution, "Names to credit", 1024);
+  table.add("doi", &about.doi, "DOI", "Digital object identifier, such as 10.5281/zenodo.1234")
+      .checkedBy(checked(convert::isDoi, "a DOI such as 10.5281/zenodo.1234"));
+  addText(table, "origin", about.origin, "Source of the data", 1024);
+  addText(table, "consent", about.consent,
+          "Ground on which a patient's case may be given away; required unless --synthetic", 4096);
+  addText(table, "deidentification", about.deidentification,
+          "Method by which identifying data were removed; required unless --synthetic", 4096);
+  table.flag("synthetic", about.synthetic, "No patient is behind the case");
+  table.group("");
+}
+
+convert::CaseAbout aboutOf(const AboutArguments& arguments, const convert::CaseAbout& known,
+                           const std::string& licence) {
+  convert::CaseAbout about = known;
+  if (!arguments.file.empty())
+    about = convert::readAbout(readWholeFile(arguments.file, "file about the case"), arguments.file,
+                               known);
+  const bool statesModality = !arguments.modality.empty() || about.modality != "other";
+  about.synthetic = about.synthetic || arguments.synthetic;
+  take(arguments.title, about.title);
+  take(arguments.description, about.description);
+  take(arguments.anatomy, about.anatomy);
+  take(arguments.laterality, about.laterality);
+  if (about.synthetic && !statesModality) about.modality = "synthetic";
+  take(arguments.modality, about.modality);
+  if (about.licence.empty()) about.licence = licence;
+  take(arguments.licence, about.licence);
+  take(arguments.attribution, about.attribution);
+  take(arguments.doi, about.doi);
+  take(arguments.origin, about.origin);
+  take(arguments.consent, about.consent);
+  take(arguments.deidentification, about.deidentification);
+  if (!arguments.codes.empty()) about.codes.clear();
+  for (const std::string& code : arguments.codes) about.codes.push_back(codeOf(code));
+  return about;
+}
+
+std::string revisionDay(const std::string& given) {
+  if (!given.empty()) return given;
+  using namespace std::chrono;
+  sys_days day = floor<days>(system_clock::now());
+  if (const char* const epoch = std::getenv("SOURCE_DATE_EPOCH"); epoch != nullptr) {
+    char* end = nullptr;
+    const long long value = std::strtoll(epoch, &end, 10);
+    constexpr long long kMost = 253402300799;  // the last second of the year 9999
+    if (*epoch == '\0' || *end != '\0' || value < 0 || value > kMost)
+      throw Error(ErrorKind::Usage,
+                  "SOURCE_DATE_EPOCH: " + refusal(epoch, "seconds since 1970 in decimal digits"));
+    day = floor<days>(sys_seconds(seconds(value)));
+  }
+  const year_month_day date(day);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+  return text.data();
+}
+
+void addDayRow(OptionTable& table, std::string& day) {
+  table
+      .add("date", &day, "DAY",
+           "Date of the library's revision, YYYY-MM-DD [SOURCE_DATE_EPOCH, or today]")
+      .checkedBy(checked([](const std::string& text) { return convert::isDay(text); },
+                         "a date such as 2026-11-22"));
+}
+
+void addFaultsRow(OptionTable& table, std::size_t& mostFaults) {
+  table.add("max-faults", &mostFaults, "N", "Report at most N faults; all are counted")
+      .in(WholeRange{0, 1000000});
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of the statements of people about a case and a library.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "converters/base/option_table.h"
+#include "converters/library/record.h"
+
+namespace lumen::engine {
+
+/// Statements of the command line; those that are not given are empty.
+struct AboutArguments {
+  std::string file;  ///< --about
+  std::string title, description, anatomy, laterality, modality, licence, attribution, doi, origin,
+      consent, deidentification;
+  std::vector<std::string> codes;
+  bool synthetic = false;
+};
+
+void addAboutRows(OptionTable& table, AboutArguments& about);
+
+/// The statements of the command line, then those of the file, then `known`; `licence` where none of them has one. Throws
+/// as convert::readAbout(), Error(InvalidInput) for a file that is not there.
+convert::CaseAbout aboutOf(const AboutArguments& arguments, const convert::CaseAbout& known,
+                           const std::string& licence);
+
+/// A text of `least` to `most` bytes, UTF-8 without control characters.
+ValueCheck textOf(std::size_t least, std::size_t most);
+/// An SPDX expression.
+ValueCheck licence();
+ValueCheck uuidText();
+ValueCheck caseIdText();
+
+/// The day of a revision: `given`, or that of SOURCE_DATE_EPOCH, or today's in UTC. Throws Error(Usage) if
+/// SOURCE_DATE_EPOCH is no number of seconds.
+std::string revisionDay(const std::string& given);
+
+/// --date of commands that make a revision.
+void addDayRow(OptionTable& table, std::string& day);
+/// --max-faults of commands that judge a library.
+void addFaultsRow(OptionTable& table, std::size_t& mostFaults);
+
+}  // namespace lumen::engine

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers for standard output: JSON with stable names, and aligned text.
+#pragma once
+
+#include "converters/engine/app_alias.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "converters/base/shown_figures.h"
+#include "converters/base/text.h"
+#include "converters/base/tree_figures.h"
+#include "formats/case/case.h"
+
+namespace lumen::engine {
+
+using Json = nlohmann::ordered_json;
+
+/// The number with the shortest decimal text that reads back as the same float; null if it is not
+/// finite.
+Json jsonNumber(float value);
+Json jsonNumber(double value);
+
+/// What convert, track and fit answer: branches, nodes, points, blobs, length_mm.
+Json caseSummary(const formats::Case& value);
+
+/// One line for a person: "out.lumen: 3 branches, 210 nodes, 1830 points, 902 blobs, 123.4 mm".
+std::string caseLine(const std::string& file, const formats::Case& value);
+
+}  // namespace lumen::engine

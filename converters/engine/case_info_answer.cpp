@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/case_info_answer.h"
+
+#include <sstream>
+
+#include "converters/engine/reachable_answer.h"
+#include "converters/engine/volume_info.h"
+
+namespace lumen::engine {
+
+namespace {
+
+std::optional<double> blobsPerNode(const convert::CaseInfo& info) {
+  if (!info.blobs || info.nodes == 0) return std::nullopt;
+  return static_cast<double>(*info.blobs) / static_cast<double>(info.nodes);
+}
+
+Json radiusJson(const RadiusRange& radius) {
+  return {{"mean", jsonNumber(radius.mean)},
+          {"min", jsonNumber(radius.min)},
+          {"max", jsonNumber(radius.max)}};
+}
+
+Json provenanceJson(const formats::Metadata& metadata) {
+  Json json;
+  json["voxel_size_mm"] = metadata.voxelSize ? jsonNumber(*metadata.voxelSize) : Json(nullptr);
+  json["source"] = metadata.source ? sourceVolumeJson(*metadata.source) : Json(nullptr);
+  json["parent_sha256"] =
+      metadata.parentSha256.empty() ? Json(nullptr) : Json(metadata.parentSha256);
+  json["point_step_mm"] =
+      metadata.pointQuantisation ? jsonNumber(metadata.pointQuantisation->step) : Json(nullptr);
+  json["steps"] = Json::array();
+  for (const auto& step : metadata.steps) {
+    Json parameters = Json::object();
+    for (const auto& [key, value] : step.parameters)
+      std::visit([&, &name = key](const auto& v) { parameters[name] = v; }, value);
+    json["steps"].push_back(
+        {{"name", step.name}, {"tool", step.tool}, {"parameters", std::move(parameters)}});
+  }
+  return json;
+}
+
+Json branchJson(const convert::BranchInfo& branch) {
+  Json json;
+  json["label"] = branch.label;
+  json["kind"] = branch.kind;
+  json["nodes"] = branch.nodes;
+  json["length_mm"] = jsonNumber(branch.length);
+  json["radius_mm"] = branch.nodes > 0 ? radiusJson(branch.radius) : Json(nullptr);
+  json["stop_reason"] = branch.stopReason;
+  json["inlier_rate"] = branch.inlierRate ? jsonNumber(*branch.inlierRate) : Json(nullptr);
+  return json;
+}
+
+std::string branchTable(const convert::CaseInfo& info) {
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back(
+      {"branch", "kind", "nodes", "length", "radius", "min", "max", "inliers", "stopped by"});
+  for (const auto& b : info.branches)
+    rows.push_back({b.label, b.kind, std::to_string(b.nodes), fixed(b.length, 1),
+                    fixed(b.radius.mean, 3), fixed(b.radius.min, 3), fixed(b.radius.max, 3),
+                    fixed(b.inlierRate, 2), b.stopReason});
+  return alignColumns(rows);
+}
+
+std::string stepText(const formats::Step& step) {
+  std::ostringstream text;
+  text << step.name << " (" << step.tool << ")";
+  const char* separator = ": ";
+  for (const auto& [key, value] : step.parameters) {
+    text << separator << key << " ";
+    std::visit([&](const auto& v) { text << std::boolalpha << v; }, value);
+    separator = ", ";
+  }
+  return text.str();
+}
+
+std::string sourceText(const formats::SourceVolume& source) {
+  std::ostringstream text;
+  text << source.size[0] << " x " << source.size[1] << " x " << source.size[2] << " voxels of "
+       << source.spacing[0] << " x " << source.spacing[1] << " x " << source.spacing[2]
+       << " mm, sha256 " << source.sha256;
+  return text.str();
+}
+
+/// As a stream writes it.
+std::string plain(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// What few cases have.
+void addExtras(const convert::CaseInfo& info, Lines& lines) {
+  const formats::Metadata& metadata = info.metadata;
+  if (info.links > 0) lines.add("links", std::to_string(info.links));
+  if (const auto& rounded = metadata.pointQuantisation)
+    lines.add("points", "rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
+                            plain(rounded->step) + " mm");
+  for (const auto& name : info.nodeArrays) lines.add("node array", name);
+  if (!metadata.parentSha256.empty()) lines.add("made from", "sha256 " + metadata.parentSha256);
+  if (!metadata.note.empty()) lines.add("note", metadata.note);
+}
+
+}  // namespace
+
+Json caseInfoJson(const convert::CaseInfo& info) {
+  Json json;
+  const auto perNode = blobsPerNode(info);
+  json["branches"] = info.branches.size();
+  json["nodes"] = info.nodes;
+  json["links"] = info.links;
+  json["points"] = info.points;
+  json["blobs"] = info.blobs.value_or(0);
+  json["blobs_per_node"] = perNode ? jsonNumber(*perNode) : Json(nullptr);
+  json["length_mm"] = jsonNumber(info.length);
+  json["reachable"] = reachJson(info.reach);
+  json["radius_mm"] = nullptr;
+  if (info.radius)
+    json["radius_mm"] = {{"min", jsonNumber(info.radius->min)},
+                         {"max", jsonNumber(info.radius->max)}};
+  json["error_of_fit_mm"] = nullptr;
+  if (info.errorOfFit)
+    json["error_of_fit_mm"] = {{"median", jsonNumber(info.errorOfFit->median)},
+                               {"p90", jsonNumber(info.errorOfFit->p90)},
+                               {"max", jsonNumber(info.errorOfFit->max)}};
+  json["provenance"] = provenanceJson(info.metadata);
+  json["note"] = info.metadata.note.empty() ? Json(nullptr) : Json(info.metadata.note);
+  json["node_arrays"] = info.nodeArrays;
+  json["branch_table"] = Json::array();
+  for (const auto& branch : info.branches) json["branch_table"].push_back(branchJson(branch));
+  return json;
+}
+
+std::string caseInfoText(const convert::CaseInfo& info) {
+  Lines lines;
+  std::string blobs = std::to_string(info.blobs.value_or(0));
+  if (const auto perNode = blobsPerNode(info)) blobs += " (" + fixed(perNode, 1) + " per node)";
+  lines.add("branches", std::to_string(info.branches.size()))
+      .add("nodes", std::to_string(info.nodes))
+      .add("points", std::to_string(info.points))
+      .add("blobs", blobs)
+      .add("length", fixed(info.length, 1) + " mm");
+  lines.add("reachable", convert::reachText(info.reach));
+  if (info.reach)
+    for (const std::string& text : convert::closedTexts(*info.reach)) lines.add("closed", text);
+  if (info.radius)
+    lines.add("radius", fixed(info.radius->min, 3) + " to " + fixed(info.radius->max, 3) + " mm");
+  if (const auto& e = info.errorOfFit)
+    lines.add("error of fit", "median " + fixed(e->median, 4) + ", 90th percentile " +
+                                  fixed(e->p90, 4) + ", greatest " + fixed(e->max, 4) + " mm");
+  if (info.metadata.voxelSize) lines.add("voxel size", plain(*info.metadata.voxelSize) + " mm");
+  if (info.metadata.source) lines.add("source", sourceText(*info.metadata.source));
+  addExtras(info, lines);
+  for (const auto& step : info.metadata.steps) lines.add("step", stepText(step));
+  return lines.text() + "\n" + branchTable(info) + "\nLengths and radii in mm.\n";
+}
+
+}  // namespace lumen::engine

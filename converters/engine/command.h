@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands: what the program can be asked for. A command states its options as rows and answers with facts; it neither
+// prints nor knows who asked.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "converters/base/operation.h"
+#include "converters/base/option_table.h"
+#include "converters/base/progress.h"
+#include "converters/engine/answer_text.h"
+
+namespace lumen::engine {
+
+/// Exit code 3: an input is invalid. For answers that are complete although what they judge is not valid.
+constexpr int kInvalidCode = static_cast<int>(ErrorKind::InvalidInput);
+
+/// The outcome of a command, in both forms.
+struct Answer {
+  Json json;
+  std::string text;      ///< whole lines
+  int code = 0;          ///< exit code
+  bool isAsked = false;  ///< the text is what the command is for, so even --quiet prints it
+};
+
+class Engine;
+
+/// What a command works in.
+struct Surroundings {
+  const Engine& engine;
+  Progress& progress;
+  const OptionTable* table = nullptr;  ///< rows of the command that runs
+  int threads = 0;                     ///< 0: all cores
+  bool strict = false;                 ///< a warning is an error: Progress::warn() throws
+  /// Called with each file or folder that is going to be written through a temporary one beside it.
+  std::function<void(const std::filesystem::path&)> willWrite = [](const auto&) {};
+  /// Takes an answer that is due before the command ends.
+  std::function<void(const Answer&)> answerEarly = [](const auto&) {};
+};
+
+class Command {
+public:
+  Command() = default;
+  virtual ~Command() = default;
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  /// One word, or a group's word and another: "library add".
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::string summary() const = 0;  ///< one line
+  [[nodiscard]] virtual std::string example() const = 0;  ///< shell lines for the end of the help
+  /// Adds the rows of the command's own options, whose values are stored in this object.
+  virtual void addRows(OptionTable& table) = 0;
+  /// Does the work after the rows are set. Throws lumen::Error.
+  virtual Answer run(Surroundings& around) = 0;
+};
+
+/// A command with its rows, which are stored in it.
+struct BoundCommand {
+  std::unique_ptr<Command> command;
+  std::unique_ptr<OptionTable> table;
+};
+
+/// The commands that can be asked for, in the order of the help.
+class Engine {
+public:
+  using Maker = std::function<std::unique_ptr<Command>()>;
+
+  void add(Maker maker) { m_makers.push_back(std::move(maker)); }
+  /// Every command, new.
+  [[nodiscard]] std::vector<BoundCommand> commands() const;
+  /// The command of that name, new; null where there is none.
+  [[nodiscard]] BoundCommand find(const std::string& name) const;
+  /// Does what is asked. Throws Error(Usage) for a command, an argument or an option that there is not, or whose
+  /// value is not allowed, and what the command throws.
+  [[nodiscard]] Answer run(const Operation& operation, const Surroundings& around) const;
+  /// Runs a command whose rows are set. Throws what the command throws.
+  [[nodiscard]] Answer run(const BoundCommand& bound, const Surroundings& around) const;
+
+private:
+  std::vector<Maker> m_makers;
+};
+
+/// All commands but those of the viewer and of the terminal.
+Engine makeEngine();
+
+/// Sets the rows as the operation says. Throws Error(Usage).
+void setRows(OptionTable& table, const Operation& operation);
+
+/// The first word of a command's name.
+inline std::string firstWord(const std::string& name) {
+  return name.substr(0, name.find(' '));
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/export_options.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converters/base/error.h"
+#include "converters/base/suggestion.h"
+#include "converters/engine/mesh_options.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+
+namespace {
+
+using convert::InstrumentKind;
+using convert::SofaDialect;
+using convert::WallKind;
+
+const std::map<std::string, InstrumentKind> kInstruments = {
+    {"guidewire", InstrumentKind::Guidewire},
+    {"catheter", InstrumentKind::Catheter},
+    {"coil", InstrumentKind::Coil}};
+const std::map<std::string, WallKind> kWalls = {
+    {"mesh", WallKind::Mesh}, {"implicit", WallKind::Implicit}, {"grid", WallKind::Grid}};
+const std::map<std::string, SofaDialect> kDialects = {{"current", SofaDialect::Current},
+                                                      {"v23.06", SofaDialect::V23_06}};
+
+const std::map<std::string, convert::GridFormat> kGridFormats = {
+    {"nrrd", convert::GridFormat::Nrrd},
+    {"nifti", convert::GridFormat::Nifti},
+    {"mhd", convert::GridFormat::Mhd},
+    {"vdb", convert::GridFormat::Vdb},
+    {"cdf", convert::GridFormat::Cdf}};
+
+const std::map<std::string, convert::LengthUnit> kUnits = {{"mm", convert::LengthUnit::Millimetre},
+                                                           {"cm", convert::LengthUnit::Centimetre},
+                                                           {"m", convert::LengthUnit::Metre}};
+const std::map<std::string, convert::Axes> kUp = {{"z", convert::Axes::Lps},
+                                                  {"y", convert::Axes::Lsa}};
+
+void addSofaRows(OptionTable& table, convert::ExportOptions& options) {
+  convert::SofaOptions& sofa = options.sofa;
+  table.group("SOFA");
+  table.choice("instrument", sofa.instrument, kInstruments,
+               "Instrument that is inserted; a guidewire lies within a catheter");
+  table.choice("wall", sofa.wall, kWalls,
+               "Wall that it touches: triangles, the models by the plugin LumenSofa, or distances "
+               "on a grid");
+  table.choice("dialect", sofa.dialect, kDialects, "Version of SOFA");
+  table.add("step", &sofa.step, "MM", "Distance that it advances in a time step of 0.01 s")
+      .in(NumberRange{0.001, 1});
+  table.add("insert", &options.insert, "LABEL",
+            "Branch at whose beginning it is inserted [the root]");
+}
+
+void setFormats(convert::GridOptions& grid, const std::vector<std::string>& words) {
+  grid.formats.clear();
+  for (const std::string& word : words) grid.formats.push_back(kGridFormats.at(word));
+}
+
+void addGridRows(OptionTable& table, convert::ExportOptions& options) {
+  convert::GridOptions& grid = options.grid;
+  std::vector<std::string> formats;
+  for (const auto& entry : kGridFormats) formats.push_back(entry.first);
+  table.group("Grid");
+  table
+      .add("grid", &options.spacing, "MM",
+           "Distance between the samples of a grid; 0: by the size of the vessels")
+      .in(kNotNegative);
+  OptionRow& format = table.add(
+      "format", [&grid](const std::vector<std::string>& words) { setFormats(grid, words); }, "WORD",
+      "File formats, one or more: " + alternatives(formats));
+  format.among(formats).defaults("nrrd").many().delimiter = ',';
+  table
+      .add("band", &grid.band, "MM",
+           "Distance from the wall beyond which values are clamped, or left out [everywhere; vdb: "
+           "3 samples]")
+      .in(kPositive);
+  table.flag("half", grid.half, "vdb: distances of 16 bits");
+  table.flag("per-branch", grid.perBranch,
+             "A grid for each branch and its neighbourhood along the tree, instead of one, in "
+             "which vessels that touch are merged");
+  table.flag("exact", grid.exact,
+             "Distances to the nearest point of the wall in the lumen, too, with a kink at its "
+             "axis, instead of libblob's, which are smooth, and right to first order");
+}
+
+template <class Value>
+void addOptionalChoice(OptionTable& table, const std::string& name, std::optional<Value>& value,
+                       const std::map<std::string, Value>& words, const std::string& help) {
+  std::vector<std::string> names;
+  for (const auto& word : words) names.push_back(word.first);
+  table
+      .add(
+          name,
+          [&value, &words](const std::vector<std::string>& texts) {
+            value = words.at(texts.back());
+          },
+          "WORD", help + ": " + alternatives(names))
+      .among(names);
+}
+
+bool hasOption(const convert::ExportTarget& target, const std::string& shownName) {
+  return std::find(target.options.begin(), target.options.end(), shownName) != target.options.end();
+}
+
+}  // namespace
+
+void addExportRows(OptionTable& table, convert::ExportOptions& options) {
+  table.group("");
+  addOptionalChoice(table, "unit", options.unit, kUnits,
+                    "Length unit, where the target leaves a choice [its first of --list]");
+  addOptionalChoice(table, "up", options.axes, kUp,
+                    "Axis that looks up (superior), where the target leaves a choice");
+  table.group("Surface");
+  addSurfaceRows(table, options.surface);
+  addGridRows(table, options);
+  addSofaRows(table, options);
+  table.group("");
+}
+
+convert::OptionTexts exportOptionTexts(const OptionTable& table,
+                                       const convert::ExportTarget& target) {
+  convert::OptionTexts texts;
+  for (const OptionRow& row : table.rows())
+    if (hasOption(target, row.shownName()))
+      if (std::string text = row.valueText(); !text.empty()) texts[row.shownName()] = text;
+  return texts;
+}
+
+void requireTargetOptions(const OptionTable& table, const convert::ExportTarget& target) {
+  for (const OptionRow& row : table.rows()) {
+    if (!row.isGiven || row.isArgument || hasOption(target, row.shownName())) continue;
+    std::string takers;
+    for (const convert::ExportTarget& other : convert::exportTargets())
+      if (hasOption(other, row.shownName()))
+        takers += (takers.empty() ? "" : ", ") + std::string(other.name);
+    if (!takers.empty())
+      throw Error(ErrorKind::Usage,
+                  row.shownName() + " is for " + takers + ", not for " + std::string(target.name));
+  }
+}
+
+std::vector<std::string> exportTargetNames() {
+  std::vector<std::string> names;
+  for (const convert::ExportTarget& target : convert::exportTargets())
+    names.emplace_back(target.name);
+  return names;
+}
+
+const convert::ExportTarget& exportTarget(const std::string& name) {
+  for (const convert::ExportTarget& target : convert::exportTargets())
+    if (target.name == name) return target;
+  const std::vector<std::string> names = exportTargetNames();
+  throw unsupported(formats::printable(name) + ": lumen does not export to this; it exports to " +
+                    alternatives(names) + didYouMean(name, names));
+}
+
+}  // namespace lumen::engine

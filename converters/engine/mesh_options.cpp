@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/mesh_options.h"
+
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "converters/engine/scope.h"
+
+namespace lumen::engine {
+
+namespace {
+
+const std::map<std::string, convert::MeshPer> kMeshPer = {{"whole", convert::MeshPer::Whole},
+                                                          {"branch", convert::MeshPer::Branch}};
+const std::map<std::string, convert::ColorBy> kColorBy = {
+    {"none", convert::ColorBy::None},
+    {"branch", convert::ColorBy::Branch},
+    {"radius", convert::ColorBy::Radius},
+    {"confidence", convert::ColorBy::Confidence}};
+
+void setEdge(convert::EdgeLength& edge, const std::string& text) {
+  const convert::Length length = convert::parseLength(text, "--edge");
+  edge.share = length.radii;
+  if (length.mm > 0) edge.minimum = edge.maximum = length.mm;
+}
+
+/// "0.25r"
+std::string shareText(double share) {
+  std::ostringstream text;
+  text << share << "r";
+  return text.str();
+}
+
+void addPatchRows(OptionTable& table, OutputOptions& output) {
+  table.flag("patches", output.patches,
+             "Write the surface in pieces, one group of faces for each branch, which meet but are "
+             "not joined");
+  table
+      .add("cell", &output.polygonise.cell, "MM",
+           "Edge of a marching-cubes cell of the patches; 0: the voxel size")
+      .in(kNotNegative)
+      .onlyWith("patches");
+}
+
+void addGltfRows(OptionTable& table, OutputOptions& output) {
+  convert::WriteMeshOptions& mesh = output.mesh;
+  table.scope(kAnyContent, kGltf);
+  table
+      .add("lod", &output.surface.levels, "N",
+           "Levels of detail in one glTF, each with a quarter of the triangles (MSFT_lod)")
+      .in(WholeRange{1, 8});
+  table.choice("mesh-per", mesh.per, kMeshPer, "Meshes of a glTF: one, or one for each branch");
+  table
+      .choice("colour", mesh.color, kColorBy,
+              "Colours of a glTF's vertices, which all kinds of colour vision can distinguish")
+      .alsoCalled("color");
+  table.flag("meshopt", mesh.meshopt,
+             "Compress glTF with EXT_meshopt_compression, to a micrometre; not for the f3d of "
+             "Debian 12, which crashes on any such file");
+  table
+      .flag("draco", mesh.draco,
+            "Compress glTF with KHR_draco_mesh_compression; not for the f3d of Debian 12, which "
+            "crashes on any such file")
+      .without("meshopt");
+  table
+      .add("draco-position-bits", &mesh.dracoPositionBits, "N",
+           "Bits of a position in the bounding box of the mesh")
+      .in(WholeRange{1, 30})
+      .onlyWith("draco");
+  table.add("draco-normal-bits", &mesh.dracoNormalBits, "N", "Bits of a normal")
+      .in(WholeRange{2, 30})
+      .onlyWith("draco");
+}
+
+}  // namespace
+
+void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) {
+  using Texts = std::vector<std::string>;
+  table
+      .add(
+          "edge", [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
+          "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
+      .defaults(shareText(surface.edge.share))
+      .without("patches");
+  table
+      .add(
+          "extend",
+          [&surface](const Texts& texts) {
+            for (const std::string& text : texts)
+              surface.extend.push_back(convert::parseEndLength(text, "--extend"));
+          },
+          "[LABEL=]LENGTH",
+          "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
+      .many()
+      .without("patches");
+  table
+      .add(
+          "thickness",
+          [&surface](const Texts& texts) {
+            surface.thickness = convert::parseLength(texts.back(), "--thickness");
+          },
+          "LENGTH",
+          "Thickness of a solid wall around the lumen, such as 0.5 (mm) or 0.2r; lumen reports "
+          "where it is thinner because vessels touch")
+      .without("patches");
+  table
+      .add("max-error", &surface.maxError, "MM",
+           "Drop triangles while the surface stays within this distance of the full one, both "
+           "ways; 0: none")
+      .in(kNotNegative)
+      .without("patches");
+}
+
+void addMeshFileRows(OptionTable& table, OutputOptions& output) {
+  convert::ClosedSurfaceOptions& surface = output.surface;
+  table.group("Mesh");
+  table.scope(kAnyContent, kAllMeshes);
+  addSurfaceRows(table, surface);
+  table.add("edge-min", &surface.edge.minimum, "MM", "Least length of edges")
+      .in(kNotNegative)
+      .without("patches");
+  table.add("edge-max", &surface.edge.maximum, "MM", "Greatest length of edges")
+      .in(kPositive)
+      .defaults("")
+      .without("patches");
+  table
+      .scaled("gap", surface.gap, "Distance that touching vessels keep",
+              "0.1 voxels, or 0.05 of the least radius")
+      .without("patches");
+  table.flag("open", surface.open, "Leave the flat ends of vessels open").without("patches");
+  addPatchRows(table, output);
+  addGltfRows(table, output);
+  table.scope(kAnyContent, kStl);
+  table.flag("stl-solids", output.mesh.stlSolids,
+             "Write STL as text with one named solid for each group of faces, as OpenFOAM takes "
+             "it");
+  table.scope(kAnyContent);
+  table.group("");
+}
+
+}  // namespace lumen::engine

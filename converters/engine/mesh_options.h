@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of the options of a case's surface and of mesh files.
+#pragma once
+
+#include <string>
+
+#include "converters/base/option_table.h"
+#include "converters/engine/file_format.h"
+
+namespace lumen::engine {
+
+/// The closed surface: edges, flow extensions, a wall, simplification.
+void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface);
+
+/// How `lumen convert` writes a mesh: the surface, its patches, and the file's own options.
+void addMeshFileRows(OptionTable& table, OutputOptions& output);
+
+}  // namespace lumen::engine

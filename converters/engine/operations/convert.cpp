@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen convert: a volume, tracked and fitted, a centerline, fitted, or a case, as a case, a mesh or a
+// centerline.
+#include "converters/base/error.h"
+#include "converters/engine/answer_text.h"
+#include "converters/engine/centerline_input.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/mask_input.h"
+#include "converters/engine/mesh_input.h"
+#include "converters/engine/mesh_options.h"
+#include "converters/engine/operations/operations.h"
+#include "converters/engine/reachable_answer.h"
+#include "converters/engine/scope.h"
+#include "converters/engine/surface_answer.h"
+#include "converters/engine/track_answer.h"
+#include "converters/engine/tracking_input.h"
+#include "converters/stages/fitting/fit.h"
+#include "converters/stages/surface/patches/cell_size.h"
+
+namespace lumen::engine {
+
+namespace {
+
+class ConvertCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "convert"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Turn a volume, a surface, or a case, into a case or a mesh";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
+           "  lumen convert head.lumen head.glb --color radius\n"
+           "  lumen convert aorta.stl aorta.lumen --centerline aorta-centerline.vtp\n"
+           "  lumen convert labels.nii.gz arteries.lumen --labels 1=ica,2=mca\n"
+           "  lumen convert arteries.swc arteries.lumen";
+  }
+
+  void addRows(OptionTable& table) override {
+    table.argument("INPUT", &m_input,
+                   "Volume (" + formatTitles(canReadVolume) + "), surface of vessels (" +
+                       formatTitles(canReadMesh) + "), centerline (" +
+                       formatTitles(canReadCenterline) + "; also a folder of curves) or case");
+    table.argument("OUTPUT", &m_output,
+                   "Case, " + formatEndings(canWriteCase) +
+                       "; or mesh, which holds the surface of the " + "vessels and no more, " +
+                       formatEndings(canWriteMesh) +
+                       "; or centerline, which holds the tree and its radii and no more, " +
+                       formatEndings(canWriteCenterline));
+    addFormatRow(table, "from", m_from, "INPUT");
+    addFormatRow(table, "to", m_to, "OUTPUT");
+    addVolumeRows(table, m_volume);
+    addCenterlineRows(table, m_centerline);
+    addTrackRows(table, m_track);
+    addMeshRows(table, m_mesh);
+    addMaskRows(table, m_mask);
+    addFitRows(table, m_fit);
+    addMeshFileRows(table, m_outputOptions);
+    addEncodingRows(table, m_outputOptions.encoding);
+  }
+
+  Answer run(Surroundings& around) override {
+    requireOrder(m_input, m_output);
+    const FileFormat& to = outputFormat(m_output, m_to);
+    requireInput(m_input, "input");
+    const FileFormat& from = inputFormat(m_input, m_from);
+    m_situation = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
+    if (from.kind != FormatKind::Case) requireInScope(*around.table, m_situation, around.progress);
+    if (from.kind == FormatKind::Volume && !m_mask.isGiven()) m_seeds = loadSeeds(m_track);
+    requireWritable(m_output, contentKind(to));
+    around.willWrite(m_output);
+
+    formats::Case value = load(from, around.progress);
+    complete(value, from, to, around);
+    around.progress.check();
+    const std::optional<convert::Reach> reach = convert::reachOf(value, around.progress);
+    convert::warnOfClosed(reach, around.progress);
+    const auto surface = to.writeCase(value, m_output, m_outputOptions, around.progress);
+    return report(value, reach, surface);
+  }
+
+private:
+  formats::Case load(const FileFormat& from, Progress& progress) {
+    if (from.kind == FormatKind::Mesh)
+      return caseOfMeshFile(m_input, from, meshArguments(), progress);
+    if (from.kind == FormatKind::Case) {
+      // rounding makes another case; another encoding does not
+      return m_outputOptions.encoding.pointBits != 0 ? readParentCase(m_input)
+                                                     : from.readCase(m_input);
+    }
+    if (from.kind == FormatKind::Centerline) {
+      const auto loaded = loadCenterline(m_input, from, m_volume, m_centerline, progress);
+      // there is no voxel that a mesh could take its cells from
+      double& cell = m_outputOptions.polygonise.cell;
+      const double thinnest = convert::extentOf(loaded.file).least;
+      if (cell == 0 && thinnest > 0) cell = convert::coarsestCellFor(thinnest);
+      return convert::caseOfCenterline(loaded.file, m_input);
+    }
+    if (m_mask.isGiven()) return caseOfMaskFile(m_input, from, m_volume, m_mask, progress);
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
+    convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
+    m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
+    return std::move(tracked.result);
+  }
+
+  [[nodiscard]] MeshArguments meshArguments() const {
+    MeshArguments arguments = m_mesh;
+    arguments.unit = m_volume.unit;
+    arguments.scene.allowDetached = m_volume.allowDetached;
+    return arguments;
+  }
+
+  /// A tracked volume gets its models, and so does a mesh; so does a case that has none when they are needed for a
+  /// mesh.
+  void complete(formats::Case& value, const FileFormat& from, const FileFormat& to,
+                Surroundings& around) {
+    const bool meshNeedsModels = to.kind == FormatKind::Mesh && !value.models;
+    if (meshNeedsModels && !value.points)
+      throw invalidInput(m_input +
+                         ": this case has neither models nor wall points to fit them to, "
+                         "so there is no surface to make a mesh of");
+    const bool isNew = from.kind != FormatKind::Case;
+    if (!isNew) {
+      if (meshNeedsModels) m_situation.input = kUnfittedCase;
+      requireInScope(*around.table, m_situation, around.progress);
+    }
+    if (isNew || meshNeedsModels) convert::fit(value, fitOptionsFor(value, m_fit), around.progress);
+  }
+
+  [[nodiscard]] Answer report(const formats::Case& value,
+                              const std::optional<convert::Reach>& reach,
+                              const std::optional<convert::SurfaceReport>& surface) const {
+    Json json = caseSummary(value);
+    json["reachable"] = reachJson(reach);
+    json["surface"] = surfaceJson(surface, value);
+    return {withRemarks(std::move(json), m_remarks),
+            caseLine(m_output, value) + convert::reachLine(reach) + surfaceLines(surface, value) +
+                endLines(m_remarks)};
+  }
+
+  std::string m_input, m_output, m_from, m_to;
+  VolumeArguments m_volume;
+  CenterlineArguments m_centerline;
+  TrackArguments m_track;
+  convert::FitOptions m_fit;
+  MeshArguments m_mesh;
+  MaskArguments m_mask;
+  OutputOptions m_outputOptions;
+  Situation m_situation;
+  std::vector<convert::SeedBranch> m_seeds;
+  convert::TrackRemarks m_remarks;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeConvertCommand() {
+  return std::make_unique<ConvertCommand>();
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen export: a case as the folder of files that a simulator loads.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "converters/base/error.h"
+#include "converters/engine/answer_text.h"
+#include "converters/engine/export_options.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/operations/operations.h"
+#include "converters/engine/surface_answer.h"
+#include "converters/export/export_case.h"
+#include "converters/judge/facts/reachable.h"
+#include "formats/case/atomic_file.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using convert::exportTargets, convert::ExportTarget, convert::ExportResult;
+
+std::string joined(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  return text;
+}
+
+template <class Value>
+std::vector<std::string_view> namesOf(const std::vector<Value>& values,
+                                      std::string_view (*name)(Value)) {
+  std::vector<std::string_view> names;
+  for (const Value value : values) names.push_back(name(value));
+  return names;
+}
+
+/// All of them in a new folder, which appears when it is complete.
+void writeFolder(const std::vector<convert::ExportFile>& files, formats::PendingFolder& folder) {
+  for (const convert::ExportFile& file : files) {
+    const fs::path path = folder.path() / file.name;
+    fs::create_directories(path.parent_path());
+    std::ofstream out(path, std::ios::binary);
+    out.write(file.bytes.data(), static_cast<std::streamsize>(file.bytes.size()));
+    out.close();
+    if (!out) throw failed(path.string() + ": cannot write this file");
+  }
+  const auto done = folder.commit();
+  if (!done) throw failed(done.error().message);
+}
+
+class ExportCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "export"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Write the folder of files that a simulator loads";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen export sofa head.lumen head-sofa\n"
+           "  lumen export sofa head.lumen coiling --instrument coil --insert aneurysm --wall "
+           "implicit\n"
+           "  lumen export --list";
+  }
+
+  void addRows(OptionTable& table) override {
+    table.flag("list", m_list, "List the targets, their files, units and frames, and exit");
+    for (OptionRow* row :
+         {&table.argument("TARGET", &m_target, "Reader of the folder: " + joinedNames(), {}),
+          &table.argument("CASE", &m_input, "Case, with models"),
+          &table.argument("FOLDER", &m_output,
+                          "Folder to write; it may not exist, or must be empty")}) {
+      row->isRequired = false;
+      row->without("list");
+    }
+    addExportRows(table, m_options);
+  }
+
+  Answer run(Surroundings& around) override {
+    if (m_list) return list();
+    if (m_output.empty())
+      throw Error(ErrorKind::Usage, std::string(m_target.empty()  ? "TARGET"
+                                                : m_input.empty() ? "CASE"
+                                                                  : "FOLDER") +
+                                        " is missing; usage: lumen export TARGET CASE FOLDER");
+    const ExportTarget& target = exportTarget(m_target);
+    requireTargetOptions(*around.table, target);
+    requireRoom();
+    const formats::Case value = readCase(m_input);
+    auto folder =
+        formats::PendingFolder::beside(m_output, formats::PendingFolder::Existing::Refuse);
+    if (!folder) throw failed(folder.error().message);
+    around.willWrite(m_output);
+    convert::warnOfClosed(convert::reachOf(value, around.progress), around.progress);
+    const ExportResult result = made(target, value, around);
+    warnOf(result, around.progress);
+    around.progress.check();
+    writeFolder(result.files, *folder);
+    return report(result, value);
+  }
+
+private:
+  /// What a target says against a case names the file.
+  [[nodiscard]] ExportResult made(const ExportTarget& target, const formats::Case& value,
+                                  Surroundings& around) const {
+    try {
+      return convert::exportCase(target, value, m_options, exportOptionTexts(*around.table, target),
+                                 around.progress);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::InvalidInput) throw;
+      throw invalidInput(m_input + ": " + error.what());
+    }
+  }
+
+  void warnOf(const ExportResult& result, Progress& progress) const {
+    if (result.surface) warnOfSurface(*result.surface, m_output, progress);
+    for (const std::string& loss : result.losses)
+      progress.warn(formats::printable(m_output) + ": " + loss);
+  }
+
+  /// Before anything is made: the folder is not there, or is empty.
+  void requireRoom() const {
+    std::error_code error;
+    const auto kind = std::filesystem::status(m_output, error).type();
+    if (kind == std::filesystem::file_type::not_found ||
+        (kind == std::filesystem::file_type::directory &&
+         std::filesystem::is_empty(m_output, error) && !error))
+      return;
+    throw failed(m_output +
+                 ": there is something already; expected a folder that does not exist, " +
+                 "or is empty");
+  }
+
+  static std::string joinedNames() {
+    std::string text;
+    for (const std::string& name : exportTargetNames()) text += (text.empty() ? "" : ", ") + name;
+    return text;
+  }
+
+  static Answer list() {
+    Json targets = Json::array();
+    std::string text;
+    for (const ExportTarget& target : exportTargets()) {
+      targets.push_back({{"name", target.name},
+                         {"title", target.title},
+                         {"files", target.files},
+                         {"units", namesOf(target.units, convert::unitName)},
+                         {"axes", namesOf(target.axes, convert::axesName)},
+                         {"holds", target.holds},
+                         {"lacks", target.lacks},
+                         {"options", target.options}});
+      text += (text.empty() ? "" : "\n") +
+              Lines()
+                  .add(target.name, target.title)
+                  .add("files", joined(target.files))
+                  .add("unit, axes", joined(namesOf(target.units, convert::unitName)) + "; " +
+                                         joined(namesOf(target.axes, convert::axesName)))
+                  .add("holds", target.holds)
+                  .add("lacks", target.lacks)
+                  .add("options", joined(target.options))
+                  .text();
+    }
+    return {Json{{"targets", std::move(targets)}}, std::move(text), 0, true};
+  }
+
+  [[nodiscard]] Answer report(const ExportResult& result, const formats::Case& value) const {
+    Json json = caseSummary(value);
+    json["target"] = m_target;
+    Json files = Json::array();
+    for (const convert::ExportFile& file : result.files)
+      files.push_back({{"name", file.name}, {"bytes", file.bytes.size()}});
+    json["files"] = std::move(files);
+    json["remarks"] = result.remarks;
+    json["surface"] = surfaceJson(result.surface, value);
+    std::string text = caseLine(m_output, value);
+    for (const std::string& remark : result.remarks) text += Lines().add(remark).text();
+    return {std::move(json), text + surfaceLines(result.surface, value)};
+  }
+
+  bool m_list = false;
+  std::string m_target, m_input, m_output;
+  convert::ExportOptions m_options;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeExportCommand() {
+  return std::make_unique<ExportCommand>();
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen info: what is in a case, a volume, a mesh or a centerline.
+#include "converters/engine/answer_text.h"
+#include "converters/engine/case_info_answer.h"
+#include "converters/engine/centerline_input.h"
+#include "converters/engine/chunk_info.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/mesh_info.h"
+#include "converters/engine/operations/operations.h"
+#include "converters/engine/scope.h"
+#include "converters/engine/tracking_input.h"
+#include "converters/engine/volume_info.h"
+
+namespace lumen::engine {
+
+namespace {
+
+class InfoCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "info"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Tell what a case, a volume, a mesh or a centerline holds";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen info head.lumen --json | jq .radius_mm";
+  }
+
+  void addRows(OptionTable& table) override {
+    table.argument("FILE", &m_input, "Case, volume, mesh or centerline");
+    addFormatRow(table, "from", m_from, "FILE");
+    table.flag("chunks", m_chunks, "List the chunks of a .lumen file instead");
+    table
+        .flag("voxels", m_voxels,
+              "Read the voxels of a volume too, not its header only: range and digest")
+        .forInputs(kVolumes);
+    addVolumeRows(table, m_volume);
+    addCenterlineRows(table, m_centerline);
+  }
+
+  Answer run(Surroundings& around) override {
+    requireInput(m_input, "case, volume, mesh or centerline");
+    if (m_chunks) {
+      requireInScope(*around.table, {kFittedCase, kAnyContent, m_input, {}}, around.progress);
+      const FileInfo info = describeChunks(m_input);
+      return {chunkInfoJson(info), chunkInfoText(info), 0, true};
+    }
+    const FileFormat& from = inputFormat(m_input, m_from);
+    requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, {}},
+                   around.progress);
+    if (from.kind == FormatKind::Volume) {
+      const VolumeInfo info = describe(from, around.progress);
+      return {volumeInfoJson(info), volumeInfoText(info), 0, true};
+    }
+    if (from.kind == FormatKind::Mesh) {
+      const MeshInfo info =
+          describeMesh(from.readMesh(m_input), m_input, m_volume.unit, around.progress);
+      return {meshInfoJson(info), meshInfoText(info), 0, true};
+    }
+    if (from.kind == FormatKind::Centerline) {
+      const LoadedCenterline loaded =
+          loadCenterline(m_input, from, m_volume, m_centerline, around.progress);
+      return {centerlineInfoJson(loaded), centerlineInfoText(loaded), 0, true};
+    }
+    const formats::Case value = from.readCase(m_input);
+    const convert::CaseInfo info = convert::describeCase(value, around.progress);
+    return {caseInfoJson(info), caseInfoText(info), 0, true};
+  }
+
+private:
+  [[nodiscard]] VolumeInfo describe(const FileFormat& from, Progress& progress) const {
+    if (!m_voxels) return {loadVolumeHeader(m_input, from, m_volume, progress), {}};
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
+    return describeVolume(from.readVolumeHeader(m_input, m_volume.options(), progress), volume,
+                          progress);
+  }
+
+  std::string m_input, m_from;
+  bool m_chunks = false;
+  bool m_voxels = false;
+  VolumeArguments m_volume;
+  CenterlineArguments m_centerline;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeInfoCommand() {
+  return std::make_unique<InfoCommand>();
+}
+
+}  // namespace lumen::engine

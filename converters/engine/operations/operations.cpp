@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order of the help.
+#include "converters/engine/operations/operations.h"
+
+namespace lumen::engine {
+
+Engine makeEngine() {
+  Engine engine;
+  for (const auto make :
+       {makeConvertCommand,       makeExportCommand,        makeTrackCommand,
+        makeFitCommand,           makeInfoCommand,          makeValidateCommand,
+        makeCompareCommand,       makeCheckCommand,         makePictureCommand,
+        makeReportCommand,        makePhantomCommand,       makeLibraryInitCommand,
+        makeLibraryAddCommand,    makeLibraryRemoveCommand, makeLibraryExtractCommand,
+        makeLibraryListCommand,   makeLibraryCheckCommand,  makeLibrarySignCommand,
+        makeLibraryVerifyCommand, makeLibraryIndexCommand,  makeLibraryBuildCommand,
+        makeLibrarySampleCommand})
+    engine.add(make);
+  return engine;
+}
+
+}  // namespace lumen::engine

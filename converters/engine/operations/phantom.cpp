@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen phantom: a synthetic angiogram with its truth and its seeds.
+#include "converters/stages/phantom/phantom.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "converters/base/suggestion.h"
+#include "converters/engine/answer_text.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/operations/operations.h"
+#include "converters/engine/stage_options.h"
+#include "converters/io/seeds/seeds.h"
+
+namespace lumen::engine {
+
+namespace {
+
+class PhantomCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "phantom"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Make a synthetic angiogram with a known truth";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen phantom bifurcation fork.nrrd --truth fork-truth.lumen --seeds "
+           "fork-seeds.json\n"
+           "  lumen phantom --tree arteries.swc arteries.nrrd --voxel 0.3 --seeds "
+           "arteries-seeds.json";
+  }
+
+  void addRows(OptionTable& table) override {
+    // with --tree the first name is that of the output: sortArguments() says which is which
+    table
+        .argument("NAME", &m_options.name,
+                  alternatives(convert::phantomNames()) + "; left out with --tree")
+        .isRequired = false;
+    table.argument("OUT", &m_output, "Volume to write: " + formatEndings(canWriteVolume))
+        .isRequired = false;
+    table.file("tree", m_tree,
+               "Draw the arteries of this SWC file, lengths in mm, instead of a named phantom");
+    table.file("truth", m_truth, "Also write the true tree, as a case");
+    table.file("seeds", m_seeds, "Also write the seeds that a user would click");
+    m_options.addRows(table);
+  }
+
+  Answer run(Surroundings& around) override {
+    sortArguments();
+    const Outputs outputs = checkOutputs(around);
+    const convert::Phantom phantom = convert::makePhantom(m_options, around.progress);
+    around.progress.begin("writing", 0);
+    outputs.volume.writeVolume(phantom.volume, m_output);
+    if (outputs.truth != nullptr)
+      outputs.truth->writeCase(phantom.truth, m_truth, {}, around.progress);
+    if (!m_seeds.empty()) convert::writeSeeds(phantom.seeds, m_seeds);
+    around.progress.end();
+    return report(phantom);
+  }
+
+private:
+  struct Outputs {
+    const FileFormat& volume;
+    const FileFormat* truth;  ///< null without --truth
+  };
+
+  void sortArguments() {
+    const char* const usage = "; usage: lumen phantom NAME OUT, or lumen phantom --tree FILE OUT";
+    if (!m_tree.empty()) {
+      if (!m_output.empty())
+        throw Error(ErrorKind::Usage,
+                    m_options.name + " and --tree are two phantoms, expected one" + usage);
+      m_options.tree = m_tree;
+      m_output = std::exchange(m_options.name, {});
+    } else if (m_options.name.empty()) {
+      throw Error(ErrorKind::Usage, std::string("NAME is missing") + usage);
+    } else {
+      const std::vector<std::string>& known = convert::phantomNames();
+      if (std::find(known.begin(), known.end(), m_options.name) == known.end())
+        throw Error(ErrorKind::Usage, "NAME: found " + m_options.name + ", expected " +
+                                          alternatives(known) + didYouMean(m_options.name, known));
+    }
+    if (m_output.empty()) throw Error(ErrorKind::Usage, std::string("OUT is missing") + usage);
+  }
+
+  /// Refuses what could not be written in the end.
+  Outputs checkOutputs(Surroundings& around) const {
+    const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
+                          m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};
+    const std::vector<std::pair<std::string, convert::ContentKind>> files = {
+        {m_output, convert::ContentKind::Volume},
+        {m_truth, convert::ContentKind::Case},
+        {m_seeds, convert::ContentKind::Seeds}};
+    for (auto file = files.begin(); file != files.end(); ++file) {
+      const auto& [output, kind] = *file;
+      if (output.empty()) continue;
+      for (auto earlier = files.begin(); earlier != file; ++earlier)
+        if (earlier->first == output)
+          throw Error(ErrorKind::Usage, output + ": this name is given to two outputs");
+      requireWritable(output, kind);
+      around.willWrite(output);
+    }
+    return outputs;
+  }
+
+  [[nodiscard]] Answer report(const convert::Phantom& phantom) const {
+    const auto& size = phantom.volume.geometry.size;
+    Json json = caseSummary(phantom.truth);
+    json["size"] = size;
+    json["voxel_size_mm"] = jsonNumber(phantom.volume.geometry.voxelSize());
+    json["seeds"] = phantom.seeds.size();
+    return {std::move(json), m_output + ": " + std::to_string(size[0]) + " x " +
+                                 std::to_string(size[1]) + " x " + std::to_string(size[2]) +
+                                 " voxels of " + fixed(phantom.volume.geometry.voxelSize(), 3) +
+                                 " mm, " + std::to_string(phantom.truth.tree.branches.size()) +
+                                 " true branches, " + fixed(totalLength(phantom.truth.tree), 1) +
+                                 " mm\n"};
+  }
+
+  convert::PhantomOptions m_options;
+  std::string m_tree, m_output, m_truth, m_seeds;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makePhantomCommand() {
+  return std::make_unique<PhantomCommand>();
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen track: a volume and seeds to a tree with wall points.
+#include "converters/engine/answer_text.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/operations/operations.h"
+#include "converters/engine/reachable_answer.h"
+#include "converters/engine/scope.h"
+#include "converters/engine/track_answer.h"
+#include "converters/engine/tracking_input.h"
+
+namespace lumen::engine {
+
+namespace {
+
+class TrackCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "track"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Track vessels through a volume: a case with its tree and wall points";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen track head.nrrd head.lumen --seeds head-seeds.json --inlier-rate 0.6";
+  }
+
+  void addRows(OptionTable& table) override {
+    table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
+    table.argument("OUT", &m_output, "Case to write, " + formatEndings(canWriteCase));
+    addVolumeRows(table, m_volume);
+    addTrackRows(table, m_track);
+    addFormatRow(table, "from", m_from, "VOLUME");
+    addFormatRow(table, "to", m_to, "OUT");
+  }
+
+  Answer run(Surroundings& around) override {
+    requireOrder(m_input, m_output);
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen track makes");
+    requireInput(m_input, "volume");
+    const FileFormat& from = inputFormat(m_input, m_from);
+    if (from.kind != FormatKind::Volume) {
+      const std::string other = convert::notA(convert::ContentKind::Volume, m_input);
+      throw unsupported(m_input + ": " +
+                        (other.empty() ? "this is not a volume, which lumen track reads" : other));
+    }
+    requireInScope(*around.table, {inputContent(from, false), outputContent(to), m_input, m_output},
+                   around.progress);
+    const auto seeds = loadSeeds(m_track);
+    requireWritable(m_output, convert::ContentKind::Case);
+    around.willWrite(m_output);
+
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
+    const convert::TrackResult tracked = trackSeeds(volume, seeds, m_track, around.progress);
+    to.writeCase(tracked.result, m_output, {}, around.progress);
+    Json json = caseSummary(tracked.result);
+    json["reachable"] = reachJson(std::nullopt);
+    return {
+        withRemarks(std::move(json), tracked),
+        caseLine(m_output, tracked.result) + convert::reachLine(std::nullopt) + endLines(tracked)};
+  }
+
+private:
+  std::string m_input, m_output, m_from, m_to;
+  VolumeArguments m_volume;
+  TrackArguments m_track;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeTrackCommand() {
+  return std::make_unique<TrackCommand>();
+}
+
+}  // namespace lumen::engine

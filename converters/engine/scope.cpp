@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/scope.h"
+
+#include <utility>
+#include <vector>
+
+#include "converters/base/error.h"
+#include "converters/base/suggestion.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+
+namespace {
+
+using NamedContent = std::pair<ContentMask, const char*>;
+
+/// Names of sets, the larger ones first.
+const std::vector<NamedContent> kInputNames = {
+    {kCases, "cases"},
+    {kVolumes, "volumes"},
+    {kMeshes, "meshes"},
+    {kImage, "volumes of grey values"},
+    {kLabels, "volumes of labels"},
+    {kDicom, "folders of DICOM"},
+    {kFileImage, "volumes of grey values"},
+    {kFileLabels, "volumes of labels"},
+    {kDicomImage, "folders of DICOM"},
+    {kDicomLabels, "folders of DICOM with labels"},
+    {kPlainMesh, "files of one mesh"},
+    {kScene, "scenes"},
+    {kCenterline, "centerlines"},
+    {kUnfittedCase, "cases that get models"},
+    {kFittedCase, "cases that are taken as they are"},
+};
+const std::vector<NamedContent> kOutputNames = {
+    {kAllMeshes, "meshes"},        {kBinaryCase, ".lumen"}, {kJsonCase, ".lumen.json"},
+    {kGltf, "glTF (.glb, .gltf)"}, {kStl, "STL"},           {kOtherMesh, "meshes but glTF and STL"},
+    {kTree, "centerlines"},
+};
+
+std::string namesIn(ContentMask mask, const std::vector<NamedContent>& names) {
+  std::vector<std::string> found;
+  for (const auto& [set, name] : names) {
+    if ((mask & set) != set) continue;
+    found.emplace_back(name);
+    mask &= ~set;
+  }
+  return alternatives(found);
+}
+
+/// The reason why an option would do nothing, as the end of a sentence; empty if it counts.
+std::string idleReason(const OptionTable& table, const OptionRow& row, const Situation& situation) {
+  if ((row.inputs & situation.input) == 0)
+    return "is for " + namesIn(row.inputs, kInputNames) + ", and " +
+           formats::printable(situation.inputName) + " is none of these";
+  if ((row.outputs & situation.output) == 0)
+    return "is for writing " + namesIn(row.outputs, kOutputNames) + ", and " +
+           formats::printable(situation.outputName) + " is none of these";
+  const OptionRow* const needed = row.needs.empty() ? nullptr : table.find(row.needs);
+  if (needed != nullptr && !needed->isGiven) return "does nothing without " + needed->shownName();
+  return {};
+}
+
+}  // namespace
+
+ContentMask inputContent(const FileFormat& format, bool holdsLabels) {
+  switch (format.kind) {
+    case FormatKind::Volume:
+      if (format.endings.empty()) return holdsLabels ? kDicomLabels : kDicomImage;
+      return holdsLabels ? kFileLabels : kFileImage;
+    case FormatKind::Mesh:
+      return format.readScene != nullptr ? kScene : kPlainMesh;
+    case FormatKind::Centerline:
+      return kCenterline;
+    case FormatKind::Case:
+      break;
+  }
+  return kFittedCase;
+}
+
+ContentMask outputContent(const FileFormat& format) {
+  if (format.kind == FormatKind::Centerline) return kTree;
+  if (format.kind == FormatKind::Case) return format.name == "lumen" ? kBinaryCase : kJsonCase;
+  if (format.name == "glb" || format.name == "gltf") return kGltf;
+  return format.name == "stl" ? kStl : kOtherMesh;
+}
+
+void requireInScope(const OptionTable& table, const Situation& situation, Progress& progress) {
+  for (const OptionRow& row : table.rows()) {
+    if (!row.isGiven || row.isArgument) continue;
+    const std::string reason = idleReason(table, row, situation);
+    if (reason.empty()) continue;
+    if (!row.isPreference) throw Error(ErrorKind::Usage, row.shownName() + " " + reason);
+    progress.warn(row.shownName() + " of the configuration file is left out: it " + reason);
+  }
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/stage_options.h"
+
+#include <charconv>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "converters/base/error.h"
+#include "converters/engine/scope.h"
+
+namespace lumen::engine {
+
+namespace {
+
+const std::map<std::string, convert::SeedSystem> kSeedSystems = {
+    {"lps", convert::SeedSystem::Lps},
+    {"ras", convert::SeedSystem::Ras},
+    {"voxel", convert::SeedSystem::Voxel}};
+
+const std::vector<std::string> kPatientFrames = {"lps", "ras"};
+
+template <class Value>
+std::vector<std::string> wordsOf(const std::map<std::string, Value>& named) {
+  std::vector<std::string> words;
+  for (const auto& entry : named) words.push_back(entry.first);
+  return words;
+}
+
+/// The numbers of "0.5" or "0.5,0.5,1"; nothing where one of them is no length.
+std::vector<double> spacingIn(const std::string& text) {
+  std::vector<double> values;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const char* const first = text.data() + at + (text.compare(at, 1, "+") == 0 ? 1 : 0);
+    double value = 0;
+    const auto [stop, error] = std::from_chars(first, text.data() + end, value);
+    if (error != std::errc() || stop != text.data() + end || !kPositive.holds(value)) return {};
+    values.push_back(value);
+    at = end + 1;
+  }
+  return values.size() == 1 || values.size() == 3 ? values : std::vector<double>();
+}
+
+std::string spacingFault(const std::string& text) {
+  if (!spacingIn(text).empty()) return {};
+  return "found " + (text.empty() ? "nothing" : text) + ", expected " + kPositive.text() +
+         ", or three with commas between them";
+}
+
+}  // namespace
+
+const std::map<std::string, double>& millimetresByUnit() {
+  static const std::map<std::string, double> units = {
+      {"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}};
+  return units;
+}
+
+convert::ReadVolumeOptions VolumeArguments::options() const {
+  convert::ReadVolumeOptions options;
+  options.series = series;
+  if (const std::vector<double> mm = spacingIn(spacing); !mm.empty())
+    options.spacing = Eigen::Vector3d(mm.front(), mm[mm.size() / 2], mm.back());
+  if (const auto mm = millimetresByUnit().find(unit); mm != millimetresByUnit().end())
+    options.unit = mm->second;
+  options.allowedDetached.assign(allowDetached.begin(), allowDetached.end());
+  if (crop.size() == 6)
+    options.crop = convert::IndexBox{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
+  return options;
+}
+
+convert::SeedReading TrackArguments::reading() const {
+  convert::SeedReading reading;
+  if (const auto system = kSeedSystems.find(seedsFrame); system != kSeedSystems.end())
+    reading.system = system->second;
+  if (const auto unit = millimetresByUnit().find(seedsUnit); unit != millimetresByUnit().end())
+    reading.unit = unit->second;
+  return reading;
+}
+
+void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
+  table.group("Volume");
+  table.scope(kVolumes);
+  table
+      .add("series", &volume.series, "ID",
+           "DICOM series: its instance UID, or its number in the list that is printed when a "
+           "folder holds several")
+      .forInputs(kDicom);
+  OptionRow& crop = table.add("crop", &volume.crop, "I0,I1,J0,J1,K0,K1",
+                              "Keep this box of voxel indices only, ends included");
+  crop.in(WholeRange{});
+  crop.count = 6;
+  crop.delimiter = ',';
+  table
+      .add("spacing", &volume.spacing, "MM or MM,MM,MM",
+           "Distance of voxels along i, j and k, or of all, in mm, whatever the file says")
+      .checkedBy(spacingFault);
+  table
+      .add("unit", &volume.unit, "UNIT",
+           "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m or um, "
+           "whatever the file says")
+      .among(wordsOf(millimetresByUnit()))
+      .forInputs(kVolumes | kMeshes | kCenterline);
+  table
+      .add("allow-detached", &volume.allowDetached, "PATH",
+           "Allow a header to take its voxels, or a scene its mesh, from this file, or from below "
+           "this folder; otherwise only from its own folder. May be given several times")
+      .checkedBy(fileName())
+      .many()
+      .forInputs(kVolumes | kScene);
+  table.scope(kAnyContent);
+  table.group("");
+}
+
+void addVolumeRows(OptionTable& table, VolumeArguments& volume, const std::string& file) {
+  const std::size_t before = table.rows().size();
+  addVolumeRows(table, volume);
+  for (std::size_t i = before; i < table.rows().size(); ++i) table.rows()[i].onlyWith(file);
+}
+
+void addTrackRows(OptionTable& table, TrackArguments& track) {
+  table.scope(kImage);
+  table.group("Tracking");
+  table.file("seeds", track.seeds,
+             "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv)");
+  table
+      .add("seeds-frame", &track.seedsFrame, "FRAME",
+           "Frame of the seeds' coordinates, whatever their file says: lps, ras, or voxel "
+           "(indices; radii in the file's unit)")
+      .among(wordsOf(kSeedSystems));
+  table
+      .add("seeds-unit", &track.seedsUnit, "UNIT",
+           "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or um")
+      .among(wordsOf(millimetresByUnit()));
+  track.options.addRows(table);
+  table.scope(kAnyContent);
+  table.group("");
+}
+
+void addMeshRows(OptionTable& table, MeshArguments& mesh) {
+  table.group("Surface");
+  table.scope(kMeshes);
+  table.file("centerline", mesh.centerline,
+             "Centerline of a mesh: .vtp with VMTK's arrays, .swc, .tre or curves of 3D Slicer "
+             "(.mrk.json, or a folder of them) [found inside of the mesh]");
+  table
+      .add("centerline-frame", &mesh.centerlineFrame, "FRAME",
+           "Axes of --centerline: lps, or ras, whose x and y are negated [as its file says, or "
+           "those of the mesh]")
+      .among(kPatientFrames)
+      .onlyWith("centerline");
+  table
+      .add("centerline-unit", &mesh.centerlineUnit, "UNIT",
+           "Unit of --centerline: mm, cm, m or um [as its file says, or that of the mesh]")
+      .among(wordsOf(millimetresByUnit()))
+      .onlyWith("centerline");
+  table
+      .add("mesh", &mesh.scene.mesh, "NAME",
+           "Mesh of a scene that the vessels are: the name of its loader or of the loader's node "
+           "[the one in a node that says vessel, or that does not move]")
+      .forInputs(kScene);
+  table.scope(kAnyContent);
+  table.group("");
+}
+
+void addMaskRows(OptionTable& table, MaskArguments& mask) {
+  table.group("Surface");
+  table.scope(kLabels);
+  table.flag("mask", mask.isMask,
+             "The volume holds labels, and all but 0 are vessels; it needs no seeds");
+  table.add("label", &mask.label, "N", "The volume holds labels, and this one alone is of vessels")
+      .in(WholeRange{1, 1 << 24})
+      .without("mask");
+  table
+      .add("labels", &mask.labels, "LIST",
+           "The volume holds labels, and these are of vessels, such as 1=ica,2=mca; branches get "
+           "their names")
+      .without("mask")
+      .without("label");
+  table.scope(kAnyContent);
+  table.group("");
+}
+
+void addFitRows(OptionTable& table, convert::FitOptions& fit) {
+  table.scope(kFitted);
+  fit.addRows(table);
+  table.scope(kAnyContent);
+  table.group("");
+}
+
+void addEncodingRows(OptionTable& table, formats::EncodeOptions& encoding) {
+  table.group("Case file");
+  table.scope(kAnyContent, kBinaryCase);
+  table.flag("compress", encoding.compress,
+             "Compress the chunks of a .lumen file with zstd; they can no longer be used in place");
+  table
+      .add("point-bits", &encoding.pointBits, "N",
+           "Round wall points to N bits in their bounding box, 1 to 30 [exact]")
+      .in(WholeRange{1, 30})
+      .defaults("")
+      .forOutputs(kBinaryCase | kJsonCase);
+  table.scope(kAnyContent);
+  table.group("");
+}
+
+void addFormatRow(OptionTable& table, const std::string& name, std::string& value,
+                  const std::string& argument) {
+  table.group("");
+  table.add(name, &value, "F", "Format of " + argument + ", whatever its name");
+}
+
+}  // namespace lumen::engine

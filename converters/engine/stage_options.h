@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of the options that several commands share: how inputs are read, vessels tracked, models fitted and cases
+// written.
+#pragma once
+
+#include "converters/engine/app_alias.h"
+
+#include <string>
+#include <vector>
+
+#include "converters/base/option_table.h"
+#include "converters/engine/mask_input.h"
+#include "converters/engine/mesh_input.h"
+#include "converters/io/seeds/seeds.h"
+#include "converters/io/volume/read_volume_options.h"
+#include "converters/stages/fitting/fit_options.h"
+#include "converters/stages/tracking/track_options.h"
+#include "formats/case/binary_encode.h"
+
+namespace lumen::engine {
+
+/// What a user states of a volume's file.
+struct VolumeArguments {
+  std::string series;
+  std::vector<int> crop;  ///< empty, or i0, i1, j0, j1, k0, k1
+  std::string spacing;    ///< empty, or mm of one or three axes, with commas between them
+  std::string unit;       ///< empty, or mm, cm, m or um
+  std::vector<std::string> allowDetached;
+  [[nodiscard]] convert::ReadVolumeOptions options() const;
+};
+
+struct TrackArguments {
+  std::string seeds;
+  std::string seedsFrame, seedsUnit;  ///< empty: as the seeds file says
+  convert::TrackOptions options;
+  [[nodiscard]] convert::SeedReading reading() const;
+};
+
+/// Each adds rows whose values are stored in its second argument, which must outlive the table.
+void addVolumeRows(OptionTable& table, VolumeArguments& volume);
+/// Rows of a volume that may be left out: they do nothing without the option `file`.
+void addVolumeRows(OptionTable& table, VolumeArguments& volume, const std::string& file);
+void addTrackRows(OptionTable& table, TrackArguments& track);
+void addMeshRows(OptionTable& table, MeshArguments& mesh);
+void addMaskRows(OptionTable& table, MaskArguments& mask);
+void addFitRows(OptionTable& table, convert::FitOptions& fit);
+void addEncodingRows(OptionTable& table, formats::EncodeOptions& encoding);
+/// --from or --to: the format of the file that `argument` names.
+void addFormatRow(OptionTable& table, const std::string& name, std::string& value,
+                  const std::string& argument);
+
+/// mm of the units that --unit and --seeds-unit take.
+const std::map<std::string, double>& millimetresByUnit();
+
+}  // namespace lumen::engine

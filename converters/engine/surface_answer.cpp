@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/surface_answer.h"
+
+#include <algorithm>
+
+#include "converters/judge/facts/check_facts.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+namespace {
+
+Json placeJson(const Eigen::Vector3d& p) {
+  return Json::array({p.x(), p.y(), p.z()});
+}
+
+}  // namespace
+
+void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
+                   Progress& progress) {
+  const std::string name = formats::printable(file) + ": ";
+  for (const std::string& message : report.messages) progress.warn(name + message);
+  if (report.openedEdges > 0)
+    progress.warn(name + counted(report.openedEdges, "edge", "edges") +
+                  " of the tree had no lumen and were opened in the mesh; lumen fit opens models");
+  if (report.crossings > 0)
+    progress.warn(name +
+                  counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
+                  " through each other; a greater --gap or a smaller --edge may help");
+  for (const Eigen::Vector3d& place : report.cuts)
+    progress.warn(name + "the lumen runs into itself at " + convert::placeText(place) +
+                  " mm, where no link joins it; it is cut there");
+}
+
+std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
+                         const formats::Case& value) {
+  if (!report) return "";
+  std::string text = "surface      " + counted(report->triangles, "triangle", "triangles") + ", " +
+                     counted(report->trees, "closed part", "closed parts") + ", " +
+                     counted(report->flatEnds, "flat end", "flat ends");
+  if (report->roundedEnds > 0)
+    text += ", " + counted(report->roundedEnds, "rounded end", "rounded ends");
+  if (!report->errors.empty() && report->errors.front() >= 0)
+    text += ", within " + fixed(report->errors.front(), 4) + " mm of that with all triangles";
+  text += "\n";
+  constexpr std::size_t kMost = 5;
+  const auto& branches = value.tree.branches;
+  for (std::size_t i = 0; i < std::min(kMost, report->overlaps.size()); ++i) {
+    const convert::Overlap& o = report->overlaps[i];
+    text += (i == 0 ? "overlap      " : "             ") +
+            formats::printable(branches[o.branch].label) + " and " +
+            formats::printable(branches[o.other].label) + " by up to " + fixed(2 * o.depth, 2) +
+            " mm at " + convert::placeText(o.place) + "; kept " + fixed(report->gap, 3) +
+            " mm apart\n";
+  }
+  if (report->overlaps.size() > kMost)
+    text += "             and " + std::to_string(report->overlaps.size() - kMost) +
+            " more pairs; --json lists all\n";
+  return text;
+}
+
+Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const formats::Case& value) {
+  if (!report) return nullptr;
+  Json json = {{"trees", report->trees},
+               {"vertices", report->vertices},
+               {"triangles", report->triangles},
+               {"gap_mm", report->gap},
+               {"flatEnds", report->flatEnds},
+               {"roundedEnds", report->roundedEnds},
+               {"openedEdges", report->openedEdges},
+               {"offField", report->offField},
+               {"sharpTriangles", report->sharpTriangles},
+               {"crossings", report->crossings},
+               {"cuts", Json::array()},
+               {"overlaps", Json::array()}};
+  json["errors_mm"] = Json::array();
+  for (const double error : report->errors)
+    json["errors_mm"].push_back(error < 0 ? Json() : jsonNumber(error));
+  for (const Eigen::Vector3d& place : report->cuts) json["cuts"].push_back(placeJson(place));
+  for (const convert::Overlap& o : report->overlaps)
+    json["overlaps"].push_back(
+        {{"branches", {value.tree.branches[o.branch].label, value.tree.branches[o.other].label}},
+         {"depth_mm", 2 * o.depth},
+         {"place", placeJson(o.place)}});
+  return json;
+}
+
+}  // namespace lumen::engine

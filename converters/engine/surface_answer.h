@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said of a closed surface.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "converters/base/progress.h"
+#include "converters/engine/answer_text.h"
+#include "converters/stages/surface/closed_surface.h"
+#include "formats/case/case.h"
+
+namespace lumen::engine {
+
+/// Warns of what a user should look at: ends that are not flat, vessels that had to be opened or
+/// cut.
+void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
+                   Progress& progress);
+
+/// Lines for the answer: triangles, ends, and where vessels overlap and by how much. Empty without a
+/// surface.
+std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
+                         const formats::Case& value);
+
+/// The same as an object; null without a surface.
+Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const formats::Case& value);
+
+}  // namespace lumen::engine

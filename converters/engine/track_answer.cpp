@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/track_answer.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "formats/case/enum_names.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+namespace {
+
+Json seedRemarks(const std::vector<convert::SeedFailure>& failures) {
+  Json remarks = Json::array();
+  for (const auto& failure : failures)
+    remarks.push_back({{"label", failure.label}, {"reason", failure.reason}});
+  return remarks;
+}
+
+Json endJson(const convert::TrackEnd& end) {
+  const Eigen::Vector3d& p = end.position;
+  return {{"branch", end.label},
+          {"end", end.isStart ? "start" : "tip"},
+          {"reason", formats::enumName(formats::kStopReasonNames, end.reason)},
+          {"position", {jsonNumber(p.x()), jsonNumber(p.y()), jsonNumber(p.z())}},
+          {"goes_on_mm", jsonNumber(end.goesOn)}};
+}
+
+std::string endLine(const convert::TrackEnd& end) {
+  const Eigen::Vector3d& p = end.position;
+  return "the " + std::string(end.isStart ? "start" : "tip") + " of " +
+         formats::printable(end.label) + " at (" + fixed(p.x(), 1) + ", " + fixed(p.y(), 1) + ", " +
+         fixed(p.z(), 1) + "): a lumen leads on for at least " + fixed(end.goesOn, 1) +
+         " mm, which no cylinder fits\n";
+}
+
+}  // namespace
+
+Json withRemarks(Json json, const convert::TrackRemarks& remarks) {
+  json["failed_seeds"] = seedRemarks(remarks.failures);
+  json["missed_points"] = seedRemarks(remarks.missedPoints);
+  json["unjoined"] = seedRemarks(remarks.unjoined);
+  json["ends"] = Json::array();
+  for (const convert::TrackEnd& end : remarks.ends) json["ends"].push_back(endJson(end));
+  return json;
+}
+
+std::string endLines(const convert::TrackRemarks& remarks) {
+  constexpr std::size_t kMost = 10;
+  std::vector<convert::TrackEnd> open = remarks.ends;
+  std::erase_if(open, [](const convert::TrackEnd& end) { return end.goesOn <= 0; });
+  std::stable_sort(open.begin(), open.end(),
+                   [](const auto& a, const auto& b) { return a.goesOn > b.goesOn; });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(open.size(), kMost); ++i) text += endLine(open[i]);
+  if (open.size() > kMost)
+    text +=
+        "and so on at " + std::to_string(open.size() - kMost) + " more ends; --json lists all\n";
+  return text;
+}
+
+}  // namespace lumen::engine

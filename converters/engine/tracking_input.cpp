@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/tracking_input.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "converters/base/error.h"
+#include "converters/engine/file_access.h"
+#include "converters/io/seeds/place_seeds.h"
+#include "converters/stages/tracking/tracking_volume.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+
+namespace {
+
+/// What `read` gives; what cannot be read as a volume may be something else altogether.
+template <class Result>
+Result readAs(Result (*read)(const std::filesystem::path&, const convert::ReadVolumeOptions&,
+                             const Progress&),
+              const std::filesystem::path& file, const VolumeArguments& volume,
+              Progress& progress) {
+  try {
+    return read(file, volume.options(), progress);
+  } catch (const Error& error) {
+    const std::string other = convert::notA(convert::ContentKind::Volume, file);
+    if (error.kind() == ErrorKind::Cancelled || other.empty()) throw;
+    throw invalidInput(file.string() + ": " + other);
+  }
+}
+
+void tellAssumptions(const std::filesystem::path& file, const std::vector<std::string>& assumptions,
+                     Progress& progress) {
+  for (const std::string& assumption : assumptions)
+    progress.warn(file.string() + ": " + assumption);
+}
+
+/// One line for each seed, as long as there are not too many to read.
+void warnOfSeeds(const std::string& file, const std::string& what,
+                 const std::vector<convert::SeedFailure>& failures, Progress& progress) {
+  constexpr std::size_t kMost = 20;
+  for (std::size_t i = 0; i < std::min(failures.size(), kMost); ++i)
+    progress.warn(file + ": seed \"" + formats::printable(failures[i].label) + "\"" + what +
+                  failures[i].reason);
+  if (failures.size() > kMost)
+    progress.warn(file + ": and so on for " + std::to_string(failures.size() - kMost) +
+                  " more seeds; --json lists all");
+}
+
+}  // namespace
+
+convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
+                                       const VolumeArguments& volume, Progress& progress) {
+  convert::VolumeHeader header = readAs(format.readVolumeHeader, file, volume, progress);
+  tellAssumptions(file, header.assumptions, progress);
+  return header;
+}
+
+convert::Volume readVolumeFile(const std::filesystem::path& file, const FileFormat& format,
+                               const VolumeArguments& volume, Progress& progress) {
+  progress.begin("reading", 0);
+  convert::Volume result = readAs(format.readVolume, file, volume, progress);
+  progress.end();
+  tellAssumptions(file, result.assumptions, progress);
+  return result;
+}
+
+convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
+                           const VolumeArguments& volume, Progress& progress) {
+  convert::Volume result = readVolumeFile(file, format, volume, progress);
+  const std::string name = formats::printable(file.string()) + ": ";
+  try {
+    if (const auto doubt = convert::doubtAbout(result)) progress.warn(name + *doubt);
+  } catch (const Error& error) {
+    throw Error(error.kind(), name + error.what());
+  }
+  return result;
+}
+
+std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
+  if (track.seeds.empty())
+    throw Error(ErrorKind::Usage,
+                "a volume needs --seeds FILE, which says where its vessels begin; if it holds "
+                "labels, lumen convert --mask takes them");
+  requireInput(track.seeds, "seeds file");
+  if (const std::string other = convert::notA(convert::ContentKind::Seeds, track.seeds);
+      !other.empty())
+    throw invalidInput(track.seeds + ": " + other);
+  return convert::readSeeds(track.seeds, track.reading());
+}
+
+convert::TrackResult trackSeeds(const convert::Volume& volume,
+                                const std::vector<convert::SeedBranch>& seeds,
+                                const TrackArguments& track, Progress& progress) {
+  const std::string file = formats::printable(track.seeds);
+  convert::PlacedSeeds placed = convert::placeSeeds(seeds, volume.geometry, track.seeds);
+  if (!placed.advice.empty()) progress.warn(file + ": " + placed.advice);
+  warnOfSeeds(file, " is left out: ", placed.leftOut, progress);
+  warnOfSeeds(file, " is used without one of its points: ", placed.leftPoints, progress);
+  convert::TrackResult result = convert::trackCase(volume, placed.seeds, track.options, progress);
+  warnOfSeeds(file, " started no track: ", result.failures, progress);
+  warnOfSeeds(file, " does not pass through its ", result.missedPoints, progress);
+  warnOfSeeds(file, " is not joined to its parent: ", result.unjoined, progress);
+  if (result.result.tree.nodeCount() == 0)
+    throw failed(file + ": " +
+                 (seeds.size() == 1 ? std::string("its seed")
+                                    : "none of its " + std::to_string(seeds.size()) + " seeds") +
+                 " started " + (seeds.size() == 1 ? "no" : "a") + " track; nothing is written");
+  std::move(placed.leftOut.begin(), placed.leftOut.end(), std::back_inserter(result.failures));
+  std::move(placed.leftPoints.begin(), placed.leftPoints.end(),
+            std::back_inserter(result.missedPoints));
+  return result;
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the commands that read a volume have in common: the volume, the seeds, the tracks.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/engine/file_format.h"
+#include "converters/engine/stage_options.h"
+#include "converters/io/seeds/seeds.h"
+#include "converters/stages/tracking/track_case.h"
+
+namespace lumen::engine {
+
+/// What the header of the volume in `file` says; tells of what it leaves open.
+convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
+                                       const VolumeArguments& volume, Progress& progress);
+
+/// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
+/// file leaves open and the reader assumed becomes warnings.
+convert::Volume readVolumeFile(const std::filesystem::path& file, const FileFormat& format,
+                               const VolumeArguments& volume, Progress& progress);
+
+/// The same, for tracking: what makes its voxels doubtful becomes a warning, too.
+convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
+                           const VolumeArguments& volume, Progress& progress);
+
+/// The seeds of --seeds, read as the options say. Throws Error(Usage) without the option, and
+/// Error(InvalidInput) for a file that is missing or invalid.
+std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track);
+
+/// Tracks `seeds` through the volume. Seeds that cannot be placed in it or that start no track
+/// become warnings, and failures of the result. `track.seeds` is where they are from, for messages.
+/// Throws Error(InvalidInput) if none can be placed, and Error(Failed) if nothing was tracked.
+convert::TrackResult trackSeeds(const convert::Volume& volume,
+                                const std::vector<convert::SeedBranch>& seeds,
+                                const TrackArguments& track, Progress& progress);
+
+}  // namespace lumen::engine

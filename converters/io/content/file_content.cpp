@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/io/content/file_content.h"
+
+#include <array>
+#include <fstream>
+#include <span>
+#include <string_view>
+
+#include "converters/base/text.h"
+#include "formats/container/container.h"
+
+namespace lumen::convert {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLookedAt = 1 << 16;
+constexpr const char* kCurves = "a centerline (3D Slicer Markups)";
+
+struct Signature {
+  std::size_t offset;
+  std::string_view bytes;
+  ContentKind kind;
+  const char* name;
+};
+
+std::span<const Signature> signatures() {
+  using namespace std::string_view_literals;
+  using enum ContentKind;
+  static constexpr std::array<Signature, 22> kTable = {{
+      {0, "NRRD00", Volume, "a volume (NRRD)"},
+      {0, "ObjectType", Volume, "a volume (MetaImage)"},
+      {0, "NDims", Volume, "a volume (MetaImage)"},
+      {344, "n+1\0"sv, Volume, "a volume (NIfTI)"},
+      {344, "ni1\0"sv, Volume, "a volume (NIfTI)"},
+      {4, "n+2\0"sv, Volume, "a volume (NIfTI)"},
+      {128, "DICM", Volume, "a slice (DICOM)"},
+      {0, "# Markups fiducial file", Seeds, "seeds (3D Slicer fiducials)"},
+      {0, "glTF", Mesh, "a mesh (glTF)"},
+      {0, "ply\n", Mesh, "a mesh (PLY)"},
+      {0, "ply\r\n", Mesh, "a mesh (PLY)"},
+      {0, "solid ", Mesh, "a mesh (STL)"},
+      {0, "# vtk DataFile", Mesh, "a mesh (VTK)"},
+      {0, "<VTKFile", Mesh, "a mesh (VTK)"},
+      {0, "\x89PNG", Other, "a picture (PNG)"},
+      {0, "\xff\xd8\xff", Other, "a picture (JPEG)"},
+      {0, "II*\0"sv, Other, "a picture (TIFF)"},
+      {0, "MM\0*"sv, Other, "a picture (TIFF)"},
+      {0, "%PDF", Other, "a PDF"},
+      {0, "PK\x03\x04", Other, "an archive (zip)"},
+      {0, "<!DOCTYPE", Other, "a web page"},
+      {0, "version https://git-lfs", Other, "a pointer of Git LFS, whose file was not fetched"},
+  }};
+  return kTable;
+}
+
+/// What JSON is by words that its beginning has.
+FileContent jsonContent(std::string_view text) {
+  using enum ContentKind;
+  const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
+  if (has("\"lumen-seeds\"")) return {Seeds, "seeds"};
+  if (has("\"markups\"") && has("\"Curve\"") && has("\"Radius\"")) return {Centerline, kCurves};
+  if (has("\"markups\"")) return {Seeds, "seeds (3D Slicer Markups)"};
+  if (has("\"format\"") && has("\"lumen\"")) return {Case, "a case"};
+  if (has("\"asset\"")) return {Mesh, "a mesh (glTF)"};
+  return {};
+}
+
+std::string beginningOf(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return {};
+  std::string text(kLookedAt, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+/// What to do with a file of this kind.
+std::string useOf(ContentKind kind) {
+  using enum ContentKind;
+  switch (kind) {
+    case Volume:
+      return "; lumen convert and lumen track make a case of a volume";
+    case Seeds:
+      return "; --seeds takes seeds, beside the volume that they were clicked in";
+    case Case:
+      return "; lumen fit, convert, info, compare and validate take a case";
+    case Centerline:
+      return "; lumen convert makes a case of a centerline";
+    case Mesh:
+      return "; lumen info tells of a mesh, lumen convert makes a case of the surface of vessels";
+    case Unknown:
+    case Other:
+      break;
+  }
+  return "";
+}
+
+/// What VTK's XML is by the counts in its first tags.
+FileContent vtkContent(std::string_view text) {
+  using enum ContentKind;
+  const auto isZero = [text](std::string_view count) {
+    const auto at = text.find(count);
+    return at == text.npos || text.substr(at + count.size()).starts_with("=\"0\"");
+  };
+  if (text.find("\"PolyData\"") == text.npos) return {Other, "a VTK file"};
+  if (isZero("NumberOfPolys") && isZero("NumberOfStrips") && !isZero("NumberOfLines"))
+    return {Centerline, "a centerline (VTK)"};
+  return {Other, "a VTK file"};
+}
+
+/// What a file of MetaIO is by its first object.
+FileContent metaContent(std::string_view text) {
+  using enum ContentKind;
+  const std::string_view head = text.substr(0, text.find("Points ="));
+  const bool isImage = head.find("Image") != head.npos || head.find("ElementDataFile") != head.npos;
+  if (!isImage && (head.find("Tube") != head.npos || head.find("Scene") != head.npos))
+    return {Centerline, "a centerline (TubeTK)"};
+  return {Volume, "a volume (MetaImage)"};
+}
+
+std::string nounOf(ContentKind kind) {
+  using enum ContentKind;
+  switch (kind) {
+    case Volume:
+      return "a volume";
+    case Seeds:
+      return "seeds";
+    case Mesh:
+      return "a mesh";
+    case Centerline:
+      return "a centerline";
+    default:
+      return "a case";
+  }
+}
+
+}  // namespace
+
+std::string FileContent::sentence() const {
+  return (kind == ContentKind::Seeds ? "these are " : "this is ") + name;
+}
+
+FileContent contentOf(const fs::path& file) {
+  using enum ContentKind;
+  const std::string text = beginningOf(file);
+  const std::string_view view = text;
+  if (formats::hasContainerMagic(std::as_bytes(std::span(text)))) return {Case, "a case"};
+  for (const Signature& signature : signatures())
+    if (view.size() > signature.offset &&
+        view.substr(signature.offset).starts_with(signature.bytes))
+      return signature.bytes == "<VTKFile"     ? vtkContent(view)
+             : signature.bytes == "ObjectType" ? metaContent(view)
+                                               : FileContent{signature.kind, signature.name};
+  if (lowerCase(file.filename().string()).ends_with(".swc"))
+    return {Centerline, "a centerline (SWC)"};
+  if (view.starts_with("<?xml") && view.find("<VTKFile") != view.npos) return vtkContent(view);
+  const auto first = view.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  if (first != view.npos && view[first] == '{') return jsonContent(view);
+  const bool packed = view.starts_with("\x1f\x8b");
+  if (packed && lowerCase(file.filename().string()).ends_with(".nii.gz"))
+    return {Volume, "a volume (NIfTI)"};
+  return packed ? FileContent{Other, "a file packed by gzip"} : FileContent{};
+}
+
+std::string notA(ContentKind wanted, const fs::path& file) {
+  const FileContent content = contentOf(file);
+  if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
+  // a curve may be either
+  if (wanted == ContentKind::Seeds && content.name == kCurves) return "";
+  return content.sentence() + ", not " + nounOf(wanted) + useOf(content.kind);
+}
+
+}  // namespace lumen::convert

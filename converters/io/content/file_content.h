@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a file is by its first bytes, whatever its name: for messages about files in the wrong place.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace lumen::convert {
+
+enum class ContentKind : std::uint8_t { Unknown, Volume, Seeds, Case, Mesh, Centerline, Other };
+
+struct FileContent {
+  ContentKind kind = ContentKind::Unknown;
+  std::string name;  ///< "a volume (NRRD)", "seeds (3D Slicer Markups)", "a picture"
+
+  /// "this is a volume (NRRD)", "these are seeds".
+  [[nodiscard]] std::string sentence() const;
+};
+
+/// By the file's beginning; Unknown for a folder, or what cannot be read or recognised.
+FileContent contentOf(const std::filesystem::path& file);
+
+/// "this is a volume (NRRD), not a case; lumen convert and lumen track make a case of it". Empty if
+/// the file is of that kind, or nothing is known of it.
+std::string notA(ContentKind wanted, const std::filesystem::path& file);
+
+}  // namespace lumen::convert

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/judge/facts/case_info.h"
+
+#include <span>
+
+#include "formats/case/enum_names.h"
+#include "formats/case/topology.h"
+
+namespace lumen::convert {
+
+namespace {
+
+BranchInfo describeBranch(const formats::CenterlineTree& tree, const formats::Branch& branch) {
+  BranchInfo info;
+  info.label = branch.label;
+  info.kind = formats::enumName(formats::kBranchKindNames, branch.kind);
+  info.nodes = branch.nodeCount;
+  info.length = formats::branchLength(tree, branch);
+  if (branch.nodeCount > 0)
+    info.radius = radiusRange(std::span(tree.radius).subspan(branch.firstNode, branch.nodeCount));
+  info.stopReason = formats::enumName(formats::kStopReasonNames, branch.stopReason);
+  info.inlierRate = branch.meanInlierRate;
+  return info;
+}
+
+}  // namespace
+
+CaseInfo describeCase(const formats::Case& value, Progress& progress) {
+  CaseInfo info;
+  info.nodes = value.tree.nodeCount();
+  if (value.points) info.points = value.points->position.size();
+  if (value.models) info.blobs = value.models->centre.size();
+  info.links = value.tree.links.size();
+  for (const auto& array : value.nodeArrays) info.nodeArrays.push_back(array.name);
+  info.length = totalLength(value.tree);
+  if (info.nodes > 0) info.radius = radiusRange(value.tree.radius);
+  info.errorOfFit = fittedError(value, progress);
+  info.reach = reachOf(value, progress);
+  for (const auto& branch : value.tree.branches)
+    info.branches.push_back(describeBranch(value.tree, branch));
+  info.metadata = value.metadata;
+  return info;
+}
+
+}  // namespace lumen::convert

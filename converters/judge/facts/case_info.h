@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The facts that `lumen info` gives of a case.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/base/tree_figures.h"
+#include "converters/judge/facts/reachable.h"
+#include "converters/stages/fitting/error_of_fit.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+struct BranchInfo {
+  std::string label;
+  std::string kind;  ///< vessel or aneurysm
+  std::size_t nodes = 0;
+  double length = 0;  ///< mm
+  RadiusRange radius;
+  std::string stopReason;  ///< such as no-valid-cylinder
+  std::optional<float> inlierRate;
+};
+
+struct CaseInfo {
+  std::size_t nodes = 0;
+  std::size_t points = 0;
+  std::optional<std::size_t> blobs;
+  std::size_t links = 0;
+  std::vector<std::string> nodeArrays;          ///< names
+  double length = 0;                            ///< mm
+  std::optional<RadiusRange> radius;            ///< absent without nodes
+  std::optional<ErrorOfFitSummary> errorOfFit;  ///< over the nodes
+  std::optional<Reach> reach;                   ///< absent without models
+  std::vector<BranchInfo> branches;
+  formats::Metadata metadata;
+};
+
+CaseInfo describeCase(const formats::Case& value, Progress& progress);
+
+}  // namespace lumen::convert

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/judge/facts/examination.h"
+
+#include <utility>
+
+#include "converters/base/privacy.h"
+#include "converters/base/shown_figures.h"
+#include "converters/base/text.h"
+#include "converters/io/content/file_content.h"
+#include "converters/judge/facts/reachable.h"
+
+namespace lumen::convert {
+
+namespace {
+
+using formats::ErrorCode;
+using formats::Issue;
+using formats::ValidationReport;
+
+constexpr int kClosedEdge = 651;  // no rule of the format: see spec/errors.md
+
+Remark remarkOf(const Issue& issue) {
+  return {formats::errorName(issue.code),
+          static_cast<int>(issue.code),
+          formats::severityName(formats::severityOf(issue.code)),
+          issue.offset,
+          issue.pointer,
+          issue.arguments,
+          issue.message,
+          issue.text()};
+}
+
+Remark remarkOf(const PrivacyFinding& finding) {
+  const std::string code(finding.code);
+  return {code,
+          finding.number,
+          formats::severityName(formats::Severity::Warning),
+          std::nullopt,
+          finding.pointer,
+          {{"found", finding.found}},
+          finding.message,
+          code + " at " + finding.pointer + ": " + finding.message};
+}
+
+Remark remarkOf(const ClosedWay& way) {
+  const std::string code = "CLOSED_EDGE", pointer = "/tree/parent/" + std::to_string(way.node);
+  const std::string message = closedText(way) + "; lumen fit may open it";
+  return {code,
+          kClosedEdge,
+          formats::severityName(formats::Severity::Warning),
+          std::nullopt,
+          pointer,
+          {{"found", fixed(way.beyond, 1)}},
+          message,
+          code + " at " + pointer + ": " + message};
+}
+
+/// What is no case may be known as something else.
+Issue named(Issue issue, const std::string& file) {
+  const std::string other = notA(ContentKind::Case, file);
+  if (!other.empty()) issue.message = other;
+  return issue;
+}
+
+}  // namespace
+
+FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy,
+                   const Progress& progress) {
+  const auto bytes = formats::readFileBytes(file);
+  if (!bytes) {
+    FileReport unread{false, false, false, {1, 0, 0}, {}};
+    if (maxIssues > 0) unread.remarks.push_back(remarkOf(bytes.error()));
+    return unread;
+  }
+  return examineBytes(*bytes, file, maxIssues, privacy, progress);
+}
+
+FileReport examineBytes(std::span<const std::byte> bytes, const std::string& file,
+                        std::size_t maxIssues, bool privacy, const Progress& progress) {
+  const ValidationReport report = formats::validateBytes(bytes, maxIssues);
+  FileReport result{report.valid(), false, false, report.counts, {}};
+  for (const Issue& issue : report.issues)
+    result.remarks.push_back(
+        remarkOf(issue.code == ErrorCode::NotLumen ? named(issue, file) : issue));
+  const auto warn = [&](const auto& finding) {
+    ++result.counts.warnings;
+    if (result.remarks.size() < maxIssues) result.remarks.push_back(remarkOf(finding));
+  };
+  if (result.valid) {
+    if (const auto value = formats::decodeCase(bytes))
+      if (const auto reach = reachOf(*value, progress))
+        for (const ClosedWay& way : reach->closed) warn(way);
+  }
+  if (!privacy) return result;
+  for (const PrivacyFinding& finding : scanPrivacy(bytes)) {
+    result.personal = true;
+    warn(finding);
+  }
+  return result;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that is wrong in a case file, or worth a warning: what `lumen validate` tells.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "formats/case/case_file.h"
+
+namespace lumen::convert {
+
+/// A broken rule, or another finding.
+struct Remark {
+  std::string code;
+  int number = 0;
+  std::string severity;
+  std::optional<std::uint64_t> offset;
+  std::optional<std::string> pointer;
+  std::vector<formats::Argument> arguments;
+  std::string message;
+  std::string text;  ///< "CODE at PLACE: message"
+};
+
+struct FileReport {
+  bool valid = true;
+  bool refusedByStrict = false;  ///< valid, but for a warning and --strict
+  bool personal = false;         ///< the privacy check found something, which is a warning
+  formats::IssueCounts counts;   ///< of all that was found, listed or not
+  std::vector<Remark> remarks;   ///< what is listed, errors first
+  [[nodiscard]] std::size_t unlisted() const { return counts.total() - remarks.size(); }
+};
+
+/// What is wrong in a case file: rules of the format, closed ways, and with `privacy` texts that may tell who a patient
+/// is. Everything counts for the verdict; at most `maxIssues` remarks are listed. A file that cannot be read is a remark.
+FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy,
+                   const Progress& progress);
+/// The same of its bytes.
+FileReport examineBytes(std::span<const std::byte> bytes, const std::string& file,
+                        std::size_t maxIssues, bool privacy, const Progress& progress);
+
+}  // namespace lumen::convert

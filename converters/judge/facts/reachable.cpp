@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/judge/facts/reachable.h"
+
+#include <algorithm>
+
+#include "converters/base/shown_figures.h"
+#include "converters/base/text.h"
+#include "formats/case/case_field.h"
+#include "formats/case/reachability.h"
+#include "formats/container/printable.h"
+
+namespace lumen::convert {
+
+std::optional<Reach> reachOf(const formats::Case& value, const Progress& progress) {
+  if (!value.models) return std::nullopt;
+  const auto found = formats::reachabilityOf(value.tree, formats::blendedFieldOf(value),
+                                             [&progress] { progress.check(); });
+  Reach reach{found.reachable, found.total, {}};
+  for (const formats::Barrier& barrier : found.barriers)
+    reach.closed.push_back({value.tree.branches[value.tree.branch[barrier.node]].label,
+                            barrier.node, barrier.place, barrier.beyond});
+  std::stable_sort(reach.closed.begin(), reach.closed.end(),
+                   [](const ClosedWay& a, const ClosedWay& b) { return a.beyond > b.beyond; });
+  return reach;
+}
+
+std::string reachText(const std::optional<Reach>& reach) {
+  if (!reach) return "not known, as there are no models (lumen fit makes them)";
+  return fixed(reach->length, 1) + " of " + fixed(reach->of, 1) + " mm";
+}
+
+std::string reachLine(const std::optional<Reach>& reach) {
+  return "reachable: " + reachText(reach) + "\n";
+}
+
+std::string closedText(const ClosedWay& way) {
+  return "branch " + formats::printable(way.branch) + " is closed before node " +
+         std::to_string(way.node) + " at (" + fixed(way.position.x, 1) + ", " +
+         fixed(way.position.y, 1) + ", " + fixed(way.position.z, 1) + "): " + fixed(way.beyond, 1) +
+         " mm beyond cannot be reached";
+}
+
+std::vector<std::string> closedTexts(const Reach& reach) {
+  constexpr std::size_t kMost = 10;
+  const std::size_t count = std::min(reach.closed.size(), kMost);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) texts.push_back(closedText(reach.closed[i]));
+  if (const std::size_t more = reach.closed.size() - count; more > 0)
+    texts.push_back("closed at " + counted(more, "place more", "places more") +
+                    "; lumen info --json lists all");
+  return texts;
+}
+
+void warnOfClosed(const std::optional<Reach>& reach, Progress& progress) {
+  if (!reach) return;
+  for (const std::string& text : closedTexts(*reach)) progress.warn(text);
+}
+
+}  // namespace lumen::convert
