@@ -2,6 +2,7 @@
 #include "converters/stages/fitting/levenberg_marquardt.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -115,6 +116,65 @@ TEST(LevenbergMarquardt, CentresStayWithinReach) {
   options.reach = 1;
   minimised(energy, blobs, 0, options);
   for (const Blob& b : blobs) EXPECT_LE(b.x * b.x + b.y * b.y + b.z * b.z, 1 + 1e-12);
+}
+
+/// Points on the unit sphere around a place 2 along an axis (0: x, 1: y, 2: z), in its direction or
+/// against it.
+std::vector<Vec3d> sphereAlong(int axis, double sign) {
+  std::vector<Vec3d> points;
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    std::array<double, 3> v{random.normal(), random.normal(), random.normal()};
+    const double n = std::hypot(v[0], v[1], v[2]);
+    for (double& c : v) c /= n;
+    v[static_cast<std::size_t>(axis)] += 2 * sign;
+    points.push_back({v[0], v[1], v[2]});
+  }
+  return points;
+}
+
+/// A blob that such points move along an axis, and its coordinate along that axis.
+struct Moved {
+  Blob blob;
+  double along;
+};
+
+Moved movedAlong(int axis, double sign, const MinimiseOptions& options) {
+  EnergyParameters p;
+  p.curvatureWeight = 0;
+  Energy energy(p);
+  energy.setPoints(sphereAlong(axis, sign));
+  std::vector<Blob> blobs{{0, 0, 0, 0.35}};
+  minimised(energy, blobs, 0, options);
+  const std::array<double, 3> centre{blobs[0].x, blobs[0].y, blobs[0].z};
+  return {blobs[0], centre[static_cast<std::size_t>(axis)]};
+}
+
+TEST(LevenbergMarquardt, CentresStayWithinReachAlongEveryAxis) {
+  MinimiseOptions options;
+  options.maxIterations = 100;
+  for (const int axis : {0, 1, 2})
+    for (const double sign : {-1.0, 1.0}) {
+      options.reach = 10;
+      EXPECT_GT(std::abs(movedAlong(axis, sign, options).along), 1.5) << axis << " " << sign;
+      options.reach = 0.5;
+      const auto [blob, along] = movedAlong(axis, sign, options);
+      EXPECT_LE(std::hypot(blob.x, blob.y, blob.z), 0.5 + 1e-12) << axis << " " << sign;
+      EXPECT_GT(std::abs(along), 0.4) << axis << " " << sign;
+    }
+}
+
+TEST(LevenbergMarquardt, CentresStayInABallAlongEveryAxis) {
+  const std::vector<Ball> balls{{{0, 0, 0}, 0.5}};
+  MinimiseOptions options;
+  options.maxIterations = 100;
+  options.lumen = balls;
+  for (const int axis : {0, 1, 2})
+    for (const double sign : {-1.0, 1.0}) {
+      const auto [blob, along] = movedAlong(axis, sign, options);
+      EXPECT_LE(std::hypot(blob.x, blob.y, blob.z), 0.5 + 1e-12) << axis << " " << sign;
+      EXPECT_GT(std::abs(along), 0.4) << axis << " " << sign;
+    }
 }
 
 TEST(LevenbergMarquardt, CentresStayInTheUnionOfTheBalls) {
