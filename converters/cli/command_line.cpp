@@ -21,6 +21,7 @@
 #include "converters/cli/terminal_progress.h"
 #include "converters/cli/usage_error.h"
 #include "converters/engine/operation_process.h"
+#include "converters/io/volume/itk_image.h"
 
 namespace lumen::cli {
 
@@ -42,8 +43,7 @@ int exitCode(ErrorKind kind) {
 void limitThreads(int threads, std::optional<tbb::global_control>& control) {
   if (threads <= 0) return;
   control.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  // the toolkit that reads volumes has a thread pool of its own
-  setenv("ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS", std::to_string(threads).c_str(), 1);
+  convert::limitItkThreads(threads);
 }
 
 void print(std::string_view text) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/stage_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <map>
@@ -64,8 +65,12 @@ convert::ReadVolumeOptions VolumeArguments::options() const {
   if (const auto mm = millimetresByUnit().find(unit); mm != millimetresByUnit().end())
     options.unit = mm->second;
   options.allowedDetached.assign(allowDetached.begin(), allowDetached.end());
-  if (crop.size() == 6)
-    options.crop = convert::IndexBox{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
+  if (crop.size() == 6) {
+    constexpr int kFar = 1 << 30;  // beyond every volume, and not where sizes overflow
+    const auto at = [&](std::size_t i) { return std::clamp(crop[i], -kFar, kFar - 1); };
+    options.crop = convert::CellBox::between({at(0), at(2), at(4)}, {at(1), at(3), at(5)});
+  }
+  options.volumeIndex = volumeIndex;
   return options;
 }
 
@@ -86,6 +91,11 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
            "DICOM series: its instance UID, or its number in the list that is printed when a "
            "folder holds several")
       .forInputs(kDicom);
+  table
+      .add("volume-index", &volume.volumeIndex, "N",
+           "Volume of a file that holds several, such as a 4-D NIfTI; the first is 0")
+      .in(WholeRange{})
+      .forInputs(kFileImage | kFileLabels);
   OptionRow& crop = table.add("crop", &volume.crop, "I0,I1,J0,J1,K0,K1",
                               "Keep this box of voxel indices only, ends included");
   crop.in(WholeRange{});

@@ -70,12 +70,8 @@ VolumeSending aroundCase(const Document& document) {
     low = low.cwiseMin(index);
     high = high.cwiseMax(index);
   }
-  for (int a = 0; a < 3; ++a) {
-    const auto axis = static_cast<std::size_t>(a);
-    const double last = geometry.size[axis] - 1, reach = margin / geometry.spacing[a];
-    sending.crop.low[axis] = static_cast<int>(std::clamp(std::floor(low[a] - reach), 0.0, last));
-    sending.crop.high[axis] = static_cast<int>(std::clamp(std::ceil(high[a] + reach), 0.0, last));
-  }
+  const Eigen::Vector3d reach = (margin / geometry.spacing.array()).matrix();
+  sending.crop = geometry.cellsAround(low - reach, high + reach);
   sending.cropped = true;
   return sending;
 }

@@ -77,8 +77,9 @@ void VolumePack::choosePlace(const VolumeSending& sending) {
   m_source = geometry.size;
   if (sending.cropped)
     for (std::size_t a = 0; a < 3; ++a) {
-      m_low[a] = sending.crop.low[a];
-      m_source[a] = sending.crop.high[a] - sending.crop.low[a] + 1;
+      const auto axis = static_cast<Eigen::Index>(a);
+      m_low[a] = sending.crop.low[axis];
+      m_source[a] = sending.crop.size[axis];
     }
   const auto count = [this] {
     std::size_t product = 1;

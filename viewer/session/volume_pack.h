@@ -18,7 +18,7 @@ struct VolumeSending {
   /// More voxels than that are averaged in blocks, first along the axis of the least spacing.
   std::size_t mostVoxels = std::size_t{512} * 512 * 512;
   bool eightBits = false;  ///< whatever the volume has
-  convert::IndexBox crop{};
+  convert::CellBox crop{};
   bool cropped = false;
 };
 

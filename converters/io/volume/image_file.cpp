@@ -20,6 +20,12 @@ struct CheckedHeader {
   StoredVoxels voxels;
 };
 
+std::string textOf(const std::vector<std::int64_t>& sizes) {
+  std::string text;
+  for (const std::int64_t size : sizes) text += (text.empty() ? "" : " x ") + std::to_string(size);
+  return text;
+}
+
 CheckedHeader checkedHeader(const fs::path& path, VolumeFormat format,
                             const ReadVolumeOptions& options, const Progress& progress) {
   progress.check();
@@ -30,7 +36,7 @@ CheckedHeader checkedHeader(const fs::path& path, VolumeFormat format,
   shown.assumptions = std::move(header.assumptions);
   shown.storedType = nameOf(header.voxels.type);
   shown.encoding = std::move(header.encoding);
-  shown.voxelBytes = header.voxels.count * sizeOf(header.voxels.type);
+  shown.voxelBytes = header.voxels.wantedCount() * sizeOf(header.voxels.type);
   shown.storedBytes = checkStored(header.voxels, shown.assumptions);
   shown.geometry = settledGeometry(header.stated, options, path, shown.assumptions);
   checked.voxels = std::move(header.voxels);
@@ -40,21 +46,26 @@ CheckedHeader checkedHeader(const fs::path& path, VolumeFormat format,
 }  // namespace
 
 std::array<int, 3> volumeSize(const fs::path& path, const std::vector<std::int64_t>& sizes) {
-  std::string text;
+  const std::string text = textOf(sizes);
   double voxels = 1;
-  bool flat = sizes.size() < 3;
-  for (std::size_t a = 0; a < sizes.size(); ++a) {
-    text += (a > 0 ? " x " : "") + std::to_string(sizes[a]);
-    flat = flat || (a >= 3 && sizes[a] != 1);
-    voxels *= static_cast<double>(sizes[a]);
-  }
-  if (flat) refuseDimensions(path, static_cast<unsigned>(sizes.size()), text);
+  for (const std::int64_t size : sizes) voxels *= static_cast<double>(size);
+  if (sizes.size() < 3) refuseDimensions(path, static_cast<unsigned>(sizes.size()), text);
   // beyond any file, and far below what overflows
   constexpr double kMostVoxels = 1e15;
   if (voxels > kMostVoxels)
     throw invalidInput(path.string() + ": its header announces " + longNumber(voxels) +
                        " voxels (" + text + "), more than any file can hold");
   return {static_cast<int>(sizes[0]), static_cast<int>(sizes[1]), static_cast<int>(sizes[2])};
+}
+
+void chooseVoxels(const fs::path& path, const std::vector<std::int64_t>& sizes,
+                  const ReadVolumeOptions& options, StoredVoxels& voxels,
+                  std::size_t voxelsOfVolume) {
+  voxels.count = 1;
+  for (const std::int64_t size : sizes) voxels.count *= static_cast<std::uint64_t>(size);
+  voxels.first = voxelsOfVolume * chosenVolume(path, textOf(sizes), voxels.count / voxelsOfVolume,
+                                               options.volumeIndex);
+  voxels.wanted = voxelsOfVolume;
 }
 
 Volume readImageFile(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,

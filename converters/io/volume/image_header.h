@@ -29,9 +29,15 @@ ImageHeader readNrrdHeader(const std::filesystem::path& path, const ReadVolumeOp
 /// The same of MetaImage.
 ImageHeader readMetaHeader(const std::filesystem::path& path, const ReadVolumeOptions& options);
 
-/// The sizes of a volume's three axes. Throws Error(InvalidInput) unless the further ones are 1 and
-/// the product is one that memory can hold.
+/// The first three sizes, those of a volume's axes. Throws Error(InvalidInput) unless there are three,
+/// and the product of all sizes is one that a file can hold.
 std::array<int, 3> volumeSize(const std::filesystem::path& path,
                               const std::vector<std::int64_t>& sizes);
+
+/// Says which of the voxels of a file with axes of these sizes are those of the volume that the
+/// options choose. Throws as chosenVolume() does.
+void chooseVoxels(const std::filesystem::path& path, const std::vector<std::int64_t>& sizes,
+                  const ReadVolumeOptions& options, StoredVoxels& voxels,
+                  std::size_t voxelsOfVolume);
 
 }  // namespace lumen::convert

@@ -1,28 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Between ITK's image readers and lumen's volumes. Private to the sources that include ITK.
+// The module of ITK, its library lumen_itk: image files that are written by ITK, and the place of filters
+// of ITK. Only its source includes headers of ITK, which cost half a minute of compile time each.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
-#include <itkImageIOBase.h>
-
-#include "converters/io/volume/read_volume.h"
+#include "converters/io/volume/read_volume_options.h"
+#include "converters/voxels/volume.h"
 
 namespace lumen::convert {
 
-/// The reader and writer of NRRD or MetaImage. Readers are named here rather than found through
-/// ITK's factories, which every program would have to register first.
-itk::ImageIOBase::Pointer makeImageIo(VolumeFormat format);
+/// Texts that a header of NRRD keeps beside its own fields.
+using VolumeNotes = std::map<std::string, std::string>;
 
-/// The geometry that `io` has read from a header. Throws Error(InvalidInput), naming `path`, unless
-/// it is 3-D (a further axis of one entry is dropped) and scalar with a sound geometry.
-VolumeGeometry checkedGeometry(const itk::ImageIOBase& io, const std::filesystem::path& path);
+/// Writes header and voxels into one file of NRRD or MetaImage, whose name must end in .nrrd or .mha.
+/// Notes are for NRRD alone. False if ITK reports that it failed; a full disk may go unnoticed.
+bool writeWithItk(const Volume& volume, const std::filesystem::path& file, VolumeFormat format,
+                  bool compressed, const VolumeNotes& notes);
 
-/// The voxels of `io`, whose header has been read, in the in-memory type that holds them.
-Voxels readVoxels(itk::ImageIOBase& io, const std::filesystem::path& path);
-
-/// What an ITK exception says, on one line, without places in ITK's sources.
-std::string oneLine(const itk::ExceptionObject& exception);
+/// Sets the number of threads of ITK's own pool.
+void limitItkThreads(int threads);
 
 }  // namespace lumen::convert

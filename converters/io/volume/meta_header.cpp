@@ -262,7 +262,7 @@ ImageHeader readMetaHeader(const fs::path& path, const ReadVolumeOptions& option
                        " components; expected one number");
   header.stated = metaGeometry(fields, sizes, options, header.assumptions);
   header.voxels.type = metaType(fields);
-  header.voxels.count = header.stated.geometry.voxelCount();
+  chooseVoxels(path, sizes, options, header.voxels, header.stated.geometry.voxelCount());
   noteScaling(fields, header.assumptions);
   setPacking(fields, header);
   const std::uint64_t stated = header.voxels.offset;

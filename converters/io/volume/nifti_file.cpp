@@ -97,11 +97,15 @@ void settleGeometry(OpenNifti& file, const fs::path& path, const ReadVolumeOptio
         "), so lengths are taken as mm; state the unit with --unit");
 }
 
-StoredVoxels storedVoxels(const fs::path& path, const NiftiHeader& header, Packing packing) {
+StoredVoxels storedVoxels(const fs::path& path, const NiftiHeader& header, Packing packing,
+                          const ReadVolumeOptions& options) {
   StoredVoxels stored;
   stored.header = path;
   stored.files = {path};
-  stored.count = header.voxelCount();
+  stored.wanted = header.voxelCount();
+  stored.count = header.volumes * header.voxelCount();
+  stored.first =
+      header.voxelCount() * chosenVolume(path, header.sizes, header.volumes, options.volumeIndex);
   stored.type = header.type;
   stored.bigEndian = header.swapped;
   stored.packing = packing;
@@ -122,12 +126,14 @@ OpenNifti openNifti(const fs::path& path, const ReadVolumeOptions& options,
   whole.packing = isGzip(path) ? Packing::Deflate : Packing::Raw;
   const auto bytes = openPacked(whole, path, 0, progress);
   std::array<std::byte, kNiftiHeaderSize> head{};
-  if (const std::size_t got = bytes->read(head.data(), head.size()); got != head.size())
+  const std::size_t got = bytes->read(head.data(), head.size());
+  if (got >= sizeof(std::int32_t)) checkNiftiStart(head, path);
+  if (got != head.size())
     throw invalidInput(path.string() + ": truncated: " + std::to_string(got) +
                        " bytes can be read, but a NIfTI header has 348");
   OpenNifti file;
   file.header = parseNiftiHeader(head, path);
-  file.voxels = storedVoxels(path, file.header, whole.packing);
+  file.voxels = storedVoxels(path, file.header, whole.packing, options);
   file.storedBytes = checkStored(file.voxels, file.assumptions);
   settleGeometry(file, path, options);
   checkExtensions(*bytes, file.header, path);

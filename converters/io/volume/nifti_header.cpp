@@ -100,25 +100,26 @@ void checkMagic(std::span<const std::byte, kNiftiHeaderSize> bytes, const fs::pa
          "NIfTI-1 rather than, for instance, ANALYZE 7.5");
 }
 
-/// dim: at least one voxel along each axis, and no more than three axes of several.
-std::array<int, 3> sizesOf(const Fields& fields, const fs::path& path) {
+/// dim: at least three axes, and at least one voxel along each.
+void readSizes(const Fields& fields, NiftiHeader& header, const fs::path& path) {
   const int dimensions = fields.get16(40);
   if (dimensions < 1 || dimensions > 7)
     refuse(path, "dim[0], the number of dimensions, is " + std::to_string(dimensions), "3");
-  std::array<int, 3> size{1, 1, 1};
-  std::string sizes;
-  bool other = dimensions < 3;
   for (int a = 1; a <= dimensions; ++a) {
     const int count = fields.get16(40 + 2 * static_cast<std::size_t>(a));
     if (count < 1)
       refuse(path, "dim[" + std::to_string(a) + "] is " + std::to_string(count),
              "a positive count of voxels");
-    if (a <= 3) size[static_cast<std::size_t>(a) - 1] = count;
-    other = other || (a > 3 && count != 1);
-    sizes += (a > 1 ? " x " : "") + std::to_string(count);
+    if (a <= 3)
+      header.size[static_cast<std::size_t>(a) - 1] = count;
+    else
+      header.volumes *= static_cast<std::uint64_t>(count);
+    header.sizes += (a > 1 ? " x " : "") + std::to_string(count);
   }
-  if (other) refuseDimensions(path, static_cast<unsigned>(dimensions), sizes);
-  return size;
+  if (dimensions < 3) refuseDimensions(path, static_cast<unsigned>(dimensions), header.sizes);
+  constexpr double kMostVoxels = 1e15;  // beyond any file, and far below what overflows
+  if (static_cast<double>(header.volumes) * static_cast<double>(header.voxelCount()) > kMostVoxels)
+    refuse(path, "dim announces " + header.sizes + " voxels", "as many as a file can hold");
 }
 
 PixelType typeOf(const Fields& fields, const fs::path& path) {
@@ -164,6 +165,10 @@ void readScaling(const Fields& fields, NiftiHeader& header, const fs::path& path
 
 }  // namespace
 
+void checkNiftiStart(std::span<const std::byte, kNiftiHeaderSize> bytes, const fs::path& path) {
+  (void)isSwapped(bytes, path);
+}
+
 NiftiHeader parseNiftiHeader(std::span<const std::byte, kNiftiHeaderSize> bytes,
                              const fs::path& path) {
   NiftiHeader header;
@@ -171,7 +176,7 @@ NiftiHeader parseNiftiHeader(std::span<const std::byte, kNiftiHeaderSize> bytes,
   checkMagic(bytes, path);
   const Fields fields(bytes, header.swapped);
   header.type = typeOf(fields, path);
-  header.size = sizesOf(fields, path);
+  readSizes(fields, header, path);
   header.voxelOffset = offsetOf(fields, path);
   readScaling(fields, header, path);
   header.handedness = fields.get<float>(76);

@@ -22,6 +22,8 @@ constexpr std::size_t kNiftiFirstVoxel = 352;
 struct NiftiHeader {
   bool swapped = false;       ///< the file has the other byte order than this machine
   std::array<int, 3> size{};  ///< voxels along i, j, k; at least 1
+  std::uint64_t volumes = 1;  ///< of that size
+  std::string sizes;          ///< along all axes, such as "4 x 2 x 2 x 9"
   PixelType type = PixelType::UInt8;
   std::size_t voxelOffset = 0;     ///< bytes before the first voxel; at least 352
   std::array<float, 3> pixdim{};   ///< spacings in the file's unit, unchecked
@@ -40,8 +42,13 @@ struct NiftiHeader {
   [[nodiscard]] bool isScaled() const { return slope != 0 && (slope != 1 || intercept != 0); }
 };
 
+/// Throws Error(InvalidInput), naming `path`, unless bytes begin as a header of NIfTI-1 does, in either
+/// byte order; Error(Unsupported) for NIfTI-2.
+void checkNiftiStart(std::span<const std::byte, kNiftiHeaderSize> bytes,
+                     const std::filesystem::path& path);
+
 /// The header in `bytes`, the first 348 of a file. Throws Error(InvalidInput), naming `path` and the
-/// field, unless it is one of a single file with a 3-D scalar volume; Error(Unsupported) for
+/// field, unless it is one of a single file of scalar volumes; Error(Unsupported) for
 /// NIfTI-2, for a header whose voxels are in another file, and for types that are not read.
 NiftiHeader parseNiftiHeader(std::span<const std::byte, kNiftiHeaderSize> bytes,
                              const std::filesystem::path& path);

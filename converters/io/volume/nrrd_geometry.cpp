@@ -129,7 +129,7 @@ std::vector<Axis> domainAxes(const TextHeader& header, const std::vector<std::in
 }
 
 /// The three axes of the volume. Further ones of one entry are dropped: those without a direction
-/// first, then the slowest.
+/// first, then the slowest. Axes of several entries behind those three count volumes.
 std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::int64_t>& sizes,
                               const Space& space) {
   std::vector<Axis> axes = domainAxes(header, sizes);
@@ -147,7 +147,7 @@ std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::i
       return !axis.direction && axis.size == 1 && extra > 0 && extra-- > 0;
     });
   }
-  while (axes.size() > 3 && axes.back().size == 1) axes.pop_back();
+  while (axes.size() > 3 && (axes.back().size == 1 || !axes.back().direction)) axes.pop_back();
   if (axes.size() == 3) return axes;
   std::string text;
   for (const std::int64_t size : sizes) text += (text.empty() ? "" : " x ") + std::to_string(size);
@@ -273,6 +273,7 @@ StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int
   const Space space = spaceOf(header, assumptions);
   std::vector<Axis> axes = spatialAxes(header, sizes, space);
   StatedGeometry stated;
+  (void)volumeSize(header.path(), sizes);  // for its faults
   stated.geometry.size = volumeSize(header.path(), {axes[0].size, axes[1].size, axes[2].size});
   stated.geometry.spacing.setConstant(kNaN);
   settleSpacings(header, axes, sizes.size(), options, stated);

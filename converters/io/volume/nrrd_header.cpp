@@ -220,7 +220,7 @@ ImageHeader readNrrdHeader(const fs::path& path, const ReadVolumeOptions& option
   const std::int64_t dimension = fields.integers("dimension", 1, 1, kMaxDimension)[0];
   const auto sizes = fields.integers("sizes", static_cast<std::size_t>(dimension), 1, kMaxInt);
   header.stated = nrrdGeometry(fields, sizes, options, header.assumptions);
-  voxels.count = header.stated.geometry.voxelCount();
+  chooseVoxels(path, sizes, options, voxels, header.stated.geometry.voxelCount());
   voxels.lineSkip = static_cast<std::uint64_t>(
       fields.integer("line skip", 0, std::numeric_limits<std::int64_t>::max(), 0));
   // text has no bytes to count from its end

@@ -2,8 +2,12 @@
 #include "converters/io/volume/read_volume.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <fstream>
 #include <sstream>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -45,8 +49,24 @@ VolumeHeader readHeader(const fs::path& path, VolumeFormat format, const ReadVol
   return readImageFileHeader(path, format, options, progress);
 }
 
+/// Refuses what a server sent instead of the file.
+void refuseWebPage(const fs::path& path) {
+  std::array<char, 256> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size() - 1);
+  std::string text(head.data());
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::size_t start = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  if (start == std::string::npos) return;
+  text.erase(0, start);
+  if (text.starts_with("<!doctype html") || text.starts_with("<html"))
+    throw invalidInput(path.string() +
+                       ": is a web page (HTML), not a volume; a server may have answered the "
+                       "download with a page of its own");
+}
+
 /// Throws unless there is a folder for DICOM, and a file for another format.
-void checkPlace(const fs::path& path, VolumeFormat format, const std::string& series) {
+void checkPlace(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw invalidInput(path.string() + ": no such file or directory");
   const bool folder = fs::is_directory(path, ignored);
@@ -57,9 +77,14 @@ void checkPlace(const fs::path& path, VolumeFormat format, const std::string& se
     throw invalidInput(path.string() + ": this is a folder; expected a file");
   if (!folder && !fs::is_regular_file(path, ignored))
     throw invalidInput(path.string() + ": this is a device or a pipe; expected a file");
-  if (!folder && !series.empty())
+  if (!folder && !options.series.empty())
     throw invalidInput(path.string() +
                        ": is a file; a series can be chosen in a DICOM directory only");
+  if (folder && options.volumeIndex)
+    throw invalidInput(path.string() +
+                       ": is a folder of DICOM, in which --series chooses; --volume-index is for "
+                       "files of several volumes");
+  if (!folder) refuseWebPage(path);
 }
 
 /// Refuses values that are not finite, and a volume in which nothing can be found.
@@ -83,31 +108,29 @@ void checkValues(const std::vector<T>& voxels, const fs::path& path) {
 }
 
 template <class T>
-std::vector<T> cropped(const std::vector<T>& from, const std::array<int, 3>& size,
-                       const IndexBox& box) {
-  const auto at = [](int v) { return static_cast<std::size_t>(v); };
+std::vector<T> cropped(const std::vector<T>& from, const CellBox& whole, const CellBox& box) {
   std::vector<T> to;
-  to.reserve(at(box.high[0] - box.low[0] + 1) * at(box.high[1] - box.low[1] + 1) *
-             at(box.high[2] - box.low[2] + 1));
-  for (int k = box.low[2]; k <= box.high[2]; ++k)
-    for (int j = box.low[1]; j <= box.high[1]; ++j) {
-      const T* row = from.data() + (at(k) * at(size[1]) + at(j)) * at(size[0]);
-      to.insert(to.end(), row + box.low[0], row + box.high[0] + 1);
-    }
+  to.reserve(box.count());
+  CellBox rows = box;
+  rows.size[0] = 1;
+  rows.forEach([&](const Cell& start) {
+    const T* row = from.data() + whole.index(start);
+    to.insert(to.end(), row, row + box.size[0]);
+  });
   return to;
 }
 
-void crop(Volume& volume, const IndexBox& box, const fs::path& path) {
-  const std::array<int, 3> size = volume.geometry.size;
+void crop(Volume& volume, const CellBox& box, const fs::path& path) {
+  const CellBox whole = volume.geometry.cells();
   cropGeometry(volume.geometry, box, path);
-  std::visit([&](auto& voxels) { voxels = cropped(voxels, size, box); }, volume.voxels);
+  std::visit([&](auto& voxels) { voxels = cropped(voxels, whole, box); }, volume.voxels);
 }
 
 }  // namespace
 
 VolumeHeader readVolumeHeader(const fs::path& path, VolumeFormat format,
                               const ReadVolumeOptions& options, const Progress& progress) {
-  checkPlace(path, format, options.series);
+  checkPlace(path, format, options);
   progress.check();
   VolumeHeader header = readHeader(path, format, options, progress);
   if (options.crop) cropGeometry(header.geometry, *options.crop, path);
@@ -116,7 +139,7 @@ VolumeHeader readVolumeHeader(const fs::path& path, VolumeFormat format,
 
 Volume readVolume(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options,
                   const Progress& progress) {
-  checkPlace(path, format, options.series);
+  checkPlace(path, format, options);
   progress.check();
   Volume volume = read(path, format, options, progress);
   progress.check();

@@ -2,7 +2,6 @@
 // How a volume is to be read, and what of it the user states instead of its header.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,21 +9,20 @@
 
 #include <Eigen/Dense>
 
+#include "converters/voxels/cell_box.h"
+
 namespace lumen::convert {
 
 /// How a volume is stored. Of NRRD and MetaImage, the voxels may be in files of their own that the
 /// header names.
 enum class VolumeFormat { Nrrd, Nifti, MetaImage, Dicom };
 
-/// A box in index space, both corners included.
-struct IndexBox {
-  std::array<int, 3> low{}, high{};
-};
-
 struct ReadVolumeOptions {
   /// DICOM: instance UID of a series, or its number in the listing, from 1; empty: the only one.
   std::string series{};
-  std::optional<IndexBox> crop{};  ///< keep only this box; the origin moves with it
+  std::optional<CellBox> crop{};  ///< keep only this box; the origin moves with it
+  /// Which volume of a file that holds several, from 0, as 4-D files of NIfTI, NRRD and MetaImage do.
+  std::optional<int> volumeIndex{};
   /// --spacing: mm along i, j, k, whatever the header says or leaves out.
   std::optional<Eigen::Vector3d> spacing{};
   /// --unit: mm of the unit that the header's lengths are in, whatever the header says of it.

@@ -68,16 +68,15 @@ VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOpt
   return geometry;
 }
 
-void cropGeometry(VolumeGeometry& geometry, const IndexBox& box, const fs::path& path) {
-  auto& size = geometry.size;
-  for (std::size_t a = 0; a < 3; ++a)
-    if (box.low[a] < 0 || box.high[a] >= size[a] || box.high[a] <= box.low[a])
-      throw invalidInput(path.string() + ": the crop box goes from " + std::to_string(box.low[a]) +
-                         " to " + std::to_string(box.high[a]) + " along axis " +
-                         std::to_string(a + 1) + "; expected at least two voxels within 0 to " +
-                         std::to_string(size[a] - 1));
-  geometry.origin = geometry.worldFromIndex(Eigen::Vector3d(box.low[0], box.low[1], box.low[2]));
-  for (std::size_t a = 0; a < 3; ++a) size[a] = box.high[a] - box.low[a] + 1;
+void cropGeometry(VolumeGeometry& geometry, const CellBox& box, const fs::path& path) {
+  const Cell first = box.low, last = box.high(), end = geometry.cells().high();
+  for (int a = 0; a < 3; ++a)
+    if (first[a] < 0 || last[a] > end[a] || last[a] <= first[a])
+      throw invalidInput(path.string() + ": the crop box goes from " + std::to_string(first[a]) +
+                         " to " + std::to_string(last[a]) + " along axis " + std::to_string(a + 1) +
+                         "; expected at least two voxels within 0 to " + std::to_string(end[a]));
+  geometry.origin = geometry.position(first);
+  geometry.size = {box.size[0], box.size[1], box.size[2]};
 }
 
 }  // namespace lumen::convert

@@ -31,6 +31,6 @@ VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOpt
 
 /// Makes `geometry` that of `box`. Throws Error(InvalidInput), naming `path`, unless the box holds at
 /// least two voxels along each axis and lies within the volume.
-void cropGeometry(VolumeGeometry& geometry, const IndexBox& box, const std::filesystem::path& path);
+void cropGeometry(VolumeGeometry& geometry, const CellBox& box, const std::filesystem::path& path);
 
 }  // namespace lumen::convert

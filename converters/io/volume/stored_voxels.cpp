@@ -50,30 +50,39 @@ public:
       : m_stored(stored), m_progress(progress), m_assumptions(assumptions) {}
 
   Voxels read() {
-    m_voxels.reserve(m_stored.count);
-    for (const fs::path& file : m_stored.files) readFile(file);
+    m_voxels.reserve(m_stored.wantedCount());
+    const std::uint64_t each = m_stored.count / m_stored.files.size();
+    const std::uint64_t end = m_stored.first + m_stored.wantedCount();
+    for (std::uint64_t f = 0; f < m_stored.files.size(); ++f) {
+      const std::uint64_t from = std::max(m_stored.first, f * each),
+                          to = std::min(end, (f + 1) * each);
+      if (from < to) readFile(m_stored.files[f], from - f * each, to - f * each);
+    }
     return std::move(m_voxels);
   }
 
 private:
-  void readFile(const fs::path& file) {
+  /// Reads voxels [from, to) of a file.
+  void readFile(const fs::path& file, std::uint64_t from, std::uint64_t to) {
     const std::uint64_t bytes = bytesOfEachFile(m_stored);
     const auto packed = openPacked(m_stored, file, bytes, m_progress);
     constexpr std::size_t kBlock = kBlockBytes / sizeof(From);
-    for (std::uint64_t done = 0, count = bytes / sizeof(From); done < count;) {
+    for (std::uint64_t done = 0; done < to;) {
       m_progress.check();
-      const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, count - done));
-      const std::size_t got = readBlock(*packed, wanted);
+      const std::uint64_t end = done < from ? from : to;
+      const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, end - done));
+      const std::size_t got = done < from ? packed->read(m_block.data(), wanted * sizeof(From))
+                                          : readBlock(*packed, wanted);
       done += got / sizeof(From);
       if (got < wanted * sizeof(From)) refuseTruncated(file, done * sizeof(From), bytes);
     }
-    if (packed->hasMore())
+    if (to * sizeof(From) == bytes && packed->hasMore())
       m_assumptions.push_back(
           "the data in " + formats::printable(file.filename().string()) +
           " goes on after the voxels that the header announces; the rest is not read");
   }
 
-  /// Appends up to `wanted` voxels; the bytes that were there.
+  /// Appends up to `wanted` voxels, and gives the bytes that were there.
   std::size_t readBlock(PackedFile& packed, std::size_t wanted) {
     const std::size_t before = m_voxels.size();
     m_voxels.resize(before + wanted);
@@ -205,7 +214,7 @@ Voxels readStored(const StoredVoxels& stored, const Progress& progress,
   try {
     return readType(stored, progress, assumptions);
   } catch (const std::bad_alloc&) {
-    throw invalidInput(stored.header.string() + ": its " + std::to_string(stored.count) +
+    throw invalidInput(stored.header.string() + ": its " + std::to_string(stored.wantedCount()) +
                        " voxels do not fit in memory");
   }
 }

@@ -29,7 +29,9 @@ enum class Packing { Raw, Deflate, Text, Hex };
 struct StoredVoxels {
   std::filesystem::path header;              ///< whom to name in messages
   std::vector<std::filesystem::path> files;  ///< of equal parts of the voxels, in order
-  std::uint64_t count = 0;                   ///< of voxels in all files
+  std::uint64_t count = 0;                   ///< voxels in all files
+  std::uint64_t first = 0;                   ///< the first of them that is wanted
+  std::optional<std::uint64_t> wanted;       ///< how many are, if not all
   PixelType type = PixelType::UInt8;
   bool bigEndian = false;
   Packing packing = Packing::Raw;
@@ -39,11 +41,14 @@ struct StoredVoxels {
   /// the file does.
   std::int64_t byteSkip = 0;
   std::optional<std::uint64_t> packedSize;  ///< bytes of the packed stream, if the header says
-  /// What the stored values are multiplied by, and what is added then; the result is float.
+  /// Factor of the stored values, and what is added then; the result is float.
   struct Scaling {
     double slope = 1, intercept = 0;
   };
   std::optional<Scaling> scaling;
+
+  /// The voxels that are read.
+  [[nodiscard]] std::uint64_t wantedCount() const { return wanted.value_or(count - first); }
 };
 
 /// Bytes of the files. Throws Error(InvalidInput) unless they can hold the voxels: raw ones exactly,

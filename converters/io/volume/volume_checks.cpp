@@ -81,6 +81,25 @@ void refuseDimensions(const fs::path& path, unsigned dimensions, const std::stri
                      "); expected a 3-D volume");
 }
 
+std::uint64_t chosenVolume(const fs::path& path, const std::string& sizes, std::uint64_t volumes,
+                           std::optional<int> wanted) {
+  if (volumes == 1 && wanted)
+    throw invalidInput(path.string() +
+                       ": holds one volume; --volume-index is for files of several");
+  if (volumes == 1) return 0;
+  const std::string choice = "--volume-index 0 to " + std::to_string(volumes - 1);
+  const auto dimensions = 1 + std::count(sizes.begin(), sizes.end(), 'x');
+  const std::string what =
+      path.string() + ": is " + std::to_string(dimensions) + "-D (" + sizes + ")";
+  if (!wanted)
+    throw invalidInput(what + "; expected a 3-D volume; choose one of its " +
+                       std::to_string(volumes) + " with " + choice);
+  if (*wanted < 0 || static_cast<std::uint64_t>(*wanted) >= volumes)
+    throw invalidInput(what + " and has no volume " + std::to_string(*wanted) + "; expected " +
+                       choice);
+  return static_cast<std::uint64_t>(*wanted);
+}
+
 std::string longNumber(double value) {
   std::ostringstream text;
   text.precision(12);

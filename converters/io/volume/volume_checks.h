@@ -2,7 +2,9 @@
 // What every volume must satisfy, whichever reader it came through.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "converters/voxels/volume.h"
@@ -22,9 +24,15 @@ void checkStatedSpacing(const std::filesystem::path& path, const std::string& fi
 /// file.
 void checkRoom(const std::filesystem::path& path, double needed, double available, bool compressed);
 
-/// "its 3-D ..." for another number of dimensions than three; `sizes` is "4 x 2".
+/// Throws Error(InvalidInput) for another number of dimensions than three; `sizes` is "4 x 2".
 [[noreturn]] void refuseDimensions(const std::filesystem::path& path, unsigned dimensions,
                                    const std::string& sizes);
+
+/// The volume that is read of a file of `volumes` of equal size, from 0: `wanted`. Throws
+/// Error(InvalidInput) where one of several is to be chosen, but is not, where the file does not have
+/// it, and where a file of one volume leaves no choice.
+std::uint64_t chosenVolume(const std::filesystem::path& path, const std::string& sizes,
+                           std::uint64_t volumes, std::optional<int> wanted);
 
 /// At most twelve significant digits, as headers of images state lengths and sizes.
 std::string longNumber(double value);

@@ -9,8 +9,6 @@
 #include <span>
 #include <utility>
 
-#include <itkMetaDataObject.h>
-
 #include "converters/base/error.h"
 #include "converters/base/sha256.h"
 #include "converters/io/volume/itk_image.h"
@@ -22,55 +20,6 @@ namespace lumen::convert {
 namespace {
 
 namespace fs = std::filesystem;
-using Component = itk::IOComponentEnum;
-
-Component componentOf(const std::vector<std::uint8_t>&) {
-  return Component::UCHAR;
-}
-Component componentOf(const std::vector<std::int16_t>&) {
-  return Component::SHORT;
-}
-Component componentOf(const std::vector<std::uint16_t>&) {
-  return Component::USHORT;
-}
-Component componentOf(const std::vector<float>&) {
-  return Component::FLOAT;
-}
-
-void setGeometry(itk::ImageIOBase& io, const VolumeGeometry& geometry) {
-  io.SetNumberOfDimensions(3);
-  itk::ImageIORegion region(3);
-  for (unsigned a = 0; a < 3; ++a) {
-    const auto e = static_cast<Eigen::Index>(a);
-    io.SetDimensions(a, static_cast<unsigned>(geometry.size[a]));
-    io.SetSpacing(a, geometry.spacing[e]);
-    io.SetOrigin(a, geometry.origin[e]);
-    const Eigen::Vector3d column = geometry.direction.col(e);
-    io.SetDirection(a, std::vector<double>(column.data(), column.data() + 3));
-    region.SetIndex(a, 0);
-    region.SetSize(a, static_cast<itk::SizeValueType>(geometry.size[a]));
-  }
-  io.SetIORegion(region);
-}
-
-void writeWithItk(const Volume& volume, const fs::path& file, VolumeFormat format, bool compressed,
-                  const VolumeNotes& notes) {
-  const auto io = makeImageIo(format);
-  setGeometry(*io, volume.geometry);
-  io->SetPixelType(itk::IOPixelEnum::SCALAR);
-  io->SetNumberOfComponents(1);
-  io->SetUseCompression(compressed);
-  io->SetFileName(file.string());
-  for (const auto& [key, text] : notes)
-    itk::EncapsulateMetaData<std::string>(io->GetMetaDataDictionary(), key, text);
-  std::visit(
-      [&](const auto& voxels) {
-        io->SetComponentType(componentOf(voxels));
-        io->WriteImageInformation();
-        io->Write(voxels.data());
-      },
-      volume.voxels);
-}
 
 bool isConstant(const Volume& volume) {
   return std::visit(
@@ -81,8 +30,8 @@ bool isConstant(const Volume& volume) {
       volume.voxels);
 }
 
-/// True if the file holds the volume's voxels. A library may not notice that a disk is full. Volumes whose voxels are all
-/// the same are not read.
+/// True if the file holds the volume's voxels: ITK may not notice that a disk is full. Volumes whose
+/// voxels are all the same are not read back.
 bool readsBack(const Volume& volume, const fs::path& file, VolumeFormat format) {
   if (isConstant(volume)) return true;
   return readVolume(file, format, {}, Progress()).voxels == volume.voxels;
@@ -94,10 +43,9 @@ bool writeWhole(const Volume& volume, const fs::path& file, VolumeFormat format,
     if (format == VolumeFormat::Nifti)
       writeNifti(volume, file, compressed, name);
     else
-      writeWithItk(volume, file, format, compressed, notes);
-    return readsBack(volume, file, format);
-  } catch (const itk::ExceptionObject&) {
-    return false;
+      return writeWithItk(volume, file, format, compressed, notes) &&
+             readsBack(volume, file, format);
+    return true;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::Unsupported) throw;
     return false;

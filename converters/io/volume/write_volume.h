@@ -3,9 +3,9 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 
+#include "converters/io/volume/itk_image.h"
 #include "converters/io/volume/read_volume.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"
@@ -17,15 +17,12 @@ namespace lumen::convert {
 void writeVolume(const Volume& volume, const std::filesystem::path& path, VolumeFormat format,
                  bool compressed);
 
-/// Texts that a header of NRRD keeps beside its own fields.
-using VolumeNotes = std::map<std::string, std::string>;
-
-/// The bytes of such a file, which it writes into the system's folder of temporary files. Notes are for NRRD alone. Throws as
-/// writeVolume().
+/// The bytes of the file that writeVolume() writes, by way of one in the system's folder of temporary
+/// files. Notes are for NRRD alone. Throws as writeVolume().
 std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
                          const VolumeNotes& notes = {});
 
-/// The part of the next that needs no voxels.
+/// The record of a volume without the digest of its voxels.
 formats::SourceVolume describeGeometry(const VolumeGeometry& geometry);
 
 /// The record of `volume` that a case keeps. The digest is SHA-256 over the voxels, x fastest, in

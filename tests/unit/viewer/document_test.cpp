@@ -290,7 +290,7 @@ TEST(VolumePack, TooManyVoxelsAreAveragedAlongTheFinestAxisFirst) {
 TEST(VolumePack, ACropInEightBitsKeepsItsPlaceAndIsWithinAStep) {
   viewer::VolumeSending sending;
   sending.eightBits = sending.cropped = true;
-  sending.crop = {{1, 0, 1}, {2, 1, 1}};
+  sending.crop = convert::CellBox::between({1, 0, 1}, {2, 1, 1});
   const ReadPack pack(wholeOf(viewer::VolumePack(countedVolume(), "v", sending), 64));
   EXPECT_EQ(pack.json["size"], Json({2, 2, 1}));
   EXPECT_EQ(pack.json["origin"], Json({11.0, 20.0, 32.0}));

@@ -116,7 +116,7 @@ TEST_F(ReadVolume, CompressedFormatsAreCompressed) {
 TEST_F(ReadVolume, CropKeepsItsBoxAndMovesTheOrigin) {
   const Volume whole = oblique<std::int16_t>();
   writeAsNamed(whole, path("v.nrrd"));
-  const Volume part = readQuietly(path("v.nrrd"), {{}, IndexBox{{1, 2, 0}, {3, 3, 1}}});
+  const Volume part = readQuietly(path("v.nrrd"), {{}, CellBox::between({1, 2, 0}, {3, 3, 1})});
   EXPECT_EQ(part.geometry.size, (std::array{3, 2, 2}));
   EXPECT_EQ(std::get<1>(part.voxels),
             (std::vector<std::int16_t>{21, 22, 23, 31, 32, 33, 71, 72, 73, 81, 82, 83}));
@@ -125,10 +125,11 @@ TEST_F(ReadVolume, CropKeepsItsBoxAndMovesTheOrigin) {
 
 TEST_F(ReadVolume, CropOutsideIsRefused) {
   writeAsNamed(oblique<std::uint8_t>(), path("v.nrrd"));
-  expectRefused(readRefusal(path("v.nrrd"), {{}, IndexBox{{0, 0, 0}, {4, 4, 2}}}),
+  expectRefused(readRefusal(path("v.nrrd"), {{}, CellBox::between({0, 0, 0}, {4, 4, 2})}),
                 {"3: ", "v.nrrd", "crop box goes from 0 to 4 along axis 2", "0 to 3"});
-  expectRefused(readRefusal(path("v.nrrd"), {{}, IndexBox{{3, 0, 0}, {2, 3, 2}}}), {"from 3 to 2"});
-  expectRefused(readRefusal(path("v.nrrd"), {{}, IndexBox{{-1, 0, 0}, {2, 3, 2}}}),
+  expectRefused(readRefusal(path("v.nrrd"), {{}, CellBox::between({3, 0, 0}, {2, 3, 2})}),
+                {"from 3 to 2"});
+  expectRefused(readRefusal(path("v.nrrd"), {{}, CellBox::between({-1, 0, 0}, {2, 3, 2})}),
                 {"from -1 to 2"});
 }
 

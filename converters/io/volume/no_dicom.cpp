@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// In place of the reader of DICOM where lumen is built without it.
+#include "converters/base/error.h"
+#include "converters/io/volume/read_dicom.h"
+
+namespace lumen::convert {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path) {
+  throw unsupported(path.string() +
+                    ": DICOM is not read, because this lumen was built without it "
+                    "(LUMEN_WITH_DICOM); convert the series to NRRD or NIfTI first");
+}
+
+}  // namespace
+
+Volume readDicom(const std::filesystem::path& path, const ReadVolumeOptions& /*options*/,
+                 const Progress& /*progress*/) {
+  refuse(path);
+}
+
+VolumeHeader readDicomHeader(const std::filesystem::path& path,
+                             const ReadVolumeOptions& /*options*/, const Progress& /*progress*/) {
+  refuse(path);
+}
+
+}  // namespace lumen::convert
