@@ -48,14 +48,14 @@ Json vesselsJson(const convert::Missing& missing, const formats::CenterlineTree&
   Json json = Json::array();
   for (const convert::MissingVessel& vessel : missing.vessels)
     json.push_back({{"position", vectorJson(convert::middleOf(vessel))},
-                    {"start", vectorJson(vessel.way.front().position)},
-                    {"tip", vectorJson(vessel.way.back().position)},
+                    {"start", vectorJson(vessel.path.front().position)},
+                    {"tip", vectorJson(vessel.path.back().position)},
                     {"length_mm", jsonNumber(vessel.length)},
                     {"radius_mm", jsonNumber(vessel.radius)},
                     {"volume_mm3", jsonNumber(vessel.volume)},
                     {"voxels", vessel.voxels},
-                    {"branch", convert::labelOf(tree, vessel.way.front().node)},
-                    {"node", vessel.way.front().node},
+                    {"branch", convert::labelOf(tree, vessel.path.front().node)},
+                    {"node", vessel.path.front().node},
                     {"at_end", vessel.atEnd}});
   return json;
 }

@@ -70,7 +70,7 @@ convert::ReadVolumeOptions VolumeArguments::options() const {
     const auto at = [&](std::size_t i) { return std::clamp(crop[i], -kFar, kFar - 1); };
     options.crop = convert::CellBox::between({at(0), at(2), at(4)}, {at(1), at(3), at(5)});
   }
-  options.volumeIndex = volumeIndex;
+  if (volumeIndex) options.volumeIndex = static_cast<int>(*volumeIndex);
   return options;
 }
 

@@ -25,7 +25,7 @@ namespace lumen::engine {
 struct VolumeArguments {
   std::string series;
   std::vector<int> crop;  ///< empty, or i0, i1, j0, j1, k0, k1
-  std::optional<std::int64_t> volumeIndex;
+  std::optional<std::int64_t> volumeIndex;  ///< from 0
   std::string spacing;    ///< empty, or mm of one or three axes, with commas between them
   std::string unit;       ///< empty, or mm, cm, m or um
   std::vector<std::string> allowDetached;

@@ -102,9 +102,9 @@ void drawTree(Picture& picture, const formats::CenterlineTree& tree, const Check
 void drawMissing(Picture& picture, const CheckReport& report, const VolumeGeometry& geometry,
                  const Panel& panel) {
   for (const MissingVessel& vessel : report.missing.vessels)
-    for (std::size_t i = 0; i + 1 < vessel.way.size(); ++i) {
-      const auto a = panel.pixel(geometry.indexFromWorld(vessel.way[i].position));
-      const auto b = panel.pixel(geometry.indexFromWorld(vessel.way[i + 1].position));
+    for (std::size_t i = 0; i + 1 < vessel.path.size(); ++i) {
+      const auto a = panel.pixel(geometry.indexFromWorld(vessel.path[i].position));
+      const auto b = panel.pixel(geometry.indexFromWorld(vessel.path[i + 1].position));
       picture.line(a[0], a[1], b[0], b[1], kMissing);
     }
 }
@@ -115,8 +115,8 @@ void drawLabels(Labels& labels, const formats::CenterlineTree& tree, const Check
                 const VolumeGeometry& geometry, const Panel& panel, int least) {
   const auto& vessels = report.missing.vessels;
   for (std::size_t i = 0; i < std::min(kNumbered, vessels.size()); ++i) {
-    const auto& way = vessels[i].way;
-    const auto at = panel.pixel(geometry.indexFromWorld(way[way.size() / 2].position));
+    const auto& path = vessels[i].path;
+    const auto at = panel.pixel(geometry.indexFromWorld(path[path.size() / 2].position));
     labels.put(panel, at[0] + 4, at[1] - 9, std::to_string(i + 1), kMissing, least + 1);
   }
   // large ones to the right, else small ones on any side: those that reach far look like another's
@@ -151,7 +151,7 @@ void drawLegend(Picture& picture, int left, int top, const CheckReport& report) 
   line(&kMissing, "not in the case, longest first");
   const auto& vessels = report.missing.vessels;
   for (std::size_t i = 0; i < std::min(kNumbered, vessels.size()); ++i) {
-    const Vector3d& at = vessels[i].way[vessels[i].way.size() / 2].position;
+    const Vector3d& at = vessels[i].path[vessels[i].path.size() / 2].position;
     line(nullptr, std::to_string(i + 1) + ": " + rounded(vessels[i].length) + " mm at (" +
                       rounded(at.x()) + ", " + rounded(at.y()) + ", " + rounded(at.z()) + ")");
   }

@@ -167,7 +167,7 @@ Markup missingVessels(const CheckReport& report, const formats::CenterlineTree& 
         {{"no."}, {"beside", false}, {"its middle mm, LPS", false}, {"length mm"}, {"radius mm"}});
     for (std::size_t i = 0; i < std::min(kPlacesListed, vessels.size()); ++i) {
       std::vector<Markup> cells =
-          placeCells(tree, vessels[i].way.front().node, middleOf(vessels[i]));
+          placeCells(tree, vessels[i].path.front().node, middleOf(vessels[i]));
       cells.insert(cells.begin(), text(std::to_string(i + 1)));
       cells.push_back(text(fixed(vessels[i].length, 1)));
       cells.push_back(text(fixed(vessels[i].radius, 1)));

@@ -90,7 +90,7 @@ std::string missingText(const convert::CheckReport& report, const formats::Cente
                       return "a vessel of " + fixed(vessel.length, 1) + " mm and radius " +
                              fixed(vessel.radius, 1) + " mm at " +
                              convert::placeText(convert::middleOf(vessel)) + ", beside " +
-                             printable(convert::labelOf(tree, vessel.way.front().node)) +
+                             printable(convert::labelOf(tree, vessel.path.front().node)) +
                              ", is not in the case";
                     }) +
          firstLines(report.missing.wide.regions, "smaller wide region", "smaller wide regions",

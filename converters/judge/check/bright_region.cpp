@@ -90,8 +90,8 @@ std::vector<Reached> grow(const LumenVoxels& lumen, const Levels& levels, Neares
   return reached;
 }
 
-/// Spreads from the voxels of `seeds` to the neighbours that take(j, way) wants: the way to them from
-/// the seed, mm along the axes of the grid.
+/// Spreads from the voxels of `seeds` to the neighbours that take(j, offset) wants; the offset from
+/// the seed is in mm along the axes of the grid.
 template <class Take>
 void flood(const VoxelSet& voxels, const std::vector<std::uint32_t>& seeds,
            const Progress& progress, Take&& take) {
@@ -100,15 +100,15 @@ void flood(const VoxelSet& voxels, const std::vector<std::uint32_t>& seeds,
   for (; !queue.empty(); queue.pop_front()) {
     const auto [i, here] = queue.front();
     if (i % kCheckEvery == 0) progress.check();
-    voxels.eachBeside(i, [&, from = here](std::uint32_t j, const Eigen::Vector3d& way) {
-      const Eigen::Vector3f there = from + way.cast<float>();
+    voxels.eachBeside(i, [&, from = here](std::uint32_t j, const Eigen::Vector3d& step) {
+      const Eigen::Vector3f there = from + step.cast<float>();
       if (take(j, there)) queue.emplace_back(j, there);
     });
   }
 }
 
-/// What lies within kCorner of the centres of balls of radius `widest` that the region holds, and what
-/// hangs together with the lumen only through that.
+/// 1 for voxels within kCorner of the centres of balls of radius `widest` that the region holds, and
+/// for those connected with the lumen only through them.
 std::vector<std::uint8_t> wideParts(const BrightRegion& region, double widest,
                                     const Progress& progress) {
   const VoxelSet& voxels = region.voxels;
@@ -121,8 +121,8 @@ std::vector<std::uint8_t> wideParts(const BrightRegion& region, double widest,
     }
   if (seeds.empty()) return wide;
   const auto reach = static_cast<float>(kCorner * widest + voxels.geometry().voxelSize());
-  flood(voxels, seeds, progress, [&](std::uint32_t j, const Eigen::Vector3f& way) {
-    if (wide[j] != 0 || way.norm() > reach) return false;
+  flood(voxels, seeds, progress, [&](std::uint32_t j, const Eigen::Vector3f& offset) {
+    if (wide[j] != 0 || offset.norm() > reach) return false;
     wide[j] = 1;
     return true;
   });

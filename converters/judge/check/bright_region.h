@@ -37,10 +37,10 @@ void withVoxels(const Levels& levels, Visit&& visit) {
 }
 
 /// Voxels outside, reached from the lumen through their 26 neighbours, that are brighter than the half
-/// level of the node where the way began and than the faint level of the node nearest to them.
+/// level of the node where the path began and than the faint level of the node nearest to them.
 struct BrightRegion {
   VoxelSet voxels;
-  std::vector<std::uint32_t> node;   ///< for each: where its way began
+  std::vector<std::uint32_t> node;   ///< for each: where its path began
   std::vector<std::uint32_t> order;  ///< all of them as they were reached, nearest first
   std::size_t rim = 0;               ///< how many of these touch the lumen
   std::vector<float> depth;          ///< mm to the nearest voxel that is not bright

@@ -2,7 +2,6 @@
 #include "converters/judge/check/lumen_voxels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -23,22 +22,17 @@ struct Claim {
   std::uint32_t node;
 };
 
-struct Box {
-  std::array<int, 3> low, high;  ///< voxels, ends included; empty if low > high
-};
-
-/// The voxels within `reach` mm of `centre`, and more, as it is a box.
-Box boxAround(const VolumeGeometry& geometry, const Vector3d& centre, double reach) {
+/// The cells within `reach` mm of `centre`, and more, as it is a box; it may be empty.
+CellBox boxAround(const VolumeGeometry& geometry, const Vector3d& centre, double reach) {
   const Vector3d at = geometry.indexFromWorld(centre);
-  Box box{};
+  const Cell last = geometry.cells().high();
+  Cell low, high;
   for (int a = 0; a < 3; ++a) {
-    const auto u = static_cast<std::size_t>(a);
-    const double most = geometry.size[u] - 1;
-    const double half = reach / geometry.spacing[a];
-    box.low[u] = static_cast<int>(std::clamp(std::ceil(at[a] - half), 0.0, most + 1));
-    box.high[u] = static_cast<int>(std::clamp(std::floor(at[a] + half), -1.0, most));
+    const double most = last[a], half = reach / geometry.spacing[a];
+    low[a] = static_cast<int>(std::clamp(std::ceil(at[a] - half), 0.0, most + 1));
+    high[a] = static_cast<int>(std::clamp(std::floor(at[a] + half), -1.0, most));
   }
-  return box;
+  return CellBox::between(low, high);
 }
 
 void claimVoxels(const formats::CenterlineTree& tree, const field::BlendedField& surface,
@@ -46,22 +40,16 @@ void claimVoxels(const formats::CenterlineTree& tree, const field::BlendedField&
   const Vector3d centre = toEigen(tree.centre[node]);
   const auto radius = static_cast<double>(tree.radius[node]);
   const double reach = kReachRadii * radius + geometry.voxelSize();
-  const Box box = boxAround(geometry, centre, reach);
-  const auto nx = static_cast<std::size_t>(geometry.size[0]);
-  const auto ny = static_cast<std::size_t>(geometry.size[1]);
-  for (int z = box.low[2]; z <= box.high[2]; ++z)
-    for (int y = box.low[1]; y <= box.high[1]; ++y)
-      for (int x = box.low[0]; x <= box.high[0]; ++x) {
-        const Vector3d p = geometry.worldFromIndex({double(x), double(y), double(z)});
-        const double squared = (p - centre).squaredNorm();
-        if (squared > reach * reach) continue;
-        const field::Vec point{p.x(), p.y(), p.z()};
-        if (surface.follow(point, node) != node ||
-            !(surface.blended(point, node).value > surface.level()))
-          continue;
-        const auto row = static_cast<std::size_t>(z) * ny + static_cast<std::size_t>(y);
-        claims.push_back({row * nx + static_cast<std::size_t>(x), squared - radius * radius, node});
-      }
+  boxAround(geometry, centre, reach).forEach([&](const Cell& cell) {
+    const Vector3d p = geometry.position(cell);
+    const double squared = (p - centre).squaredNorm();
+    if (squared > reach * reach) return;
+    const field::Vec point{p.x(), p.y(), p.z()};
+    if (surface.follow(point, node) != node ||
+        !(surface.blended(point, node).value > surface.level()))
+      return;
+    claims.push_back({geometry.index(cell), squared - radius * radius, node});
+  });
 }
 
 }  // namespace
@@ -88,13 +76,8 @@ LumenVoxels::LumenVoxels(const formats::CenterlineTree& tree, const field::Blend
 }
 
 std::size_t cornerIndex(const VolumeGeometry& geometry, const Vector3d& at, int corner) {
-  std::size_t index = 0;
-  for (int a = 2; a >= 0; --a) {
-    const int size = geometry.size[static_cast<std::size_t>(a)];
-    const int i = std::min(static_cast<int>(at[a]) + (corner >> a & 1), size - 1);
-    index = index * static_cast<std::size_t>(size) + static_cast<std::size_t>(i);
-  }
-  return index;
+  const Cell offset(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+  return geometry.index((at.cast<int>() + offset).cwiseMin(geometry.cells().high()));
 }
 
 std::optional<std::uint32_t> LumenVoxels::nodeAt(std::size_t index) const {

@@ -36,20 +36,20 @@ double lengthBeyond(const formats::CenterlineTree& tree, const OpenEnd& end, dou
                     const MissingVessel& vessel) {
   const Vector3d centre = toEigen(tree.centre[end.node]);
   double best = kNearRadii * static_cast<double>(tree.radius[end.node]) + kNearVoxels * voxel;
-  std::size_t nearest = vessel.way.size();
-  for (std::size_t i = 0; i < vessel.way.size(); ++i) {
-    const Vector3d away = vessel.way[i].position - centre;
+  std::size_t nearest = vessel.path.size();
+  for (std::size_t i = 0; i < vessel.path.size(); ++i) {
+    const Vector3d away = vessel.path[i].position - centre;
     // of another vessel that only passes by, the middle comes near
-    const bool tip = i == 0 || i + 1 == vessel.way.size();
+    const bool tip = i == 0 || i + 1 == vessel.path.size();
     if (away.norm() > best || away.dot(end.outward) <= 0 ||
-        (!tip && tree.branch[vessel.way[i].node] != tree.branch[end.node]))
+        (!tip && tree.branch[vessel.path[i].node] != tree.branch[end.node]))
       continue;
     best = away.norm();
     nearest = i;
   }
-  if (nearest == vessel.way.size()) return 0;
+  if (nearest == vessel.path.size()) return 0;
   const auto share = static_cast<double>(nearest) /
-                     static_cast<double>(std::max<std::size_t>(vessel.way.size() - 1, 1));
+                     static_cast<double>(std::max<std::size_t>(vessel.path.size() - 1, 1));
   return best + std::max(share, 1 - share) * vessel.length;
 }
 

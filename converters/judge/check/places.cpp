@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "converters/base/vectors.h"
-#include "converters/judge/check/skeleton.h"
+#include "converters/judge/check/skeleton_paths.h"
 #include "converters/voxels/depth.h"
 #include "converters/voxels/voxel_set.h"
 
@@ -88,14 +88,14 @@ double widestOf(const formats::CenterlineTree& tree) {
   return static_cast<double>(widest);
 }
 
-MissingVessel vesselOf(const SkeletonWay& way, const BrightRegion& region) {
+MissingVessel vesselOf(const SkeletonPath& path, const BrightRegion& region) {
   MissingVessel vessel;
-  for (const std::uint32_t i : way.voxels)
-    vessel.way.push_back({region.voxels.position(i), region.node[i]});
-  vessel.voxels = way.covered;
-  vessel.volume = static_cast<double>(way.covered) * region.voxels.geometry().spacing.prod();
-  vessel.length = way.length;
-  vessel.radius = way.radius;
+  for (const std::uint32_t i : path.voxels)
+    vessel.path.push_back({region.voxels.position(i), region.node[i]});
+  vessel.voxels = path.covered;
+  vessel.volume = static_cast<double>(path.covered) * region.voxels.geometry().spacing.prod();
+  vessel.length = path.length;
+  vessel.radius = path.radius;
   return vessel;
 }
 
@@ -138,15 +138,15 @@ Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
   result.wide = regionsOf(voxels, region.depth, region.node, wide, kLeastBright);
   std::vector<std::uint8_t> free = awayFromLumen(region, lumen);
   progress.check();
-  Skeleton skeleton(voxels, region.depth, free);
-  std::vector<SkeletonWay> ways;
+  SkeletonPaths skeleton(voxels, region.depth, free);
+  std::vector<SkeletonPath> paths;
   std::size_t count = 0;
   for (const std::uint32_t i : region.order)
     if (free[i] != 0)
       count += skeleton.split(i, kLeastLength * voxels.geometry().voxelSize(), kLeastBright,
-                              progress, ways);
+                              progress, paths);
   result.volume = static_cast<double>(count) * voxels.geometry().spacing.prod();
-  for (const SkeletonWay& way : ways) result.vessels.push_back(vesselOf(way, region));
+  for (const SkeletonPath& path : paths) result.vessels.push_back(vesselOf(path, region));
   std::stable_sort(result.vessels.begin(), result.vessels.end(),
                    [](const MissingVessel& a, const MissingVessel& b) {
                      return std::tie(a.length, a.volume) > std::tie(b.length, b.volume);
@@ -155,11 +155,12 @@ Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
 }
 
 Clicks clicksOn(const MissingVessel& vessel) {
-  const std::size_t middle = vessel.way.size() / 2, on = (middle + vessel.way.size()) / 2;
-  const Vector3d first = vessel.way[middle].position;
-  Clicks clicks{{first}, vessel.radius, vessel.way.front().node};
-  if (on < vessel.way.size() && (vessel.way[on].position - first).norm() > kTelling * vessel.radius)
-    clicks.points.push_back(vessel.way[on].position);
+  const std::size_t middle = vessel.path.size() / 2, on = (middle + vessel.path.size()) / 2;
+  const Vector3d first = vessel.path[middle].position;
+  Clicks clicks{{first}, vessel.radius, vessel.path.front().node};
+  if (on < vessel.path.size() &&
+      (vessel.path[on].position - first).norm() > kTelling * vessel.radius)
+    clicks.points.push_back(vessel.path[on].position);
   return clicks;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the volume the case gets wrong: dark voxels inside of it, and bright ones that belong to
-// its vessels and lie outside (docs/method.md, section 7.2).
+// Places where case and volume disagree: dark voxels inside of the case, and bright ones that belong
+// to its vessels and lie outside (docs/method.md, section 7.2).
 #pragma once
 
 #include <cstdint>
@@ -29,15 +29,15 @@ struct Regions {
   std::vector<Region> regions;  ///< the greatest volume first
 };
 
-/// A place on the way of a vessel, and the node from which it was reached.
-struct WayPoint {
+/// A place on the path of a vessel, and the node from which it was reached.
+struct PathPoint {
   Eigen::Vector3d position;  ///< mm, LPS
   std::uint32_t node;
 };
 
 /// A vessel of the volume that is not in the case.
 struct MissingVessel {
-  std::vector<WayPoint> way;  ///< from where it begins to its tip
+  std::vector<PathPoint> path;  ///< from where it begins to its tip
   std::size_t voxels = 0;
   double volume = 0;   ///< mm^3
   double length = 0;   ///< mm
@@ -46,7 +46,7 @@ struct MissingVessel {
 };
 
 struct Missing {
-  double volume = 0;                   ///< mm^3, of all bright voxels outside, but for `wide`
+  double volume = 0;                   ///< mm^3, all bright voxels outside, but for `wide`
   std::vector<MissingVessel> vessels;  ///< the longest first
   Regions wide;                        ///< what is too wide to be a vessel, and all beyond it
 };
@@ -63,7 +63,7 @@ Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
 
 /// Where to click, so that a missing vessel is tracked.
 struct Clicks {
-  std::vector<Eigen::Vector3d> points;  ///< on its way, mm, LPS
+  std::vector<Eigen::Vector3d> points;  ///< on its path, mm, LPS
   double radius = 0;                    ///< mm
   std::uint32_t beside = 0;             ///< the node of the case that it begins at
 };

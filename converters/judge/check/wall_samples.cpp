@@ -30,14 +30,14 @@ void WallSampler::sample(std::uint32_t node, std::vector<WallSample>& out) const
   const auto radius = static_cast<double>(m_tree.radius[node]);
   if (branch.nodeCount == 1) ring(node, here, toEigen(m_tree.direction[node]), radius, 0, out);
   if (node == branch.firstNode) return;
-  const Vector3d before = toEigen(m_tree.centre[node - 1]), way = here - before;
-  const double length = way.norm();
+  const Vector3d before = toEigen(m_tree.centre[node - 1]), step = here - before;
+  const double length = step.norm();
   if (!(length > 0)) return;
   const auto from = static_cast<double>(m_tree.radius[node - 1]);
   const int rings = std::max(1, static_cast<int>(std::lround(length / m_spacing)));
   for (int i = 0; i < rings; ++i) {
     const double share = (i + 0.5) / rings;
-    ring(share < 0.5 ? node - 1 : node, before + share * way, way / length,
+    ring(share < 0.5 ? node - 1 : node, before + share * step, step / length,
          from + share * (radius - from), kGoldenAngle * (node + share), out);
   }
 }

@@ -14,7 +14,7 @@ const std::string& labelOf(const formats::CenterlineTree& tree, std::uint32_t no
 }
 
 const Eigen::Vector3d& middleOf(const MissingVessel& vessel) {
-  return vessel.way[vessel.way.size() / 2].position;
+  return vessel.path[vessel.path.size() / 2].position;
 }
 
 double share(double part, double whole) {

@@ -76,12 +76,10 @@ formats::Case describeTruth(const Scene& scene, const PhantomOptions& options) {
 }
 
 VolumeGeometry geometryOf(const Scene& scene, const Image& image) {
-  VolumeGeometry geometry;
-  geometry.size = image.size;
-  geometry.spacing.setConstant(scene.grid.voxel);
+  VolumeGeometry geometry = scene.grid;
+  geometry.size[2] = image.size[2];
   geometry.spacing.z() *= scene.slice;
-  geometry.origin = scene.grid.origin;
-  geometry.origin.z() += 0.5 * (scene.slice - 1) * scene.grid.voxel;
+  geometry.origin.z() += 0.5 * (scene.slice - 1) * scene.grid.spacing.z();
   return geometry;
 }
 

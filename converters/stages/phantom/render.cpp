@@ -23,8 +23,9 @@ constexpr int kSubvoxels = 3;             // along each edge
 constexpr double kHalfDiagonal = 0.8661;  // of a unit cube
 constexpr int kColumns = 64;              // adjacent lines that one pass across rows takes together
 
-Vector3d centreOf(const Grid& grid, int x, int y, int z) {
-  return grid.origin + grid.voxel * Vector3d(x, y, z);
+/// Faster than VolumeGeometry::position(): the axes are those of LPS.
+Vector3d centreOf(const VolumeGeometry& grid, int x, int y, int z) {
+  return grid.origin + grid.spacing.x() * Vector3d(x, y, z);
 }
 
 struct Segment {
@@ -47,14 +48,15 @@ std::vector<Segment> segmentsOf(const formats::CenterlineTree& tree, double marg
 }
 
 // Lowers the signed distances, in mm, of one slab of the image to those of a segment.
-void drawSegment(const Segment& segment, const Grid& grid, int zFirst, int zLast, Image& image) {
+void drawSegment(const Segment& segment, const VolumeGeometry& grid, int zFirst, int zLast,
+                 Image& image) {
   const auto lowest = [&](int axis, int limit) {
-    return std::max(
-        limit, static_cast<int>(std::ceil((segment.low[axis] - grid.origin[axis]) / grid.voxel)));
+    return std::max(limit, static_cast<int>(std::ceil((segment.low[axis] - grid.origin[axis]) /
+                                                      grid.spacing.x())));
   };
   const auto highest = [&](int axis, int limit) {
-    return std::min(
-        limit, static_cast<int>(std::floor((segment.high[axis] - grid.origin[axis]) / grid.voxel)));
+    return std::min(limit, static_cast<int>(std::floor((segment.high[axis] - grid.origin[axis]) /
+                                                       grid.spacing.x())));
   };
   const int x0 = lowest(0, 0), x1 = highest(0, grid.size[0] - 1);
   for (int z = lowest(2, zFirst); z <= highest(2, zLast); ++z)
@@ -169,13 +171,10 @@ void addBias(float* row, int n, int y, double z, const std::array<Wave, 4>& wave
 
 }  // namespace
 
-Image drawOccupancy(const Design& design, const Grid& grid, Progress& progress) {
+Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& progress) {
   const auto [nx, ny, nz] = grid.size;
-  Image image{grid.size,
-              std::vector<float>(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
-                                     static_cast<std::size_t>(nz),
-                                 kFar)};
-  const double rim = kHalfDiagonal * grid.voxel;
+  Image image{grid.cells().size, std::vector<float>(grid.voxelCount(), kFar)};
+  const double rim = kHalfDiagonal * grid.spacing.x();
   const std::vector<Segment> segments = segmentsOf(design.tree, rim);
   const TubeTreeDistance wall(design.tree);
   const bool uniform = std::all_of(design.contrast.begin(), design.contrast.end(),
@@ -201,8 +200,8 @@ Image drawOccupancy(const Design& design, const Grid& grid, Progress& progress) 
           else if (distance <= -rim && uniform)
             row[x] = 1;
           else
-            row[x] = static_cast<float>(
-                occupancyOf(wall, design.contrast, centreOf(grid, x, y, z), grid.voxel, near));
+            row[x] = static_cast<float>(occupancyOf(wall, design.contrast, centreOf(grid, x, y, z),
+                                                    grid.spacing.x(), near));
         }
       }
       progress.advance();
@@ -238,8 +237,7 @@ void blur(Image& image, double sigma, Progress& progress) {
 }
 
 Image averageSlices(const Image& image, double thickness) {
-  const auto slice =
-      static_cast<std::size_t>(image.size[0]) * static_cast<std::size_t>(image.size[1]);
+  const std::size_t slice = image.index(0, 1);
   const int count = static_cast<int>(image.size[2] / thickness * (1 + 1e-12));
   Image thick{{image.size[0], image.size[1], count},
               std::vector<float>(slice * static_cast<std::size_t>(count), 0.0F)};
@@ -250,7 +248,7 @@ Image averageSlices(const Image& image, double thickness) {
     for (int z = static_cast<int>(low); z < image.size[2] && z < high; ++z) {
       const auto weight = static_cast<float>(
           (std::min(high, z + 1.0) - std::max(low, static_cast<double>(z))) / thickness);
-      const float* in = image.value.data() + static_cast<std::size_t>(z) * slice;
+      const float* in = image.value.data() + image.index(0, z);
       for (std::size_t i = 0; i < slice; ++i) out[i] += weight * in[i];
     }
   });
@@ -269,11 +267,11 @@ double countedNormal(Random& random) {
 
 std::vector<std::int16_t> degrade(Image& image, double bias, double noise, std::uint64_t seed,
                                   double thickness, Progress& progress) {
-  const auto [nx, ny, nz] = image.size;
+  const int nx = image.size[0], ny = image.size[1], nz = image.size[2];
   const int depth = static_cast<int>(std::lround(nz * thickness));
   const std::array<Wave, 4> waves = biasWaves(std::max({nx, ny, depth}), seed);
   std::vector<std::int16_t> voxels(image.value.size());
-  tbb::parallel_for(0, nz, [&, nx = nx, ny = ny](int z) {
+  tbb::parallel_for(0, nz, [&](int z) {
     progress.check();
     for (int y = 0; y < ny; ++y) {
       float* row = image.row(y, z);
@@ -281,7 +279,7 @@ std::vector<std::int16_t> degrade(Image& image, double bias, double noise, std::
           static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y);
       if (bias > 0) addBias(row, nx, y, thickness * z, waves, bias);
       Random random(seed, line);
-      std::int16_t* out = voxels.data() + line * static_cast<std::size_t>(nx);
+      std::int16_t* out = voxels.data() + image.index(y, z);
       for (int x = 0; x < nx; ++x) {
         double value = static_cast<double>(row[x]);
         if (noise > 0) value += noise * countedNormal(random);

@@ -2,7 +2,6 @@
 // From a design to voxels.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,44 +9,36 @@
 
 #include "converters/base/progress.h"
 #include "converters/stages/phantom/design.h"
+#include "converters/voxels/volume.h"
 
 namespace lumen::convert {
 
 /// Intensity far from vessels, before bias and noise.
 constexpr double kBackground = 100;
-/// What a vessel that fills a voxel adds to the background.
+/// Intensity that a vessel which fills a voxel adds to the background.
 constexpr double kContrast = 1000;
-
-/// Where the voxels of a drawing are: `origin` is the centre of the first, axes are those of LPS.
-struct Grid {
-  std::array<int, 3> size{};                         ///< voxels along x, y, z
-  double voxel = 0;                                  ///< mm, the edge of a voxel
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< mm
-};
 
 /// Values of voxels, x fastest.
 struct Image {
-  std::array<int, 3> size{};
+  Cell size = Cell::Zero();
   std::vector<float> value;
-  float* row(int y, int z) {
-    const auto n = static_cast<std::size_t>(size[0]);
-    return value.data() + (static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) +
-                           static_cast<std::size_t>(y)) *
-                              n;
+  [[nodiscard]] std::size_t index(int y, int z) const {  ///< where a row begins
+    return CellBox{Cell::Zero(), size}.index({0, y, z});
   }
+  float* row(int y, int z) { return value.data() + index(y, z); }
 };
 
 /// For each voxel the share of it that lies in the lumen, times the local contrast of the design,
 /// in [0, 1]. Voxels that the wall may cross are integrated over 27 subvoxels, each weighted by its
-/// own signed distance.
-Image drawOccupancy(const Design& design, const Grid& grid, Progress& progress);
+/// own signed distance. The grid has cubic voxels and the axes of LPS.
+Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& progress);
 
 /// Convolves in place with a Gaussian of standard deviation `sigma` voxels, cut at 4 sigma and
 /// normalised; voxels beyond a face equal those on it.
 void blur(Image& image, double sigma, Progress& progress);
 
-/// Thick slices: each the mean over `thickness` voxels along z, of those at its ends the share that
-/// it takes in. The first begins where the image does; what is left over at the end is dropped.
+/// Thick slices: each the mean over `thickness` voxels along z; those at its ends count by the share
+/// that it takes in. The first begins where the image does; the rest at the end is dropped.
 Image averageSlices(const Image& image, double thickness);
 
 /// kBackground + kContrast * (occupancy + bias field + noise), rounded. The bias field is a mean of

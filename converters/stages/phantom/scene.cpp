@@ -49,7 +49,7 @@ double workableVoxel(const Box3d& box, double voxel) {
   return voxel;
 }
 
-Grid gridAround(const Box3d& box, double voxel) {
+VolumeGeometry gridAround(const Box3d& box, double voxel) {
   const Vector3d size = sizeOf(box, voxel);
   if (!(size.prod() <= kMostVoxels)) {
     const double workable = workableVoxel(box, voxel);
@@ -61,8 +61,8 @@ Grid gridAround(const Box3d& box, double voxel) {
                                       (workable <= 10 ? "--voxel " + shown(workable) + " is enough"
                                                       : "lengths of the file are taken as mm"));
   }
-  Grid grid;
-  grid.voxel = voxel;
+  VolumeGeometry grid;
+  grid.spacing.setConstant(voxel);
   for (int a = 0; a < 3; ++a) grid.size[static_cast<std::size_t>(a)] = static_cast<int>(size[a]);
   grid.origin = (box.low.array() - kMarginVoxels * voxel).matrix();
   return grid;
@@ -149,7 +149,7 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
   Scene scene;
   scene.design = patient ? designPatient(frame, options.seed, progress) : found->second(frame);
   fadeContrast(scene.design, options.fade);
-  scene.grid = {{size, size, size}, options.voxel};
+  scene.grid = {{size, size, size}, Vector3d::Constant(options.voxel)};
   if (options.name == "thick-slices") scene.slice = kNamedSlice;
   if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
   if (size < kFewestSlices * scene.slice)

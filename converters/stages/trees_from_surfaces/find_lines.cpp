@@ -8,7 +8,7 @@
 
 #include "converters/stages/trees_from_surfaces/inside_voxels.h"
 #include "converters/stages/trees_from_surfaces/vessel_lines.h"
-#include "converters/stages/trees_from_surfaces/vessel_ways.h"
+#include "converters/stages/trees_from_surfaces/vessel_paths.h"
 #include "converters/voxels/depth.h"
 #include "converters/voxels/voxel_set.h"
 
@@ -17,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kNone = VesselWay::kNone;
+constexpr std::uint32_t kNone = VesselPath::kNone;
 constexpr std::size_t kLeastPart = 27;  // voxels of a part that may be a vessel
 constexpr double kTip = 4;              // depths from a tip: what says how wide the vessel is there
-constexpr double kReach = 4;            // depths from where a way is trimmed to the vessel's end
+constexpr double kReach = 4;            // depths from where a path is trimmed to the vessel's end
 
 /// From the inside as voxels to lines.
 class LineFinder {
@@ -31,7 +31,7 @@ public:
         m_depths(depths(progress)),
         m_isOpen(
             [&lumen](const Vector3d& a, const Vector3d& b) { return lumen.tree().isFree(a, b); }),
-        m_ways(m_set, m_depths, m_isOpen, progress),
+        m_paths(m_set, m_depths, m_isOpen, progress),
         m_progress(progress) {}
 
   VesselLines find() {
@@ -40,7 +40,7 @@ public:
     std::size_t small = 0;
     for (std::uint32_t i = 0; i < m_set.size(); ++i) {
       if (isSeen[i]) continue;
-      const std::vector<std::uint32_t> part = m_ways.partOf(i);
+      const std::vector<std::uint32_t> part = m_paths.partOf(i);
       for (const std::uint32_t j : part) isSeen[j] = true;
       if (part.size() < kLeastPart) {
         ++small;
@@ -103,12 +103,12 @@ private:
         best = atEnd[e];
       }
     if (best != kNone) return best;
-    const std::uint32_t far = m_ways.farthest(part.front(), m_progress);
-    const std::vector<VesselWay> ways = m_ways.find(far, m_progress);
-    for (const VesselWay& way : ways) {
-      if (way.isSac || way.meets != kNone) continue;
+    const std::uint32_t far = m_paths.farthest(part.front(), m_progress);
+    const std::vector<VesselPath> paths = m_paths.find(far, m_progress);
+    for (const VesselPath& path : paths) {
+      if (path.isSac || path.meets != kNone) continue;
       const auto tipFirst = [&](bool isStart) {
-        std::vector<std::uint32_t> voxels = way.voxels;
+        std::vector<std::uint32_t> voxels = path.voxels;
         if (!isStart) std::reverse(voxels.begin(), voxels.end());
         const double width = widthAtTip(voxels);
         if (width <= widest) return;
@@ -116,7 +116,7 @@ private:
         best = voxels.front();
       };
       tipFirst(false);
-      if (way.parent == kNone) tipFirst(true);
+      if (path.parent == kNone) tipFirst(true);
     }
     return best == kNone ? far : best;
   }
@@ -137,20 +137,20 @@ private:
   }
 
   void addPart(std::uint32_t root) {
-    const std::vector<VesselWay> ways = m_ways.find(root, m_progress);
+    const std::vector<VesselPath> paths = m_paths.find(root, m_progress);
     const std::size_t first = m_out.lines.size();
-    for (std::size_t w = 0; w < ways.size(); ++w) {
+    for (std::size_t w = 0; w < paths.size(); ++w) {
       m_progress.check();
-      m_out.lines.push_back(lineOf(ways, w, first));
+      m_out.lines.push_back(lineOf(paths, w, first));
     }
   }
 
-  /// Whether another way comes to the tip of this one round a loop.
-  [[nodiscard]] bool isMetAtTip(const std::vector<VesselWay>& ways, std::size_t w) const {
-    const Vector3d tip = m_set.position(ways[w].voxels.back());
-    return std::any_of(ways.begin(), ways.end(), [&](const VesselWay& other) {
+  /// Whether another path comes to the tip of this one round a loop.
+  [[nodiscard]] bool isMetAtTip(const std::vector<VesselPath>& paths, std::size_t w) const {
+    const Vector3d tip = m_set.position(paths[w].voxels.back());
+    return std::any_of(paths.begin(), paths.end(), [&](const VesselPath& other) {
       if (other.meets != w) return false;
-      const std::uint32_t at = ways[w].voxels[other.meetsVoxel];
+      const std::uint32_t at = paths[w].voxels[other.meetsVoxel];
       return (m_set.position(at) - tip).norm() < 2 * static_cast<double>(m_depths[at]);
     });
   }
@@ -167,27 +167,27 @@ private:
     return seen == order.end() ? from : line.point[seen->second];
   }
 
-  VesselLine lineOf(const std::vector<VesselWay>& ways, std::size_t w, std::size_t first) const {
-    const VesselWay& way = ways[w];
+  VesselLine lineOf(const std::vector<VesselPath>& paths, std::size_t w, std::size_t first) const {
+    const VesselPath& path = paths[w];
     VesselLine line;
     line.label = "vessel-" + std::to_string(first + w + 1);
-    line.isSac = way.isSac;
-    for (const std::uint32_t i : way.voxels) line.point.push_back(m_set.position(i));
+    line.isSac = path.isSac;
+    for (const std::uint32_t i : path.voxels) line.point.push_back(m_set.position(i));
     const VesselLine* parent = nullptr;
-    if (way.parent != kNone) {
-      line.parent = static_cast<int>(first + way.parent);
-      parent = &m_out.lines[first + way.parent];
+    if (path.parent != kNone) {
+      line.parent = static_cast<int>(first + path.parent);
+      parent = &m_out.lines[first + path.parent];
       line.point.front() = nearestSeen(*parent, line.point.front());
     } else {
       trim(line, true, m_lumen);
     }
-    if (way.meets != kNone) {
-      line.meets = static_cast<int>(first + way.meets);
+    if (path.meets != kNone) {
+      line.meets = static_cast<int>(first + path.meets);
       const Vector3d tip = line.point.back();
-      const Vector3d meeting = nearestSeen(m_out.lines[first + way.meets], tip);
+      const Vector3d meeting = nearestSeen(m_out.lines[first + path.meets], tip);
       if (meeting != tip) line.point.push_back(meeting);
     }
-    const bool goesOn = way.meets != kNone || isMetAtTip(ways, w);
+    const bool goesOn = path.meets != kNone || isMetAtTip(paths, w);
     if (!goesOn) trim(line, false, m_lumen);
     centre(line, parent, m_lumen);
     if (!parent) extend(line, true, kReach, m_lumen);
@@ -198,8 +198,8 @@ private:
   const LumenGeometry& m_lumen;
   VoxelSet m_set;
   std::vector<float> m_depths;
-  VesselWays::IsOpen m_isOpen;
-  VesselWays m_ways;
+  VesselPaths::IsOpen m_isOpen;
+  VesselPaths m_paths;
   Progress& m_progress;
   VesselLines m_out;
 };

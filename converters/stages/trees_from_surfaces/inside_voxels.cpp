@@ -115,19 +115,15 @@ private:
   }
 
   void fill(const Crossing& from, const Crossing& to, std::vector<std::size_t>& out) const {
-    std::array<int, 3> at{};
-    at[static_cast<std::size_t>(m_u)] =
-        static_cast<int>(from.line % static_cast<std::size_t>(size(m_u)));
-    at[static_cast<std::size_t>(m_v)] =
-        static_cast<int>(from.line / static_cast<std::size_t>(size(m_u)));
+    const auto width = static_cast<std::size_t>(size(m_u));
+    Cell cell;
+    cell[m_u] = static_cast<int>(from.line % width);
+    cell[m_v] = static_cast<int>(from.line / width);
     const int first = std::max(0, static_cast<int>(std::ceil(from.at)));
     const int last = std::min(size(m_axis) - 1, static_cast<int>(std::ceil(to.at)) - 1);
     for (int i = first; i <= last; ++i) {
-      at[static_cast<std::size_t>(m_axis)] = i;
-      out.push_back(static_cast<std::size_t>(at[0]) +
-                    static_cast<std::size_t>(size(0)) *
-                        (static_cast<std::size_t>(at[1]) +
-                         static_cast<std::size_t>(size(1)) * static_cast<std::size_t>(at[2])));
+      cell[m_axis] = i;
+      out.push_back(m_grid.index(cell));
     }
   }
 

@@ -84,7 +84,8 @@ TEST(PhantomIntensity, SumsToTheVolumeOfTheVessel) {
 TEST(PhantomIntensity, BlurKeepsTheSum) {
   Progress progress;
   const Frame frame{0.2, 12.6};
-  Image image = drawOccupancy(designHelix(frame), Grid{{64, 64, 64}, 0.2}, progress);
+  Image image = drawOccupancy(
+      designHelix(frame), VolumeGeometry{{64, 64, 64}, Eigen::Vector3d::Constant(0.2)}, progress);
   const double sharp = std::accumulate(image.value.begin(), image.value.end(), 0.0);
   blur(image, 1.5, progress);
   EXPECT_NEAR(std::accumulate(image.value.begin(), image.value.end(), 0.0), sharp, 1e-5 * sharp);

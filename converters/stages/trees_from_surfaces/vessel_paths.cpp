@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/trees_from_surfaces/vessel_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+namespace lumen::convert {
+namespace {
+
+constexpr std::uint32_t kNone = VesselPath::kNone;
+
+/// Depths are in voxels; a quarter more keeps steps along the wall possible.
+SkeletonPrice priceIn(const VolumeGeometry& geometry) {
+  return {4, static_cast<float>(geometry.voxelSize()), 0.25F};
+}
+
+// Share of the depth: balls closer to each other cover about the same.
+constexpr float kBallStep = 0.25F;
+// Share of its parent's depth: a path that is no longer is a corner of that vessel or a bump on it.
+constexpr double kLeastOfParent = 0.5;
+constexpr double kLeastVoxels = 3;
+// Multiple of the depth in the neck: a path that gets deeper behind it leads into a sac.
+constexpr double kSac = 1.25;
+// Path along the tree over the distance across: beyond that a tip has come back to a vessel by a loop.
+constexpr double kLoop = 4;
+
+}  // namespace
+
+VesselPaths::VesselPaths(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen,
+                         const Progress& progress)
+    : m_set(set),
+      m_isOpen(isOpen),
+      m_skeleton(set, depths, priceIn(set.geometry())),
+      m_steps(kMostSteps * set.size(), kNoStep),
+      m_cover(set.size(), kFree),
+      m_path(set.size(), kNone),
+      m_place(set.size()) {
+  for (std::size_t axes = 1; axes < 4; ++axes)
+    m_lengthOf[axes] =
+        static_cast<float>(set.geometry().voxelSize() * std::sqrt(static_cast<double>(axes)));
+  findSteps(progress);
+}
+
+void VesselPaths::findSteps(const Progress& progress) {
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()),
+                    [&](std::uint32_t i) {
+                      if (i % 1024 == 0) progress.check();
+                      std::size_t next = kMostSteps * i;
+                      m_set.eachBeside(i, [&](std::uint32_t j, const Eigen::Vector3d& step) {
+                        if (!isOpen(std::min(i, j), std::max(i, j))) return;
+                        const auto axes = static_cast<std::uint32_t>((step.array() != 0).count());
+                        m_steps[next++] = axes << kAxesShift | j;
+                      });
+                    });
+}
+
+std::vector<std::uint32_t> VesselPaths::partOf(std::uint32_t voxel) const {
+  std::vector<std::uint32_t> part(1, voxel);
+  std::vector<bool> isSeen(m_set.size(), false);
+  isSeen[voxel] = true;
+  for (std::size_t k = 0; k < part.size(); ++k)
+    eachStep(part[k], [&](std::uint32_t j, float) {
+      if (!isSeen[j]) part.push_back(j);
+      isSeen[j] = true;
+    });
+  return part;
+}
+
+// Balls that meet leave no room for a wall between their centres.
+bool VesselPaths::isOpen(std::uint32_t i, std::uint32_t j) const {
+  const Eigen::Vector3d a = m_set.position(i), b = m_set.position(j);
+  return depths(i, j) >= (b - a).norm() || m_isOpen(a, b);
+}
+
+void VesselPaths::spread(std::uint32_t root, const Progress& progress) {
+  for (const std::uint32_t i : m_skeleton.paths().reached()) m_path[i] = kNone;
+  m_skeleton.spread(
+      root, [this](std::uint32_t i, const auto& visit) { eachStep(i, visit); }, progress);
+}
+
+VesselPath VesselPaths::pathTo(std::uint32_t tip) const {
+  VesselPath path;
+  path.voxels = m_skeleton.paths().pathTo(tip, [&](std::uint32_t i) { return m_path[i] != kNone; });
+  const std::uint32_t first = path.voxels.front();
+  path.parent = m_path[first];
+  if (path.parent != kNone) path.parentVoxel = m_place[first];
+  return path;
+}
+
+bool VesselPaths::isVessel(VesselPath& path) const {
+  if (path.voxels.size() < 2) return false;
+  if (path.parent == kNone) return true;
+  std::size_t out = 0;  // the first voxel beyond the balls of the paths before
+  for (std::size_t i = 0; i < path.voxels.size(); ++i)
+    if (m_cover[path.voxels[i]] == kInBall) out = i + 1;
+  if (out >= path.voxels.size()) return false;
+  const double length = m_skeleton.length(path.voxels.back()) - m_skeleton.length(path.voxels[out]);
+  const auto depthAt = [&](std::size_t i) { return depth(path.voxels[i]); };
+  double deepest = 0, neck = depthAt(0), neckThere = depthAt(0);
+  for (std::size_t i = 0; i < path.voxels.size(); ++i) {
+    neck = std::min(neck, depthAt(i));
+    if (i >= out && depthAt(i) > deepest) {
+      deepest = depthAt(i);
+      neckThere = neck;
+    }
+  }
+  const double parent = depthAt(0);
+  path.isSac = deepest > kSac * neckThere && length < 6 * deepest;
+  const double least = std::max({path.isSac ? deepest : 2 * deepest, kLeastOfParent * parent,
+                                 kLeastVoxels * m_set.geometry().voxelSize()});
+  return length > least;
+}
+
+// The tip of a path that comes round a loop lies in the middle of a lumen, near another path.
+void VesselPaths::findLoop(VesselPath& path) const {
+  const std::uint32_t tip = path.voxels.back();
+  const double unit = m_set.geometry().voxelSize();
+  const double reach = Skeleton::kCoverDepths * depth(tip) + (Skeleton::kCoverVoxels + 3) * unit;
+  double best = std::numeric_limits<double>::infinity();
+  m_set.eachWithin(tip, 2 * reach, [&](std::uint32_t j) {
+    if (m_path[j] == kNone) return;
+    const double across = (m_set.position(j) - m_set.position(tip)).norm();
+    if (across > Skeleton::kCoverDepths * depth(j) + (Skeleton::kCoverVoxels + 2) * unit) return;
+    // both paths back to where they part
+    std::uint32_t a = tip, b = j;
+    while (a != b && a != kNone && b != kNone) {
+      std::uint32_t& later = m_skeleton.length(a) >= m_skeleton.length(b) ? a : b;
+      later = m_skeleton.paths().before(later);
+    }
+    if (a != b || a == kNone) return;
+    const double round = m_skeleton.length(tip) + m_skeleton.length(j) -
+                         2 * static_cast<double>(m_skeleton.length(a));
+    const double wide = depths(tip, j);
+    if (round < kLoop * (across + wide) || !(across < best) || !isOpen(tip, j)) return;
+    best = across;
+    path.meets = m_path[j];
+    path.meetsVoxel = m_place[j];
+  });
+}
+
+// What lies behind a wall, in a vessel that touches, is not covered.
+void VesselPaths::coverAround(std::uint32_t i, bool isBall) {
+  m_skeleton.eachCovered(i, [&](std::uint32_t j) {
+    if (m_cover[j] == kFree && isOpen(i, j)) m_cover[j] = kNear;
+  });
+  if (isBall) m_set.eachWithin(i, depth(i), [&](std::uint32_t j) { m_cover[j] = kInBall; });
+}
+
+void VesselPaths::cover(const VesselPath& path) {
+  float last = -CheapestPaths::kFar;
+  for (const std::uint32_t i : path.voxels) {
+    if (i != path.voxels.back() && m_skeleton.length(i) - last < kBallStep * m_skeleton.depth(i))
+      continue;
+    last = m_skeleton.length(i);
+    coverAround(i, true);
+  }
+}
+
+std::vector<VesselPath> VesselPaths::find(std::uint32_t root, const Progress& progress) {
+  spread(root, progress);
+  std::vector<std::uint32_t> tips = m_skeleton.paths().reached();
+  for (const std::uint32_t i : tips) {
+    m_cover[i] = kFree;
+    m_path[i] = kNone;
+  }
+  std::stable_sort(tips.begin(), tips.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return m_skeleton.length(a) > m_skeleton.length(b) ||
+           (m_skeleton.length(a) == m_skeleton.length(b) && a < b);
+  });
+  std::vector<VesselPath> paths;
+  for (const std::uint32_t tip : tips) {
+    if (m_cover[tip] != kFree) continue;
+    progress.check();
+    VesselPath path = pathTo(tip);
+    if (!isVessel(path)) {  // a corner or a bump, which other tips are in, too
+      for (const std::uint32_t i : path.voxels)
+        if (m_cover[i] != kInBall) coverAround(i, false);
+      coverAround(tip, false);
+      continue;
+    }
+    findLoop(path);
+    for (std::size_t k = path.parent == kNone ? 0 : 1; k < path.voxels.size(); ++k) {
+      m_path[path.voxels[k]] = static_cast<std::uint32_t>(paths.size());
+      m_place[path.voxels[k]] = static_cast<std::uint32_t>(k);
+    }
+    cover(path);
+    paths.push_back(std::move(path));
+  }
+  return paths;
+}
+
+std::uint32_t VesselPaths::farthest(std::uint32_t from, const Progress& progress) {
+  spread(from, progress);
+  const std::vector<std::uint32_t>& part = m_skeleton.paths().reached();
+  return *std::max_element(part.begin(), part.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return m_skeleton.length(a) < m_skeleton.length(b) ||
+           (m_skeleton.length(a) == m_skeleton.length(b) && a > b);
+  });
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vessels of a set of voxels as paths that hang on one another.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/voxels/skeleton.h"
+
+namespace lumen::convert {
+
+/// A path through the middle of the lumen.
+struct VesselPath {
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> voxels;  ///< from where it begins, on its parent's path, to its tip
+  std::uint32_t parent = kNone;       ///< a path before this one
+  std::size_t parentVoxel = 0;        ///< which of the parent's voxels it begins at
+  std::uint32_t meets = kNone;  ///< a path before this one whose lumen its tip lies in: a loop
+  std::size_t meetsVoxel = 0;   ///< which of that one's voxels is nearest to the tip
+  bool isSac = false;           ///< it widens beyond a neck and ends there
+};
+
+/// Paths of one connected part of a set of voxels, as a skeleton of them, on which a step costs its
+/// length by the fourth power of the depth.
+class VesselPaths {
+public:
+  /// All must stay. The voxels are cubes; `depths`: mm from each to the wall; isOpen(a, b): no wall
+  /// lies between two places. Throws Error(Cancelled).
+  using IsOpen = std::function<bool(const Eigen::Vector3d&, const Eigen::Vector3d&)>;
+  VesselPaths(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen,
+              const Progress& progress);
+
+  /// The connected part of `root`: the first path begins there. A path is kept if its length outside
+  /// of the balls of those before it is more than its width; or if it widens behind a neck by a
+  /// fifth, as a sac does. Throws Error(Cancelled).
+  std::vector<VesselPath> find(std::uint32_t root, const Progress& progress);
+
+  /// The connected part of a voxel, itself first.
+  [[nodiscard]] std::vector<std::uint32_t> partOf(std::uint32_t voxel) const;
+
+  /// The voxel of the part of `from` that is the farthest from it.
+  std::uint32_t farthest(std::uint32_t from, const Progress& progress);
+
+private:
+  enum Cover : std::uint8_t { kFree = 0, kNear = 1, kInBall = 2 };
+  /// A voxel that shares a corner with another, with no wall in between; in the upper two bits the
+  /// number of axes along which it lies beside it.
+  using Step = std::uint32_t;
+  static constexpr std::size_t kMostSteps = 26;
+  static constexpr Step kNoStep = 0;
+  static constexpr int kAxesShift = 30;
+  static std::uint32_t voxelOf(Step step) { return step & ((1U << kAxesShift) - 1); }
+  template <class Visit>
+  void eachStep(std::uint32_t i, Visit&& visit) const {
+    for (std::size_t k = kMostSteps * i; k < kMostSteps * (i + 1) && m_steps[k] != kNoStep; ++k)
+      visit(voxelOf(m_steps[k]), m_lengthOf[m_steps[k] >> kAxesShift]);
+  }
+  void findSteps(const Progress& progress);
+  void spread(std::uint32_t root, const Progress& progress);
+  [[nodiscard]] VesselPath pathTo(std::uint32_t tip) const;
+  [[nodiscard]] bool isVessel(VesselPath& path) const;
+  void findLoop(VesselPath& path) const;
+  void cover(const VesselPath& path);
+  void coverAround(std::uint32_t i, bool isBall);
+  [[nodiscard]] bool isOpen(std::uint32_t i, std::uint32_t j) const;
+  [[nodiscard]] double depth(std::uint32_t i) const {
+    return static_cast<double>(m_skeleton.depth(i));
+  }
+  /// Radii of the balls around two voxels, together.
+  [[nodiscard]] double depths(std::uint32_t i, std::uint32_t j) const {
+    return static_cast<double>(m_skeleton.depth(i) + m_skeleton.depth(j));
+  }
+
+  const VoxelSet& m_set;
+  const IsOpen& m_isOpen;
+  Skeleton m_skeleton;
+  std::vector<Step> m_steps;          ///< kMostSteps for each voxel, kNoStep behind the last
+  std::array<float, 4> m_lengthOf{};  ///< mm of a step along 1, 2 or 3 axes
+  std::vector<std::uint8_t> m_cover;
+  std::vector<std::uint32_t> m_path;   ///< of voxels that are on a path: which
+  std::vector<std::uint32_t> m_place;  ///< and which of its voxels
+};
+
+}  // namespace lumen::convert
