@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/error.h"
 #include "converters/engine/scope.h"
 #include "formats/container/printable.h"
 
@@ -53,6 +54,11 @@ LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFor
                                 const CenterlineArguments& centerline, Progress& progress) {
   LoadedCenterline loaded;
   loaded.file = format.readCenterline(file);
+  if (!loaded.file.points.empty() && !(convert::extentOf(loaded.file).length > 0))
+    throw invalidInput(
+        formats::printable(file.string()) +
+        (loaded.file.points.size() == 1 ? ": holds one point" : ": holds lines of no length") +
+        "; expected vessels, as lines of at least two places");
   convert::CenterlineReading reading;
   reading.unit = volume.options().unit;
   if (centerline.frame == "ras") reading.axes = convert::CenterlineAxes::Ras;

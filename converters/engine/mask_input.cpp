@@ -21,6 +21,10 @@ std::pair<std::int64_t, std::string> namedLabel(std::string_view word) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   const std::string_view rest = word.substr(static_cast<std::size_t>(end - word.data()));
+  if (rest.find('=', 1) != std::string_view::npos)
+    throw Error(ErrorKind::Usage, "--labels: " + formats::printable(std::string(word)) +
+                                      " names two labels; expected a comma between them, such as "
+                                      "1=ica,2=mca");
   if (error != std::errc() || value == 0 || rest.size() < 2 || rest.front() != '=')
     throw Error(ErrorKind::Usage, "--labels: " + formats::printable(std::string(word)) +
                                       "; expected labels with names, such as 1=ica,2=mca; 0 is "
@@ -51,6 +55,10 @@ formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat
   const convert::LabelNames names = arguments.names();
   const convert::LabelMask mask =
       convert::maskOf(readVolumeFile(file, format, volume, progress), names, name);
+  if (mask.isGrey)
+    progress.warn(name +
+                  ": its voxels differ from their neighbours as grey values do, and are taken as "
+                  "labels; expected a segmentation: an image is tracked from --seeds");
   progress.begin("surface", 0);
   convert::LabelSurface surface = convert::surfaceOf(mask, progress);
   progress.end();

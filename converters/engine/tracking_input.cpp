@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/place_seeds.h"
+#include "converters/stages/tracking/click_light.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "formats/container/printable.h"
 
@@ -45,6 +46,33 @@ void warnOfSeeds(const std::string& file, const std::string& what,
   if (failures.size() > kMost)
     progress.warn(file + ": and so on for " + std::to_string(failures.size() - kMost) +
                   " more seeds; --json lists all");
+}
+
+std::string share(std::size_t count, std::size_t seeds) {
+  if (seeds == 1) return "it lies";
+  return std::to_string(count) + " of " + std::to_string(seeds) + " lie";
+}
+
+/// Why seeds may start no track, after a semicolon: they stand out of the volume in another reading of
+/// their file, or hardly at all.
+std::string doubtAboutSeeds(const convert::Volume& volume,
+                            const std::vector<convert::SeedBranch>& seeds,
+                            const std::vector<convert::SeedBranch>& placed,
+                            const convert::TrackOptions& options, const Progress& progress) {
+  const convert::ClickLight light(volume, options, progress);
+  const std::size_t inVessels = light.countInVessels(placed);
+  std::size_t most = inVessels;
+  std::string advice;
+  for (const convert::RereadSeeds& other : convert::otherReadings(seeds, volume.geometry)) {
+    const std::size_t count = light.countInVessels(other.seeds);
+    if (count <= most || 3 * count < 2 * seeds.size()) continue;
+    most = count;
+    advice = "; read " + other.words + ", " + share(count, seeds.size()) + " in " +
+             (options.dark ? "dark" : "bright") + " vessels: add " + other.options;
+  }
+  if (!advice.empty() || 2 * inVessels >= placed.size()) return advice;
+  return "; " + share(placed.size() - inVessels, placed.size()) +
+         " in the background, as seeds of another volume do";
 }
 
 }  // namespace
@@ -101,11 +129,19 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
   warnOfSeeds(file, " started no track: ", result.failures, progress);
   warnOfSeeds(file, " does not pass through its ", result.missedPoints, progress);
   warnOfSeeds(file, " is not joined to its parent: ", result.unjoined, progress);
-  if (result.result.tree.nodeCount() == 0)
-    throw failed(file + ": " +
-                 (seeds.size() == 1 ? std::string("its seed")
-                                    : "none of its " + std::to_string(seeds.size()) + " seeds") +
-                 " started " + (seeds.size() == 1 ? "no" : "a") + " track; nothing is written");
+  const bool isNone = result.result.tree.nodeCount() == 0;
+  if (isNone || 2 * result.failures.size() > placed.seeds.size()) {
+    const std::string doubt = doubtAboutSeeds(volume, seeds, placed.seeds, track.options, progress);
+    const std::string count = std::to_string(seeds.size()) + " seeds started ";
+    // seeds of one vessel may fail together: without a doubt about them the rest is good
+    if (isNone || !doubt.empty())
+      throw failed(
+          file + ": " +
+          (seeds.size() == 1 ? "its seed started no track"
+           : isNone          ? "none of its " + count + "a track"
+                    : std::to_string(result.failures.size()) + " of its " + count + "no track") +
+          doubt + "; nothing is written");
+  }
   std::move(placed.leftOut.begin(), placed.leftOut.end(), std::back_inserter(result.failures));
   std::move(placed.leftPoints.begin(), placed.leftPoints.end(),
             std::back_inserter(result.missedPoints));

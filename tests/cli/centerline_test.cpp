@@ -61,6 +61,18 @@ TEST_F(CenterlineTest, EveryFormatTakesTheTreeThereAndBack) {
   }
 }
 
+TEST_F(CenterlineTest, OnePointAndLinesOfNoLengthAreRefused) {
+  write("point.swc", "1 0 0 0 0 1 -1\n");
+  write("still.swc", "1 0 5 5 5 1 -1\n2 0 5 5 5 1 1\n");
+  const Outcome point = lumen({"convert", "point.swc", "x.lumen"});
+  EXPECT_EQ(point.code, 3);
+  EXPECT_TRUE(contains(point.err, "point.swc: holds one point")) << point.err;
+  const Outcome still = lumen({"convert", "still.swc", "x.lumen"});
+  EXPECT_EQ(still.code, 3);
+  EXPECT_TRUE(contains(still.err, "still.swc: holds lines of no length")) << still.err;
+  EXPECT_FALSE(exists("x.lumen"));
+}
+
 TEST_F(CenterlineTest, APhantomIsDrawnOfWhatLumenWritesAsSwc) {
   ASSERT_EQ(lumen({"convert", "tree.swc", "tree.lumen"}).code, 0);
   ASSERT_EQ(lumen({"convert", "tree.lumen", "again.swc"}).code, 0);

@@ -136,6 +136,7 @@ TEST_F(LabelsInTest, LabelsThatCannotBeAreMistakes) {
   for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
            {"convert", "tube.nrrd", "x.lumen", "--labels", "ica"},
            {"convert", "tube.nrrd", "x.lumen", "--labels", "1=a,1=b"},
+           {"convert", "tube.nrrd", "x.lumen", "--labels", "1=a;2=b"},
            {"convert", "tube.nrrd", "x.lumen", "--labels", "0=a"},
            {"convert", "tube.nrrd", "x.lumen", "--mask", "--label", "1"},
            {"convert", "tube.nrrd", "x.lumen", "--mask", "--seeds", "seeds.json"},
@@ -143,6 +144,8 @@ TEST_F(LabelsInTest, LabelsThatCannotBeAreMistakes) {
     const Outcome refused = lumen(line);
     EXPECT_EQ(refused.code, 2) << line[3] << " " << refused.err;
   }
+  const Outcome separator = lumen({"convert", "tube.nrrd", "x.lumen", "--labels", "1=a;2=b"});
+  EXPECT_TRUE(contains(separator.err, "a comma between them")) << separator.err;
   const Outcome image = lumen({"convert", "tube.nrrd", "x.lumen", "--mask"});
   EXPECT_EQ(image.code, 3) << image.err;
   EXPECT_TRUE(contains(image.err, "expected labels")) << image.err;

@@ -4,6 +4,7 @@ lumen_test(tracking_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/statistics_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/aneurysm_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/click_light_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/icosphere_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/join_to_parent_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/joins_test.cpp

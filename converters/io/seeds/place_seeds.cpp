@@ -126,6 +126,15 @@ Vector3d asInFile(const SeedFrame& frame, const Vector3d& position) {
   return frame.direction(position) / (frame.system == SeedSystem::Voxel ? 1.0 : frame.unit);
 }
 
+/// LPS mm of a position that the branch holds, if its file is read in another way.
+Vector3d reread(const SeedBranch& branch, const Vector3d& position, const SeedReading& reading,
+                const VolumeGeometry& geometry) {
+  SeedBranch read;
+  read.frame = {reading.system.value_or(branch.frame.system),
+                reading.unit.value_or(branch.frame.unit)};
+  return worldOf(read, read.frame.position(asInFile(branch.frame, position)), geometry);
+}
+
 template <class WorldOf>
 std::size_t countInside(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
                         WorldOf world) {
@@ -144,10 +153,16 @@ std::string insideText(std::size_t inside, std::size_t points) {
          " points would lie inside; if that is what they are, add ";
 }
 
+bool isAtZero(const SeedBranch& branch) {
+  return std::all_of(branch.points.begin(), branch.points.end(),
+                     [](const SeedPoint& point) { return point.position.isZero(0); });
+}
+
 /// True if all points lie within a voxel of the origin: metres that are taken for millimetres do,
-/// and that may be inside of the volume.
+/// and that may be inside of the volume. Points at 0, 0, 0 lie there in every unit.
 bool allAtOrigin(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry) {
   const double edge = geometry.spacing.maxCoeff();
+  if (std::all_of(seeds.begin(), seeds.end(), isAtZero)) return false;
   return std::all_of(seeds.begin(), seeds.end(), [&](const SeedBranch& branch) {
     return branch.frame.system != SeedSystem::Voxel &&
            std::all_of(branch.points.begin(), branch.points.end(),
@@ -165,10 +180,7 @@ std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry
     if (onlyMetres && other.reading.unit != kMetre) continue;
     const std::size_t count =
         countInside(seeds, geometry, [&](const SeedBranch& branch, const Vector3d& position) {
-          SeedBranch read;
-          read.frame = {other.reading.system.value_or(branch.frame.system),
-                        other.reading.unit.value_or(branch.frame.unit)};
-          return worldOf(read, read.frame.position(asInFile(branch.frame, position)), geometry);
+          return reread(branch, position, other.reading, geometry);
         });
     if (count <= inside) continue;
     inside = count;
@@ -261,6 +273,20 @@ private:
 };
 
 }  // namespace
+
+std::vector<RereadSeeds> otherReadings(const std::vector<SeedBranch>& seeds,
+                                       const VolumeGeometry& geometry) {
+  std::vector<RereadSeeds> all;
+  for (const OtherReading& other : kOtherReadings) {
+    all.push_back({other.words, other.options, seeds});
+    for (SeedBranch& branch : all.back().seeds) {
+      for (SeedPoint& point : branch.points)
+        point.position = reread(branch, point.position, other.reading, geometry);
+      branch.frame = {};
+    }
+  }
+  return all;
+}
 
 PlacedSeeds placeSeeds(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
                        const std::filesystem::path& file) {

@@ -28,4 +28,15 @@ struct PlacedSeeds {
 PlacedSeeds placeSeeds(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
                        const std::filesystem::path& file);
 
+/// Seeds of the same file, read in another way.
+struct RereadSeeds {
+  std::string words;              ///< such as "as RAS (x and y flipped)"
+  std::string options;            ///< that ask for it
+  std::vector<SeedBranch> seeds;  ///< points mm, LPS, also outside of the volume
+};
+
+/// Seeds in all other frames and units.
+std::vector<RereadSeeds> otherReadings(const std::vector<SeedBranch>& seeds,
+                                       const VolumeGeometry& geometry);
+
 }  // namespace lumen::convert

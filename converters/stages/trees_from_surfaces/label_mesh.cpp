@@ -25,6 +25,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostLabels = 255;
 constexpr std::size_t kMostListed = 10;
+constexpr double kGreyShare =
+    1.0 / 3;                       // of neighbours that differ, beyond which voxels are no labels
 constexpr double kSpread = 0.7;    // voxels: the standard deviation that takes the steps away
 constexpr int kReach = 3;          // voxels: where its kernel ends
 constexpr int kHalo = 2 * kReach;  // of the kernel applied twice
@@ -68,6 +70,19 @@ std::set<std::int64_t> valuesOf(const std::vector<T>& voxels, const LabelNames& 
   return values;
 }
 
+/// True if neighbours that are not 0 differ as the grey values of an image do; labels have equal
+/// neighbours but at their borders.
+template <class T>
+bool isGrey(const std::vector<T>& voxels) {
+  std::size_t pairs = 0, different = 0;
+  for (std::size_t i = 1; i < voxels.size(); ++i) {
+    if (voxels[i] == T{} || voxels[i - 1] == T{}) continue;
+    ++pairs;
+    different += voxels[i] != voxels[i - 1];
+  }
+  return static_cast<double>(different) > kGreyShare * static_cast<double>(pairs);
+}
+
 /// Samples of the labels' voxels for marching cubes, slab by slab.
 class LabelSamples {
 public:
@@ -102,14 +117,10 @@ private:
            static_cast<std::size_t>(y + 1);
   }
   [[nodiscard]] bool isIn(int x, int y, int z) const {
-    return x >= 0 && y >= 0 && z >= 0 && x < m_size[0] && y < m_size[1] && z < m_size[2] &&
-           m_mask.label[index(x, y, z)] != 0;
+    return m_mask.geometry.contains({x, y, z}) && m_mask.label[index(x, y, z)] != 0;
   }
   [[nodiscard]] std::size_t index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(m_size[1]) +
-            static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(m_size[0]) +
-           static_cast<std::size_t>(x);
+    return m_mask.geometry.index({x, y, z});
   }
 
   /// Each row reaches a sample beyond the labels of the rows around it.
@@ -153,9 +164,7 @@ private:
     if (isEmpty(from, to)) return;
     m_low = from - kHalo;
     m_slices = to - from + 2 * kHalo;
-    std::vector<float> once(static_cast<std::size_t>(m_slices) *
-                            static_cast<std::size_t>(m_size[1]) *
-                            static_cast<std::size_t>(m_size[0]));
+    std::vector<float> once(static_cast<std::size_t>(m_slices) * index(0, 0, 1));
     std::size_t at = 0;
     for (int k = 0; k < m_slices; ++k) {
       const int z = std::clamp(m_low + k, 0, m_size[2] - 1);
@@ -275,11 +284,7 @@ void dropUnused(TriangleMesh& mesh) {
 std::uint8_t labelAt(const LabelMask& mask, const formats::Vec3f& place) {
   const Vector3d at = mask.geometry.indexFromWorld(toEigen(place)).array().round();
   if (!mask.geometry.containsIndex(at)) return 0;
-  const auto& size = mask.geometry.size;
-  return mask.label[(static_cast<std::size_t>(at.z()) * static_cast<std::size_t>(size[1]) +
-                     static_cast<std::size_t>(at.y())) *
-                        static_cast<std::size_t>(size[0]) +
-                    static_cast<std::size_t>(at.x())];
+  return mask.label[mask.geometry.index(at.cast<int>())];
 }
 
 }  // namespace
@@ -288,10 +293,11 @@ LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::stri
   if (wanted.size() > kMostLabels)
     throw invalidInput(name + ": " + std::to_string(wanted.size()) +
                        " labels are wanted; expected at most " + std::to_string(kMostLabels));
-  LabelMask mask{volume.geometry, {}, {}};
+  LabelMask mask{volume.geometry, {}, {}, false};
   std::visit(
       [&](const auto& voxels) {
         const std::set<std::int64_t> values = valuesOf(voxels, wanted, name);
+        mask.isGrey = isGrey(voxels);
         LabelNames named = wanted;
         if (wanted.empty())
           for (const std::int64_t value : values)
@@ -330,8 +336,8 @@ LabelSurface surfaceOf(const LabelMask& mask, const Progress& progress) {
   out.mesh = marchingCubes(grid, state, [](const Vector3d&, double a, const Vector3d&, double b) {
     return (0.5 - a) / (b - a);
   });
-  const auto& size = mask.geometry.size;
-  const Vector3d low = Vector3d::Constant(-0.5), high = Vector3d(size[0], size[1], size[2]) + low;
+  const Vector3d low = Vector3d::Constant(-0.5);
+  const Vector3d high = mask.geometry.cells().size.cast<double>() + low;
   out.cavities = dropCavities(out.mesh, low, high);
   dropUnused(out.mesh);
   for (Vector3d& p : out.mesh.position)

@@ -18,12 +18,13 @@ namespace lumen::convert {
 /// The names of labels by their values, which are not 0.
 using LabelNames = std::map<std::int64_t, std::string>;
 
-/// Voxels of a volume: of each the place of its label among the names, counted from 1; 0 for all
+/// Voxels of a volume: for each the place of its label among the names, counted from 1; 0 for all
 /// others.
 struct LabelMask {
   VolumeGeometry geometry;
   std::vector<std::uint8_t> label;
   std::vector<std::string> names;
+  bool isGrey = false;  ///< neighbours differ as the grey values of an image do
 };
 
 /// The voxels with these labels; all but 0, called "label-N", if `wanted` is empty. Throws

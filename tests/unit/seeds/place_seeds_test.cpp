@@ -2,6 +2,7 @@
 // Seeds in a volume.
 #include "converters/io/seeds/place_seeds.h"
 
+#include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -178,6 +179,21 @@ TEST(PlaceSeeds, MetresAtTheOriginOfAVolumeAreSuspicious) {
                                       vessel("b", {0.03, 0.02, 0.03})};
   EXPECT_NE(place(seeds, corner).advice.find("--seeds-unit m"), std::string::npos);
   EXPECT_EQ(place({vessel("a", {20, 10, 5})}, corner).advice, "");
+}
+
+TEST(PlaceSeeds, APointAtZeroIsNoReasonToThinkOfMetres) {
+  VolumeGeometry corner = head();
+  corner.origin = {0, 0, 0};
+  EXPECT_EQ(place({vessel("a", {0, 0, 0})}, corner).advice, "");
+}
+
+TEST(PlaceSeeds, OtherReadingsAreInPatientSpace) {
+  const auto readings = otherReadings({vessel("a", {2, -3, 4})}, head());
+  const auto ras = std::find_if(readings.begin(), readings.end(), [](const RereadSeeds& other) {
+    return other.options == "--seeds-frame ras";
+  });
+  ASSERT_NE(ras, readings.end());
+  EXPECT_EQ(ras->seeds[0].points[0].position, Vector3d(-2, 3, 4));
 }
 
 TEST(PlaceSeeds, RadiusNoVesselHasIsRefusedWithTheUnitThatWouldMakeSense) {

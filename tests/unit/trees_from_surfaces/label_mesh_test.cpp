@@ -41,6 +41,15 @@ double away(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
   return (p - a - t * (b - a)).norm();
 }
 
+TEST(LabelMesh, GreyValuesAreToldFromLabels) {
+  const auto grey = [](const Vector3d& p) {
+    return 100 + static_cast<int>(50 * (std::sin(2 * p.x()) + std::sin(3 * p.y() + p.z())));
+  };
+  const auto labels = [](const Vector3d& p) { return 1 + static_cast<int>(p.x() / 4); };
+  EXPECT_TRUE(maskOf(drawn({1, 1, 1}, grey), {}, "m.nrrd").isGrey);
+  EXPECT_FALSE(maskOf(drawn({1, 1, 1}, labels), {}, "m.nrrd").isGrey);
+}
+
 TEST(LabelMesh, LiesOnTheWallOfATubeWhateverTheSpacing) {
   for (const Vector3d& spacing : {Vector3d(0.5, 0.5, 0.5), Vector3d(0.5, 0.4, 0.8)}) {
     const Vector3d a = spacing.cwiseProduct(Vector3d(8, 15, 13)),

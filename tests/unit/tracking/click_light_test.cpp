@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/tracking/click_light.h"
+
+#include <gtest/gtest.h>
+
+#include "converters/stages/phantom/phantom.h"
+
+namespace lumen::convert {
+namespace {
+
+TEST(ClickLight, CountsTheClicksInVesselsAndNoneBesideThem) {
+  PhantomOptions options;
+  options.name = "bifurcation";
+  options.size = 64;
+  Progress progress;
+  const Phantom phantom = makePhantom(options, progress);
+  const TrackOptions track;
+  const ClickLight light(phantom.volume, track, progress);
+  EXPECT_EQ(light.countInVessels(phantom.seeds), phantom.seeds.size());
+  std::vector<SeedBranch> mirrored = phantom.seeds;
+  for (SeedBranch& seed : mirrored)  // out of the middle, where the vessels are
+    seed.points[0].position = {0.5, 0.5, seed.points[0].position.z()};
+  EXPECT_EQ(light.countInVessels(mirrored), 0U);
+}
+
+}  // namespace
+}  // namespace lumen::convert
