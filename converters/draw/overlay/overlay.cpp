@@ -47,10 +47,9 @@ public:
   /// Gives false, and draws nothing, where it would hide another or leave `panel`.
   bool put(const Panel& panel, double x, double y, std::string_view text, const Rgb& colour,
            int scale) {
-    const int width =
-        (5 * static_cast<int>(text.size()) + static_cast<int>(text.size()) + 1) * scale;
+    const int width = textWidth(text, scale) + 2 * scale;
     const PixelBox box{static_cast<int>(x), static_cast<int>(y), static_cast<int>(x) + width,
-                       static_cast<int>(y) + 9 * scale};
+                  static_cast<int>(y) + 9 * scale};
     if (box.left < panel.x || box.top < panel.y || box.right > panel.x + panel.width ||
         box.bottom > panel.y + panel.height)
       return false;
@@ -59,8 +58,7 @@ public:
           other.top < box.bottom)
         return false;
     m_boxes.push_back(box);
-    for (int j = box.top; j < box.bottom; ++j)
-      for (int i = box.left; i < box.right; ++i) m_picture.set(i, j, {0, 0, 0});
+    m_picture.fill(box.left, box.top, box.right, box.bottom, {0, 0, 0});
     m_picture.text(box.left + scale, box.top + scale, scale, text, colour);
     return true;
   }
@@ -124,7 +122,7 @@ void drawLabels(Labels& labels, const formats::CenterlineTree& tree, const Check
   for (const formats::Branch& branch : tree.branches) {
     const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
     const auto at = panel.pixel(geometry.indexFromWorld(toEigen(tree.centre[last])));
-    const double wide = (6.0 * static_cast<double>(branch.label.size()) + 1) * least;
+    const double wide = textWidth(branch.label, least) + 2 * least;
     if (few && labels.put(panel, at[0] + 4, at[1] - 9, branch.label, kLabel, least + 1)) continue;
     for (const auto& [x, y] :
          {std::pair{4.0, -4.0}, std::pair{-4.0 - wide, -4.0}, std::pair{-0.5 * wide, 4.0},
@@ -142,8 +140,7 @@ void drawLegend(Picture& picture, int left, int top, const CheckReport& report) 
   int y = top;
   const auto line = [&](const Rgb* swatch, const std::string& text) {
     if (y + kLineHeight > picture.height) return;
-    for (int i = 0; swatch != nullptr && i < kSwatch; ++i)
-      for (int j = 0; j < 4; ++j) picture.set(left + i, y + 6 + j, *swatch);
+    if (swatch != nullptr) picture.fill(left, y + 6, left + kSwatch, y + 10, *swatch);
     picture.text(left + (swatch != nullptr ? kSwatch + kGap : 0), y, kTextScale, text, kInk);
     y += kLineHeight;
   };

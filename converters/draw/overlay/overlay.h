@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "converters/draw/overlay/picture.h"
+#include "converters/draw/raster/picture.h"
 #include "converters/judge/check/check.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "converters/base/progress.h"
-#include "converters/draw/overlay/picture.h"
 #include "converters/draw/picture/camera.h"
 #include "converters/draw/picture/trace.h"
 #include "converters/draw/picture/volume_behind.h"
+#include "converters/draw/raster/picture.h"
 #include "converters/io/mesh/write_options.h"
 #include "converters/voxels/volume.h"
 #include "formats/case/case.h"

@@ -24,15 +24,6 @@ int letterScale(const Picture& picture) {
   return letterScale(picture.width, picture.height);
 }
 
-int widthOf(const std::string& text, int scale) {
-  return static_cast<int>(text.size()) * kLetterWidth * scale - scale;
-}
-
-void fill(Picture& picture, int x0, int y0, int x1, int y1, const Rgb& colour) {
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) picture.set(x, y, colour);
-}
-
 std::string shortNumber(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%g", value);
@@ -59,9 +50,9 @@ ScaleBar scaleBarOf(const Camera& camera) {
 void drawScaleBar(Picture& picture, const Camera& camera, const Rgb& ink) {
   const ScaleBar bar = scaleBarOf(camera);
   const int scale = letterScale(picture), x = 8 * scale, y = picture.height - 8 * scale;
-  fill(picture, x, y - scale, x + bar.pixels, y, ink);
-  fill(picture, x, y - 3 * scale, x + scale, y + 2 * scale, ink);
-  fill(picture, x + bar.pixels - scale, y - 3 * scale, x + bar.pixels, y + 2 * scale, ink);
+  picture.fill(x, y - scale, x + bar.pixels, y, ink);
+  picture.fill(x, y - 3 * scale, x + scale, y + 2 * scale, ink);
+  picture.fill(x + bar.pixels - scale, y - 3 * scale, x + bar.pixels, y + 2 * scale, ink);
   picture.text(x, y - (5 + kLetterHeight) * scale, scale, shortNumber(bar.length) + " mm", ink);
 }
 
@@ -82,11 +73,11 @@ void drawSides(Picture& picture, const Camera& camera, const Rgb& ink) {
   const int middle = (picture.height - kLetterHeight * scale) / 2;
   const Eigen::Vector3d right = camera.axes.row(0), up = camera.axes.row(1);
   const auto centred = [&](int y, const std::string& text) {
-    picture.text((picture.width - widthOf(text, scale)) / 2, y, scale, text, ink);
+    picture.text((picture.width - textWidth(text, scale)) / 2, y, scale, text, ink);
   };
   picture.text(edge, middle, scale, sideOf(-right), ink);
   const std::string side = sideOf(right);
-  picture.text(picture.width - edge - widthOf(side, scale), middle, scale, side, ink);
+  picture.text(picture.width - edge - textWidth(side, scale), middle, scale, side, ink);
   centred(edge, sideOf(up));
   centred(picture.height - edge - kLetterHeight * scale, sideOf(-up));
 }
@@ -95,19 +86,19 @@ void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink) {
   const int scale = letterScale(picture), margin = 8 * scale;
   int least = -kLetterWidth * scale;  // of the values, with a letter's room between two
   for (const std::string& value : legend.values)
-    least += widthOf(value, scale) + kLetterWidth * scale;
-  const int length = std::max({picture.width / 4, widthOf(legend.title, scale), least});
+    least += textWidth(value, scale) + kLetterWidth * scale;
+  const int length = std::max({picture.width / 4, textWidth(legend.title, scale), least});
   const int x0 = picture.width - margin - length;
   const int bottom = picture.height - 4 * scale, values = bottom - kLetterHeight * scale;
   const int bar = values - 7 * scale, title = bar - (2 + kLetterHeight) * scale;
   for (int x = 0; x < length; ++x) {
     const std::size_t colour =
         static_cast<std::size_t>(x) * legend.colours.size() / static_cast<std::size_t>(length);
-    fill(picture, x0 + x, bar, x0 + x + 1, bar + 5 * scale, legend.colours[colour]);
+    picture.fill(x0 + x, bar, x0 + x + 1, bar + 5 * scale, legend.colours[colour]);
   }
   picture.text(x0, title, scale, legend.title, ink);
   for (std::size_t i = 0; i < legend.values.size(); ++i) {
-    const int width = widthOf(legend.values[i], scale);
+    const int width = textWidth(legend.values[i], scale);
     const int room = length - width,
               steps = std::max(1, static_cast<int>(legend.values.size()) - 1);
     picture.text(x0 + room * static_cast<int>(i) / steps, values, scale, legend.values[i], ink);

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "converters/draw/overlay/picture.h"
 #include "converters/draw/picture/camera.h"
+#include "converters/draw/raster/picture.h"
 
 namespace lumen::convert {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "converters/base/progress.h"
-#include "converters/draw/overlay/picture.h"
 #include "converters/draw/picture/camera.h"
+#include "converters/draw/raster/picture.h"
 #include "converters/voxels/volume.h"
 
 namespace lumen::convert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/draw/overlay/picture.h"
+#include "converters/draw/raster/picture.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/draw/overlay/picture.h"
+#include "converters/draw/raster/picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,6 +86,11 @@ void Picture::thickLine(double x0, double y0, double x1, double y1, const Rgb& c
     for (int dy = -1; dy <= 1; ++dy) line(x0 + dx, y0 + dy, x1 + dx, y1 + dy, colour);
 }
 
+void Picture::fill(int x0, int y0, int x1, int y1, const Rgb& colour) {
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) set(x, y, colour);
+}
+
 int Picture::text(int x, int y, int scale, std::string_view letters, const Rgb& colour) {
   for (const char letter : letters) {
     const auto* glyph = std::find_if(kGlyphs.begin(), kGlyphs.end(),
@@ -98,6 +103,10 @@ int Picture::text(int x, int y, int scale, std::string_view letters, const Rgb& 
     x += (kColumns + 1) * scale;
   }
   return x;
+}
+
+int textWidth(std::string_view letters, int scale) {
+  return static_cast<int>(letters.size()) * (kColumns + 1) * scale - scale;
 }
 
 std::string encodePng(const Picture& picture) {
