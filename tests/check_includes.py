@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks which way includes go: see docs/architecture.md.
+"""Checks which way includes go, and that strings do not go the other way: see docs/architecture.md.
 
 check_includes.py [--table]
 
@@ -72,6 +72,71 @@ def resolve(file, name, files):
     return None
 
 
+# Folders that know the command line. Below them a message names an option without dashes, as its row does.
+KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/server")
+# Files below that still spell options with their dashes: a list that only gets shorter.
+SPELL_OPTIONS = """
+converters/draw/picture/draw_case.cpp
+converters/draw/report/report_agreement.cpp
+converters/draw/report/report_page.cpp
+converters/draw/report/report_provenance.cpp
+converters/export/export_case.cpp
+converters/export/shared/distance_grid.cpp
+converters/export/shared/insertion.cpp
+converters/export/shared/no_vdb.cpp
+converters/export/shared/volume_mesh.cpp
+converters/export/targets/cathsim/export_cathsim.cpp
+converters/export/targets/engines/engines.cpp
+converters/export/targets/grid/grid.cpp
+converters/export/targets/isaac/isaac.cpp
+converters/export/targets/mujoco/export_mujoco.cpp
+converters/export/targets/openfoam/openfoam.cpp
+converters/export/targets/print/print.cpp
+converters/export/targets/simvascular/simvascular.cpp
+converters/export/targets/slicer/slicer.cpp
+converters/export/targets/sofa/export_sofa.cpp
+converters/export/targets/steve/steve.cpp
+converters/io/centerline/patient_space.cpp
+converters/io/centerline/read_curves.cpp
+converters/io/content/file_content.cpp
+converters/io/mesh/write_gltf.cpp
+converters/io/seeds/place_seeds.cpp
+converters/io/seeds/seeds_fcsv.cpp
+converters/io/seeds/seeds_json.cpp
+converters/io/seeds/seeds_markups.cpp
+converters/io/seeds/seeds_parse.cpp
+converters/io/volume/detached_data.cpp
+converters/io/volume/dicom_folder.cpp
+converters/io/volume/meta_header.cpp
+converters/io/volume/nifti_file.cpp
+converters/io/volume/nifti_geometry.cpp
+converters/io/volume/nrrd_geometry.cpp
+converters/io/volume/read_dicom.cpp
+converters/io/volume/read_volume.cpp
+converters/io/volume/stated_geometry.cpp
+converters/io/volume/volume_checks.cpp
+converters/judge/check/check.cpp
+converters/judge/facts/reachable.cpp
+converters/library/build_list.cpp
+converters/library/change.cpp
+converters/library/check_journal.cpp
+converters/library/record_names.cpp
+converters/library/site/case_files.cpp
+converters/library/site/notes.cpp
+converters/library/verified_revisions.cpp
+converters/stages/phantom/phantom.cpp
+converters/stages/phantom/scene.cpp
+converters/stages/tracking/node_fit.cpp
+converters/stages/tracking/tracking_volume.cpp
+""".split()
+
+
+def options_spelled(text):
+    """String literals with an option in them: a call upwards that no include shows."""
+    code = re.sub(r"//[^\n]*", "", text)
+    return re.findall(r'"(?:[^"\\\n]|\\.)*?(--[a-z][a-z-]+)(?:[^"\\\n]|\\.)*"', code)
+
+
 def cycles(arrows):
     """Each cycle that a depth-first search meets, as a list of files."""
     found, state, path = [], {}, []
@@ -103,6 +168,12 @@ def main():
              if folder(file) != folder(other) and folder(other) not in MAY_INCLUDE.get(folder(file), [])]
     wrong += [f"{file}: its folder is not in the list of this script" for file in arrows if folder(file) not in MAY_INCLUDE]
     wrong += ["cycle: " + " -> ".join(map(str, cycle)) for cycle in cycles(arrows)]
+    for file in sorted(files):
+        spelled = [] if file.as_posix().startswith(KNOW_OPTIONS) else options_spelled(text[file])
+        if spelled and file.as_posix() not in SPELL_OPTIONS:
+            wrong.append(f"{file} names {spelled[0]} in a string; below the engine options are named without dashes")
+        if not spelled and file.as_posix() in SPELL_OPTIONS:
+            wrong.append(f"{file} names no option any more; it leaves the list of this script")
     if options.table:
         print("| folder | files | lines | includes |\n|---|--:|--:|---|")
         for name in MAY_INCLUDE:
