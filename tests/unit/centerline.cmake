@@ -1,7 +1,7 @@
 lumen_test(vtk_xml_test
   LABELS memory
   LIBS lumen_vtk_xml
-  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/vtk_xml_test.cpp)
+  SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/vtk_xml_test.cpp)
 lumen_test(centerline_test
   LABELS memory
   LIBS lumen_centerline lumen_vtk_xml

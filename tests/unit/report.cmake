@@ -2,7 +2,7 @@
 lumen_test(report_test
   LIBS lumen_report
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/html_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/html_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/axis_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/markup_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/profile_plot_test.cpp

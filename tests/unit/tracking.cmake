@@ -2,10 +2,10 @@ lumen_test(tracking_test
   LABELS threads
   LIBS lumen_fitting lumen_phantom lumen_tracking
   SOURCES
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/statistics_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/statistics_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/aneurysm_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/click_light_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/common/icosphere_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/icosphere_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/join_to_parent_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/joins_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/tracking/cylinder_test.cpp
