@@ -2,19 +2,27 @@
 #include "converters/cli/commands.h"
 
 #include "converters/cli/command_completion.h"
+#ifdef LUMEN_WITH_VIEWER
 #include "viewer/server/command_view.h"
+#endif
 
 namespace lumen::cli {
 
 engine::Engine allCommands() {
   engine::Engine commands = engine::makeEngine();
+#ifdef LUMEN_WITH_VIEWER
   commands.add(viewer::makeViewCommand);
+#endif
   commands.add(makeCompletionCommand);
   return commands;
 }
 
 const char* groupSummary(const std::string& word) {
-  return word == "library" ? "Make, change, check, sign and publish libraries of cases" : nullptr;
+#ifdef LUMEN_WITH_LIBRARY
+  if (word == "library") return "Make, change, check, sign and publish libraries of cases";
+#endif
+  (void)word;
+  return nullptr;
 }
 
 void CommonOptions::addRows(OptionTable& table) {

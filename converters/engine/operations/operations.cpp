@@ -7,15 +7,18 @@ namespace lumen::engine {
 Engine makeEngine() {
   Engine engine;
   for (const auto make :
-       {makeConvertCommand,       makeExportCommand,        makeTrackCommand,
-        makeFitCommand,           makeInfoCommand,          makeValidateCommand,
-        makeCompareCommand,       makeCheckCommand,         makePictureCommand,
-        makeReportCommand,        makePhantomCommand,       makeLibraryInitCommand,
-        makeLibraryAddCommand,    makeLibraryRemoveCommand, makeLibraryExtractCommand,
-        makeLibraryListCommand,   makeLibraryCheckCommand,  makeLibrarySignCommand,
-        makeLibraryVerifyCommand, makeLibraryIndexCommand,  makeLibraryBuildCommand,
-        makeLibrarySampleCommand})
+       {makeConvertCommand, makeExportCommand, makeTrackCommand, makeFitCommand, makeInfoCommand,
+        makeValidateCommand, makeCompareCommand, makeCheckCommand, makePictureCommand,
+        makeReportCommand, makePhantomCommand})
     engine.add(make);
+#ifdef LUMEN_WITH_LIBRARY
+  for (const auto make :
+       {makeLibraryInitCommand, makeLibraryAddCommand, makeLibraryRemoveCommand,
+        makeLibraryExtractCommand, makeLibraryListCommand, makeLibraryCheckCommand,
+        makeLibrarySignCommand, makeLibraryVerifyCommand, makeLibraryIndexCommand,
+        makeLibraryBuildCommand, makeLibrarySampleCommand})
+    engine.add(make);
+#endif
   return engine;
 }
 
