@@ -12,11 +12,11 @@
 namespace lumen::convert {
 namespace {
 
-using Triangle = std::array<std::size_t, 3>;
+using Corners = std::array<std::size_t, 3>;
 
 struct Sphere {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<Triangle> triangles;
+  std::vector<Corners> triangles;
 };
 
 Sphere icosahedron() {
@@ -47,7 +47,7 @@ Sphere subdivide(Sphere sphere) {
     if (isNew) sphere.vertices.push_back((sphere.vertices[i] + sphere.vertices[j]).normalized());
     return entry->second;
   };
-  std::vector<Triangle> triangles;
+  std::vector<Corners> triangles;
   for (const auto& [i, j, k] : sphere.triangles) {
     const std::size_t ij = middle(i, j), jk = middle(j, k), ki = middle(k, i);
     triangles.insert(triangles.end(), {{i, ij, ki}, {j, jk, ij}, {k, ki, jk}, {ij, jk, ki}});
