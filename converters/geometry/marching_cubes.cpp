@@ -89,7 +89,8 @@ std::size_t nearestRun(const SampleGrid& grid, const Runs& runs, const Eigen::Ve
 
 class Extraction {
 public:
-  Extraction(const SampleGrid& grid, std::span<const SampleState> state, const Crossing& crossing)
+  Extraction(const SampleGrid& grid, std::span<const SampleState> state,
+             const EdgeCrossing& crossing)
       : m_grid(grid), m_state(state), m_crossing(crossing) {
     m_vertexOnEdge.assign(3 * grid.value.size(), kNoVertex);
   }
@@ -173,7 +174,7 @@ private:
 
   const SampleGrid& m_grid;
   std::span<const SampleState> m_state;
-  const Crossing& m_crossing;
+  const EdgeCrossing& m_crossing;
   std::vector<std::uint32_t> m_vertexOnEdge;  ///< by the sample at the edge's start, and its axis
   std::array<const SampleGrid::Row*, 4> m_row{};
   int m_y = 0, m_z = 0;
@@ -200,7 +201,7 @@ std::vector<SampleState> markLumen(const SampleGrid& grid, double level,
 }
 
 TriangleMesh marchingCubes(const SampleGrid& grid, std::span<const SampleState> state,
-                           const Crossing& crossing) {
+                           const EdgeCrossing& crossing) {
   return Extraction(grid, state, crossing).run();
 }
 

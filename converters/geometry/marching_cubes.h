@@ -46,13 +46,13 @@ std::vector<SampleState> markLumen(const SampleGrid& grid, double level,
                                    const Eigen::Vector3d& seed, double reach);
 
 /// The share in (0, 1) of the way from a to b where the surface crosses that edge.
-using Crossing =
+using EdgeCrossing =
     std::function<double(const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b, double fb)>;
 
 /// Marching cubes around the samples marked Inside. Cells that lack a sample are left out. The
 /// result is an oriented 2-manifold, with a boundary only at cells that were left out; no two of
 /// its vertices coincide.
 TriangleMesh marchingCubes(const SampleGrid& grid, std::span<const SampleState> state,
-                           const Crossing& crossing);
+                           const EdgeCrossing& crossing);
 
 }  // namespace lumen::convert
