@@ -88,9 +88,9 @@ std::optional<convert::SurfaceReport> writeMeshAs(const formats::Case& value, co
   return std::move(mesh.report);
 }
 
-constexpr auto kGlb = writeMeshAs<encodeGltf<true>, true>;
-constexpr auto kGltf = writeMeshAs<encodeGltf<false>, true>;
-constexpr auto kVtp = writeMeshAs<encodePlain<convert::encodeVtp>>;
+constexpr auto kWriteGlb = writeMeshAs<encodeGltf<true>, true>;
+constexpr auto kWriteGltf = writeMeshAs<encodeGltf<false>, true>;
+constexpr auto kWriteVtp = writeMeshAs<encodePlain<convert::encodeVtp>>;
 /// The writer of a centerline format: the case's tree, encoded.
 template <std::string (*encode)(const formats::CenterlineTree&)>
 std::optional<convert::SurfaceReport> writeTreeAs(const formats::Case& value, const fs::path& file,
@@ -100,9 +100,9 @@ std::optional<convert::SurfaceReport> writeTreeAs(const formats::Case& value, co
   return std::nullopt;
 }
 
-constexpr auto kObj = writeMeshAs<encodePlain<convert::encodeObj>>;
-constexpr auto kStl = writeMeshAs<encodeStl>;
-constexpr auto kPly = writeMeshAs<encodePlain<convert::encodePly>>;
+constexpr auto kWriteObj = writeMeshAs<encodePlain<convert::encodeObj>>;
+constexpr auto kWriteStl = writeMeshAs<encodeStl>;
+constexpr auto kWritePly = writeMeshAs<encodePlain<convert::encodePly>>;
 
 // clang-format off
 std::vector<FileFormat> makeTable() {
@@ -115,18 +115,18 @@ std::vector<FileFormat> makeTable() {
        .readCase = readCase, .writeCase = writeCaseAs<formats::CaseEncoding::Json>},
       // meshes
       {.name = "glb", .title = "glTF", .kind = Mesh, .endings = {".glb"},
-       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kGlb},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kWriteGlb},
       {.name = "gltf", .title = "glTF", .kind = Mesh, .endings = {".gltf"},
-       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kGltf},
+       .readMesh = readMeshAs<MeshFormat::Gltf>, .writeCase = kWriteGltf},
       {.name = "vtp", .title = "VTK", .kind = Mesh, .endings = {".vtp"},
-       .readMesh = readMeshAs<MeshFormat::Vtp>, .writeCase = kVtp},
+       .readMesh = readMeshAs<MeshFormat::Vtp>, .writeCase = kWriteVtp},
       {.name = "vtk", .title = "VTK", .kind = Mesh, .endings = {".vtk"}, .readMesh = readMeshAs<MeshFormat::Vtk>},
       {.name = "obj", .title = "OBJ", .kind = Mesh, .endings = {".obj"},
-       .readMesh = readMeshAs<MeshFormat::Obj>, .writeCase = kObj},
+       .readMesh = readMeshAs<MeshFormat::Obj>, .writeCase = kWriteObj},
       {.name = "stl", .title = "STL", .kind = Mesh, .endings = {".stl"},
-       .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kStl},
+       .readMesh = readMeshAs<MeshFormat::Stl>, .writeCase = kWriteStl},
       {.name = "ply", .title = "PLY", .kind = Mesh, .endings = {".ply"},
-       .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kPly},
+       .readMesh = readMeshAs<MeshFormat::Ply>, .writeCase = kWritePly},
       {.name = "scn", .title = "a scene of SOFA", .kind = Mesh, .endings = {".scn"},
        .readMesh = readVesselsOfScene, .readScene = readSceneMesh},
       // centerlines

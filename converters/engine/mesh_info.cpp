@@ -19,12 +19,12 @@ namespace {
 
 constexpr std::size_t kShownRows = 12;
 
-constexpr std::array<std::pair<const char*, double>, 4> kUnits = {
+constexpr std::array<std::pair<const char*, double>, 4> kNamedUnits = {
     {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"um", 1e-3}}};
 
 void chooseUnit(MeshInfo& info, const std::string& name, const std::string& unit,
                 Progress& progress) {
-  for (const auto& [word, millimetres] : kUnits)
+  for (const auto& [word, millimetres] : kNamedUnits)
     if (unit.empty() ? info.file.unitMm == millimetres : unit == word) {
       info.unit = word;
       info.millimetres = millimetres;

@@ -50,7 +50,7 @@ const std::map<std::string, View>& viewsByName() {
   return views;
 }
 
-std::string_view textOf(const std::vector<std::byte>& bytes) {
+std::string_view asText(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
@@ -236,7 +236,7 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   IncomingCase incoming(library);
   incoming.record.id = id;
   incoming.record.about = std::move(about);
-  incoming.add(convert::kCaseFile, "case", textOf(bytes));
+  incoming.add(convert::kCaseFile, "case", asText(bytes));
   try {
     convert::describe(value, digest, incoming.record, progress);
   } catch (const Error& error) {
@@ -250,7 +250,7 @@ IncomingCase prepareCase(const fs::path& caseFile, convert::CaseAbout about,
   if (value.models) addPictures(value, wishes, incoming, progress);
   for (const std::string& target : wishes.targets)
     addExport(target, value, file, incoming, progress);
-  addPages(textOf(bytes), wishes, incoming, around);
+  addPages(asText(bytes), wishes, incoming, around);
   return incoming;
 }
 

@@ -91,7 +91,8 @@ void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultLi
         kManifestFile, kTagManifestFile, "index.html"})
     root.files.insert(name);
   root.files.insert({kPayload, "site"});  // their entries are looked at below
-  folder.list("", [&](const PlainEntry& entry) {
+  // an entry that cannot be read is a fault of the walk below
+  (void)folder.list("", [&](const PlainEntry& entry) {
     if (formats::isTemporaryName(entry.name) && isFileOrFolder(entry))
       root.files.insert(entry.name);
     return true;
