@@ -51,10 +51,9 @@ TEST(JoinToParent, TheParentsNodeIsWhereTheLumenLeadsNotTheNearestInAStraightLin
   const TrackContext context(spline, options, 0, silent);
   std::vector<TrackedBranch> all{alongZ(6.4, 0.6, 12, 1.0), alongZ(9, 3, 1, 0.6)};
   all[1].parentBranch = 0;
-  Random random(3);
-  TrackWorkspace workspace(context);
+  TrackRun run(context, Random(3));
   TrackedBranch child = all[1];
-  joinToParent(context, all, {}, child, random, workspace);
+  joinToParent(run, all, {}, child);
   ASSERT_EQ(child.parentBranch, 0);
   ASSERT_GE(child.parentNode, 0);
   EXPECT_NEAR(all[0].nodes[static_cast<std::size_t>(child.parentNode)].centre.z(), 7.0, 0.8);
