@@ -1,6 +1,6 @@
 lumen_test(library_test
   LABELS memory
-  LIBS lumen_library lumen_library_list
+  LIBS lumen_library lumen_library_list lumen_library_trust
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/build_list_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/library/change_test.cpp
