@@ -78,8 +78,8 @@ TEST(PlaceSeeds, InsideIsUpToHalfAVoxelBeyondTheOutermostCentres) {
 }
 
 TEST(PlaceSeeds, DistancesInMessagesHaveSixSignificantDigits) {
-  expectRefused(placeRefusal({vessel("a", {105.123456789, 10, 15})}, volume()),
-                {"lies 0.123457 mm outside", "(105.123, 10, 15)"});
+  expectRefused(placeRefusal({vessel("a", {105.623456789, 10, 15})}, volume()),
+                {"lies 0.623457 mm outside", "(105.623, 10, 15)"});
 }
 
 TEST(PlaceSeeds, OneBadSeedOfFortyIsLeftOutAndNamed) {

@@ -114,7 +114,7 @@ TEST(CaseOfMesh, SaysThatACenterlineIsInAnotherFrame) {
     const std::string what = error.what();
     EXPECT_NE(what.find("0 of its 37 points lie inside"), what.npos) << what;
     EXPECT_NE(what.find("with x and y negated, all would"), what.npos) << what;
-    EXPECT_NE(what.find("--centerline-frame ras"), what.npos) << what;
+    EXPECT_NE(what.find("centerline-frame ras"), what.npos) << what;
   }
 }
 
