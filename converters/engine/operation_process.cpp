@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "converters/base/error.h"
+#include "converters/base/json_place.h"
 #include "converters/base/run_program.h"
 #include "converters/engine/file_access.h"
 
@@ -24,10 +25,18 @@ Json encoded(const Operation& operation, const ProcessOptions& options) {
   return json;
 }
 
-Operation decoded(const Json& json) {
-  Operation operation{json.at("name"), json.at("arguments"), {}};
-  for (const Json& option : json.at("options"))
-    operation.options.emplace_back(option.at(0), option.at(1));
+std::vector<std::string> textsIn(const convert::JsonPlace& list) {
+  std::vector<std::string> texts;
+  for (const convert::JsonPlace& one : list.elements()) texts.push_back(one.text());
+  return texts;
+}
+
+Operation decoded(const convert::JsonPlace& json) {
+  Operation operation{json.at("name").text(), textsIn(json.at("arguments")), {}};
+  for (const convert::JsonPlace& option : json.at("options").elements()) {
+    const std::vector<convert::JsonPlace> pair = option.elements();
+    operation.options.emplace_back(pair.at(0).text(), textsIn(pair.at(1)));
+  }
   return operation;
 }
 
@@ -46,11 +55,8 @@ std::string endText(const convert::ProgramResult& result) {
   }
 }
 
-Json operationJson(const fs::path& file) {
-  Json json = Json::parse(readText(file, "operation"), nullptr, false);
-  if (!json.is_object() || !json.contains("options"))
-    throw invalidInput(file.string() + ": this is no operation of lumen library build");
-  return json;
+convert::JsonFile operationJson(const fs::path& file) {
+  return convert::JsonFile(readText(file, "operation"), file);
 }
 
 /// Passes all on, and counts warnings.
@@ -77,7 +83,7 @@ private:
 OperationEnd runInProcess(const Operation& operation, const ProcessOptions& options,
                           const fs::path& log, const Progress& progress) {
   const fs::path file = log.string() + ".operation.json";
-  writeText(encoded(operation, options).dump(), file);
+  writeText(encoded(operation, options).dump(-1, ' ', false, Json::error_handler_t::replace), file);
   std::error_code ignored;
   fs::remove(endFile(file), ignored);
   convert::ProgramCall call;
@@ -92,9 +98,10 @@ OperationEnd runInProcess(const Operation& operation, const ProcessOptions& opti
   end.code = result.code;
   if (!end.isDone) end.error = endText(result);
   if (fs::exists(endFile(file), ignored)) {
-    const Json json = Json::parse(readText(endFile(file), "end of an operation"));
-    end.warnings = json.at("warnings");
-    if (const std::string error = json.at("error"); !error.empty()) end.error = error;
+    convert::JsonFile left(readText(endFile(file), "end of an operation"), endFile(file));
+    const convert::JsonPlace json(left);
+    end.warnings = static_cast<std::size_t>(json.at("warnings").number());
+    if (const std::string& error = json.at("error").text(); !error.empty()) end.error = error;
   }
   fs::remove(endFile(file), ignored);
   fs::remove(file, ignored);
@@ -102,22 +109,25 @@ OperationEnd runInProcess(const Operation& operation, const ProcessOptions& opti
 }
 
 ProcessOptions operationOptions(const fs::path& file) {
-  const Json json = operationJson(file);
-  return {json.at("threads"), json.at("strict")};
+  convert::JsonFile given = operationJson(file);
+  const convert::JsonPlace json(given);
+  return {static_cast<int>(json.at("threads").number()), json.at("strict").boolean()};
 }
 
 int runOperationFile(const fs::path& file, const Engine& engine, Surroundings& around) {
-  const Json json = operationJson(file);
+  convert::JsonFile given = operationJson(file);
   CountingProgress counting(around.progress);
   Surroundings own{engine, counting};
   own.threads = around.threads;
   own.strict = around.strict;
   own.willWrite = around.willWrite;
   const auto leaveEnd = [&](const std::string& error) {
-    writeText(Json{{"error", error}, {"warnings", counting.warnings()}}.dump(), endFile(file));
+    writeText(Json{{"error", error}, {"warnings", counting.warnings()}}.dump(
+                  -1, ' ', false, Json::error_handler_t::replace),
+              endFile(file));
   };
   try {
-    const Answer answer = engine.run(decoded(json), own);
+    const Answer answer = engine.run(decoded(convert::JsonPlace(given)), own);
     leaveEnd("");
     return answer.code;
   } catch (const Error& error) {
