@@ -18,7 +18,7 @@ target_link_libraries(blob_reader PRIVATE lumen_options lumen::blob nlohmann_jso
 
 python_test(Conformance.OfOurReaderHoldsToTheByte quick
   ${conformance}/run.py --exact --reader $<TARGET_FILE:case_reader>)
-python_test(Conformance.OfTheReferenceReaderHolds quick
+python_test(Conformance.OfTheReferenceReaderHolds slow
   ${conformance}/run.py --lacks zstd --lacks draco
   --reader "{python} -S -E ${PROJECT_SOURCE_DIR}/spec/reference/lumen_reader.py")
 # libblob answers queries, has neither decoder, and computes with floats
