@@ -21,7 +21,7 @@ std::pair<std::int64_t, std::string> namedLabel(std::string_view word) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   const std::string_view rest = word.substr(static_cast<std::size_t>(end - word.data()));
-  if (rest.find('=', 1) != std::string_view::npos)
+  if (error == std::errc() && rest.starts_with('=') && rest.find('=', 1) != std::string_view::npos)
     throw Error(ErrorKind::Usage, "--labels: " + formats::printable(std::string(word)) +
                                       " names two labels; expected a comma between them, such as "
                                       "1=ica,2=mca");
