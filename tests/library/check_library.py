@@ -115,6 +115,7 @@ def changing(place):
     place.add("--id", "later")
     names = sorted(p.name for p in library.iterdir())
     expect("README.md" in names and not {"library.json.sig", "library.json.minisig", "index.html", "site"} & set(names), f"left: {names}")
+    (library / "README.md").unlink()
     expect(library.stat().st_mode & 0o777 == 0o750, "the library's permissions are others")
     place.valid("after a replacement")
     full = [case for case in place.library()["cases"] if case["id"] == "full"][0]
