@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stage throws; `main` turns it into a message on standard error and an exit code.
+// Exceptions of the stages; `main` turns them into a message on standard error and an exit code.
 #pragma once
 
 #include <stdexcept>
@@ -33,7 +33,7 @@ inline Error invalidInput(const std::string& what) {
 inline Error unsupported(const std::string& what) {
   return {ErrorKind::Unsupported, what};
 }
-/// Anything else that went wrong, such as a full disk.
+/// Any other failure, such as a full disk.
 inline Error failed(const std::string& what) {
   return {ErrorKind::Failed, what};
 }

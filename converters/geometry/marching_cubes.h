@@ -18,9 +18,9 @@ namespace lumen::convert {
 /// a range of x of its own, so that a grid need not fill its box.
 struct SampleGrid {
   struct Row {
-    int first = 0;           ///< x of its first sample
+    int first = 0;           ///< x of the row's first sample
     int count = 0;           ///< samples, 0 or more
-    std::size_t offset = 0;  ///< of its first sample in `value`
+    std::size_t offset = 0;  ///< index of the row's first sample in `value`
   };
 
   double cell = 0;         ///< mm
@@ -35,7 +35,7 @@ struct SampleGrid {
   }
 };
 
-/// What a sample is to the surface.
+/// State of a sample with respect to the surface.
 enum class SampleState : std::uint8_t { Outside, OtherInside, Inside };
 
 /// Marks samples above `level`: Inside those in the connected component of the one nearest to
@@ -45,7 +45,7 @@ enum class SampleState : std::uint8_t { Outside, OtherInside, Inside };
 std::vector<SampleState> markLumen(const SampleGrid& grid, double level,
                                    const Eigen::Vector3d& seed, double reach);
 
-/// The share in (0, 1) of the way from a to b where the surface crosses that edge.
+/// The fraction in (0, 1) of the edge from a to b at which the surface crosses it.
 using EdgeCrossing =
     std::function<double(const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b, double fb)>;
 
