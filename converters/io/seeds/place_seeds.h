@@ -20,10 +20,10 @@ struct PlacedSeeds {
 };
 
 /// Seeds as points of a volume. A point up to half a voxel beyond the centres of the outermost
-/// voxels is moved into their box. Points farther outside are left out, and those with a radius over
-/// half of the volume's longest side, or below a tenth of its finest voxel edge. Other readings of
-/// the coordinates (as voxels, in another unit, with x and y flipped) are judged by all points
-/// together. Throws Error(InvalidInput), with `file` and the advice, if no seed is left.
+/// voxels is moved into their box. Points farther outside are left out, and those with a radius
+/// over half of the volume's longest side, or below a tenth of its finest voxel edge. Other
+/// readings of the coordinates (as voxels, in another unit, with x and y flipped) are judged by all
+/// points together. Throws Error(InvalidInput), with `file` and the advice, if no seed is left.
 PlacedSeeds placeSeeds(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
                        const std::filesystem::path& file);
 
