@@ -25,7 +25,7 @@ private:
   ErrorKind m_kind;
 };
 
-/// Bad input; `what` names the file, the place in it, what was found and what was expected.
+/// Bad input; `what` names the file, the place in it, the finding and the expectation.
 inline Error invalidInput(const std::string& what) {
   return {ErrorKind::InvalidInput, what};
 }

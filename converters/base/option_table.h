@@ -94,7 +94,7 @@ struct OptionRow {
   std::string needs;                  ///< the option without which it does nothing
 
   bool isGiven = false;                  ///< set() was called
-  bool isPreference = false;             ///< a configuration file gives the value
+  bool isPreference = false;             ///< a configuration file states the value
   std::vector<std::string> givenValues;  ///< values of the last set()
 
   [[nodiscard]] bool isFlag() const { return !isArgument && count == 0; }
@@ -186,7 +186,7 @@ public:
 
   /// The values of recorded rows that are set, as a step of a case states them.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> recordedValues() const;
-  /// Takes the values of recorded rows from a step. A value of another type is passed over.
+  /// Takes the values of recorded rows from a step. A value of another type is ignored.
   void takeRecorded(const formats::Step& step);
 
 private:

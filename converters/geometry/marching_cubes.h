@@ -40,8 +40,8 @@ enum class SampleState : std::uint8_t { Outside, OtherInside, Inside };
 
 /// Marks samples above `level`: Inside those in the connected component of the one nearest to
 /// `seed` (mm), OtherInside the rest. Samples are adjacent along the lattice's edges and the
-/// diagonals of its faces, as the surface joins them. Nothing is Inside if no sample is within
-/// `reach` of `seed`.
+/// diagonals of its faces, as the surface joins them. No sample is Inside if none is within `reach`
+/// of `seed`.
 std::vector<SampleState> markLumen(const SampleGrid& grid, double level,
                                    const Eigen::Vector3d& seed, double reach);
 

@@ -28,7 +28,7 @@ private:
   Eigen::Vector3d m_a, m_axis;  // m_axis: unit, or zero if one sphere holds the other
   double m_length, m_radiusA, m_radiusB;
   double m_soleEnd = 0;                // `along` if one sphere holds the other
-  double m_sine, m_cosine, m_tangent;  // of the cone's half angle; positive if it narrows towards b
+  double m_sine, m_cosine, m_tangent;  // functions of the cone's half angle, > 0 if it narrows to b
 };
 
 /// Position of a point with respect to the wall.

@@ -22,8 +22,7 @@ struct CenterlineCurve {
   std::string name;
   std::vector<CurvePoint> points;
   std::int32_t parent = -1;  ///< index of the curve to which it is attached, if the file states one
-  std::int64_t parentPoint =
-      -1;  ///< index of the parent's point, which then is the place of attachment
+  std::int64_t parentPoint = -1;  ///< index of the parent's point of attachment
 };
 
 /// The points and vessels of a file; the caller fills in the rest of it. The beginning that a curve

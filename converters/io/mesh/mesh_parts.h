@@ -12,8 +12,7 @@ namespace lumen::convert {
 
 /// The faces of one group, and of one branch if the surface is also cut into branches.
 struct MeshPart {
-  std::uint32_t branch =
-      0;  ///< index into the surface's labels; 0 for all if it is not cut into branches
+  std::uint32_t branch = 0;           ///< index into the surface's labels; 0 if not cut by branches
   std::uint32_t group = 0;            ///< index into the surface's groups
   bool isFlat = false;                ///< an inlet or an outlet
   std::vector<std::uint32_t> vertex;  ///< vertices of the surface, each once

@@ -100,7 +100,7 @@ std::optional<std::string> faultOf(const Vector3d& world, const SeedPoint& point
 
 // ---- other readings ----
 
-/// Another way to read coordinates, and the options that ask for it.
+/// Another reading of coordinates, and the options that select it.
 struct OtherReading {
   SeedReading reading;
   const char *words, *options;
@@ -126,7 +126,7 @@ Vector3d asInFile(const SeedFrame& frame, const Vector3d& position) {
   return frame.direction(position) / (frame.system == SeedSystem::Voxel ? 1.0 : frame.unit);
 }
 
-/// Position in LPS mm, if the branch's file is read in another way.
+/// Position in LPS mm, under another reading of the branch's file.
 Vector3d reread(const SeedBranch& branch, const Vector3d& position, const SeedReading& reading,
                 const VolumeGeometry& geometry) {
   SeedBranch read;

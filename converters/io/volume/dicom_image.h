@@ -22,9 +22,8 @@ enum class DicomPacking { Native, NativeBigEndian, Jpeg, JpegLs, Jpeg2000, RunLe
 /// Placement of an image or a frame, and the meaning of its stored values. Lengths are mm, vectors
 /// LPS.
 struct DicomPlane {
-  std::optional<Eigen::Vector3d> position;  ///< centre of the first pixel
-  std::optional<std::array<double, 6>>
-      orientation;  ///< directions of the rows, then of the columns
+  std::optional<Eigen::Vector3d> position;           ///< centre of the first pixel
+  std::optional<std::array<double, 6>> orientation;  ///< rows' direction, then columns'
   std::optional<std::array<double, 2>>
       pixelSpacing;                        ///< distance between rows, then between columns
   std::optional<double> distance;          ///< distance between slices or frames
@@ -39,10 +38,9 @@ struct DicomImage {
   std::size_t columns = 0, rows = 0, frames = 1, samples = 1;
   std::size_t bitsAllocated = 0, bitsStored = 0;
   bool isSigned = false;
-  std::string photometric;  ///< interpretation, such as MONOCHROME2
-  DicomPlane plane;         ///< properties of all frames
-  std::vector<DicomPlane>
-      perFrame;  ///< properties of single frames, for the first of them at least
+  std::string photometric;           ///< interpretation, such as MONOCHROME2
+  DicomPlane plane;                  ///< properties of all frames
+  std::vector<DicomPlane> perFrame;  ///< properties of single frames, at least the first
   DicomElement pixels;
 
   [[nodiscard]] std::size_t frameBytes() const { return columns * rows * bitsAllocated / 8; }

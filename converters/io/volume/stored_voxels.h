@@ -40,8 +40,7 @@ struct StoredVoxels {
   /// Bytes before the voxels in the unpacked stream; below 0: the voxels end -1 - byteSkip bytes
   /// before the end of the file.
   std::int64_t byteSkip = 0;
-  std::optional<std::uint64_t>
-      packedSize;  ///< bytes of the packed stream, if the header states them
+  std::optional<std::uint64_t> packedSize;  ///< bytes of the packed stream, if stated
   /// Factor of the stored values, and the addend; the result is float.
   struct Scaling {
     double slope = 1, intercept = 0;

@@ -12,10 +12,8 @@ namespace lumen::convert {
 
 struct VolumeHeader {
   VolumeGeometry geometry;
-  std::string
-      storedType;  ///< type of a voxel in the file: int8, uint8, ... uint64, float32 or float64
-  std::string
-      encoding;  ///< encoding of the voxels in the file, in its format's words: "raw", "gzip"
+  std::string storedType;         ///< voxel type: int8, uint8, ... uint64, float32 or float64
+  std::string encoding;           ///< encoding in the format's words: "raw", "gzip"
   std::uint64_t voxelBytes = 0;   ///< size of all voxels in the stored type, unpacked
   std::uint64_t storedBytes = 0;  ///< size of the files that hold them
   /// Assumptions of the reader where the header is incomplete: each a sentence that names the

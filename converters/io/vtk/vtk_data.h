@@ -21,9 +21,8 @@ struct VtkPacking {
 struct VtkEncodedArray {
   std::string_view type;  ///< Int8, UInt8 ... Int64, UInt64, Float32, Float64
   VtkForm form = VtkForm::Ascii;
-  std::string_view
-      text;  ///< text from the array's first byte on; may extend beyond the array unless ascii
-  std::string where;  ///< file, line and name: the beginning of messages
+  std::string_view text;  ///< array's text; may extend beyond it unless ascii
+  std::string where;      ///< file, line and name: the beginning of messages
 };
 
 /// The `count` numbers of the array; those of 64 bits beyond 2^53 are rounded. Allocations never

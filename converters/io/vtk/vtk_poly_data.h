@@ -25,8 +25,7 @@ struct VtkCells {
 struct VtkArray {
   std::string name;
   std::uint32_t components = 1;
-  std::vector<double>
-      values;  ///< components of one tuple after another; may hold non-finite values
+  std::vector<double> values;  ///< tuple after tuple; may hold non-finite values
 };
 
 /// Lengths and axes are the file's; `unit` and `space` hold its words for them, empty if it has

@@ -18,8 +18,7 @@ namespace lumen::convert {
 /// A connected group of voxels.
 struct Region {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS: the deepest place
-  std::uint32_t node =
-      0;  ///< node of the case: inside of which it lies, or from which it was reached
+  std::uint32_t node = 0;  ///< case's node whose lumen holds it, or that reached it
   std::size_t voxels = 0;
   double volume = 0;  ///< mm^3
   double radius = 0;  ///< mm; radius of the greatest ball in it

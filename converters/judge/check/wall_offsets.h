@@ -47,9 +47,8 @@ std::vector<WallOffset> wallOffsets(const formats::CenterlineTree& tree,
 /// Intensity levels that separate lumen from background around a node; brighter is more, so values
 /// are negative if vessels are dark.
 struct NodeLevels {
-  float half = 0;  ///< halfway between lumen and background
-  float faint =
-      0;  ///< a quarter of the way to the lumen, or the upper limit of the background's texture
+  float half = 0;   ///< halfway between lumen and background
+  float faint = 0;  ///< a quarter up to the lumen, or the top of the background's texture
 };
 
 /// The levels of each node: medians over the edges of the nodes around it in its branch, of the
