@@ -26,7 +26,7 @@ struct Operation {
 struct OperationEnd {
   bool isDone = false;
   int code = 0;       ///< exit code
-  std::string error;  ///< one sentence, if it failed
+  std::string error;  ///< one sentence, if it is not done
   std::size_t warnings = 0;
 };
 

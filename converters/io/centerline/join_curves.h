@@ -17,7 +17,7 @@ struct CurvePoint {
   double radius = 0;  ///< 0: unknown
 };
 
-/// A point of a curve, in any unit.
+/// A curve, in any unit.
 struct CenterlineCurve {
   std::string name;
   std::vector<CurvePoint> points;

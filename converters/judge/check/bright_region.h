@@ -42,11 +42,10 @@ void withVoxels(const Levels& levels, Visit&& visit) {
 /// them.
 struct BrightRegion {
   VoxelSet voxels;
-  std::vector<std::uint32_t> node;  ///< for each voxel: node where its path began
-  std::vector<std::uint32_t>
-      order;                 ///< all voxels in the order in which they were reached, nearest first
-  std::size_t rim = 0;       ///< number of these that touch the lumen
-  std::vector<float> depth;  ///< mm to the nearest voxel that is not bright
+  std::vector<std::uint32_t> node;   ///< for each voxel: node where its path began
+  std::vector<std::uint32_t> order;  ///< all voxels as they were reached, nearest first
+  std::size_t rim = 0;               ///< number of these that touch the lumen
+  std::vector<float> depth;          ///< mm to the nearest voxel that is not bright
   std::vector<std::uint8_t>
       wide;  ///< 1: in a region too wide for a vessel, or reached only through one
 };
