@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a case records what a person has changed in it, and what it records of the stages before.
+// A case's record of manual changes, and of the stages before them.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@ namespace lumen {
 
 constexpr const char* kEditStep = "edit";
 
-/// Adds a sentence to what was done to a case by hand: edits that follow one another are parameters of
-/// one "edit" step, numbered from 0001. Throws Error(Unsupported) if the case has no room for another
-/// step.
+/// Adds a sentence to the record of manual changes of a case: edits that follow one another are
+/// parameters of one "edit" step, numbered from 0001. Throws Error(Unsupported) if the case has no
+/// room for another step.
 void recordEdit(formats::Metadata& metadata, const std::string& sentence);
 
-/// The last step of that name, or null.
+/// The last step of the given name, or null.
 const formats::Step* lastStep(const formats::Metadata& metadata, const std::string& name);
 
 }  // namespace lumen

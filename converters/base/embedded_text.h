@@ -8,7 +8,7 @@ namespace lumen::convert {
 
 struct EmbeddedText {
   std::string_view
-      name;  ///< of its file, relative to the folder of the CMakeLists.txt that embeds it
+      name;  ///< name of its file, relative to the folder of the CMakeLists.txt that embeds it
   std::string_view bytes;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a stage throws; `main` turns it into a message on standard error and an exit code.
+// Exceptions of the stages; `main` turns them into a message on standard error and an exit code.
 #pragma once
 
 #include <stdexcept>
@@ -25,7 +25,7 @@ private:
   ErrorKind m_kind;
 };
 
-/// Bad input; `what` names the file, the place in it, what was found and what was expected.
+/// Bad input; `what` names the file, the place in it, the finding and the expectation.
 inline Error invalidInput(const std::string& what) {
   return {ErrorKind::InvalidInput, what};
 }
@@ -33,7 +33,7 @@ inline Error invalidInput(const std::string& what) {
 inline Error unsupported(const std::string& what) {
   return {ErrorKind::Unsupported, what};
 }
-/// Anything else that went wrong, such as a full disk.
+/// Any other failure, such as a full disk.
 inline Error failed(const std::string& what) {
   return {ErrorKind::Failed, what};
 }

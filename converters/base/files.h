@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files in and out. Files that appear under their name in one step: formats/case/atomic_file.h.
+// Whole files, read and written. Files that appear under their name in one step:
+// formats/case/atomic_file.h.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +16,19 @@ namespace lumen {
 inline constexpr std::uint64_t kAnySize = UINT64_MAX;
 inline constexpr std::uint64_t kMostText = std::uint64_t{64} << 20;  // bytes of a text format
 
-/// The bytes of a regular file, which may be empty. `role` names it in messages, such as "seeds file". Throws
-/// Error(InvalidInput), naming the file, if it is missing, no regular file, larger than `most` bytes, or cannot be read.
+/// The bytes of a regular file, which may be empty. `role` names it in messages, such as "seeds
+/// file". Throws Error(InvalidInput), naming the file, if it is missing, no regular file, larger
+/// than `most` bytes, or cannot be read.
 std::string readWholeFile(const std::filesystem::path& file, std::string_view role,
                           std::uint64_t most = kAnySize);
 
-/// A new file in a folder that is not in its place yet, written piece by piece. Throws Error(Failed), naming the file.
+/// A new file in a folder that is not in its place yet, written piece by piece. Throws
+/// Error(Failed), naming the file.
 class NewFile {
 public:
   explicit NewFile(std::filesystem::path file);
   void add(std::string_view bytes);
-  /// Once, after the last piece.
+  /// Called once, after the last piece.
   void close();
 
 private:
@@ -34,10 +37,11 @@ private:
   std::ofstream m_out;
 };
 
-/// A whole file, as NewFile.
+/// Writes a whole file, as NewFile does.
 void writeNewFile(std::string_view bytes, const std::filesystem::path& file);
 
-/// Flushes to the disk all that was written to the file system of a folder. Throws Error(Failed), naming the folder.
+/// Flushes to the disk all data written to the file system of a folder. Throws Error(Failed),
+/// naming the folder.
 void flushFolder(const std::filesystem::path& folder);
 
 }  // namespace lumen

@@ -11,7 +11,7 @@ namespace lumen {
 
 namespace {
 
-/// What stands for a character that could be markup; empty for all others.
+/// The replacement of a character that could be markup; empty for all others.
 std::string_view reference(char c) {
   switch (c) {
     case '&':

@@ -20,7 +20,7 @@
 namespace lumen::convert {
 namespace {
 
-// The sanitizers reserve terabytes of addresses, which no limit allows.
+// The sanitizers reserve terabytes of addresses, which any limit would forbid.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kLimitsMemory = false;
 #elif defined(__has_feature)
@@ -53,7 +53,7 @@ private:
   void* m_at;
 };
 
-/// A child that is ended and reaped with this.
+/// A child process, killed and reaped with this object.
 class Child {
 public:
   explicit Child(pid_t id) : m_id(id) {}
@@ -65,7 +65,7 @@ public:
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// True once it has ended, with its status.
+  /// True once the child has ended, with its status.
   bool hasEnded(int& status) {
     if (waitpid(m_id, &status, WNOHANG) != m_id) return false;
     m_id = 0;
@@ -93,13 +93,13 @@ std::size_t addressSpace() {
                            const std::function<bool(std::span<std::byte>)>& fill) {
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
     std::signal(signal, SIG_DFL);
-  // Ctrl-C goes to both; the parent ends this one, and its own end does too
+  // Ctrl-C reaches both; the parent kills the child, and so does the parent's own end
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, seconds);
   if (kLimitsMemory && addresses > 0) limit(RLIMIT_AS, addresses);
-  // an assertion that fails, or a sanitizer, would print
+  // a failed assertion, or a sanitizer, would print
   if (const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0) {
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
@@ -125,7 +125,7 @@ IsolatedEnd callIsolated(std::span<std::byte> out, std::size_t memory, unsigned 
   if (id < 0) throw failed("a process to decode in cannot be started");
   if (id == 0) runChild(buffer.bytes(), before > 0 ? before + memory : 0, seconds, fill);
   Child child(id);
-  // a child that waits for ever uses no time of the processor
+  // a child that waits forever uses no processor time
   const auto latest = Clock::now() + std::chrono::seconds(10 * seconds);
   auto pause = std::chrono::microseconds(100);
   int status = 0;

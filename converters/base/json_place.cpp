@@ -12,7 +12,7 @@ using formats::JsonNumber;
 using formats::JsonValue;
 using formats::printable;
 
-/// A value as a message shows it.
+/// A value as shown in a message.
 std::string shown(const JsonValue& value) {
   if (value.isArray()) return "an array of " + std::to_string(value.arraySize()) + " entries";
   if (value.isObject()) return "an object";

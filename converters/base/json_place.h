@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON files of others, whose first fault ends their reading.
+// JSON files of other programs; reading stops at the first fault.
 #pragma once
 
 #include <filesystem>
@@ -52,7 +52,7 @@ public:
   void onlyKeys(std::initializer_list<const char*> keys) const;
   [[nodiscard]] bool has(const char* key) const { return m_place.find(key).has_value(); }
   [[nodiscard]] JsonPlace at(std::string_view key) const;  ///< refuses a missing key
-  [[nodiscard]] std::vector<JsonPlace> elements() const;   ///< of an array
+  [[nodiscard]] std::vector<JsonPlace> elements() const;   ///< elements of an array
   [[nodiscard]] const std::string& text() const { return *m_place.text(); }
   [[nodiscard]] bool boolean() const { return m_place.boolean("true or false"); }
   [[nodiscard]] double number() const { return m_place.real(); }  ///< finite

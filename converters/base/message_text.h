@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last step of a message before a person reads it.
+// Final clean-up of a message for a person.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace lumen {
 
-/// `message` fit for a terminal: each of its lines is printable and has no addresses of objects,
-/// which libraries put into theirs ("NrrdImageIO(0x55d0c0ffee00): ") and which differ from run to
+/// `message` for a terminal: each of its lines is printable and has no object addresses, which
+/// libraries put into their messages ("NrrdImageIO(0x55d0c0ffee00): ") and which differ from run to
 /// run.
 std::string messageText(std::string_view message);
 

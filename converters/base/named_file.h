@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a writer of several files gives.
+// Output of a writer of several files.
 #pragma once
 
 #include <string>

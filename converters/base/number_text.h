@@ -6,10 +6,10 @@
 
 namespace lumen::convert {
 
-/// With that many significant digits at most; nine read back as the same float.
+/// At most `digits` significant digits; nine read back as the same float.
 std::string numberText(double value, int digits = 9);
 
-/// With that many decimals, for people.
+/// `decimals` decimals, for people.
 std::string fixedText(double value, int decimals);
 
 }  // namespace lumen::convert

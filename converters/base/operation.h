@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What somebody asks the program for, as plain texts: the same for the command line, the viewer, lists of cases and
-// processes that are started for one of them.
+// A request to the program as plain texts, equal for the command line, the viewer, lists of cases
+// and the processes that they start.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace lumen {
 
 struct Operation {
-  std::string name;                    ///< of a command: "convert", "library add"
+  std::string name;                    ///< command: "convert", "library add"
   std::vector<std::string> arguments;  ///< in their order
   /// Names without dashes, with their values; "true" or "false" for a flag.
   std::vector<std::pair<std::string, std::vector<std::string>>> options;
@@ -22,7 +22,7 @@ struct Operation {
   }
 };
 
-/// The end of an operation that a process of its own did.
+/// Result of an operation in a process of its own.
 struct OperationEnd {
   bool isDone = false;
   int code = 0;       ///< exit code

@@ -32,7 +32,7 @@ std::optional<Number> numberIn(const std::string& text) {
   return value;
 }
 
-/// Nine digits, as ranges and defaults are shown.
+/// Nine digits, for ranges and defaults.
 std::string shownNumber(double value) {
   std::ostringstream text;
   text << std::setprecision(9) << value;
@@ -103,7 +103,7 @@ void store(const OptionTarget& target, const std::vector<std::string>& texts) {
       target);
 }
 
-/// The number that a variable holds; none for other types, and where nothing is set.
+/// The number that a variable holds; none for other types, and for unset variables.
 std::optional<double> numberOf(const OptionTarget& target) {
   return std::visit(Overloaded{[](int* value) { return std::optional<double>(*value); },
                                [](double* value) { return std::optional(*value); },
@@ -133,7 +133,7 @@ std::optional<double> realIn(const formats::ParameterValue& value) {
   return std::nullopt;
 }
 
-/// Takes a value of a file, which may be anything; whoever uses it checks its range.
+/// Takes an unchecked value of a file; the user of the value checks its range.
 void take(const OptionRow& row, const formats::ParameterValue& found) {
   const auto* whole = std::get_if<std::int64_t>(&found);
   if (const auto* word = std::get_if<std::string>(&found); row.word && word != nullptr)

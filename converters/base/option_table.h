@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options as rows of data. A row names an option once, with its type, range, default and help; command line,
-// configuration file, case record, viewer and lists of cases are made from the rows.
+// Options as rows of data. A row states an option once: name, type, range, default and help;
+// command line, configuration file, case record, viewer and lists of cases are made from the rows.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace lumen {
 
-/// Numbers that an option takes, ends included unless they are open.
+/// Range of an option's number, ends included unless they are open.
 struct NumberRange {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();
@@ -30,7 +30,7 @@ struct NumberRange {
   [[nodiscard]] std::string text() const;
 };
 
-/// Whole numbers that an option takes, ends included.
+/// Range of an option's whole number, ends included.
 struct WholeRange {
   std::int64_t low = 0;
   std::int64_t high = std::numeric_limits<std::int32_t>::max();
@@ -39,82 +39,83 @@ struct WholeRange {
   [[nodiscard]] std::string text() const;
 };
 
-/// mm, a kilometre: nothing in a body is as long.
+/// A kilometre in mm: no length in a body is as great.
 constexpr double kLongest = 1e6;
 constexpr NumberRange kPositive{0, kLongest, true};
 constexpr NumberRange kNotNegative{0, kLongest};
 
-/// A fault of one value as the end of a sentence, "found 2, expected a number from 0 to 1", or nothing.
+/// A fault of one value as the end of a sentence, "found 2, expected a number from 0 to 1", or
+/// empty.
 using ValueCheck = std::function<std::string(const std::string&)>;
 
-/// One of these words. A slip gets its "did you mean".
+/// One of the given words. A misspelt word gets a "did you mean".
 ValueCheck oneOf(std::vector<std::string> words);
 /// A name of a file or folder: not empty, and not "-", which other programs take for a stream.
 ValueCheck fileName();
 
-/// Where the value of an option is stored. A function receives the texts of all values.
+/// Variable of an option's value. A function receives the texts of all values.
 using OptionTarget =
     std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::optional<std::int64_t>*,
                  std::optional<double>*, std::string*, std::vector<int>*, std::vector<std::string>*,
                  std::function<void(const std::vector<std::string>&)>>;
 
-/// Kinds of inputs and outputs as sets of bits, which whoever runs operations defines.
+/// Kinds of inputs and outputs as sets of bits, defined by the caller of operations.
 using ContentMask = std::uint32_t;
 constexpr ContentMask kAnyContent = ~ContentMask{0};
 
 /// One option or argument. Texts are for people: help, messages, manual page.
 struct OptionRow {
-  std::string name;   ///< "inlier-rate"; of an argument "CASE"
+  std::string name;   ///< "inlier-rate"; "CASE" for an argument
   std::string group;  ///< heading in the help; empty: "Options"
   std::string type;   ///< placeholder of the value, "MM"; empty: a flag
   std::string help;
   std::string defaultText;  ///< empty: none is shown
   OptionTarget target;
 
-  bool isArgument = false;  ///< it has a place instead of a name
+  bool isArgument = false;  ///< a place instead of a name
   bool isRequired = false;
-  std::string recordKey;  ///< under which a case that is made with it states its value; or empty
-  bool repeats = false;   ///< it may be given several times
-  int count = 1;          ///< values that it takes, 0 for a flag
-  char delimiter = 0;     ///< values may stand in one text with this between them
-  std::string alias;      ///< another spelling, which no help shows
-  std::string negative;   ///< the name that switches a flag off
-  std::vector<std::string> excludes;  ///< names of options that cannot be given beside it
+  std::string recordKey;              ///< key of the value in the record of a case; or empty
+  bool repeats = false;               ///< several uses are allowed
+  int count = 1;                      ///< number of values, 0 for a flag
+  char delimiter = 0;                 ///< separator of values within one text
+  std::string alias;                  ///< another spelling, not in the help
+  std::string negative;               ///< the name that switches a flag off
+  std::vector<std::string> excludes;  ///< names of options that exclude this one
 
   std::optional<NumberRange> range;
   std::optional<WholeRange> whole;
-  std::vector<std::int64_t> numbers;  ///< these alone
-  std::vector<std::string> words;     ///< these alone
-  ValueCheck check;                   ///< of a text that is none of the above
-  std::function<std::string()> word;  ///< the word that the variable of a choice stands for
+  std::vector<std::int64_t> numbers;  ///< the only numbers allowed
+  std::vector<std::string> words;     ///< the only words allowed
+  ValueCheck check;                   ///< check of any other text
+  std::function<std::string()> word;  ///< the word of a choice's current value
 
-  ContentMask inputs = kAnyContent;   ///< of which it counts
-  ContentMask outputs = kAnyContent;  ///< for which it counts
+  ContentMask inputs = kAnyContent;   ///< inputs for which it counts
+  ContentMask outputs = kAnyContent;  ///< outputs for which it counts
   std::string needs;                  ///< the option without which it does nothing
 
   bool isGiven = false;                  ///< set() was called
-  bool isPreference = false;             ///< a configuration file gives the value
-  std::vector<std::string> givenValues;  ///< by the last set()
+  bool isPreference = false;             ///< a configuration file states the value
+  std::vector<std::string> givenValues;  ///< values of the last set()
 
   [[nodiscard]] bool isFlag() const { return !isArgument && count == 0; }
   /// The name as people write it: "--inlier-rate", "CASE".
   [[nodiscard]] std::string shownName() const { return isArgument ? name : "--" + name; }
   /// The given values with spaces between them, or the default.
   [[nodiscard]] std::string valueText() const;
-  /// "found 2, expected a number from 0 to 1", or nothing.
+  /// "found 2, expected a number from 0 to 1", or empty.
   [[nodiscard]] std::string faultOf(const std::string& text) const;
-  /// Stores the values. Throws Error(Usage) with the shown name.
+  /// Stores the values. Throws Error(Usage) with the option's shown name.
   void set(const std::vector<std::string>& texts);
 
-  // Each of these returns the row, so that a row reads as one sentence.
+  // Each of the following returns the row, so that a row reads as one sentence.
   OptionRow& in(NumberRange allowed);
   OptionRow& in(WholeRange allowed);
   OptionRow& among(std::vector<std::int64_t> allowed);
   OptionRow& among(std::vector<std::string> allowed);
   OptionRow& checkedBy(ValueCheck allowed);
-  OptionRow& recorded(std::string key = {});  ///< under its name, or another key
+  OptionRow& recorded(std::string key = {});  ///< key: its name, or another
   OptionRow& required();
-  OptionRow& many();  ///< may be given several times, or as several arguments
+  OptionRow& many();  ///< several uses, or several arguments
   OptionRow& defaults(std::string text);
   OptionRow& without(std::string other);
   OptionRow& inGroup(std::string title);
@@ -124,8 +125,8 @@ struct OptionRow {
   OptionRow& forOutputs(ContentMask mask);
 };
 
-/// Rows whose values are stored in variables of whoever made the table; these must outlive it. The defaults are the
-/// values that the variables hold when a row is added.
+/// Rows whose values are stored in the caller's variables, which must outlive the table. The
+/// defaults are the values that the variables hold when a row is added.
 class OptionTable {
 public:
   OptionTable() = default;
@@ -139,16 +140,16 @@ public:
 
   OptionRow& add(std::string name, OptionTarget target, std::string type, std::string help);
   OptionRow& flag(std::string name, bool& value, std::string help);
-  /// A length in mm that is derived from the data unless it is given; `otherwise` says how.
+  /// A length in mm, derived from the data unless it is given; `otherwise` states how.
   OptionRow& scaled(std::string name, std::optional<double>& value, std::string help,
                     const std::string& otherwise);
   /// The name of a file as the value of an option.
   OptionRow& file(std::string name, std::string& value, std::string help);
-  /// An argument that must be given; a file unless `check` is another.
+  /// A required argument; a file unless `check` is another.
   OptionRow& argument(std::string name, OptionTarget target, std::string help,
                       ValueCheck check = fileName());
 
-  /// One of the words of `named`, of which the value that the variable holds is the default.
+  /// One of the words of `named`; the default is the variable's current value.
   template <class Value>
   OptionRow& choice(std::string name, Value& value, const std::map<std::string, Value>& named,
                     std::string help) {
@@ -173,17 +174,19 @@ public:
 
   [[nodiscard]] const std::deque<OptionRow>& rows() const { return m_rows; }
   [[nodiscard]] std::deque<OptionRow>& rows() { return m_rows; }
-  /// The option of that name or alias (without dashes), or null. An argument is found by its place alone.
+  /// The option with the given name or alias (without dashes), or null. An argument is found by its
+  /// place alone.
   [[nodiscard]] OptionRow* find(std::string_view name);
   [[nodiscard]] const OptionRow* find(std::string_view name) const;
   /// Throws Error(Usage) if there is no such option, or as OptionRow::set().
   void set(std::string_view name, const std::vector<std::string>& texts);
-  /// Throws Error(InvalidInput), which begins with `subject`, if a variable holds what its row does not allow.
+  /// Throws Error(InvalidInput), which begins with `subject`, if a variable holds what its row does
+  /// not allow.
   void requireValues(const std::string& subject) const;
 
   /// The values of recorded rows that are set, as a step of a case states them.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> recordedValues() const;
-  /// Takes the values of recorded rows from a step. A value of another type is passed over.
+  /// Takes the values of recorded rows from a step. A value of another type is ignored.
   void takeRecorded(const formats::Step& step);
 
 private:

@@ -12,8 +12,8 @@
 namespace lumen {
 
 /// The double nearest to a decimal number, which may begin with a plus sign; a zero with its sign
-/// for a number too small for a double. "inf" and "nan" name values that are not finite. Nothing
-/// for a word that is no number, and for a number too large for a double.
+/// for a number too small for a double. "inf" and "nan" name values that are not finite. Empty for
+/// a word that is no number, and for a number too large for a double.
 inline std::optional<double> parsedNumber(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   double value = 0;
@@ -23,7 +23,7 @@ inline std::optional<double> parsedNumber(std::string_view word) {
   return error == std::errc{} ? std::optional(value) : formats::doubleFromText(word);
 }
 
-/// The text behind a UTF-8 byte-order mark, which some editors and spreadsheets write first.
+/// The text after a UTF-8 byte-order mark, which some editors and spreadsheets write first.
 inline std::string_view withoutByteOrderMark(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   return text.starts_with(kMark) ? text.substr(kMark.size()) : text;

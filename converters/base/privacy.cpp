@@ -27,7 +27,7 @@ struct Pattern {
   std::regex regex;
 };
 
-// Repetitions are bounded, because the library recurses once for each.
+// Repetitions are bounded, because the library recurses once per repetition.
 const std::array<Pattern, 5>& patterns() {
   static const auto make = [](const char* text) {
     return std::regex(text, std::regex::icase | std::regex::optimize);
@@ -69,7 +69,7 @@ bool isText(const std::string& pointer) {
          !(pointer.starts_with("/otherChunks/") && pointer.ends_with("/data"));
 }
 
-// Keys too: parameters and comments have names that a user chose.
+// Keys too: users choose the names of parameters and comments.
 void scanJson(const formats::JsonValue& value, const std::string& pointer, Findings& findings) {
   if (value.text() != nullptr && isText(pointer))
     append(findings, scanText(*value.text(), pointer));
@@ -82,7 +82,7 @@ void scanJson(const formats::JsonValue& value, const std::string& pointer, Findi
   }
 }
 
-// Texts inside of bytes that nobody here understands.
+// Texts inside of bytes in an unknown format.
 void scanBytes(std::span<const std::byte> bytes, const std::string& pointer, Findings& findings) {
   std::string run;
   for (std::size_t i = 0; i <= bytes.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long work reports how far it is, and learns that it should stop.
+// Progress and cancellation of long work.
 #pragma once
 
 #include <atomic>

@@ -25,12 +25,12 @@ namespace lumen::convert {
 
 namespace {
 
-// A program that cannot be started ends with this, as a shell's would.
+// Exit code of a child that cannot start its program, as of a shell.
 constexpr int kNotStarted = 127;
 
-constexpr std::size_t kKept = 4096;  // bytes of what it prints: more is not read by anybody
+constexpr std::size_t kKept = 4096;  // bytes kept of its output
 
-/// A pipe that a program prints into; read without waiting.
+/// A pipe for a program's output, read without waiting.
 class Printed {
 public:
   explicit Printed(bool isShown) : m_isShown(isShown) {
@@ -49,7 +49,7 @@ public:
     if (m_ends[1] >= 0) close(m_ends[1]);
     m_ends[1] = -1;
   }
-  /// Takes what there is, so that the program need not wait.
+  /// Drains the pipe, so that the program need not wait.
   void take() {
     std::array<char, kKept> bytes{};
     for (ssize_t n = 0; (n = read(m_ends[0], bytes.data(), bytes.size())) > 0;) {
@@ -66,7 +66,8 @@ private:
   std::string m_text;
 };
 
-/// Puts the user's terminal back as it was: a program that is ended while it asks for a password leaves it without echo.
+/// Restores the user's terminal: a program that is killed while it asks for a password leaves it
+/// without echo.
 class TerminalState {
 public:
   TerminalState() : m_terminal(open("/dev/tty", O_RDWR | O_CLOEXEC | O_NOCTTY)) {
@@ -85,7 +86,7 @@ private:
   termios m_state{};
 };
 
-/// An open file, closed with this; -1 for none.
+/// An open file, closed with this object; -1 for none.
 struct Opened {
   explicit Opened(int opened) : descriptor(opened) {}
   ~Opened() {
@@ -96,7 +97,7 @@ struct Opened {
   const int descriptor;
 };
 
-/// What the child needs, made before it begins. Streams that are -1 stay as they are.
+/// Data for the child, prepared before it starts. Streams that are -1 stay unchanged.
 struct Child {
   const char* program;
   char* const* arguments;
@@ -104,9 +105,9 @@ struct Child {
   std::array<int, 3> streams;  ///< standard input, output, errors
 };
 
-/// Only calls that are allowed between fork and exec in a process of several threads.
+/// Uses only calls that are allowed between fork and exec in a process with several threads.
 [[noreturn]] void runChild(const Child& child) {
-  // Ctrl-C goes to both; the parent ends this one, and its own end does too
+  // Ctrl-C reaches both; the parent kills the child, and so does the parent's own end
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};
@@ -124,7 +125,7 @@ struct Outcome {
   int code = 0;
 };
 
-/// Waits for the child, or ends it: when `latest` has come, or the user has cancelled.
+/// Waits for the child, or kills it: at `latest`, or when the user has cancelled.
 Outcome outcome(pid_t child, std::chrono::steady_clock::time_point latest, Printed& output,
                 Printed& errors, const Progress& progress) {
   auto pause = std::chrono::microseconds(200);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a program that is installed, for what lumen does not do itself.
+// Runs installed programs, for work that lumen does not do itself.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,8 @@
 
 namespace lumen::convert {
 
-/// A folder that only this user can read, gone with this. Throws Error(Failed) if there can be none.
+/// A folder that only this user can read, removed with this object. Throws Error(Failed) if none
+/// can be created.
 class PrivateFolder {
 public:
   PrivateFolder();
@@ -24,7 +25,7 @@ private:
   std::filesystem::path m_path;
 };
 
-/// Where the program of this name is, by PATH.
+/// Path of the program `name`, found by PATH.
 std::optional<std::filesystem::path> installedProgram(const std::string& name);
 
 enum class ProgramEnd { Done, Refused, Crashed, TookTooLong };
@@ -32,23 +33,24 @@ enum class ProgramEnd { Done, Refused, Crashed, TookTooLong };
 struct ProgramCall {
   std::filesystem::path program;
   std::vector<std::string> arguments;
-  std::filesystem::path folder;  ///< where it runs
-  unsigned seconds = 0;          ///< that it may take
-  std::filesystem::path input;   ///< the file that it reads as standard input; by default nothing
-  /// Its standard input is this process's, and what it prints as errors is shown as well as kept: it may ask for a password.
+  std::filesystem::path folder;  ///< working folder
+  unsigned seconds = 0;          ///< time limit
+  std::filesystem::path input;   ///< file on its standard input; empty: no input
+  /// Its standard input is this process's, and its standard error is shown and kept: it may ask for
+  /// a password.
   bool asksUser = false;
-  std::filesystem::path log;  ///< what it prints as errors is added to this file instead of kept
+  std::filesystem::path log;  ///< file to which its standard error is appended instead of kept
 };
 
 struct ProgramResult {
   ProgramEnd end = ProgramEnd::Crashed;
-  int code = 0;                ///< the exit code of one that was done or refused
-  std::string output, errors;  ///< what it printed, of each the first 4 KiB
+  int code = 0;                ///< exit code of a program that was done or refused
+  std::string output, errors;  ///< standard output and error, the first 4 KiB of each
 };
 
-/// Runs a program without a shell until it ends or its time is over; it ends with this process. Refused: it ended with
-/// another exit code than 0. Throws Error(Cancelled), and Error(Failed) if no process can be started or `input` not be
-/// read, or `log` not be written.
+/// Runs a program without a shell until it ends or its time is over; it ends with this process.
+/// Refused: its exit code was not 0. Throws Error(Cancelled), and Error(Failed) if no process can
+/// be started, `input` cannot be read, or `log` cannot be written.
 ProgramResult runProgram(const ProgramCall& call, const Progress& progress);
 
 }  // namespace lumen::convert

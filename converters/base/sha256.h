@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digest by which a case names its volume and its parent, and a library its files.
+// SHA-256, by which a case identifies its volume and its parent, and a library its files.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ inline std::string sha256(std::string_view text) {
   return sha256(std::as_bytes(std::span(text.data(), text.size())));
 }
 
-/// The same of bytes that come piece by piece.
+/// SHA-256 of bytes that arrive piece by piece.
 class Sha256 {
 public:
   Sha256();
@@ -28,7 +28,7 @@ public:
   Sha256& operator=(const Sha256&) = delete;
   void add(std::span<const std::byte> bytes);
   void add(std::string_view text) { add(std::as_bytes(std::span(text.data(), text.size()))); }
-  std::string text();  ///< once, after the last piece
+  std::string text();  ///< digest, once, after the last piece
 
 private:
   struct State;
@@ -40,8 +40,8 @@ struct FileDigest {
   std::string sha256;
 };
 
-/// Of what is in a file, read block by block. Throws Error(Failed), naming the file, for what cannot be read and what is no
-/// file, such as a pipe, which would be waited for.
+/// SHA-256 of a file's content, read block by block. Throws Error(Failed), naming the file, if it
+/// cannot be read or is no regular file, such as a pipe, on which reading would block.
 FileDigest digestOfFile(const std::filesystem::path& file);
 
 }  // namespace lumen

@@ -12,7 +12,7 @@ namespace lumen {
 
 namespace {
 
-/// Characters of UTF-8 text, near enough to its columns on a terminal.
+/// Characters of UTF-8 text, an approximation of its columns on a terminal.
 std::size_t textWidth(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;

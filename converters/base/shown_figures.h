@@ -9,11 +9,11 @@
 
 namespace lumen {
 
-/// Fixed-point text; "-" for nothing or a value that is not finite.
+/// Fixed-point text; "-" for an empty or non-finite value.
 std::string fixed(std::optional<double> value, int digits);
 
-/// Lines of a name, padded to a column, and a value. Names and values are made printable, so that
-/// no text of a file can end a line or begin one.
+/// Lines, each with a name, padded to a column, and a value. Names and values are made printable,
+/// so that no text of a file can end a line or begin one.
 class Lines {
 public:
   Lines& add(std::string_view name, std::string_view value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts, numbers and points of files as messages show them.
+// Texts, numbers and points of files, as they appear in messages.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline std::string quotedText(const std::string& text) {
   return std::string("\"").append(formats::printable(text.substr(0, shown))).append("...\"");
 }
 
-/// Six significant digits, as a person reads them.
+/// Six significant digits, for people.
 inline std::string numberText(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.6g", value);

@@ -31,8 +31,8 @@ T upperMedian(std::vector<T>& values) {
   return valueAtRank(values, values.size() / 2);
 }
 
-/// The value at `share` (in [0, 1]) of the way from the least to the greatest, by rank rounded
-/// down; of a non-empty list, which it reorders.
+/// The value at the share `share` (in [0, 1]) from the least to the greatest, by rank rounded down;
+/// of a non-empty list, which it reorders.
 template <typename T>
 T lowerQuantile(std::vector<T>& values, double share) {
   return valueAtRank(values,
@@ -43,7 +43,7 @@ T lowerQuantile(std::vector<T>& values, double share) {
 /// of a non-empty list, which it reorders.
 template <typename T>
 T nearestRank(std::vector<T>& values, double share) {
-  constexpr double kRoundoff = 1e-9;  // ranks: 0.9 * 10 is 9, whatever its last bit says
+  constexpr double kRoundoff = 1e-9;  // ranks: 0.9 * 10 is 9, despite its last bit
   const auto rank =
       static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()) - kRoundoff));
   return valueAtRank(values, std::max<std::size_t>(rank, 1) - 1);

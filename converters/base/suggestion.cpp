@@ -24,7 +24,7 @@ std::size_t slips(const std::string& a, const std::string& b) {
   return cost[a.size()][b.size()];
 }
 
-/// The only candidate that begins with `word`; three letters tell enough.
+/// The only candidate that begins with `word`; at least three letters are required.
 std::string completed(const std::string& word, const std::vector<std::string>& candidates) {
   std::string found;
   if (word.size() < 3) return found;
@@ -39,7 +39,7 @@ std::string completed(const std::string& word, const std::vector<std::string>& c
 }  // namespace
 
 std::string closest(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t kLongestWord = 64;  // no name is as long; the cost grows with the square
+  constexpr std::size_t kLongestWord = 64;  // longer than any name; the cost grows with the square
   if (word.empty() || word.size() > kLongestWord) return {};
   const std::string typed = lowerCase(std::string(word));
   std::string best;

@@ -8,12 +8,12 @@
 
 namespace lumen {
 
-/// The candidate that `word` is most likely a slip of: fewest letters inserted, dropped, replaced
-/// or swapped with a neighbour, whatever the case, and at most a third of them; or the only one that
-/// begins with it. Empty if there is none.
+/// The candidate of which `word` is most likely a misspelling: fewest letters inserted, dropped,
+/// replaced or swapped with a neighbour, whatever the case, and at most a third of them; or the
+/// only one that begins with it. Empty if there is none.
 std::string closest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// "; did you mean --seeds?", or nothing.
+/// "; did you mean --seeds?", or empty.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "a, b or c".

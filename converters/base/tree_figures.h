@@ -14,7 +14,7 @@ struct RadiusRange {
   float min = 0, mean = 0, max = 0;  ///< mm
 };
 
-/// Of at least one radius.
+/// Range of at least one radius.
 inline RadiusRange radiusRange(std::span<const float> radii) {
   double sum = 0;
   for (const float r : radii) sum += static_cast<double>(r);
@@ -22,7 +22,7 @@ inline RadiusRange radiusRange(std::span<const float> radii) {
   return {*low, static_cast<float>(sum / static_cast<double>(radii.size())), *high};
 }
 
-/// Of all branches, mm.
+/// Length of all branches, mm.
 inline double totalLength(const formats::CenterlineTree& tree) {
   double length = 0;
   for (const auto& branch : tree.branches) length += formats::branchLength(tree, branch);

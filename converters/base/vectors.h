@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the vectors of a case to those of Eigen, and back; directions across an axis.
+// Conversions between vectors of a case and Eigen's; directions across an axis.
 #pragma once
 
 #include <utility>

@@ -14,7 +14,7 @@ bool isAllowed(std::uint32_t point) {
   return point != formats::kIllFormed && point >= ' ' && point != 0xfffe && point != 0xffff;
 }
 
-/// Each character of `text`, or "_", with what `take` makes of it.
+/// Calls `take` for each character of `text`, with "_" in the place of a forbidden one.
 template <class Take>
 void forEachCharacter(std::string_view text, const Take& take) {
   for (std::size_t at = 0; at < text.size();) {

@@ -7,12 +7,13 @@
 
 namespace lumen {
 
-/// `text` as the content of an element, or as the value of an attribute in double quotation marks, with "_" in the place
-/// of each character that XML forbids (controls, U+FFFE, U+FFFF, bytes that are not UTF-8) or that an attribute loses
-/// (tabs and line breaks).
+/// `text` as the content of an element, or as the value of an attribute in double quotation marks.
+/// "_" replaces each character that XML forbids (controls, U+FFFE, U+FFFF, bytes that are not
+/// UTF-8) or that an attribute loses (tabs and line breaks).
 std::string xmlText(std::string_view text);
 
-/// `text` as a comment, where no two hyphens stand side by side; other characters as in xmlText(), line breaks stay.
+/// `text` as a comment, without two adjacent hyphens; forbidden characters as in xmlText(), line
+/// breaks stay.
 std::string xmlComment(std::string_view text);
 
 }  // namespace lumen

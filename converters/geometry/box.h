@@ -9,7 +9,8 @@
 
 namespace lumen::convert {
 
-/// All points p with low <= p <= high in each coordinate; ends are included. A new box is empty.
+/// All points p with low <= p <= high in each coordinate; ends are included. A default box is
+/// empty.
 template <class Scalar>
 struct Box {
   static_assert(std::is_floating_point_v<Scalar>);

@@ -14,29 +14,30 @@
 namespace lumen::convert {
 
 /// A binary tree of boxes around items that are numbered from 0. Its shape depends on the items
-/// alone. A node comes before its children, and its first child is the node behind it; so a walk
-/// from the last node to the first one meets children before their parents.
+/// alone. A node comes before its children, and its first child is the next node; so a loop from
+/// the last node to the first one meets children before their parents.
 template <class Scalar>
 class BoxTree {
 public:
-  static constexpr std::uint32_t kLeafItems = 4;  ///< at most
-  static constexpr std::size_t kDeepest = 64;     ///< nodes that a traversal may have waiting
+  static constexpr std::uint32_t kLeafItems = 4;  ///< maximum per leaf
+  static constexpr std::size_t kDeepest = 64;  ///< maximum number of pending nodes of a traversal
 
   struct Node {
     Box<Scalar> box;
-    std::uint32_t at = 0;     ///< place in items() of a leaf's first item; otherwise second child
+    std::uint32_t at = 0;     ///< leaf: place of its first item in items(); otherwise second child
     std::uint32_t count = 0;  ///< items of a leaf; 0: the node has children
   };
 
   BoxTree() = default;
-  /// Leaves hold items that follow one another: for items that are neighbours in their order.
+  /// Leaves hold consecutive items, for items whose neighbours in order are neighbours in space.
   explicit BoxTree(std::span<const Box<Scalar>> boxes);
-  /// Splits the items at the median of their middles, across the longest side of these.
+  /// Splits the items at the median of their box centres, across the longest side of these centres'
+  /// box.
   BoxTree(std::span<const Box<Scalar>> boxes, std::span<const Eigen::Vector3d> middles);
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return m_nodes; }
   [[nodiscard]] const Node& node(std::uint32_t index) const { return m_nodes[index]; }
-  /// The items, those of a leaf side by side.
+  /// The items; those of a leaf are adjacent.
   [[nodiscard]] const std::vector<std::uint32_t>& items() const { return m_items; }
   void setBox(std::uint32_t index, const Box<Scalar>& box) { m_nodes[index].box = box; }
 

@@ -9,11 +9,11 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kHalfUlp = 0x1p-53;
-// How much the plain formula can err, as a share of the sum of the sizes of its products.
+// Error bound of the plain formula, relative to the sum of the sizes of its products.
 constexpr double kBound3 = (7 + 56 * kHalfUlp) * kHalfUlp;
 constexpr double kBound2 = (3 + 16 * kHalfUlp) * kHalfUlp;
 
-// A number as an exact sum of doubles that do not overlap, by growing size.
+// A number as an exact sum of doubles that do not overlap, by increasing size.
 template <std::size_t N>
 struct Expansion {
   std::array<double, N> part{};

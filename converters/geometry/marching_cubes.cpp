@@ -14,12 +14,12 @@ namespace {
 // Consecutive samples of a row above the level: x in [first, last].
 struct Run {
   int first, last;
-  std::size_t offset;  ///< of the first sample
+  std::size_t offset;  ///< index of the first sample
 };
 
 struct Runs {
   std::vector<Run> run;
-  std::vector<std::size_t> rowBegin;  ///< of each row, and one past the end
+  std::vector<std::size_t> rowBegin;  ///< start of each row, and one past the end
 };
 
 Runs findRuns(const SampleGrid& grid, double level) {

@@ -18,9 +18,9 @@ namespace lumen::convert {
 /// a range of x of its own, so that a grid need not fill its box.
 struct SampleGrid {
   struct Row {
-    int first = 0;           ///< x of its first sample
+    int first = 0;           ///< x of the row's first sample
     int count = 0;           ///< samples, 0 or more
-    std::size_t offset = 0;  ///< of its first sample in `value`
+    std::size_t offset = 0;  ///< index of the row's first sample in `value`
   };
 
   double cell = 0;         ///< mm
@@ -35,17 +35,17 @@ struct SampleGrid {
   }
 };
 
-/// What a sample is to the surface.
+/// State of a sample with respect to the surface.
 enum class SampleState : std::uint8_t { Outside, OtherInside, Inside };
 
 /// Marks samples above `level`: Inside those in the connected component of the one nearest to
 /// `seed` (mm), OtherInside the rest. Samples are adjacent along the lattice's edges and the
-/// diagonals of its faces, as the surface joins them. Nothing is Inside if no sample is within
-/// `reach` of `seed`.
+/// diagonals of its faces, as the surface joins them. No sample is Inside if none is within `reach`
+/// of `seed`.
 std::vector<SampleState> markLumen(const SampleGrid& grid, double level,
                                    const Eigen::Vector3d& seed, double reach);
 
-/// The share in (0, 1) of the way from a to b where the surface crosses that edge.
+/// The fraction in (0, 1) of the edge from a to b at which the surface crosses it.
 using EdgeCrossing =
     std::function<double(const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b, double fb)>;
 

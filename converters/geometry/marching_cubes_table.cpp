@@ -26,9 +26,9 @@ std::array<unsigned, 4> faceCorners(unsigned axis, bool high) {
   return {base, base | v, base | u | v, base | u};
 }
 
-// Walking round a face one leaves the inside at an exit and comes back at an entry. A loop runs
-// from each entry to the exit before it, with the outside corners between on its right as seen from
-// outside the cell.
+// A walk round a face leaves the inside at an exit and returns at an entry. A loop runs from each
+// entry to the exit before it, with the outside corners between on its right as seen from outside
+// the cell.
 std::array<std::uint8_t, 12> linkSegments(unsigned inside) {
   std::array<std::uint8_t, 12> next;
   next.fill(kNoEdge);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an iso-surface runs through one cubic cell, for each pattern of inside corners.
+// Triangulation of an iso-surface in one cubic cell, for each pattern of inside corners.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace lumen::convert {
 /// Corner c of a cell lies at (c & 1, c >> 1 & 1, c >> 2 & 1). Edge 4 a + k runs along axis a from
 /// the k-th corner, ascending, whose bit a is 0.
 struct CellEdge {
-  std::uint8_t corner = 0;  ///< where it starts
+  std::uint8_t corner = 0;  ///< start
   std::uint8_t axis = 0;
 };
 constexpr std::array<CellEdge, 12> kCellEdges = [] {
@@ -26,7 +26,7 @@ constexpr std::array<CellEdge, 12> kCellEdges = [] {
 
 struct CellTriangle {
   std::array<std::uint8_t, 3> edge{};  ///< counter-clockwise seen from outside
-  std::uint8_t inside = 0;             ///< an inside corner of the component that it bounds
+  std::uint8_t inside = 0;             ///< an inside corner of the bounded component
 };
 
 /// The marching-cubes table, derived and not copied (Lorensen and Cline, 1987, left the ambiguous

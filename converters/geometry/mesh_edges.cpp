@@ -9,7 +9,7 @@
 namespace lumen::convert {
 
 std::vector<EdgeUse> edgeUses(const std::vector<Triangle>& triangles) {
-  // a counting sort by the lower point leaves short runs, in the order of the triangles
+  // a counting sort by the lower point yields short runs, in the order of the triangles
   std::uint32_t points = 0;
   for (const Triangle& t : triangles) points = std::max({points, t[0] + 1, t[1] + 1, t[2] + 1});
   std::vector<std::uint32_t> first(std::size_t{points} + 1, 0);

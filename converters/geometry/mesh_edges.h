@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The edges of triangles, whatever state their mesh is in.
+// Edges of triangles, for meshes of any quality.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ inline std::uint32_t previousSide(std::uint32_t side) {
   return side % 3 == 0 ? side + 2 : side - 1;
 }
 
-/// One triangle's side, by its edge.
+/// One side of a triangle, by its edge.
 struct EdgeUse {
   std::uint32_t low, high;  ///< the edge's points, low < high
   std::uint32_t side;
@@ -36,8 +36,8 @@ struct EdgeUse {
   }
 };
 
-/// Every side, so that those of one edge follow one another in the order of their triangles.
-/// Triangles must have three different points.
+/// Every side; sides of one edge are adjacent, in the order of their triangles. Triangles must have
+/// three different points.
 std::vector<EdgeUse> edgeUses(const std::vector<Triangle>& triangles);
 
 /// Calls `edge(span of EdgeUse)` for each edge.
@@ -51,13 +51,13 @@ void forEachEdge(const std::vector<EdgeUse>& uses, Edge edge) {
   }
 }
 
-/// The other side of each side's edge, or kNoSide where an edge has not two sides.
+/// The opposite side of each side's edge, or kNoSide where an edge has not exactly two sides.
 std::vector<std::uint32_t> oppositeSides(const std::vector<Triangle>& triangles);
 
-/// V - E + F, of the points that triangles use.
+/// Euler characteristic V - E + F, over the points that triangles use.
 std::int64_t eulerCharacteristic(const TriangleMesh& mesh);
 
-/// Points of equal coordinates made one: for each point the first that equals it.
+/// Points of equal coordinates merged: for each point the first that equals it.
 std::vector<std::uint32_t> equalPoints(const std::vector<Eigen::Vector3d>& position);
 
 }  // namespace lumen::convert

@@ -15,11 +15,12 @@ inline Eigen::Vector3d vectorArea(const TriangleMesh& mesh, const Triangle& t) {
                                u.x() * v.y() - u.y() * v.x());
 }
 
-/// True for a triangle whose height is below 1e-6 of its longest side: its normal is rounding.
+/// True for a triangle whose height is below 1e-6 of its longest side: its normal is only rounding
+/// error.
 bool isDegenerate(const TriangleMesh& mesh, const Triangle& t);
 
-/// The volume of a tetrahedron with a corner at the origin; positive if a, b, c run counter-clockwise
-/// seen from outside.
+/// The volume of a tetrahedron with a corner at the origin; positive if a, b, c run
+/// counter-clockwise seen from outside.
 inline double tetrahedronVolume(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                 const Eigen::Vector3d& c) {
   const Eigen::Vector3d across(b.y() * c.z() - b.z() * c.y(), b.z() * c.x() - b.x() * c.z(),

@@ -16,11 +16,11 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kGreatest = 1e50, kLeast = 1e-50;  // what orientation() takes
-constexpr std::size_t kBlock = 1 << 14;             // leaves that are asked for at once
-constexpr int kMortonBits = 21;                     // of a coordinate, three of which fit 64 bits
+constexpr double kGreatest = 1e50, kLeast = 1e-50;  // range of orientation()
+constexpr std::size_t kBlock = 1 << 14;             // leaves per block of work
+constexpr int kMortonBits = 21;  // bits per coordinate, three of which fit 64 bits
 
-// Adds a point, rounded outwards: floats are half the memory to walk through.
+// Adds a point, rounded outwards: floats halve the memory to traverse.
 void addOutwards(Box3f& box, const Eigen::Vector3d& p) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) {
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> inOrder(const TriangleMesh& mesh) {
     low = low.min(middle(t));
     high = high.max(middle(t));
   }
-  // a side of no length must not make the scale infinite, and zero times that no number
+  // a side of no length must not make the scale infinite, as zero times infinity is NaN
   const Eigen::Array3d scale = ((1 << kMortonBits) - 1) / (high - low).max(1e-280);
   std::vector<std::pair<std::uint64_t, std::uint32_t>> code;
   for (std::size_t t = 0; t < usable.size(); ++t) {
@@ -97,15 +97,15 @@ public:
   /// Number of leaves.
   [[nodiscard]] std::size_t size() const { return m_leaf.size(); }
 
-  /// Adds the pairs of a triangle of the leaf and one of it or behind it, until there are more than
-  /// `most`.
+  /// Adds the intersecting pairs of a triangle of the leaf and one of the same or a later leaf,
+  /// until there are more than `most`.
   void findBehind(std::size_t leaf, std::size_t most,
                   std::vector<std::array<std::uint32_t, 2>>& pairs) const {
     visit(0, static_cast<std::uint32_t>(m_tree.nodes().size()), m_leaf[leaf], most, pairs);
   }
 
 private:
-  // Nodes from `index` to before `end` are those of one node and all below it.
+  // Nodes from `index` to before `end` form one subtree.
   void visit(std::uint32_t index, std::uint32_t end, std::uint32_t leaf, std::size_t most,
              std::vector<std::array<std::uint32_t, 2>>& pairs) const {
     const auto &node = m_tree.node(index), &own = m_tree.node(leaf);
@@ -134,7 +134,7 @@ private:
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
 // The pairs of leaves first .. last - 1, in that order. Where there are more than `most`, threads
-// may find different ones of them: then it is done again, one after the other.
+// may find different subsets: then one thread repeats the search in order.
 Pairs pairsOf(const TriangleLeaves& tree, std::size_t first, std::size_t last, std::size_t most) {
   std::vector<Pairs> found(last - first);
   std::atomic<std::size_t> count{0};

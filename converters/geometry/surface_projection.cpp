@@ -7,11 +7,11 @@
 namespace lumen {
 namespace {
 
-constexpr int kMaxSteps = 40;         // three to five near the wall; the rest is for long ways
-constexpr double kTolerance = 1e-4;   // of the radius
-constexpr double kLongestStep = 0.3;  // of the radius: far from the wall h is not straight
-constexpr double kVanished = 1e-12;   // of the level: below, f says nothing about the wall
-constexpr double kFlat = 1e-10;       // of |grad f|, which has no unit
+constexpr int kMaxSteps = 40;         // three to five near the wall; the rest is for long paths
+constexpr double kTolerance = 1e-4;   // relative to the radius
+constexpr double kLongestStep = 0.3;  // relative to the radius: far from the wall h is not straight
+constexpr double kVanished = 1e-12;   // relative to the level: below, f is not significant
+constexpr double kFlat = 1e-10;       // limit of |grad f|, which has no unit
 
 }  // namespace
 

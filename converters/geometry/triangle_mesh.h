@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A triangle mesh as algorithms take it: doubles, indexed, nothing else.
+// Triangle mesh for algorithms: doubles and indices only.
 #pragma once
 
 #include <array>

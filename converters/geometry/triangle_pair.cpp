@@ -26,7 +26,7 @@ Flat drop(const Corners& t, int axis) {
   return {drop(t[0], axis), drop(t[1], axis), drop(t[2], axis)};
 }
 
-// An axis along which the triangle can be seen as one; nothing if it has no area.
+// An axis whose projection keeps the triangle's area; empty if it has no area.
 std::optional<int> axisOf(const Corners& t) {
   int widest = 0;
   (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs().maxCoeff(&widest);
@@ -63,7 +63,7 @@ bool segmentMeetsFlat(const Flat& t, const Eigen::Vector2d& a, const Eigen::Vect
          segmentsMeet(a, b, t[2], t[0]);
 }
 
-// Sides of a and b: of the triangle's plane.
+// Sides of a and b with respect to the triangle's plane.
 bool segmentMeetsTriangle(const Corners& t, const Point& a, const Point& b, int sideA, int sideB) {
   if (sideA * sideB > 0) return false;
   if (sideA == 0 && sideB == 0) {

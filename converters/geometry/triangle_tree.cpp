@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Where a ray meets a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
-/// ray/triangle intersection", 1997), and whether it comes from behind. Nothing if it does not.
+/// The hit of a ray on a triangle: its distance (T. Moeller and B. Trumbore, "Fast, minimum storage
+/// ray/triangle intersection", 1997), and whether it comes from behind. Empty without a hit.
 std::optional<RayHit> meet(const Vector3d& origin, const Vector3d& direction,
                            const std::array<Vector3d, 3>& corner) {
   const auto& [a, b, c] = corner;
@@ -41,7 +41,7 @@ float above(double x) {
 
 }  // namespace
 
-/// A ray, as boxes ask for it.
+/// A ray, prepared for tests against boxes.
 class TriangleTree::Ray {
 public:
   Ray(const Vector3d& origin, const Vector3d& direction) {
@@ -52,8 +52,8 @@ public:
     }
   }
 
-  /// Where it enters a box, or behind all triangles if it does not. Boxes are larger than what they
-  /// hold by more than what is rounded here.
+  /// Distance at which the ray enters a box, or a value beyond all triangles if it misses. Boxes
+  /// enclose their content with a margin larger than the rounding errors here.
   [[nodiscard]] double entry(const Box3f& box) const {
     double from = 0, to = kFar;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -67,7 +67,7 @@ public:
   }
 
 private:
-  static constexpr double kSteep = 1e30;  // one by a direction that is as good as none
+  static constexpr double kSteep = 1e30;  // reciprocal of a component that is almost 0
   std::array<double, 3> m_origin{}, m_inverse{};
 };
 
@@ -81,8 +81,8 @@ double TriangleTree::squaredDistance(const Box3f& box, const Vector3d& point) {
   return sum;
 }
 
-// The point of a triangle that is nearest to `p` (C. Ericson, "Real-time collision detection", 2005,
-// section 5.1.5).
+// The point of a triangle that is nearest to `p` (C. Ericson, "Real-time collision detection",
+// 2005, section 5.1.5).
 Vector3d nearestPointOf(const Vector3d& p, const Vector3d& a, const Vector3d& b,
                         const Vector3d& c) {
   const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -142,7 +142,7 @@ void TriangleTree::eachOnRay(const Vector3d& origin, const Vector3d& direction, 
       visit(*hit);
     }
     if (node.count > 0) continue;
-    // the nearer child last, so that it is looked at first
+    // the nearer child last, so that it is visited first
     const Waiting one = waiting(here.node + 1), two = waiting(node.at);
     const bool oneFirst = one.from < two.from;
     if (one.from != kFar || two.from != kFar) {
@@ -186,7 +186,7 @@ int TriangleTree::winding(const Vector3d& origin, const Vector3d& direction) con
 }
 
 bool TriangleTree::contains(const Vector3d& point) const {
-  // unlike the directions that meshes have their edges in
+  // unlike the usual directions of a mesh's edges
   static const std::array<Vector3d, 3> kRays = {Vector3d(0.8017, 0.3119, 0.5099).normalized(),
                                                 Vector3d(-0.4211, 0.8563, 0.2987).normalized(),
                                                 Vector3d(-0.2903, -0.4421, 0.8487).normalized()};

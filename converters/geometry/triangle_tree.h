@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Queries of a triangle mesh: hits of rays, nearest points, inside or outside.
+// Queries of a triangle mesh: ray hits, nearest points, inside or outside.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace lumen::convert {
 
-/// Where a ray meets a mesh; lengths in the mesh's unit.
+/// The hit of a ray on a mesh; lengths in the mesh's unit.
 struct RayHit {
   double distance = 0;  ///< from the ray's origin
   std::uint32_t triangle = 0;
-  bool leaves = false;  ///< it comes from behind the triangle, out of what the mesh encloses
+  bool leaves = false;  ///< the ray hits the triangle from behind, out of the enclosed volume
 };
 
 struct NearestPoint {
@@ -33,20 +33,20 @@ struct NearestPoint {
 Eigen::Vector3d nearestPointOf(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-/// A bounding-volume hierarchy of the triangles of a mesh that answers in doubles and in one fixed
-/// order: equal bits on every machine, which single-precision kernels that follow the instruction set do not promise.
-/// Never changed after construction: any number of threads may ask.
+/// A bounding-volume hierarchy of the triangles of a mesh that computes in doubles and in one fixed
+/// order: results have equal bits on every machine, unlike those of single-precision kernels that
+/// depend on the instruction set. Immutable after construction, so safe to query from any thread.
 class TriangleTree {
 public:
-  /// `mesh` has at least one triangle and must stay.
+  /// `mesh` has at least one triangle and must outlive this object.
   explicit TriangleTree(const TriangleMesh& mesh);
 
-  /// The first triangle that the ray meets at `least` or farther; `direction` is a unit vector. Of
-  /// several in one place, that of the lowest index.
+  /// The first triangle that the ray meets at `least` or farther; `direction` is a unit vector. The
+  /// lowest index wins where several lie in one place.
   [[nodiscard]] std::optional<RayHit> firstHit(const Eigen::Vector3d& origin,
                                                const Eigen::Vector3d& direction,
                                                double least = 0) const;
-  /// Whether the straight way between two points meets no triangle.
+  /// Whether the straight segment between two points meets no triangle.
   [[nodiscard]] bool isFree(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
   /// The nearest point of the mesh within `reach`; its distance is infinite if there is none.
   [[nodiscard]] NearestPoint nearest(const Eigen::Vector3d& point,
@@ -63,8 +63,8 @@ public:
   void visitNear(const Eigen::Vector3d& point, const double& most, Visit&& visit,
                  const Enters& enters) const;
   [[nodiscard]] const BoxTree<float>& boxes() const { return m_tree; }
-  /// Whether a closed mesh goes round the point: as most of three rays say, each by the number of
-  /// times it leaves less that of the times it enters.
+  /// Whether a closed mesh encloses the point: the majority of three rays, each by the number of
+  /// exits less the number of entries.
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const;
 
   /// The unit normal of a triangle, outward; zero if it has no area.
@@ -84,7 +84,7 @@ private:
                  const double& most, Visit&& visit) const;
 
   const TriangleMesh& m_mesh;
-  Tree m_tree;  // boxes lie outside of the triangles that they hold
+  Tree m_tree;                                           // boxes enclose their triangles
   std::vector<std::array<Eigen::Vector3d, 3>> m_corner;  // in the order of the tree's items
 };
 

@@ -13,7 +13,7 @@ RoundCone::RoundCone(const Eigen::Vector3d& a, double radiusA, const Eigen::Vect
                      double radiusB)
     : m_a(a), m_axis(b - a), m_length(m_axis.norm()), m_radiusA(radiusA), m_radiusB(radiusB) {
   if (m_length <= std::abs(radiusA - radiusB)) {
-    // one sphere holds the other, and is all there is
+    // one sphere contains the other, and is the whole cone
     m_soleEnd = radiusB > radiusA ? 1 : 0;
     if (radiusB > radiusA) m_a = b;
     m_radiusA = m_radiusB = std::max(radiusA, radiusB);
@@ -131,7 +131,7 @@ void TubeTreeDistance::collect(const Eigen::Vector3d& centre, double reach,
                                std::vector<std::uint32_t>& segments) const {
   segments.clear();
   if (m_segments.empty()) return;
-  // distances change by no more than a point moves
+  // a distance changes by at most the displacement of its point
   const double limit = nearest(centre).distance + 2 * reach;
   std::array<std::uint32_t, Tree::kDeepest> stack;
   std::size_t depth = 0;

@@ -36,7 +36,7 @@ constexpr int kPaddedRow = (kPadded + 3) / 4 * 4;
 
 using Taps = std::array<float, kHalo + 1>;
 
-/// One side of the truncated symmetric filter, scaled so that a constant stays what it is: the
+/// One side of the truncated symmetric filter, scaled so that a constant is preserved: the
 /// prefilter after a Gaussian of `sigma` voxels.
 Taps makeTaps(double sigma) {
   const double pole = std::sqrt(3.0) - 2.0;
@@ -95,15 +95,15 @@ using BlockFloats = std::array<float, kBlock>;
 
 /// Samples as a structure of arrays.
 struct alignas(64) Block {
-  std::array<BlockFloats, 3> t;  ///< place inside the cell
+  std::array<BlockFloats, 3> t;  ///< position inside the cell
   std::array<std::array<int, kBlock>, 3> cell;
-  std::array<int, kBlock> inside;         ///< 0 or 1
-  std::array<int, kBlock> brick, offset;  ///< which brick, and where the 4x4x4 support begins in it
+  std::array<int, kBlock> inside;            ///< 0 or 1
+  std::array<int, kBlock> brick, offset;     ///< brick, and offset of the 4x4x4 support in it
   std::array<const float*, kBlock> support;  ///< null outside
   std::array<std::array<BlockFloats, 4>, 3> weight;
 };
 
-/// What `locate` needs to know of a line and of the volume.
+/// Data of a line and of the volume for `locate`.
 struct LineSetup {
   std::array<double, 3> start, step, highest;
   std::array<int, 3> lastCell, bricks;
@@ -153,7 +153,7 @@ inline Lanes lanesAt(const float* p) {
   return v;
 }
 
-/// The 64-term sum of each sample: over y, then z, in four lanes of x, and these at last.
+/// The 64-term sum of each sample: over y, then z, in four lanes of x, then over the lanes.
 LUMEN_SIMD_CLONES
 void interpolate(const Block& block, std::size_t count, float* out) {
   for (std::size_t i = 0; i < count; ++i) {

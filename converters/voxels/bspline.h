@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cubic B-spline interpolation of a volume, with coefficients computed brick by brick when first
 // needed. ITK's BSplineDecompositionImageFilter and BSplineInterpolateImageFunction do the same
-// mathematics, but make all coefficients of the volume before the first sample, where tracking
-// needs those along the vessels only; they smooth by another pass over another copy, and promise no
-// bits. Here the smoothing is folded into the prefilter's taps, and every machine and any number of
-// threads give the same floats.
+// computation, but compute all coefficients of the volume before the first sample, while tracking
+// needs only those along the vessels; they smooth by another pass over another copy, and their bits
+// are not reproducible. Here the smoothing is folded into the prefilter's taps, and the floats are
+// equal on every machine and with any number of threads.
 #pragma once
 
 #include <atomic>
@@ -19,9 +19,9 @@
 namespace lumen::convert {
 
 /// The cubic B-spline that interpolates the voxels (Unser, "Splines: a perfect fit for signal and
-/// image processing", 1999), mirrored at the volume's faces; of the volume smoothed by a Gaussian
-/// of `smoothing` mm along each index axis, where that is not zero. Sampling is thread-safe; the
-/// values do not depend on the order of calls. The volume must outlive the sampler. Memory: one
+/// image processing", 1999), mirrored at the volume's faces; the volume is first smoothed by a
+/// Gaussian of `smoothing` mm along each index axis, unless that is zero. Sampling is thread-safe;
+/// the values do not depend on the order of calls. The volume must outlive the sampler. Memory: one
 /// 4-byte coefficient for each voxel of the bricks that were touched, and about a third for their
 /// shared rims.
 class BsplineVolume {
@@ -44,10 +44,10 @@ public:
   /// One value at an index position; NaN outside.
   [[nodiscard]] float sample(const Eigen::Vector3d& index) const;
 
-  /// The most that `smoothing` may be, in a voxel's edges: its taps then fit the halo.
+  /// The maximum of `smoothing`, in voxel edges: its taps then fit the halo.
   static constexpr double kMostSmoothing = 2.0;
 
-  /// Bytes held by coefficients now.
+  /// Memory of the current coefficients, bytes.
   [[nodiscard]] std::size_t coefficientBytes() const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cells of a grid of voxels, and boxes of them.
+// Cells of a voxel grid, and boxes of them.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct CellBox {
                static_cast<std::size_t>(size[0]) +
            static_cast<std::size_t>(cell[0] - low[0]);
   }
-  /// The cell of a number.
+  /// The cell with a given number.
   [[nodiscard]] Cell cell(std::size_t index) const {
     const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
     const std::size_t row = index / nx;
@@ -58,7 +58,7 @@ struct CellBox {
     for (int a = 0; a < axis; ++a) stride *= static_cast<std::size_t>(size[a]);
     return stride;
   }
-  /// The cell nearest to a position in index space; empty if the box does not have it.
+  /// The cell nearest to a position in index space; empty if it lies outside of the box.
   [[nodiscard]] std::optional<Cell> nearest(const Eigen::Vector3d& position) const {
     Cell cell;
     for (int a = 0; a < 3; ++a) {
@@ -69,7 +69,7 @@ struct CellBox {
     return cell;
   }
 
-  /// The cells that this box and another one share; empty boxes have a size of 0.
+  /// The intersection of this box and another one; empty boxes have a size of 0.
   [[nodiscard]] CellBox meet(const CellBox& other) const {
     const Cell first = low.cwiseMax(other.low), last = high().cwiseMin(other.high());
     return between(first, last.cwiseMax(first - Cell::Ones()));

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Voxels that a search may look at; beyond, it has lost its path.
+/// Maximum number of voxels in a search; beyond it, the search has lost its path.
 constexpr std::size_t kMostVoxels = std::size_t{1} << 22;
 
 }  // namespace

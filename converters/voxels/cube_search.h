@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cheapest paths from a place to the voxels of a cube around it.
+// Cheapest paths from a voxel to the voxels of a cube around it.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ struct Ball {
   double radius = 0;
 };
 
-/// One search from one place, over voxels that are numbered in their cube. A step costs its length
-/// by the mean price of a millimetre at its ends.
+/// One search from one start, over voxels that are numbered in their cube. The cost of a step is
+/// its length times the mean price of a millimetre at its ends.
 class CubeSearch {
 public:
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
@@ -29,11 +29,11 @@ public:
   /// A cube of half edge `reach` mm. `geometry` must outlive the search.
   CubeSearch(const VolumeGeometry& geometry, const Eigen::Vector3d& start, double reach);
 
-  /// False where there is nothing to search: the start lies outside of the volume, or the cube
-  /// holds more voxels than a search may look at.
+  /// False if no search is possible: the start lies outside of the volume, or the cube holds more
+  /// voxels than the limit of a search.
   [[nodiscard]] bool isPossible() const { return m_first != kNowhere; }
 
-  /// The voxel nearest to a place, mm, LPS; kNowhere outside of the cube.
+  /// The voxel nearest to a position, mm, LPS; kNowhere outside of the cube.
   [[nodiscard]] std::size_t voxelAt(const Eigen::Vector3d& world) const;
   [[nodiscard]] Eigen::Vector3d position(std::size_t voxel) const {  ///< mm, LPS
     return m_geometry.position(m_box.cell(voxel));
@@ -42,7 +42,7 @@ public:
 
   /// The voxels in the cube whose centres lie in a ball.
   [[nodiscard]] std::vector<std::size_t> voxelsIn(const Ball& ball) const;
-  /// Keeps the search out of a voxel, if it does not start there.
+  /// Excludes a voxel from the search, unless it is the start.
   void exclude(std::size_t voxel) {
     if (voxel != m_first) m_paths.block(static_cast<std::uint32_t>(voxel));
   }
@@ -51,28 +51,29 @@ public:
     return (m_box.cell(a) - m_box.cell(b)).cwiseAbs().maxCoeff() <= 1;
   }
 
-  /// Takes voxels by rising cost of the path to them. `price(cell)` is that of a millimetre at a
-  /// voxel, > 0, asked once for each; voxels whose price is at least `limit` are not entered.
-  /// `visit(voxel, cost)` gives a SearchStep. Throws Error(Cancelled).
+  /// Visits voxels by rising cost of the path to them. `price(cell)` is the price of a millimetre
+  /// at a voxel, > 0, called once for each; voxels whose price is at least `limit` are not entered.
+  /// `visit(voxel, cost)` returns a SearchStep. Throws Error(Cancelled).
   template <class Price, class Visit>
   void run(const Price& price, float limit, const Visit& visit, const Progress& progress);
 
-  /// The voxel before on the cheapest path; of the first, itself. For voxels that run() came to.
+  /// The predecessor on the cheapest path; the first voxel is its own. For voxels that run()
+  /// reached.
   [[nodiscard]] std::size_t before(std::size_t voxel) const {
     return voxel == m_first ? voxel : m_paths.before(static_cast<std::uint32_t>(voxel));
   }
-  /// From the start to a voxel that run() came to, through voxels' centres, mm, LPS.
+  /// The path from the start to a voxel that run() reached, through voxels' centres, mm, LPS.
   [[nodiscard]] std::vector<Eigen::Vector3d> pathTo(std::size_t voxel) const;
 
 private:
   /// A step to a neighbour.
   struct Step {
     Cell step;
-    std::ptrdiff_t offset;  ///< difference of the numbers
+    std::ptrdiff_t offset;  ///< difference of the voxels' numbers
     float half;             ///< mm: half of its length
   };
-  static constexpr std::size_t kCheckEvery = 1024;  ///< voxels between looks at `progress`
-  static constexpr float kUnknown = -1;             ///< a price that was not asked for yet
+  static constexpr std::size_t kCheckEvery = 1024;  ///< voxels between polls of `progress`
+  static constexpr float kUnknown = -1;             ///< a price that was not computed yet
   [[nodiscard]] std::vector<Step> steps() const;
 
   const VolumeGeometry& m_geometry;

@@ -13,11 +13,11 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
-/// Units of work between two looks at whether the user has cancelled: well below 100 ms.
+/// Units of work between two polls of cancellation: well below 100 ms.
 constexpr std::size_t kLines = 4096, kVoxels = 16384, kDistances = 1024;
 
-/// Squared distances along one line to the nearest place, f being the squared distance that each
-/// place has already.
+/// Squared distances along one line to the nearest place, where f is each place's own squared
+/// distance.
 class LineTransform {
 public:
   void apply(std::vector<double>& f, double spacing) {
@@ -48,7 +48,7 @@ public:
   }
 
 private:
-  /// Where the parabola of a later place takes over from that of an earlier one.
+  /// The position at which the parabola of a later place falls below that of an earlier one.
   static double meeting(const std::vector<double>& f, std::size_t a, std::size_t b,
                         double spacing) {
     const double p = static_cast<double>(a), q = static_cast<double>(b), s2 = spacing * spacing;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances of voxels from what is outside of them.
+// Distance transforms of voxels.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,18 @@
 
 namespace lumen::convert {
 
-/// mm from each cell of a box to the nearest one whose mark is `target`, exact; infinite if there is
-/// none. `spacing` is that of the voxels. (P. Felzenszwalb, D. Huttenlocher, "Distance transforms of
-/// sampled functions", 2012.) Throws Error(Cancelled).
+/// Distance, mm, from each cell of a box to the nearest one whose mark is `target`, exact; infinite
+/// if there is none. `spacing` is that of the voxels. (P. Felzenszwalb, D. Huttenlocher, "Distance
+/// transforms of sampled functions", 2012.) Throws Error(Cancelled).
 std::vector<float> distancesTo(const CellBox& box, const Eigen::Vector3d& spacing,
                                std::span<const std::uint8_t> mark, std::uint8_t target,
                                const Progress& progress);
 
-/// mm from each voxel of a set to the nearest place that is not bright, half a voxel at least:
-/// approximate, as voxels learn of the rim from their neighbours (P.-E. Danielsson, "Euclidean
-/// distance mapping", 1980). `isBright(index)` is asked for the neighbours of the set's voxels. Places
-/// beyond the volume count as bright. Infinite where all is bright. Throws Error(Cancelled).
+/// Distance, mm, from each voxel of a set to the nearest place that is not bright, half a voxel at
+/// least: approximate, as voxels take the nearest background from their neighbours (P.-E.
+/// Danielsson, "Euclidean distance mapping", 1980). `isBright(index)` is called for the neighbours
+/// of the set's voxels. Places beyond the volume count as bright. Infinite where every voxel is
+/// bright. Throws Error(Cancelled).
 std::vector<float> depthsOf(const VoxelSet& set, const std::function<bool(std::size_t)>& isBright,
                             const Progress& progress);
 

@@ -13,11 +13,11 @@
 
 namespace lumen::convert {
 
-/// Verdict on a voxel that a search has come to.
+/// Verdict on a voxel that a search has reached.
 enum class SearchStep : std::uint8_t { GoOn, GoNoFurther, Stop };
 
-/// Cheapest paths from one voxel to others, over voxels that the caller numbers. All buffers are
-/// kept for the next search.
+/// Cheapest paths from one voxel to others, over voxels that the caller numbers. Buffers are reused
+/// by the next search.
 class CheapestPaths {
 public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -27,10 +27,10 @@ public:
 
   [[nodiscard]] std::size_t count() const { return m_cost.size(); }
 
-  /// Keeps every search out of a voxel that was not reached, unless it begins there.
+  /// Excludes a voxel that was not reached from every search, unless the search begins there.
   void block(std::uint32_t i) { m_cost[i] = -kFar; }
 
-  /// Forgets the paths of the search before; blocked voxels stay blocked.
+  /// Forgets the paths of the previous search; blocked voxels stay blocked.
   void clear() {
     for (const std::uint32_t i : m_reached) {
       m_cost[i] = kFar;
@@ -40,10 +40,11 @@ public:
     m_queue.clear();
   }
 
-  /// Takes voxels by rising cost of the path to them, then by their number. `eachStep(i, reach)`
-  /// calls `reach(j, step)` for the voxels j beside i, where step() >= 0 is the cost of the way there,
-  /// infinite if there is none; it is asked only if j may gain by it, and reach() gives whether it
-  /// did. `visit(i, cost)` gives a SearchStep. Voxels of the search before stay reached, until clear().
+  /// Visits voxels by rising cost of the path to them, then by their number. `eachStep(i, reach)`
+  /// calls `reach(j, step)` for the voxels j beside i, where step() >= 0 is the cost of the step,
+  /// infinite if it is impossible; step() is called only if j may gain by it, and reach() returns
+  /// whether it did. `visit(i, cost)` returns a SearchStep. Voxels of the previous search stay
+  /// reached, until clear().
   template <class EachStep, class Visit>
   void run(std::uint32_t start, const EachStep& eachStep, const Visit& visit) {
     reach(start, kNone, 0);
@@ -68,11 +69,11 @@ public:
   /// Voxels that were reached, in the order in which they first were.
   [[nodiscard]] const std::vector<std::uint32_t>& reached() const { return m_reached; }
   [[nodiscard]] float cost(std::uint32_t i) const { return m_cost[i]; }
-  /// The voxel before on the cheapest path; kNone for the first, and for those not reached.
+  /// The predecessor on the cheapest path; kNone for the first voxel, and for those not reached.
   [[nodiscard]] std::uint32_t before(std::uint32_t i) const { return m_before[i]; }
 
   /// The path to a voxel that was reached, from the first voxel for which isStart() holds, or else
-  /// from where the search began.
+  /// from the start of the search.
   template <class IsStart>
   [[nodiscard]] std::vector<std::uint32_t> pathTo(std::uint32_t i, const IsStart& isStart) const {
     std::vector<std::uint32_t> path;

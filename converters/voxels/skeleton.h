@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths along the middle of a set of voxels, as TEASAR finds them (Sato, Bitter, Bender, Kaufman,
 // Nakajima: TEASAR: tree-structure extraction algorithm for accurate and robust skeletons, 2000):
-// from a root, cheapest paths to the voxels that are farthest and that no path before covers.
+// from a root, cheapest paths to the voxels that are farthest and not covered by an earlier path.
 #pragma once
 
 #include <cmath>
@@ -16,22 +16,22 @@
 
 namespace lumen::convert {
 
-/// The price of a step of a skeleton's path: its length by a power of the depth where it ends, so that
-/// the middle is cheap.
+/// The price of a step of a skeleton's path: its length divided by a power of the depth at its end,
+/// so that the middle is cheap.
 struct SkeletonPrice {
   int power = 2;
   float unit = 1;  ///< mm: the unit of depths
-  float rim = 0;   ///< what is added to them, in that unit
+  float rim = 0;   ///< addend of the depths, in that unit
 };
 
-/// Search and cover of a skeleton; whoever extracts paths decides which steps are possible, and which
-/// paths stay.
+/// Search and cover of a skeleton; the caller decides which steps are possible, and which paths
+/// stay.
 class Skeleton {
 public:
-  /// What a path covers: TEASAR's scale and offset.
+  /// Extent covered by a path: TEASAR's scale and offset.
   static constexpr double kCoverDepths = 1.5, kCoverVoxels = 2;
 
-  /// Both must stay; `depths` are mm, > 0.
+  /// Both must outlive this object; `depths` are mm, > 0.
   Skeleton(const VoxelSet& set, std::span<const float> depths, const SkeletonPrice& price)
       : m_set(set),
         m_depths(depths),
@@ -45,7 +45,7 @@ public:
     }
   }
 
-  /// Finds the cheapest paths from a root to all that hangs together with it by the steps of
+  /// Finds the cheapest paths from a root to all voxels connected with it by the steps of
   /// `eachBeside(i, visit)`, which calls visit(j, mm) for the voxels beside i. Throws
   /// Error(Cancelled).
   template <class EachBeside>
@@ -64,7 +64,8 @@ public:
     });
   }
 
-  /// Cost of the voxels that spread() came to, in the order in which it first did, and the paths.
+  /// Cost of the voxels that spread() reached, in the order in which they were first reached, and
+  /// the paths.
   [[nodiscard]] const CheapestPaths& paths() const { return m_paths; }
   [[nodiscard]] float length(std::uint32_t i) const { return m_length[i]; }  ///< mm from the root
   [[nodiscard]] float depth(std::uint32_t i) const { return m_depths[i]; }   ///< mm
@@ -82,7 +83,7 @@ private:
 
   const VoxelSet& m_set;
   std::span<const float> m_depths;
-  std::vector<float> m_divisor;  ///< of a step that ends in a voxel
+  std::vector<float> m_divisor;  ///< divisor of a step that ends in a voxel
   std::vector<float> m_length;
   CheapestPaths m_paths;
 };

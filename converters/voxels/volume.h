@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scalar volume in memory, in the precision of its file.
+// Scalar volume in memory, in the precision of its file.
 #pragma once
 
 #include <algorithm>
@@ -39,25 +39,25 @@ struct VolumeGeometry {
   [[nodiscard]] bool containsWorld(const Eigen::Vector3d& world) const {
     return containsIndex(indexFromWorld(world));
   }
-  /// Geometric mean of the spacing, mm: what "a voxel" means wherever a length is tied to one.
+  /// Geometric mean of the spacing, mm: the size of "a voxel" as a length.
   [[nodiscard]] double voxelSize() const { return std::cbrt(spacing.prod()); }
 
   /// All cells of the volume.
   [[nodiscard]] CellBox cells() const { return {Cell::Zero(), {size[0], size[1], size[2]}}; }
   [[nodiscard]] std::size_t voxelCount() const { return cells().count(); }
   [[nodiscard]] bool contains(const Cell& cell) const { return cells().contains(cell); }
-  /// The place of a cell among the voxels.
+  /// The index of a cell among the voxels.
   [[nodiscard]] std::size_t index(const Cell& cell) const { return cells().index(cell); }
   [[nodiscard]] Cell cell(std::size_t index) const { return cells().cell(index); }
   /// The centre of a voxel, mm, LPS.
   [[nodiscard]] Eigen::Vector3d position(const Cell& cell) const {
     return worldFromIndex(cell.cast<double>());
   }
-  /// The cells within a box in index space, as far as the volume has them.
+  /// The cells within a box in index space, clipped to the volume.
   [[nodiscard]] CellBox cellsAround(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
 };
 
-/// Rounded outward, and moved to the volume's rim where a corner lies beyond it.
+/// Cells rounded outward, and moved to the volume's rim where a corner lies beyond it.
 inline CellBox VolumeGeometry::cellsAround(const Eigen::Vector3d& low,
                                            const Eigen::Vector3d& high) const {
   Cell first, last;
@@ -77,7 +77,7 @@ using Voxels = std::variant<std::vector<std::uint8_t>, std::vector<std::int16_t>
 struct Volume {
   VolumeGeometry geometry;
   Voxels voxels;
-  /// What its file left open and the reader assumed (VolumeHeader::assumptions).
+  /// Assumptions of the reader where the file is incomplete (VolumeHeader::assumptions).
   std::vector<std::string> assumptions{};
 };
 

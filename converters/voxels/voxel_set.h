@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some of a volume's voxels, and which of them are neighbours.
+// Subset of a volume's voxels, and their neighbourhood.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class VoxelSet {
 public:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  /// `indices`: ascending, each once, fewer than kNone. `geometry` must stay.
+  /// `indices`: ascending, each once, fewer than kNone. `geometry` must outlive the set.
   VoxelSet(const VolumeGeometry& geometry, std::vector<std::size_t> indices);
 
   [[nodiscard]] std::size_t size() const { return m_indices.size(); }
@@ -27,12 +27,12 @@ public:
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t i) const {  ///< mm, LPS
     return m_geometry.position(cell(i));
   }
-  /// kNone if it is not in the set.
+  /// The number of a voxel; kNone if it is not in the set.
   [[nodiscard]] std::uint32_t find(std::size_t index) const;
   [[nodiscard]] const VolumeGeometry& geometry() const { return m_geometry; }
 
-  /// Calls visit(j, step) for each voxel of the set that shares a corner with `i`; the step there in
-  /// mm along the axes of the grid.
+  /// Calls visit(j, step) for each voxel of the set that shares a corner with `i`; `step` is the
+  /// vector to it in mm along the axes of the grid.
   template <class Visit>
   void eachBeside(std::uint32_t i, Visit&& visit) const {
     eachInBox(cell(i), Cell::Ones(), [&](std::uint32_t j, const Eigen::Vector3d& step) {
@@ -78,7 +78,7 @@ private:
 
   const VolumeGeometry& m_geometry;
   std::vector<std::size_t> m_indices;
-  std::vector<std::uint32_t> m_rows;  ///< where each row of voxels begins, and the end
+  std::vector<std::uint32_t> m_rows;  ///< start of each row of voxels, and the end
 };
 
 }  // namespace lumen::convert

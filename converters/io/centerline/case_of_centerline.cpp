@@ -20,20 +20,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-// All in radii. Half a radius is what tracking goes ahead by (docs/method.md, section 1.5).
+// Lengths in radii. Tracking advances by half a radius (docs/method.md, section 1.5).
 constexpr double kLongestStep = 1.25, kInserted = 0.6, kDense = 0.2, kResampled = 0.5;
-// Of a radius: points nearer than this to the one before are the same.
+// Tolerance relative to the radius: a point nearer than this to its predecessor is a duplicate.
 constexpr double kSamePoint = 0.02;
-// Of the parent's radius: where a child is within its core, and within its lumen; and how long it may
-// run there before it hangs on another node.
+// Limits relative to the parent's radius: a child within its core, within its lumen, and the length
+// that it may run there before it is attached to another node.
 constexpr double kCore = 0.5, kInside = 0.9, kLongWay = 1.5;
-// A file may be short and its vessels long, but not without bound.
+// Upper bound: a short file may describe long vessels, but not without limit.
 constexpr double kNodesForFree = 200000, kNodesPerPoint = 100;
 
 struct Sample {
   Vector3d position;
   double radius;
-  std::int32_t point;  // of the file, or kNoPoint in between
+  std::int32_t point;  // point of the file, or kNoPoint in between
 };
 using Samples = std::vector<Sample>;
 
@@ -41,7 +41,7 @@ double stepAt(const Samples& way, std::size_t i) {
   return (way[i + 1].position - way[i].position).norm();
 }
 
-// The derivative by the chord length at each sample, second order where it has two neighbours.
+// The derivative by the chord length at each sample, second order at samples with two neighbours.
 std::vector<Vector3d> tangentsOf(const Samples& way) {
   std::vector<Vector3d> tangents(way.size(), Vector3d::Zero());
   if (way.size() < 2) return tangents;
@@ -78,7 +78,7 @@ private:
   std::vector<Vector3d> m_tangent;
 };
 
-// Without samples at the place of the one before; the last stays.
+// Removes samples at the place of their predecessor; the last stays.
 Samples apart(const Samples& way) {
   Samples kept;
   for (const Sample& sample : way) {
@@ -206,13 +206,14 @@ private:
     return {point.position, point.radius, index};
   }
 
-  // A child that runs within its parent for long, as one that leaves it at a narrow angle does, hangs
-  // on the node beside which it leaves the core: neighbours are found along the tree (spec/lumen.md),
-  // and that way would get too long for parent and child to blend. Returns the node.
+  // A child that runs within its parent for long, as one that leaves it at a narrow angle does, is
+  // attached to the node beside which it leaves the core: neighbours are found along the tree
+  // (spec/lumen.md), and that path would get too long for parent and child to blend. Returns the
+  // node.
   std::int32_t leaveEarly(Samples& samples, std::int32_t parent) const {
     const formats::Branch& branch = m_tree.branches[m_tree.branch[std::size_t(parent)]];
     std::int32_t nearest = parent, last = parent;
-    std::size_t core = 0;  // so many samples lie in it
+    std::size_t core = 0;  // number of samples that lie in it
     double way = 0;
     Vector3d from = centreOf(parent);
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -237,7 +238,7 @@ private:
     return toEigen(m_tree.centre[std::size_t(node)]);
   }
 
-  // From a node of a branch to those beside it while these are nearer.
+  // Searches from a node of a branch along its neighbours while the distance decreases.
   [[nodiscard]] std::int32_t nearestNode(const Vector3d& p, std::int32_t node,
                                          const formats::Branch& branch) const {
     const auto first = static_cast<std::int32_t>(branch.firstNode);
@@ -288,7 +289,7 @@ private:
     m_tree.branches.push_back(std::move(branch));
   }
 
-  // Points that are no nodes of their own stand at the one before them.
+  // Points without a node of their own map to the node before them.
   void nameNodes(const CenterlineChain& chain, std::int32_t node) {
     if (node == formats::kNoParent) node = m_node[std::size_t(chain.points.front())];
     for (const std::int32_t index : chain.points) {
@@ -324,7 +325,7 @@ private:
     m_tree.links.assign(links.begin(), links.end());
   }
 
-  // A point at the place of its parent has that one's node.
+  // A point at the place of its parent maps to the parent's node.
   [[nodiscard]] std::uint32_t nodeOf(std::int32_t point) const {
     while (m_node[std::size_t(point)] == formats::kNoParent)
       point = m_file.points[std::size_t(point)].parent;
@@ -335,7 +336,7 @@ private:
   std::string m_name;
   formats::Case m_case;
   formats::CenterlineTree& m_tree = m_case.tree;
-  std::vector<std::int32_t> m_node;  // of each point of the file
+  std::vector<std::int32_t> m_node;  // node of each point of the file
   std::set<std::string> m_labels;
   std::map<std::string, int> m_seen;
   double m_asked = 0, m_allowed = kNodesForFree;

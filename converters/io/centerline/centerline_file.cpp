@@ -9,16 +9,16 @@ namespace {
 
 using Index = std::int32_t;
 
-// Children of each point once points at the place of their parent are one with it.
+// Children of each point after points at the place of their parent were merged with it.
 struct Merged {
   explicit Merged(const CenterlineFile& file);
 
   [[nodiscard]] Index parentOf(Index point) const { return parent[std::size_t(point)]; }
-  /// Of the children of `point` the one that goes on as the same vessel.
+  /// The child of `point` that continues the same vessel.
   [[nodiscard]] Index next(Index point) const;
 
   const std::vector<CenterlinePoint>& points;
-  std::vector<Index> parent;               // among those that stay
+  std::vector<Index> parent;               // among the remaining points
   std::vector<Index> first, last, beside;  // children in the order of the file
   std::vector<Index> roots;
 };
@@ -29,7 +29,7 @@ Merged::Merged(const CenterlineFile& file)
       first(parent),
       last(parent),
       beside(parent) {
-  std::vector<Index> same(points.size());  // the point that each is one with
+  std::vector<Index> same(points.size());  // the point with which each is merged
   for (std::size_t i = 0; i < points.size(); ++i) {
     same[i] = static_cast<Index>(i);
     if (points[i].parent == kNoPoint) {

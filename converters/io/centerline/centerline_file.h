@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A centerline as files of other programs hold it: points with radii that hang on one another.
+// Centerlines of other programs: points with radii and parents.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ namespace lumen::convert {
 constexpr std::int32_t kNoPoint = -1;
 constexpr std::int32_t kNoVessel = -1;
 
-/// The comment that marks files of lumen.
+/// Comment that marks files of lumen.
 constexpr const char* kOwnCenterline = "lumen: centerline, millimetres, LPS";
 
 struct CenterlinePoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the file's unit and axes, finite
   double radius = 0;                                   ///< in the same unit; 0: the file has none
   std::int32_t parent = kNoPoint;                      ///< index of a point before this one
-  std::int32_t type = 0;                               ///< as the file says
+  std::int32_t type = 0;                               ///< type as stated by the file
   std::int32_t vessel = kNoVessel;  ///< index of `vessels`, or kNoVessel where the file names none
 };
 
@@ -33,26 +33,27 @@ struct CenterlineFile {
   std::vector<CenterlinePoint> points;
   std::vector<std::string> vessels;                ///< names, maybe empty or equal
   std::vector<std::array<std::int32_t, 2>> links;  ///< points at which vessels close a loop
-  double unit = 0;                                 ///< mm; 0: the file does not say
-  CenterlineAxes axes = CenterlineAxes::Unknown;   ///< as the file says
-  bool isOfLumen = false;                          ///< its points are the nodes of a case
-  std::vector<std::string> remarks;                ///< what was assumed or left out, sentences
+  double unit = 0;                                 ///< mm; 0: the file states none
+  CenterlineAxes axes = CenterlineAxes::Unknown;   ///< axes as stated by the file
+  bool isOfLumen = false;                          ///< points are the nodes of a case
+  std::vector<std::string> remarks;                ///< assumptions and omissions, sentences
 
   [[nodiscard]] std::size_t radiiMissing() const;
 };
 
-/// A way without forks: what one vessel is.
+/// A path without forks: the centerline of one vessel.
 struct CenterlineChain {
-  /// Indices of points. A chain that hangs on another one does not repeat the point it hangs on.
+  /// Indices of points. A chain that is attached to another one does not repeat the point of
+  /// attachment.
   std::vector<std::int32_t> points;
   std::int32_t parent = -1;      ///< index of a chain before this one, or -1
-  std::size_t parentSample = 0;  ///< which of the parent's points it hangs on
+  std::size_t parentSample = 0;  ///< index of the point of attachment among the parent's points
 };
 
-/// The trees of a file as chains, parents first. Points at the place of their parent are one with
-/// it. At a fork the child of the same vessel goes on as the same chain; where the file names no
-/// vessels the widest child does, of equals the one that turns least; the others begin chains of
-/// their own. Points at the place of a root that has no others are a chain of one point.
+/// The trees of a file as chains, parents first. Points at the place of their parent are merged
+/// with it. At a fork the child of the same vessel continues the chain; where the file names no
+/// vessels the widest child does, and the one that turns least wins a tie; the others begin new
+/// chains. Points at the place of a root without other children are a chain of one point.
 std::vector<CenterlineChain> chainsOf(const CenterlineFile& file);
 
 }  // namespace lumen::convert

@@ -9,7 +9,7 @@
 namespace lumen::convert {
 namespace {
 
-// The nearest radius in one direction along the tree.
+// The nearest radius in one direction along the tree, with its distance.
 struct Known {
   double radius = 0;
   double way = std::numeric_limits<double>::infinity();

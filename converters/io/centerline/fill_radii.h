@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radii where a file has placeholders. Private to the sources of centerline.
+// Interpolation of missing radii in files. Private to the sources of centerline.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace lumen::convert {
 
-/// Points without a radius get one in between those of the nearest points towards the root and away
-/// from it that have one, or that of the one which there is; a remark says how many. Throws
-/// Error(InvalidInput) with `name` if no point of some tree has a radius; `expected` says where a
-/// file has them.
+/// Points without a radius get one interpolated between the nearest points with radius towards the
+/// root and away from it, or a copy if only one of these exists; a remark reports their number.
+/// Throws Error(InvalidInput) with `name` if no point of some tree has a radius; `expected` states
+/// where a file holds radii.
 void fillRadii(CenterlineFile& file, const std::string& name, const char* expected);
 
 }  // namespace lumen::convert

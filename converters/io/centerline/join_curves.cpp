@@ -15,12 +15,12 @@ using Eigen::Vector3d;
 using Index = std::int32_t;
 
 constexpr double kSameCourse = 0.1;  // radii
-// a curve that ends beside another one's axis has met it if it is this near, in radii
+// distance, in radii, within which a curve that ends beside another one's axis meets it
 constexpr double kMet = 1.0;
-constexpr double kStated = -1;             // in place of a distance: a file says so
-constexpr double kAsNear = 0.25;           // radii: of two contacts neither is the better one
-constexpr std::size_t kMostContacts = 16;  // more begin together only where any will do
-constexpr double kSamePlace = 1e-3;        // of a curve's step
+constexpr double kStated = -1;             // distance that stands for a stated contact
+constexpr double kAsNear = 0.25;           // radii: contacts within this difference are equal
+constexpr std::size_t kMostContacts = 16;  // limit; more begin together only where any serves
+constexpr double kSamePlace = 1e-3;        // relative to a curve's step
 
 // A place on the axis of a curve.
 struct Contact {
@@ -50,12 +50,12 @@ public:
     m_last.resize(count);
     for (std::size_t c = 0; c < count; ++c) findContacts(static_cast<Index>(c));
     for (const Index root : roots()) grow(root);
-    for (const Index root : byWidth()) grow(root);  // rings, of which none is a root
+    for (const Index root : byWidth()) grow(root);  // cycles, which have no root
     return std::move(m_file);
   }
 
 private:
-  // How far from its axis a curve's lumen reaches at most, and where it lies.
+  // Measures the largest extent of a curve's lumen from its axis, and its box.
   void measure(std::size_t c) {
     double step = 0, widest = 0;
     const auto& points = m_curves[c].points;
@@ -71,7 +71,7 @@ private:
     return m_curves[std::size_t(curve)].points;
   }
 
-  // All curves, but `self`, in whose lumen the point lies, the nearest axis first.
+  // All curves but `self` whose lumen contains the point, the nearest axis first.
   [[nodiscard]] std::vector<Contact> contacts(Index self, const CurvePoint& point) const {
     std::vector<Contact> found;
     for (Index c = 0; c < static_cast<Index>(m_curves.size()); ++c) {
@@ -112,7 +112,7 @@ private:
     if (points(c).empty()) return;
     m_first[std::size_t(c)] = contacts(c, points(c).front());
     m_last[std::size_t(c)] = contacts(c, points(c).back());
-    // what a file says goes before what lies near
+    // stated contacts precede geometric ones
     const Index parent = m_curves[std::size_t(c)].parent;
     if (parent < 0 || points(parent).empty()) return;
     m_first[std::size_t(c)] = {nearestOn(parent, points(c).front().position)};
@@ -122,7 +122,7 @@ private:
       m_first[std::size_t(c)][0] = {parent, static_cast<std::size_t>(point), kStated};
   }
 
-  // Curves that begin in no other one; of several that begin together, the one that goes first.
+  // Curves that begin in no other one; among several that begin together, the first.
   [[nodiscard]] std::vector<Index> roots() const {
     std::vector<Index> found;
     for (const Index c : byWidth())
@@ -142,7 +142,7 @@ private:
 
   [[nodiscard]] bool isPlaced(Index curve) const { return !m_point[std::size_t(curve)].empty(); }
 
-  // The curve and all that hangs on it, in breadth.
+  // The curve and all its descendants, breadth first.
   void grow(Index root) {
     if (isPlaced(root)) return;
     place(root, std::nullopt, false);
@@ -151,7 +151,7 @@ private:
       for (Index c = 0; c < static_cast<Index>(m_curves.size()); ++c) {
         if (isPlaced(c) || points(c).empty()) continue;
         const auto first = contactWith(m_first[std::size_t(c)], open[at]);
-        // a root that ends here is turned round; one that begins in a curve still to come waits
+        // a root that ends here is reversed; a curve that begins in a later one waits
         const bool isRoot = m_first[std::size_t(c)].empty();
         const auto last = isRoot ? contactWith(m_last[std::size_t(c)], open[at]) : std::nullopt;
         if (!first && !last) continue;
@@ -168,7 +168,7 @@ private:
     return std::nullopt;
   }
 
-  // Adds the points of a curve that are not there yet.
+  // Adds the points of a curve that do not exist yet.
   void place(Index curve, const std::optional<Contact>& on, bool turned) {
     std::vector<CurvePoint> way = points(curve);
     if (turned) std::reverse(way.begin(), way.end());
@@ -196,7 +196,7 @@ private:
     return index;
   }
 
-  // The points of the tree that the beginning of the way runs along, from `at` on.
+  // The points of the tree along which the beginning of the path runs, from `at` on.
   [[nodiscard]] std::vector<Index> follow(const std::vector<CurvePoint>& way, Index at) const {
     std::vector<Index> same;
     for (const CurvePoint& point : way) {
@@ -207,7 +207,7 @@ private:
     return same;
   }
 
-  // From a point of the tree to children while these are nearer.
+  // Descends from a point of the tree to children while the distance decreases.
   [[nodiscard]] Index descend(const Vector3d& p, Index at) const {
     for (;;) {
       Index best = at;
@@ -233,8 +233,8 @@ private:
     return best > kSameCourse * here.radius + 1e-9 * p.norm();
   }
 
-  // A link from the last of the curve's own points, where it ends in a curve that is placed, but
-  // beside its own course. The last point goes if that place is the same.
+  // Adds a link from the last of the curve's own points, if it ends in a placed curve, but beside
+  // its own course. The last point is dropped if it coincides with that place.
   void close(Index curve, std::size_t own) {
     std::vector<Index>& mine = m_point[std::size_t(curve)];
     Index last = mine.back();
@@ -256,7 +256,7 @@ private:
     }
   }
 
-  // Whether the way along the tree is short: the curve has not left it for another place.
+  // Whether the path along the tree is short, so that the curve has not left it for another place.
   [[nodiscard]] bool isNear(Index ancestor, Index point) const {
     const CenterlinePoint& end = m_file.points[std::size_t(point)];
     double way = 0;
@@ -272,10 +272,10 @@ private:
 
   const std::vector<CenterlineCurve>& m_curves;
   std::vector<double> m_reach;
-  std::vector<std::vector<Index>> m_point;  // of the file, for each point of each placed curve
+  std::vector<std::vector<Index>> m_point;  // file's index of each point of each placed curve
   std::vector<Box3d> m_box;
   std::vector<std::vector<Contact>> m_first, m_last;
-  std::vector<std::vector<Index>> m_children;  // of the file's points
+  std::vector<std::vector<Index>> m_children;  // children of the file's points
   CenterlineFile m_file;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves that were drawn or computed one by one, as one tree.
+// Joins curves that were drawn or computed one by one into one tree.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +17,22 @@ struct CurvePoint {
   double radius = 0;  ///< 0: unknown
 };
 
-/// In any unit.
+/// A curve, in any unit.
 struct CenterlineCurve {
   std::string name;
   std::vector<CurvePoint> points;
-  std::int32_t parent = -1;       ///< index of the curve that it hangs on, if the file says so
-  std::int64_t parentPoint = -1;  ///< and the index of that one's point, which then is the place
+  std::int32_t parent = -1;  ///< index of the curve to which it is attached, if the file states one
+  std::int64_t parentPoint = -1;  ///< index of the parent's point of attachment
 };
 
-/// The points and vessels of a file; the rest of it is left for the caller to say. What a curve
+/// The points and vessels of a file; the caller fills in the rest of it. The beginning that a curve
 /// shares with an earlier one from its first point on, as lines from a root to every tip do, is
-/// there once: it is the same as long as it stays within a tenth of that one's radius. A curve hangs
-/// on the one in whose lumen it begins, or which its parent is; else on the one in whose lumen it
-/// ends, and is turned round; else it is a root. Where a curve that hangs on another one ends in the
-/// lumen of a third (or of the same, farther on), a link closes the loop. A curve that has been
-/// placed as a whole before is left out. Curves that nothing leads to begin with the widest.
+/// stored once: points are shared while they stay within a tenth of the earlier curve's radius. A
+/// curve is attached to its stated parent, or to the curve in whose lumen it begins; else to the
+/// curve in whose lumen it ends, and is reversed; else it is a root. A link closes the loop where
+/// an attached curve ends in the lumen of a third (or of its parent, farther on). A curve that
+/// already lies wholly on placed ones is left out. Curves without a predecessor begin with the
+/// widest.
 CenterlineFile joinCurves(const std::vector<CenterlineCurve>& curves);
 
 }  // namespace lumen::convert

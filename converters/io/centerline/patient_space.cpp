@@ -11,9 +11,9 @@
 namespace lumen::convert {
 namespace {
 
-// Whatever is meant to be in millimetres: no vessel is wider than the first (the widest aneurysms
-// of an aorta are 70 mm in radius), and no body longer than the second. A tree below the third is
-// one in metres: a whole vessel tree of 2 mm would be a mouse's glomerulus.
+// Bounds of a plausible vessel tree in millimetres: no vessel is wider than the first (the widest
+// aneurysms of an aorta are 70 mm in radius), and no body longer than the second. A tree below the
+// third is stated in metres: a whole vessel tree of 2 mm would be a mouse's glomerulus.
 constexpr double kWidestRadius = 75, kLongestBody = 2500, kShortestTree = 2;
 
 constexpr std::array<std::pair<double, const char*>, 4> kUnitNames = {

@@ -28,13 +28,13 @@ constexpr double kMillimetresOfMicrometre = 1e-3;
 constexpr std::int32_t kSoma = 1;  // a type of SWC
 constexpr double kSomaRounding = 0.05;
 constexpr double kLargestId = 2147483647;
-constexpr double kLargestLength = 1e9;  // far beyond any unit that is meant
+constexpr double kLargestLength = 1e9;  // far beyond any plausible unit
 constexpr std::size_t kShownBytes = 24;
 constexpr std::array<const char*, 7> kColumns = {"the id", "the type",   "x",         "y",
                                                  "z",      "the radius", "the parent"};
 constexpr const char* kExpectedLine = "expected: id type x y z radius parent";
 
-// A point as its line has it.
+// A point as stated by its line.
 struct Line {
   std::int32_t id, parent;  // ids; parent -1: none
   std::size_t number;       // from 1
@@ -57,7 +57,7 @@ public:
     return lines;
   }
 
-  /// Names of vessels by the id of their first point, as write_swc.h has them.
+  /// Names of vessels by the id of their first point, as written by write_swc.h.
   [[nodiscard]] const std::map<std::int32_t, std::string>& vessels() const { return m_vessels; }
   /// Unit and axes from a comment; SWC itself has neither.
   double unit = 0;
@@ -100,7 +100,7 @@ private:
     m_vessels[id] = text.substr(used + 1);
   }
 
-  // The first is empty for an empty line.
+  // The first field is empty for an empty line.
   [[nodiscard]] std::array<std::string_view, 7> columnsOf(std::string_view line) const {
     std::array<std::string_view, 7> columns;
     std::size_t count = 0;
@@ -165,8 +165,7 @@ private:
   std::map<std::int32_t, std::string> m_vessels;
 };
 
-// For each line the index of its parent's, or kNoPoint. Refuses ids that occur twice and parents
-// that are missing.
+// Index of each line's parent line, or kNoPoint. Refuses ids that occur twice and missing parents.
 std::vector<std::int32_t> parentsOf(const std::vector<Line>& lines, const Parser& parser) {
   std::vector<std::pair<std::int32_t, std::int32_t>> byId;  // id, index
   byId.reserve(lines.size());
@@ -194,8 +193,8 @@ std::vector<std::int32_t> parentsOf(const std::vector<Line>& lines, const Parser
   return parents;
 }
 
-// A neuron's body as NeuroMorpho has it: two points beside the first, as far away as it is wide,
-// from which nothing goes on. They would be vessels of no length. Returns how many are left out.
+// A neuron's body in NeuroMorpho's form: two points beside the first, at a distance of its radius,
+// without children. They would be vessels of no length. Returns the number of points left out.
 std::size_t dropSomaHelpers(std::vector<Line>& lines) {
   std::set<std::int32_t> parents;
   for (const Line& line : lines) parents.insert(line.parent);
@@ -214,7 +213,7 @@ std::size_t dropSomaHelpers(std::vector<Line>& lines) {
   return std::erase_if(lines, isHelper);
 }
 
-// The index of a line that leads back to itself.
+// The index of a line whose ancestors include itself.
 std::size_t someOfCycle(const std::vector<std::int32_t>& parents, std::size_t start) {
   auto at = static_cast<std::int32_t>(start);
   for (std::size_t i = 0; i < parents.size(); ++i) at = parents[static_cast<std::size_t>(at)];
@@ -225,7 +224,7 @@ std::size_t someOfCycle(const std::vector<std::int32_t>& parents, std::size_t st
   return static_cast<std::size_t>(lowest);
 }
 
-// The lines in an order where parents come first, otherwise that of the file.
+// The lines ordered with parents first, otherwise as in the file.
 std::vector<std::int32_t> parentsFirst(const std::vector<Line>& lines,
                                        const std::vector<std::int32_t>& parents,
                                        const Parser& parser) {

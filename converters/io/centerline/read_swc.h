@@ -12,15 +12,14 @@
 namespace lumen::convert {
 
 /// Reads an SWC file of at most 64 MiB. A line is a point: id, type, x, y, z, radius, and the id of
-/// its parent or -1, with blanks or tabs in between; lines end with LF, CR LF or CR. What follows #,
-/// and columns beyond the seventh (as Vaa3D's), are passed over. Ids may have gaps, any order and
-/// any start, and may be written as 1.0; a parent may follow its children; there may be several
-/// roots. Points are in the file's order as far as parents come first. Radii of 0 or less
-/// are placeholders, and filled in (fill_radii.h); NeuroMorpho's files are in micrometres, and their
-/// soma of three points is one; comments of lumen's own files name vessels. Throws Error(InvalidInput)
-/// with the line, what was found and what was expected: of numbers that are none or not finite, of
-/// trees without any radius, of ids that occur twice, of parents that are missing, and of
-/// cycles.
+/// its parent or -1, with blanks or tabs in between; lines end with LF, CR LF or CR. Text after #,
+/// and columns beyond the seventh (as Vaa3D's), are ignored. Ids may have gaps, any order and any
+/// start, and may be written as 1.0; a parent may follow its children; there may be several roots.
+/// Points keep the file's order as far as parents come first. Radii of 0 or less are placeholders,
+/// and filled in (fill_radii.h); NeuroMorpho's files are in micrometres, and their soma of three
+/// points is one; comments of lumen's own files name vessels. Throws Error(InvalidInput) with the
+/// line, the finding and the expectation: for malformed or non-finite numbers, trees without any
+/// radius, ids that occur twice, missing parents, and cycles.
 CenterlineFile readSwc(const std::filesystem::path& file);
 
 /// Reads a text as readSwc() does; `name` is the name of its file, for messages.

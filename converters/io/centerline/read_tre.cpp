@@ -28,9 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLargestTre = 1e9;  // far beyond any length that is meant
+constexpr double kLargestTre = 1e9;  // far beyond any plausible length
 constexpr std::size_t kMostColumns = 1000;
-constexpr std::size_t kTreHead = 256;  // where a comment of write_centerline.cpp stands
+constexpr std::size_t kTreHead = 256;  // position limit of a comment of write_centerline.cpp
 constexpr int kDeepestTree = 1000;
 
 // The placement of an object within its parent.
@@ -150,7 +150,7 @@ private:
                                               column(object, {"z"}),
                                               column(object, {"r", "rad", "radius", "s"})};
     const std::uint64_t width = object.columns.size();
-    // a number is a digit and a blank at least
+    // a number takes at least a digit and a blank
     const std::uint64_t bytes = object.isBinary ? (object.isDouble ? 8 : 4) : 2;
     if (*object.count > m_rest.size() / width / bytes + 1)
       refuse("begins " + std::to_string(*object.count) + " points of " + std::to_string(width) +
@@ -273,7 +273,7 @@ private:
   std::vector<TreObject> m_objects;
 };
 
-// Objects by their ids; of equal ids the first.
+// Objects by their ids; the first object wins where ids are equal.
 std::map<int, std::size_t> objectsById(const std::vector<TreObject>& objects) {
   std::map<int, std::size_t> byId;
   for (std::size_t i = 0; i < objects.size(); ++i)
@@ -281,7 +281,7 @@ std::map<int, std::size_t> objectsById(const std::vector<TreObject>& objects) {
   return byId;
 }
 
-// A point of an object in the scene: its own placement, then those of what it hangs on.
+// A point of an object in the scene: its own placement is applied, then those of its ancestors.
 Eigen::Vector3d placed(Eigen::Vector3d p, std::size_t object, const std::vector<TreObject>& objects,
                        const std::map<int, std::size_t>& byId) {
   for (int depth = 0; depth < kDeepestTree; ++depth) {

@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLargestVtp = 1e9;
-constexpr std::size_t kHead = 1024;        // where a comment of write_vtp.cpp stands
-constexpr std::size_t kMostLines = 10000;  // every line is held against every other one
+constexpr std::size_t kHead = 1024;        // position limit of a comment of write_vtp.cpp
+constexpr std::size_t kMostLines = 10000;  // limit, as every pair of lines is compared
 constexpr std::array<std::string_view, 6> kVtpArrays = {
     "MaximumInscribedSphereRadius", "Radius", "radius", "CenterlineIds", "TractIds", "Branch"};
 
@@ -35,7 +35,7 @@ const VtkArray* radiiOf(const VtkPolyData& data) {
   return nullptr;
 }
 
-// For each line its place: lines of one centerline in the order of their tracts.
+// The order of each line: lines of one centerline in the order of their tracts.
 std::vector<std::vector<std::size_t>> whole(const VtkPolyData& data) {
   const std::size_t before = data.verts.size();
   const VtkArray* centerline = data.cellArray("CenterlineIds");
@@ -76,8 +76,7 @@ CurvePoint pointOf(const VtkPolyData& data, const VtkArray* radii, std::uint32_t
   return point;
 }
 
-// The tree that lines make which share their points; nothing where lines do not say of each point
-// which one is before it.
+// The tree of lines that share points; empty unless the lines determine each point's predecessor.
 std::optional<CenterlineFile> sharedTree(const VtkPolyData& data, const VtkArray* radii,
                                          const std::string& name) {
   const std::size_t count = data.position.size();
@@ -96,7 +95,7 @@ std::optional<CenterlineFile> sharedTree(const VtkPolyData& data, const VtkArray
       if (before[point] >= 0 && before[point] != previous) return std::nullopt;
       before[point] = previous;
     }
-  // lines that are apart are joined by their places instead
+  // separate lines are joined by their places instead
   if (std::none_of(uses.begin(), uses.end(), [](std::size_t n) { return n > 1; }))
     return std::nullopt;
   const VtkArray* branch = data.pointArray("Branch");
@@ -120,7 +119,7 @@ std::optional<CenterlineFile> sharedTree(const VtkPolyData& data, const VtkArray
       open.push_back(at);
       if (before[at] < 0) break;
       at = static_cast<std::size_t>(before[at]);
-      if (open.size() > count) return std::nullopt;  // a ring
+      if (open.size() > count) return std::nullopt;  // a cycle
     }
     for (; !open.empty(); open.pop_back()) add(open.back());
   }

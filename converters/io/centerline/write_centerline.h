@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of a case as centerlines for other programs: centres and radii, mm, LPS. Sections that are
-// not round, wall points, models and links are not in them. Equal trees give equal bytes.
+// The tree of a case as centerlines for other programs: centres and radii, mm, LPS. Files omit
+// non-circular sections, wall points, models and links. Equal trees give equal bytes.
 #pragma once
 
 #include <string>
@@ -10,29 +10,29 @@
 namespace lumen::convert {
 
 /// SWC: a point for each node, its id the node's index and one more. Types: 5 where vessels fork, 6
-/// at ends, 0 elsewhere. Comments say unit and axes, and the label of each branch with the id of its
-/// first point.
+/// at ends, 0 elsewhere. Comments state unit and axes, and the label of each branch with the id of
+/// its first point.
 std::string encodeSwc(const formats::CenterlineTree& tree);
 
-/// TubeTK: a scene of one tube (of the subtype Vessel) for each branch; ParentID and ParentPoint say
-/// what it hangs on.
+/// TubeTK: a scene of one tube (of the subtype Vessel) for each branch; ParentID and ParentPoint
+/// state its attachment.
 std::string encodeTre(const formats::CenterlineTree& tree);
 
-/// Lines of VTK with VMTK's arrays: of points MaximumInscribedSphereRadius and Branch (index of the
-/// branch), of lines CenterlineIds, TractIds, GroupIds and Blanking as vmtkbranchextractor gives
-/// them. A centerline is the way from a root to a tip, cut into tracts. What leaves a node where
-/// vessels fork is blanked as long as it stays in that node's ball, and is one group; the runs in
-/// between are groups of their own. Lines share points.
+/// Lines of VTK with VMTK's arrays: MaximumInscribedSphereRadius and Branch (index of the branch)
+/// on points; CenterlineIds, TractIds, GroupIds and Blanking, as vmtkbranchextractor computes them,
+/// on lines. A centerline is the path from a root to a tip, cut into tracts. Edges that leave a
+/// node where vessels fork are blanked as long as they stay in that node's ball, and form one
+/// group; the runs in between are groups of their own. Lines share points.
 std::string encodeVtpCenterline(const formats::CenterlineTree& tree);
 
-/// Slicer Markups: a curve for each branch, with the measurement "Radius". A child's curve begins on
-/// its parent's axis.
+/// Slicer Markups: a curve for each branch, with the measurement "Radius". A child's curve begins
+/// on its parent's axis.
 std::string encodeCurves(const formats::CenterlineTree& tree);
 
-/// The same of one branch, which has a node.
+/// Slicer Markups: a curve for one branch, which has a node, with the measurement "Radius".
 std::string encodeCurve(const formats::CenterlineTree& tree, const formats::Branch& branch);
 
-/// What "@schema" of a Slicer Markups file says.
+/// The value of "@schema" in a Slicer Markups file.
 inline constexpr const char* kMarkupsSchema =
     "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
     "Schema/markups-schema-v1.0.3.json#";

@@ -17,11 +17,11 @@ namespace {
 
 using formats::CenterlineTree;
 
-// What the edge that leads to a node belongs to.
+// Group of the edge that leads to a node.
 struct Group {
   std::int32_t id = -1;
   bool isBlanked = false;
-  std::int32_t fork = formats::kNoParent;  // in whose ball a blanked edge lies
+  std::int32_t fork = formats::kNoParent;  // fork whose ball contains a blanked edge
 };
 
 struct Tract {
@@ -36,11 +36,11 @@ public:
       : m_tree(tree), m_group(tree.nodeCount()), m_children(tree.nodeCount(), 0) {
     for (const std::int32_t parent : tree.parent)
       if (parent != formats::kNoParent) ++m_children[static_cast<std::size_t>(parent)];
-    std::vector<std::int32_t> atFork(tree.nodeCount(), -1);  // group of what leaves it
+    std::vector<std::int32_t> atFork(tree.nodeCount(), -1);  // group of the edges that leave it
     for (std::size_t n = 0; n < tree.nodeCount(); ++n) setGroup(n, atFork);
   }
 
-  // Of all ways from a root to a tip, in the order of the tips.
+  // All paths from a root to a tip, in the order of the tips.
   [[nodiscard]] std::vector<Tract> tracts() const {
     std::vector<Tract> all;
     std::int32_t centerline = 0;

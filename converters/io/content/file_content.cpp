@@ -55,7 +55,7 @@ std::span<const Signature> signatures() {
   return kTable;
 }
 
-/// What JSON is by words that its beginning has.
+/// Kind of a JSON file, by words in its beginning.
 FileContent jsonContent(std::string_view text) {
   using enum ContentKind;
   const auto has = [text](std::string_view word) { return text.find(word) != text.npos; };
@@ -77,7 +77,7 @@ std::string beginningOf(const fs::path& file) {
   return text;
 }
 
-/// What to do with a file of this kind.
+/// Advice for a file of this kind.
 std::string useOf(ContentKind kind) {
   using enum ContentKind;
   switch (kind) {
@@ -98,7 +98,7 @@ std::string useOf(ContentKind kind) {
   return "";
 }
 
-/// What VTK's XML is by the counts in its first tags.
+/// Kind of a VTK XML file, by the counts in its first tags.
 FileContent vtkContent(std::string_view text) {
   using enum ContentKind;
   const auto isZero = [text](std::string_view count) {
@@ -111,7 +111,7 @@ FileContent vtkContent(std::string_view text) {
   return {Other, "a VTK file"};
 }
 
-/// What a file of MetaIO is by its first object.
+/// Kind of a MetaIO file, by its first object.
 FileContent metaContent(std::string_view text) {
   using enum ContentKind;
   const std::string_view head = text.substr(0, text.find("Points ="));
@@ -168,7 +168,7 @@ FileContent contentOf(const fs::path& file) {
 std::string notA(ContentKind wanted, const fs::path& file) {
   const FileContent content = contentOf(file);
   if (content.kind == ContentKind::Unknown || content.kind == wanted) return "";
-  // a curve may be either
+  // a curve may be seeds or a centerline
   if (wanted == ContentKind::Seeds && content.name == kCurves) return "";
   return content.sentence() + ", not " + nounOf(wanted) + useOf(content.kind);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file is by its first bytes, whatever its name: for messages about files in the wrong place.
+// Recognition of a file by its first bytes, whatever its name, for messages about misplaced files.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,12 @@ struct FileContent {
   [[nodiscard]] std::string sentence() const;
 };
 
-/// By the file's beginning; Unknown for a folder, or what cannot be read or recognised.
+/// Content of a file, by its beginning; Unknown for a folder, or a file that cannot be read or
+/// recognised.
 FileContent contentOf(const std::filesystem::path& file);
 
 /// "this is a volume (NRRD), not a case; lumen convert and lumen track make a case of it". Empty if
-/// the file is of that kind, or nothing is known of it.
+/// the file has the expected kind, or its kind is unknown.
 std::string notA(ContentKind wanted, const std::filesystem::path& file);
 
 }  // namespace lumen::convert

@@ -15,7 +15,7 @@
 namespace lumen::convert {
 namespace {
 
-// Bits of radii and confidences, within their range.
+// Quantisation bits of radii and confidences over their range.
 constexpr int kValueBits = 12;
 
 draco::GeometryAttribute::Type typeOf(const VertexStream& stream) {
@@ -25,7 +25,7 @@ draco::GeometryAttribute::Type typeOf(const VertexStream& stream) {
   return draco::GeometryAttribute::GENERIC;
 }
 
-// Gives the index of the attribute.
+// Adds an attribute; returns its index.
 int addAttribute(draco::Mesh& target, const DracoPart& part, const VertexStream& stream) {
   const bool isFloat = stream.componentType == kFloat;
   const auto components = static_cast<std::uint8_t>(stream.components);

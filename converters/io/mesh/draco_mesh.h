@@ -18,18 +18,18 @@ struct DracoPart {
   std::span<const Triangle> triangle;  ///< indices from `first` on
 };
 
-/// The cube whose grid positions are rounded to. Parts that share it keep the same places for the
-/// vertices where they meet.
+/// The cube whose grid positions are rounded to. Parts with one cube keep their common vertices in
+/// equal places.
 struct DracoGrid {
   Float3 origin{};  ///< mm
-  float range = 1;  ///< its edge, mm
+  float range = 1;  ///< edge of the cube, mm
 };
 
 struct DracoMesh {
   std::vector<char> bytes;
   std::vector<int> id;  ///< Draco's unique ids of the streams
   std::size_t vertices = 0,
-              triangles = 0;  ///< as they decode: Draco renumbers, and may split or drop some
+              triangles = 0;  ///< after decoding: Draco renumbers, and may split or drop some
   Float3 low{}, high{};       ///< box of the decoded positions, mm
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of kinds of faces in files.
+// Names of face kinds in files.
 #pragma once
 
 #include "converters/io/mesh/surface_mesh.h"

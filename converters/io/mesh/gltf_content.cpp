@@ -34,7 +34,7 @@ int hexDigit(char c) {
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/// RFC 3986: %20 is a space.
+/// Decodes escapes of RFC 3986: %20 is a space.
 std::string percentDecoded(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -159,7 +159,7 @@ fs::path GltfContent::detachedFile(const std::string& uri) const {
 void GltfContent::readFiles() {
   struct Part {
     std::string uri;
-    std::uint64_t bytes = 0;  // the largest number that a buffer wants
+    std::uint64_t bytes = 0;  // largest extent that a buffer needs
   };
   std::map<fs::path, Part> parts;
   for (std::uint64_t b = 0; b < size("buffers"); ++b) {

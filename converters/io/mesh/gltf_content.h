@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The JSON and the bytes of a glTF file, whichever way it holds them.
+// The JSON and the bytes of a glTF file, whether GLB or text.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +16,13 @@
 
 namespace lumen::convert {
 
-/// A glTF file. Each value is checked when it is asked for. All functions throw
-/// Error(InvalidInput) with the file, the JSON pointer, what was found and what was expected.
+/// A glTF file. Each value is checked on access. All functions throw Error(InvalidInput) with the
+/// file, the JSON pointer, the finding and the expectation.
 class GltfContent {
 public:
   using Json = formats::JsonValue;
 
-  /// GLB or text. Buffers are inside, or files of the same folder: nothing else is opened.
+  /// GLB or text. Buffers are inside, or files of the same folder: no other file is opened.
   GltfContent(std::string_view bytes, const std::filesystem::path& file);
 
   [[nodiscard]] Json root() const { return m_document->root(); }
@@ -33,7 +33,7 @@ public:
   /// Item `index` of the list `list` of the root, an object.
   [[nodiscard]] Json item(const char* list, std::uint64_t index) const;
   [[nodiscard]] std::uint64_t size(const char* list) const;
-  /// The whole number `key` of `object`, or `otherwise` if it is not there.
+  /// The whole number `key` of `object`, or `otherwise` if it is absent.
   [[nodiscard]] std::uint64_t whole(Json object, const char* key, std::uint64_t otherwise) const;
   /// The text `key` of `object`, or none.
   [[nodiscard]] static std::string text(Json object, const char* key);
@@ -48,7 +48,7 @@ private:
   void readBuffers();
   [[nodiscard]] std::string_view bufferOf(Json buffer, std::uint64_t size);
   [[nodiscard]] std::string_view dataOf(const std::string& uri);
-  // Reads each detached file once, as far as a buffer wants it.
+  // Reads each detached file once, up to the largest extent that a buffer needs.
   void readFiles();
   [[nodiscard]] std::filesystem::path detachedFile(const std::string& uri) const;
   [[nodiscard]] std::string bytesOf(const std::filesystem::path& file, const std::string& uri,
@@ -57,7 +57,7 @@ private:
   std::filesystem::path m_file;
   std::string m_name;
   std::optional<formats::JsonDocument> m_document;
-  std::string_view m_binary;       // chunk of a GLB
+  std::string_view m_binary;       // binary chunk of a GLB
   std::deque<std::string> m_held;  // bytes of data URIs
   // Bytes of detached files by canonical path
   std::map<std::filesystem::path, std::string> m_files;

@@ -44,7 +44,7 @@ std::vector<unsigned char> bytesOf(const std::vector<std::uint32_t>& index, bool
   return bytes;
 }
 
-/// Text that is not UTF-8 is repaired.
+/// JSON text of a value; invalid UTF-8 is replaced.
 std::string textOf(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }

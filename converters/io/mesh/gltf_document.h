@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF 2.0 document while it is being made: its JSON, and its buffer.
+// A glTF 2.0 document under construction: its JSON, and its buffer.
 #pragma once
 
 #include <cstddef>
@@ -23,10 +23,10 @@ public:
   /// The JSON without `buffers`.
   nlohmann::json content;
 
-  /// Appends `item` to the array `content[list]`; gives its index.
+  /// Appends `item` to the array `content[list]`; returns its index.
   int add(const char* list, nlohmann::json item);
 
-  /// A buffer view of vertices. With meshopt `stream` becomes what a reader will get.
+  /// A buffer view of vertices. With meshopt `stream` receives the values that a reader decodes.
   int addVertices(VertexStream& stream);
   /// A buffer view of triangles: 16-bit indices if `isShort`.
   int addIndices(const std::vector<std::uint32_t>& index, std::size_t vertices, bool isShort);
@@ -36,18 +36,18 @@ public:
   /// Lists an extension that the file uses; `required`: the file cannot be read without it.
   void useExtension(const char* name, bool required);
 
-  /// As a GLB, or as JSON with its buffer in a data URI.
+  /// The document as a GLB, or as JSON with its buffer in a data URI.
   std::string write(bool binary);
 
 private:
   int addView(std::span<const unsigned char> bytes, nlohmann::json view);
-  /// A view of `size` bytes that are coded as `coded`.
+  /// A view of `size` bytes, which `coded` holds encoded.
   int addCodedView(std::span<const unsigned char> coded, std::size_t size, nlohmann::json view,
                    nlohmann::json coding);
 
   bool m_meshopt;
   std::vector<unsigned char> m_bytes;
-  std::size_t m_decodedSize = 0;  ///< of the buffer that meshopt's views decode to
+  std::size_t m_decodedSize = 0;  ///< size of the buffer that meshopt's views decode to
 };
 
 }  // namespace lumen::convert

@@ -48,7 +48,7 @@ void MeshBuilder::refusePoint(const Eigen::Vector3d& point, const std::string& p
           << "; expected a finite number, at most 1e12";
     refuseMesh(m_name, place, found.str());
   }
-  std::abort();  // only called for points that are not sound
+  std::abort();  // only called for invalid points
 }
 
 std::uint32_t MeshBuilder::sharedIndex(const Eigen::Vector3d& point) {
@@ -96,7 +96,7 @@ MeshFile MeshBuilder::finish(bool flipXy) {
     refuseMesh(m_name, "", "has no triangles; expected a surface of at least one");
   if (flipXy)
     for (Eigen::Vector3d& p : file.mesh.position) p = {-p.x(), -p.y(), p.z()};
-  // groups that got no triangle are none
+  // groups without triangles are dropped
   std::vector<std::uint32_t> renumbered(file.groups.size(), 0);
   for (const std::uint32_t g : file.group) renumbered[g] = 1;
   std::vector<std::string> names;

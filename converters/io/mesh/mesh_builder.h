@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks on the way into a MeshFile, which the readers of meshes share.
+// Checks that the readers of meshes share while they build a MeshFile.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,18 @@
 
 namespace lumen::convert {
 
-/// Beyond any unit that is meant, and far from where squares and cubes overflow.
+/// Bound beyond any plausible unit, and far below overflow of squares and cubes.
 constexpr double kLargestCoordinate = 1e12;
 
 /// "name: place: what", as Error(InvalidInput).
 [[noreturn]] void refuseMesh(const std::string& name, const std::string& place,
                              const std::string& what);
 
-/// A file's text for a message: printable, in quotes, and cut after 24 bytes.
+/// A text of a file, as quoted in a message: printable, and cut after 24 bytes.
 std::string quotedText(std::string_view text);
 
-/// A mesh as it is read. Names of groups are looked up, so few or many are the same cost.
+/// A mesh under construction. Names of groups are looked up, so the cost does not grow with their
+/// number.
 class MeshBuilder {
 public:
   explicit MeshBuilder(std::string name) : m_name(std::move(name)) {}
@@ -36,15 +37,15 @@ public:
   [[nodiscard]] const std::string& name() const { return m_name; }
   [[nodiscard]] std::size_t points() const { return file.mesh.position.size(); }
 
-  /// Appends a point. `place` gives where it stands, such as "line 7", and is only called for a
-  /// coordinate that is no finite number below 1e12.
+  /// Appends a point. `place` returns its position in the file, such as "line 7", and is only
+  /// called for a coordinate that is no finite number below 1e12.
   template <class Place>
   void addPoint(const Eigen::Vector3d& point, Place place) {
     if (!isSound(point)) refusePoint(point, place());
     file.mesh.position.push_back(point);
   }
 
-  /// The index of this point, appended if no equal one is there.
+  /// The index of the given point, appended if no equal one exists.
   template <class Place>
   std::uint32_t addShared(const Eigen::Vector3d& point, Place place) {
     if (!isSound(point)) refusePoint(point, place());
@@ -55,7 +56,7 @@ public:
   void addPolygon(const std::uint32_t* corner, std::size_t count);
   void addTriangle(const Triangle& t) { addPolygon(t.data(), 3); }
 
-  /// Triangles that follow are of this group; an empty name is that of no group.
+  /// Sets the group of all triangles that follow; an empty name means no group.
   void beginGroup(std::string_view group);
 
   /// The mesh, with group names if the file has any. Refuses one without triangles.
@@ -72,17 +73,18 @@ private:
   std::string m_name;
   std::unordered_map<std::string, std::uint32_t> m_groupIndex;
   std::uint32_t m_current = 0;
-  std::vector<std::uint32_t> m_table;  // of shared points: index plus one, by hash; 0 is free
+  std::vector<std::uint32_t> m_table;  // hash table of shared points: index plus one; 0 is free
 };
 
-/// Takes what the comment of a file says of axes and unit: SPACE=LPS or SPACE=RAS as 3D Slicer
-/// writes it, and lumen's own words.
+/// Reads axes and unit from a comment of a file: SPACE=LPS or SPACE=RAS as 3D Slicer writes it, and
+/// lumen's own words.
 struct StatedFrame {
   bool ras = false, lps = false, millimetres = false;
   void look(std::string_view comment);
 };
 
-/// Puts what the file states into `builder`'s file and finishes it: RAS is turned to LPS.
+/// Stores the axes and the unit that the file states in `builder`'s file and finishes it: RAS is
+/// turned to LPS.
 MeshFile finishStated(MeshBuilder& builder, const StatedFrame& frame);
 
 }  // namespace lumen::convert

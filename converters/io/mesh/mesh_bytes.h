@@ -12,7 +12,7 @@ namespace lumen::convert {
 
 enum class Endian : bool { Little, Big };
 
-/// The number of type T at `bytes`, which need not be aligned.
+/// The number of type T at `bytes`, at any alignment.
 template <class T>
 T loadNumber(const char* bytes, Endian endian) {
   static_assert(std::endian::native == std::endian::little);

@@ -28,8 +28,8 @@ Eigen::Vector3d at(const SurfaceMesh& surface, std::uint32_t vertex) {
   return Eigen::Vector3f(surface.position[vertex].data()).cast<double>();
 }
 
-/// The mean of the normals of a part's faces at each of its vertices, by area; the surface's where
-/// there is none.
+/// The area-weighted mean of the normals of a part's faces at each of its vertices; the surface's
+/// normal where there is none.
 void takeNormalsOfFaces(const SurfaceMesh& surface, MeshPart& part) {
   std::vector<Eigen::Vector3d> sum(part.vertex.size(), Eigen::Vector3d::Zero());
   for (const Triangle& t : part.triangle) {

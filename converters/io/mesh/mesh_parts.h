@@ -10,17 +10,17 @@
 
 namespace lumen::convert {
 
-/// The faces of one group, and of one branch if the surface is cut into branches too.
+/// The faces of one group, and of one branch if the surface is also cut into branches.
 struct MeshPart {
-  std::uint32_t branch = 0;  ///< index into the surface's labels; 0 for all if they stay together
-  std::uint32_t group = 0;   ///< index into the surface's groups
-  bool isFlat = false;       ///< an inlet or an outlet
-  std::vector<std::uint32_t> vertex;  ///< of the surface, each once
-  std::vector<Float3> normal;      ///< of each `vertex`: of a flat part its own, else the surface's
+  std::uint32_t branch = 0;           ///< index into the surface's labels; 0 if not cut by branches
+  std::uint32_t group = 0;            ///< index into the surface's groups
+  bool isFlat = false;                ///< an inlet or an outlet
+  std::vector<std::uint32_t> vertex;  ///< vertices of the surface, each once
+  std::vector<Float3> normal;  ///< normal of each `vertex`: a flat part's own, else the surface's
   std::vector<Triangle> triangle;  ///< indices into `vertex`
 };
 
-/// Those that have faces, by branch and then by group. A face belongs to the branch of two of its
+/// The non-empty parts, by branch and then by group. A face belongs to the branch of two of its
 /// vertices, or to that of its first.
 std::vector<MeshPart> partsOf(const SurfaceMesh& surface, MeshPer per);
 

@@ -23,7 +23,7 @@ int exponentFor(std::span<const float> values, int exponent) {
   return exponent;
 }
 
-/// Rounds floats, and gives them as the filter takes them: eight bits of exponent above 24 of an
+/// Rounds floats, and returns them in the filter's form: eight bits of exponent above 24 of an
 /// integer.
 std::vector<std::uint32_t> roundToExponent(std::vector<unsigned char>& bytes, int exponent) {
   std::vector<float> values(bytes.size() / sizeof(float));

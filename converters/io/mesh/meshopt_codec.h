@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertices and triangles as EXT_meshopt_compression codes them. meshoptimizer's header stays behind
-// this file.
+// Vertices and triangles in the coding of EXT_meshopt_compression. meshoptimizer's header stays
+// behind this file.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,17 @@
 
 namespace lumen::convert {
 
-/// Orders triangles so that vertices are used again soon, and vertices as triangles use them.
+/// Orders triangles so that vertices are reused soon, and vertices in the order in which triangles
+/// use them.
 void orderForDrawing(MeshPart& part);
 
 struct MeshoptStream {
-  std::vector<unsigned char> bytes;  ///< coded
-  bool isExponential = false;        ///< they pass through the extension's filter of that name
+  std::vector<unsigned char> bytes;  ///< coded bytes
+  bool isExponential = false;        ///< the bytes need the extension's filter EXPONENTIAL
 };
 
 /// A stream of vertices. Floats are rounded to multiples of 2^exponent, or coarser ones where 24
-/// bits do not hold them, and `stream` is changed to what a reader will get.
+/// bits do not hold them, and `stream` receives the rounded values that a reader decodes.
 MeshoptStream encodeVertices(VertexStream& stream);
 
 /// Triangles of any number of parts; `count` is a multiple of three.

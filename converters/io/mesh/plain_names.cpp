@@ -7,7 +7,7 @@
 namespace lumen::convert {
 namespace {
 
-// Readers of STL take lines of 255 bytes and some less.
+// Readers of STL accept lines of 255 bytes, and some less.
 constexpr std::size_t kLongestWord = 100;
 
 bool isAsciiWord(unsigned char c) {
@@ -28,7 +28,7 @@ std::string openFoamWord(const std::string& name) {
   std::string word;
   for (const char byte : name) {
     const auto c = static_cast<unsigned char>(byte);
-    const bool isContinued = (c & 0xc0U) == 0x80U;  // of a character of UTF-8
+    const bool isContinued = (c & 0xc0U) == 0x80U;  // continuation byte of a UTF-8 character
     if (isContinued || word.size() == kLongestWord) continue;
     word += isAsciiWord(c) ? byte : '_';
   }

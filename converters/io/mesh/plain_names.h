@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of groups as formats without quotation marks take them.
+// Names of groups for formats without quotation marks.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace lumen::convert {
 
-/// In one word: white space and control characters become "_".
+/// One word: white space and control characters become "_".
 std::string oneWord(const std::string& name);
 
-/// As OpenFOAM takes the name of a patch: letters, digits, "_", "." and "-" of ASCII, all else "_";
-/// at most 100 characters.
+/// Name of an OpenFOAM patch: letters, digits, "_", "." and "-" of ASCII, all else "_"; at most 100
+/// characters.
 std::string openFoamWord(const std::string& name);
 
-/// `rule(name)` of each name; one that is then taken gets a number.
+/// `rule(name)` of each name; a name that is already taken gets a number.
 std::vector<std::string> distinct(const std::vector<std::string>& names,
                                   std::string (*rule)(const std::string&));
 

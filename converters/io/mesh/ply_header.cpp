@@ -62,7 +62,7 @@ public:
   }
 
 private:
-  /// One line end: binary data may begin with what looks like another.
+  /// Skips one line end only: binary data may begin with bytes that look like another.
   void endLine() {
     const std::size_t line = m_text.line();
     m_text.restOfLine();
@@ -71,7 +71,7 @@ private:
     for (const PlyElement& element : m_header.elements) {
       const std::size_t least = element.leastBytes(m_header.encoding);
       const std::uint64_t room = least > 0 ? m_text.left() / least : m_text.left();
-      // the last number of a text has no blank behind it
+      // the last number of a text has no blank after it
       if (element.count > room + (m_header.encoding == PlyEncoding::Ascii ? 1 : 0))
         refuseMesh(m_text.name(), "line " + std::to_string(line),
                    "the header announces " + std::to_string(element.count) + " of " +

@@ -25,14 +25,14 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::Int8;
   bool isList = false;
-  PlyType countType = PlyType::Uint8;  ///< of a list; a whole number
+  PlyType countType = PlyType::Uint8;  ///< type of a list's count; a whole number
 };
 
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
-  /// The fewest bytes that one such element has in the file.
+  /// The minimum size, bytes, of one such element in the file.
   [[nodiscard]] std::size_t leastBytes(PlyEncoding encoding) const;
 };
 
@@ -41,11 +41,12 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
   StatedFrame frame;
   std::map<int, std::string> groups;  ///< names in comments, by number
-  std::size_t bytes = 0;              ///< of the header
+  std::size_t bytes = 0;              ///< size of the header
   std::size_t lines = 0;
 };
 
-/// Refuses, with the line, what is no PLY header, and counts that the bytes behind it cannot hold.
+/// Refuses, with the line, a header that is not PLY, and counts that the bytes after it cannot
+/// hold.
 PlyHeader parsePlyHeader(std::string_view bytes, const std::string& name);
 
 }  // namespace lumen::convert

@@ -28,7 +28,7 @@ constexpr std::uint64_t kNone = ~std::uint64_t{0};
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 enum Mode : std::uint64_t { kTriangles = 4, kStrip = 5, kFan = 6 };
 
-/// glTF's metres, +x left, +y up, +z front, to LPS mm.
+/// Transform from glTF's metres, +x left, +y up, +z front, to LPS mm.
 Eigen::Matrix4d lpsFromGltf() {
   Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
   m(0, 0) = 1000;
@@ -148,7 +148,7 @@ private:
     if (!required) return;
     for (const Json& name : required->entries()) {
       const std::string text = name.text() == nullptr ? std::string() : *name.text();
-      // what concerns looks alone has no part in the surface
+      // appearance has no part in the surface
       const bool isLook = text.starts_with("KHR_materials") || text.starts_with("KHR_texture") ||
                           text.starts_with("EXT_texture") || text == "KHR_lights_punctual" ||
                           text == "MSFT_lod";
@@ -159,7 +159,7 @@ private:
     }
   }
 
-  /// Numbers of nodes; the array `key` of `object`.
+  /// Indices of nodes; the array `key` of `object`.
   std::vector<std::uint64_t> numbers(Json object, const char* key) const {
     std::vector<std::uint64_t> found;
     const auto list = object.find(key);
@@ -175,7 +175,7 @@ private:
     return found;
   }
 
-  /// The roots of the file's scene; without scenes, the nodes that are no child of another.
+  /// The roots of the file's scene; without scenes, the nodes without a parent.
   std::vector<std::uint64_t> roots() const {
     if (m_content.size("scenes") > 0)
       return numbers(m_content.item("scenes", m_content.whole(m_content.root(), "scene", 0)),
@@ -244,7 +244,7 @@ private:
     const auto primitives = mesh.find("primitives");
     if (!primitives || !primitives->isArray())
       m_content.refuse("/meshes/" + std::to_string(index) + " has no primitives; expected some");
-    std::map<std::uint64_t, std::uint32_t> placed;  // accessor of positions, first point
+    std::map<std::uint64_t, std::uint32_t> placed;  // first point of each accessor of positions
     for (const Json& primitive : primitives->entries()) {
       if (!primitive.isObject()) m_content.refuse("/meshes: a primitive is no object");
       const auto extras = primitive.find("extras");
@@ -287,7 +287,7 @@ private:
     addFaces(indices, mode, first, isMirrored(matrix));
   }
 
-  /// Nodes may show one mesh many times; what comes of it stays within the file's own size.
+  /// Nodes may show one mesh many times; the bound keeps the result within the file's own size.
   void requireRoom(std::uint64_t count) {
     m_placed += count;
     if (m_placed > m_content.totalBytes())
@@ -337,7 +337,7 @@ private:
     for (std::size_t i = 0; i + 2 < index.size(); i += step) {
       Triangle t = {first + index[mode == kFan ? 0 : i], first + index[i + 1],
                     first + index[i + 2]};
-      // every other triangle of a strip runs the other way round
+      // every other triangle of a strip has the opposite orientation
       if (mirrored != (mode == kStrip && i % 2 == 1)) std::swap(t[1], t[2]);
       m_builder.addTriangle(t);
     }

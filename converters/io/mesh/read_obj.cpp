@@ -34,7 +34,7 @@ public:
   }
 
 private:
-  /// The next word of the statement, which goes on behind a backslash at the end of a line.
+  /// The next word of the statement, which continues after a backslash at the end of a line.
   std::string_view argument() {
     std::string_view word = m_text.wordOfLine();
     while (word == "\\") {
@@ -66,7 +66,7 @@ private:
     m_builder.addPolygon(m_corners.data(), m_corners.size());
   }
 
-  /// The point of a corner, from 0: "7", "7/2", "7//3", "-1".
+  /// The index of a corner's point, from 0: "7", "7/2", "7//3", "-1".
   std::uint32_t indexOf(std::string_view word) {
     const std::string_view digits = word.substr(0, word.find('/'));
     std::int64_t index = 0;
@@ -102,7 +102,7 @@ private:
     }
   }
 
-  /// A face may name a point that follows; in the end it must be there.
+  /// A face may name a later point; at the end of the file it must exist.
   void checkForward() const {
     if (m_highest >= static_cast<std::int64_t>(m_builder.points()))
       refuseMesh(m_builder.name(), m_highestPlace,
@@ -116,7 +116,7 @@ private:
   StatedFrame m_frame;
   std::vector<std::uint32_t> m_corners;
   std::string m_group, m_object;
-  std::int64_t m_highest = -1;  // point that a face named before it was there
+  std::int64_t m_highest = -1;  // highest point that a face named before its definition
   std::string m_highestPlace;
   bool m_curved = false;
 };

@@ -10,8 +10,8 @@
 namespace lumen::convert {
 
 /// The faces of an OBJ file as triangles, polygons as fans. Indices may be negative. A group (g) or
-/// else an object (o) of triangles is a group of that name. Lines, points, materials, normals and
-/// texture are passed over; curved surfaces are too, with a note.
+/// else an object (o) of triangles is a group with its name. Lines, points, materials, normals and
+/// texture are ignored; curved surfaces are too, with a note.
 MeshFile parseObj(std::string_view bytes, const std::string& name);
 
 }  // namespace lumen::convert

@@ -15,7 +15,7 @@
 namespace lumen::convert {
 namespace {
 
-/// Numbers of the file's body, one after the other.
+/// Numbers of the file's body, in order.
 class PlyNumbers {
 public:
   PlyNumbers(std::string_view body, const PlyHeader& header, const std::string& name)
@@ -52,7 +52,7 @@ public:
     return loadNumber<double>(at, endian);
   }
 
-  /// How many numbers of `property`, a list, follow.
+  /// Reads the number of entries of `property`, a list, that follow.
   std::size_t listSize(const PlyProperty& property) {
     const double count = next(property.countType, "the count of a list");
     const std::size_t each = m_encoding == PlyEncoding::Ascii ? 1 : sizeOf(property.type);
@@ -187,7 +187,7 @@ private:
                    std::to_string(m_builder.points() - (m_builder.points() > 0 ? 1 : 0)));
   }
 
-  /// Faces may come before vertices; in the end all must be there.
+  /// Faces may come before vertices; at the end of the file all must exist.
   void checkForward() const {
     if (!m_highestPlace.empty() && m_highest >= m_builder.points())
       refuseMesh(m_builder.name(), "before " + m_highestPlace,

@@ -9,9 +9,9 @@
 
 namespace lumen::convert {
 
-/// The triangles of an STL file, points of equal coordinates made one; a file is binary where its
-/// size is that of its count, or where it does not begin with "solid". Each solid of an ASCII file
-/// is a group of its name. Normals and attributes are passed over: corners say the orientation.
+/// The triangles of an STL file, points of equal coordinates merged; a file is binary if its size
+/// matches its count, or if it does not begin with "solid". Each solid of an ASCII file is a group
+/// of its name. Normals and attributes are ignored: the order of corners gives the orientation.
 MeshFile parseStl(std::string_view bytes, const std::string& name);
 
 }  // namespace lumen::convert

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kFaceId = "ModelFaceID";
 
-/// The name of the group of a cell: its number, if it is a whole one.
+/// The name of the group of a cell: its number, if that is a whole number.
 std::string groupName(const VtkArray* ids, std::size_t cell) {
   if (ids == nullptr || cell >= ids->values.size()) return {};
   const double id = ids->values[cell];
@@ -45,7 +45,7 @@ MeshFile meshOf(const VtkPolyData& data, const StatedFrame& frame, MeshBuilder& 
     builder.beginGroup(groupName(ids, firstPoly + data.polys.size() + c));
     for (std::uint32_t i = begin; i + 2 < end; ++i) {
       const std::uint32_t* p = data.strips.point.data() + i;
-      // every other triangle of a strip runs the other way round
+      // every other triangle of a strip has the opposite orientation
       builder.addTriangle((i - begin) % 2 == 0 ? Triangle{p[0], p[1], p[2]}
                                                : Triangle{p[1], p[0], p[2]});
     }

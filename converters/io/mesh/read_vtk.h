@@ -10,7 +10,7 @@
 namespace lumen::convert {
 
 /// The polygons (as fans) and strips of an XML PolyData file. The integers of a cell array
-/// ModelFaceID are groups of those names. Lines and points are passed over.
+/// ModelFaceID are groups named by their numbers. Lines and points are ignored.
 MeshFile parseVtp(std::string_view bytes, const std::string& name);
 
 /// The polygons, strips and groups of a legacy file, versions 1 to 5, ASCII or binary. A file whose

@@ -23,12 +23,13 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kDeepest = 64;  // nodes within nodes
+constexpr std::size_t kDeepest = 64;  // maximum nesting of nodes
 constexpr std::size_t kFedAtOnce = std::size_t{16} << 20;
 constexpr std::size_t kMostListed = 20;
 
-/// What SOFA makes of translation, rotation and scale: the scale first, then the turns about x, y and
-/// z in this order (MeshLoader::reinit(); Quat::createQuaterFromEuler(), whose default is ZYX), degrees.
+/// Transform that SOFA makes of translation, rotation and scale: first the scale, then the
+/// rotations about x, y and z in this order (MeshLoader::reinit(); Quat::createQuaterFromEuler(),
+/// whose default is ZYX), degrees.
 struct Placement {
   Vector3d translation = Vector3d::Zero(), rotation = Vector3d::Zero(), scale = Vector3d::Ones();
   [[nodiscard]] Affine3d transform() const {
@@ -39,11 +40,11 @@ struct Placement {
   }
 };
 
-/// A <Node> that is open.
+/// An open <Node>.
 struct OpenNode {
   std::string name;
-  std::vector<std::size_t> loaders;   // of its own
-  std::optional<Affine3d> movedOnce;  // what its MechanicalObject does
+  std::vector<std::size_t> loaders;   // the node's own
+  std::optional<Affine3d> movedOnce;  // transform of its MechanicalObject
   bool isStill = false;
 };
 
@@ -100,7 +101,7 @@ private:
     if (m_nodes.empty())
       return refuse("begins with <" + formats::printable(std::string(tag).substr(0, 40)) +
                     ">; expected <Node>, with which a scene of SOFA begins");
-    // <Object type="MeshOBJLoader"> is how older scenes write it
+    // older scenes write it as <Object type="MeshOBJLoader">
     const bool isOld = std::string_view(tag) == "Object";
     const std::string component(isOld ? attribute(attributes, "type") : std::string_view(tag));
     if (component.starts_with("Mesh") && component.ends_with("Loader"))
@@ -150,7 +151,8 @@ private:
     m_loaders.push_back(std::move(loader));
   }
 
-  /// One that states its own points does not take the mesh's; a single one is none (its default).
+  /// Adds a MechanicalObject. Points of its own replace the mesh's; a single point (its default)
+  /// does not count.
   void addObject(const char** attributes) {
     const std::string_view position = attribute(attributes, "position");
     const bool isLink = position.starts_with('@');
@@ -180,7 +182,7 @@ private:
     return one ? (*one)[0] : 1.0;
   }
 
-  /// If one of the three is there, the others are as `none`.
+  /// Reads three attributes into `value`; if any is present, missing ones become `none`.
   void readAxes(const char** attributes, const std::array<const char*, 3>& names, double none,
                 Vector3d& value) {
     const auto isThere = [&](const char* name) { return !attribute(attributes, name).empty(); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a case as writers of meshes take it.
+// Surface of a case for writers of meshes.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ enum class FaceKind : std::uint8_t {
   Wall,    ///< the vessels' wall, and the sides of flow extensions
   Inlet,   ///< a flat end before the first node of a root
   Outlet,  ///< a flat end behind the last node of a branch
-  Cap      ///< an end that no plane could cut, closed as the field closes it
+  Cap      ///< an end that no plane could cut, closed by the field itself
 };
 
 /// A set of faces with a name: "wall", "outer-wall", "inlet", "inlet-LABEL", "outlet-LABEL",
@@ -28,20 +28,20 @@ struct FaceGroup {
   friend bool operator==(const FaceGroup&, const FaceGroup&) = default;
 };
 
-/// Triangles with what a case says of them. Arrays of vertices all have the size of `position`.
+/// Triangles with data of the case. Arrays of vertices all have the size of `position`.
 struct SurfaceMesh {
   std::vector<Float3> position;       ///< mm, LPS
   std::vector<Float3> normal;         ///< unit, out of the lumen
-  std::vector<float> radius;          ///< of the vessel there, mm
+  std::vector<float> radius;          ///< radius of the vessel there, mm
   std::vector<float> confidence;      ///< the inlier rate there, in [0, 1]; empty if unknown
   std::vector<std::uint32_t> branch;  ///< index into `labels`
-  /// at which a cursor on the surface is there (libblob); empty if unknown
+  /// node at which a cursor on the surface is there (libblob); empty if unknown
   std::vector<std::uint32_t> node;
 
   std::vector<Triangle> triangle;    ///< indices of vertices, counter-clockwise seen from outside
-  std::vector<std::uint32_t> group;  ///< of each triangle: index into `groups`
+  std::vector<std::uint32_t> group;  ///< group of each triangle: index into `groups`
   std::vector<FaceGroup> groups;
-  std::vector<std::string> labels;  ///< of the case's branches
+  std::vector<std::string> labels;  ///< labels of the case's branches
 };
 
 }  // namespace lumen::convert

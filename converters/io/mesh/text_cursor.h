@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words and numbers of a text, and the line of each.
+// Words and numbers of a text, with their line numbers.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace lumen::convert {
 
-/// Goes through a text once. Lines end with LF, CR LF or CR; words stand between blanks.
+/// Single pass over a text. Lines end with LF, CR LF or CR; blanks separate words.
 class TextCursor {
 public:
-  /// `line` is the number of the first line. A byte-order mark before the text is no part of it.
+  /// `line` is the number of the first line. A byte-order mark before the text is skipped.
   TextCursor(std::string_view text, std::string name, std::size_t line = 1)
       : m_text(text),
         m_name(std::move(name)),
@@ -31,7 +31,7 @@ public:
     skipSpace(false);
     return take();
   }
-  /// The rest of this line without blanks around it. The next word is one of the next line.
+  /// The rest of this line without blanks around it. The next word is then on the next line.
   std::string_view restOfLine();
 
   /// The next word, of this line or a later one, as a number, finite or not. Refuses a word that is
@@ -47,7 +47,7 @@ public:
   [[nodiscard]] std::size_t left() const { return m_text.size() - m_at; }
   [[nodiscard]] std::string place() const { return "line " + std::to_string(m_line); }
   [[nodiscard]] const std::string& name() const { return m_name; }
-  /// Steps over `bytes` bytes, which are no text.
+  /// Skips `bytes` bytes of binary data.
   void skip(std::size_t bytes) { m_at += bytes; }
 
   /// Throws Error(InvalidInput): "name: line N: what".
@@ -67,7 +67,7 @@ private:
       }
     }
   }
-  // Steps over the end of a line that is here.
+  // Skips the end of a line at the current position.
   void endLine() {
     if (m_text[m_at] == '\r' && m_at + 1 < m_text.size() && m_text[m_at + 1] == '\n') ++m_at;
     ++m_at;

@@ -15,7 +15,8 @@ namespace {
 using Rgb = std::array<std::uint8_t, 3>;
 
 // clang-format off
-// Every sixteenth colour of viridis (N. Smith and S. van der Walt, 2015, for matplotlib; CC0), sRGB.
+// Every sixteenth colour of viridis (N. Smith and S. van der Walt, 2015, for matplotlib; CC0),
+// sRGB.
 constexpr std::array<Rgb, 17> kViridis = {{
     {68, 1, 84},    {72, 24, 106},  {71, 45, 123},  {66, 64, 134},  {59, 82, 139},   {51, 99, 141},
     {44, 114, 142}, {38, 130, 142}, {33, 145, 140}, {31, 160, 136}, {40, 174, 128},  {63, 188, 115},
@@ -45,7 +46,7 @@ Color viridis(double share) {
   return color;
 }
 
-// Where a value lies between the ends of a scale. Radii go with their logarithm: those of one tree
+// Position of a value between the ends of a scale. Radii use their logarithm: those of one tree
 // differ by a factor of up to a hundred.
 double shareOf(double value, const ColorScale& scale) {
   const double low = scale.low, high = scale.high;

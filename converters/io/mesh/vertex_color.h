@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours of vertices that show a value.
+// Vertex colours that show a value.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@
 
 namespace lumen::convert {
 
-/// Red, green, blue and opacity, of linear light, 65535 being 1.
+/// Red, green, blue and opacity in linear light; 65535 stands for 1.
 using Color = std::array<std::uint16_t, 4>;
 
-/// How colours are made from values.
+/// Mapping from values to colours.
 struct ColorScale {
   ColorBy by = ColorBy::None;
-  float low = 0, high = 0;  ///< values with the first and the last colour; of radii in mm
+  float low = 0, high = 0;  ///< values with the first and the last colour; radii in mm
 };
 
 /// The range of the values of a surface: its least and its greatest radius, or 0 to 1 for
 /// confidence. Throws Error(InvalidInput) if there are no such values.
 ColorScale scaleOf(const SurfaceMesh& surface, ColorBy by);
 
-/// The colour of each vertex: viridis, from dark blue to yellow, for confidence, and for radius by
-/// its logarithm; one of seven hues for a branch, the same again for the seventh after it. All can be told apart with any
-/// kind of colour vision.
+/// The colour of each vertex: viridis, from dark blue to yellow, for confidence, and for the
+/// logarithm of the radius; one of seven hues for a branch, repeated after every seventh. All
+/// colours are distinguishable with any kind of colour vision.
 std::vector<Color> colorsOf(const SurfaceMesh& surface, const ColorScale& scale);
 
-/// The name of the colours that colorsOf() takes.
+/// The name of the colour scheme that colorsOf() applies.
 const char* colorMapName(ColorBy by);
 
 }  // namespace lumen::convert

@@ -8,11 +8,12 @@
 namespace lumen::convert {
 namespace {
 
-// A micrometre is far below what a volume shows; normals must be of unit length within 0.0005.
+// A micrometre is far below the resolution of a volume; normals must be of unit length within
+// 0.0005.
 constexpr int kLengthExponent = -10, kNormalExponent = -12, kShareExponent = -10;
 constexpr std::size_t kMostBranches = 65536;
 
-/// `valueOf(part, i)` is that of vertex i of a part.
+/// `valueOf(part, i)` returns the value of vertex i of a part.
 template <class ValueOf>
 VertexStream streamOf(VertexStream stream, std::span<const MeshPart> parts, ValueOf valueOf) {
   for (const MeshPart& part : parts)

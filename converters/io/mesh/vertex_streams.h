@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a surface says of its vertices, as glTF's attributes.
+// Vertex data of a surface as glTF attributes.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct VertexStream {
   int componentType = kFloat;  ///< or kUnsignedShort
   std::size_t components = 1;  ///< 1, 3 or 4
   bool isNormalized = false;   ///< 65535 means 1
-  std::size_t stride = 4;      ///< bytes of a vertex: a multiple of four, the rest zero
+  std::size_t stride = 4;      ///< bytes per vertex: a multiple of four, the rest zero
   int exponent = 0;            ///< floats may be rounded to multiples of 2^exponent
   std::vector<unsigned char> bytes{};
 };

@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "numbers are written as they lie in memory");
 
-// Bytes that are compressed together; VTK's readers inflate a block at a time.
+// Bytes per compressed block; VTK's readers inflate a block at a time.
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 
 using Bytes = std::span<const std::byte>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of VTK's XML files: compressed by zlib and base64-coded where they stand, which every VTK from 5 on reads.
+// Arrays of VTK's XML files: compressed by zlib and base64-coded inline, which every VTK from 5 on
+// reads.
 #pragma once
 
 #include <cstddef>

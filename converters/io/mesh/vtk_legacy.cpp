@@ -121,15 +121,15 @@ private:
     m_text.refuse("the type is " + quotedText(word) + "; expected one such as float or int");
   }
 
-  /// `count` numbers that follow, as text, or big-endian behind the end of this line; each is
-  /// handed to `take`.
+  /// Hands `take` each of the `count` numbers that follow, as text, or big-endian after the end of
+  /// this line.
   template <class Take>
   void numbers(std::uint64_t count, const TypeName& type, const char* what, Take take) {
     const bool isBits = type.kind == 'b';
     const std::uint64_t least = m_isBinary ? type.size : 2;
     if (m_isBinary) m_text.restOfLine();
     const std::uint64_t bytes = isBits && m_isBinary ? (count + 7) / 8 : count;
-    // the last number of a text has no blank behind it
+    // the last number of a text has no blank after it
     if (bytes > m_text.left() / least + (m_isBinary ? 0 : 1))
       m_text.refuse(std::to_string(count) + " numbers of " + what +
                     " are announced; expected at most " + std::to_string(m_text.left() / least) +
@@ -190,7 +190,7 @@ private:
                     std::to_string(size) + " numbers; expected " + std::to_string(count));
   }
 
-  /// Since version 5: where cells begin, and the end of the last, then their points.
+  /// Cells since version 5: their starts, and the end of the last, then their points.
   void parseOffsets(VtkCells& cells) {
     const std::uint64_t offsets = m_text.whole("the number of offsets", kMostNumbers);
     const std::uint64_t points = m_text.whole("the number of cells' points", kMostNumbers);
@@ -232,7 +232,7 @@ private:
     while (m_text.left() > 0 && !m_text.restOfLine().empty()) continue;
   }
 
-  /// An array of points or cells, of which only `m_wanted` is kept.
+  /// An array of points or cells; only `m_wanted` is kept.
   void parseArray(const std::string& word) {
     if (word == "field") return parseField();
     if (!m_hasData)
@@ -293,7 +293,8 @@ private:
     }
   }
 
-  /// Texts stand on a line each, or behind their lengths; a binary length takes one to eight bytes.
+  /// Texts stand on one line each, or after their lengths; a binary length takes one to eight
+  /// bytes.
   void passTexts(std::uint64_t count) {
     m_text.restOfLine();
     for (std::uint64_t i = 0; i < count; ++i) {

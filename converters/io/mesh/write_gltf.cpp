@@ -27,8 +27,8 @@ constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kLod = "MSFT_lod";
 // Index 65535 is the primitive restart value of 16-bit indices, which glTF forbids.
 constexpr std::size_t kMaxShortVertices = 65535;
-// Each level is for half the height on the screen that the one before is for; the last for all
-// below.
+// Each level serves half the height on the screen of the previous level; the last serves all
+// smaller heights.
 constexpr double kLodCoverage = 0.5;
 
 // One level while it is written.
@@ -50,8 +50,7 @@ json rootNode() {
          "LPS mm"}}}};
 }
 
-// The wall is arterial red, and the lumen that an end shows darker; white where vertices have
-// colours.
+// The wall is arterial red, and the lumen at an open end darker; white if vertices have colours.
 json materialOf(FaceKind kind, bool isOpen, bool isColored) {
   const bool isWall = kind == FaceKind::Wall;
   const json color = isColored ? json{1.0, 1.0, 1.0, 1.0}
@@ -114,7 +113,7 @@ json indexAccessor(std::size_t count, bool isShort) {
           {"type", "SCALAR"}};
 }
 
-// Where a part's vertices and indices begin in the buffer views of its level.
+// Offsets of a part's vertices and indices in the buffer views of its level.
 struct Place {
   std::size_t vertex = 0, index = 0;
 };
@@ -207,7 +206,7 @@ json turnFromZ(const std::array<double, 3>& d) {
   return json::array({-d[1] / length, d[0] / length, 0.0, (1 + d[2]) / length});
 }
 
-// Writes the levels of one surface; holds what they share.
+// Writes the levels of one surface; holds their common data.
 class Scene {
 public:
   Scene(std::span<const SurfaceMesh> levels, const WriteMeshOptions& options,
@@ -287,7 +286,7 @@ private:
     return found->second;
   }
 
-  // The nodes of one mesh in all levels.
+  // Adds the nodes of one mesh in all levels.
   void link(const std::vector<int>& nodes) {
     addChild(nodes.front());
     if (m_layout && !m_layout->lod) {
@@ -313,7 +312,7 @@ private:
   DracoGrid m_grid;
   bool m_isOpen;
   std::map<FaceKind, int> m_materials;
-  std::map<std::uint32_t, std::vector<int>> m_nodes;  // of each mesh, in the order of levels
+  std::map<std::uint32_t, std::vector<int>> m_nodes;  // nodes of each mesh, in the order of levels
 };
 
 }  // namespace

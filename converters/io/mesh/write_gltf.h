@@ -24,34 +24,34 @@ constexpr std::array<double, 16> kGltfFromLps = {0.001, 0,     0,      0,  //
 ///
 /// Below a root node whose matrix is kGltfFromLps there is one node with one mesh, in LPS
 /// millimetres, or one for each branch, named by its label. A mesh has one primitive for each group
-/// of faces, whose `extras` say its name, number and kind; its vertices are its own, so that flat
+/// of faces, whose `extras` state its name, number and kind; its vertices are its own, so that flat
 /// ends have edges, and lie exactly where those of its neighbours do. Vertices have the attributes
-/// that streamsOf() lists; a mesh's `extras` say their units, the branches' labels, and what
-/// colours mean. Coarser levels are nodes outside of the scene that MSFT_lod names.
+/// that streamsOf() lists; a mesh's `extras` state their units, the branches' labels, and the
+/// meaning of colours. Coarser levels are nodes outside of the scene that MSFT_lod names.
 ///
-/// Throws Error(Unsupported) above 2 GiB of vertex data, Error(InvalidInput) if there is nothing to
-/// colour by, Error(Usage) for options that exclude one another, and Error(Failed) if Draco refuses
-/// a mesh.
+/// Throws Error(Unsupported) above 2 GiB of vertex data, Error(InvalidInput) if the quantity to
+/// colour by is missing, Error(Usage) for options that exclude one another, and Error(Failed) if
+/// Draco refuses a mesh.
 std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
                        const WriteMeshOptions& options);
 
-/// A node without a mesh: a place with a name, and with its z axis along `direction`.
+/// A node without a mesh: a named place with its z axis along `direction`.
 struct GltfPlace {
   std::string name;
   std::array<double, 3> position{};
   std::array<double, 3> direction{0, 0, 1};  ///< unit
 };
 
-/// A scene as programs take it that look at the names of nodes, and not at matrices.
+/// A scene for programs that read the names of nodes and ignore matrices.
 struct GltfScene {
-  std::vector<std::string> nodes;  ///< names of the nodes, one for each level
+  std::vector<std::string> nodes;  ///< names of the nodes, one per level
   bool lod = false;  ///< coarser levels by MSFT_lod; otherwise they are nodes of the scene
   std::vector<GltfPlace> places;
 };
 
-/// A GLB of vertices that are in the file's frame already: the root node has no matrix, vertices
-/// have POSITION and NORMAL only, and names are those of `scene`, which has one for each level.
-/// Throws Error(Unsupported) above 2 GiB of vertex data.
+/// A GLB of vertices that are already in the file's frame: the root node has no matrix, vertices
+/// have POSITION and NORMAL only, and `scene` gives one name per level. Throws Error(Unsupported)
+/// above 2 GiB of vertex data.
 std::string encodeGlbScene(std::span<const SurfaceMesh> levels, const GltfScene& scene);
 
 }  // namespace lumen::convert

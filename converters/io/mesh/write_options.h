@@ -8,7 +8,7 @@ namespace lumen::convert {
 enum class MeshPer : std::uint8_t { Whole, Branch };
 enum class ColorBy : std::uint8_t { None, Branch, Radius, Confidence };
 
-/// Options of mesh formats; each takes those that concern it.
+/// Options of mesh formats; each format reads only its own.
 struct WriteMeshOptions {
   bool stlSolids = false;  ///< STL: text, with one solid for each group of faces
 

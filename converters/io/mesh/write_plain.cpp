@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OBJ, STL and PLY. OpenMesh's writers take one mesh and no comment: they could not name groups of
-// faces, nor say the unit and the frame.
+// OBJ, STL and PLY. OpenMesh's writers take one mesh and no comment: they could neither name groups
+// of faces nor state the unit and the frame.
 #include "converters/io/mesh/write_plain.h"
 
 #include <algorithm>
@@ -50,7 +50,8 @@ void putLine(std::string& out, const char* keyword, const Float3& v) {
   out += '\n';
 }
 
-// Unit; zero for a triangle without area. Edges in floats, the rest in doubles, summed from x to z.
+// Unit normal; zero for a triangle without area. Edges in floats, the rest in doubles, summed from
+// x to z.
 Float3 faceNormal(const SurfaceMesh& mesh, const Triangle& t) {
   const auto at = [&](std::size_t i) { return Eigen::Vector3f(mesh.position[t[i]].data()); };
   const Eigen::Vector3d first = (at(1) - at(0)).cast<double>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes as the bytes of OBJ, STL and PLY files, in mm, LPS. Equal meshes give equal bytes. Files
-// say SPACE=LPS where they can, which 3D Slicer looks for.
+// state SPACE=LPS where their format permits, for 3D Slicer.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace lumen::convert {
 
-/// Wavefront OBJ: one group ("g") for each group of faces that has some, named as by oneWord();
-/// flat ends have normals of their own.
+/// Wavefront OBJ: one group ("g") for each non-empty group of faces, named by oneWord(); flat ends
+/// have normals of their own.
 std::string encodeObj(const SurfaceMesh& surface);
 
-/// STL. Binary: all faces in one solid. Text if `solids`: one for each group of faces that has
-/// some, named as by openFoamWord(). Throws Error(Unsupported) for more faces than STL can count.
+/// STL. Binary: all faces in one solid. Text if `solids`: one for each non-empty group of faces,
+/// named by openFoamWord(). Throws Error(Unsupported) for more faces than STL can count.
 std::string encodeStl(const SurfaceMesh& surface, bool solids);
 
-/// Binary little-endian PLY: normal, radius (mm), branch and, where it is known, confidence of each
+/// Binary little-endian PLY: normal, radius (mm), branch and, where known, confidence of each
 /// vertex; the number of its group for each face; comments name branches and groups. Throws
 /// Error(Unsupported) for more vertices or faces than PLY can count.
 std::string encodePly(const SurfaceMesh& surface);

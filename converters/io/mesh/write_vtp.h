@@ -8,12 +8,12 @@
 
 namespace lumen::convert {
 
-/// Arrays are zlib-compressed and base64-coded where they stand, which every VTK from 5 on reads.
+/// Arrays are zlib-compressed and base64-coded inline, which every VTK from 5 on reads.
 ///
-/// Points: Normals, Radius (mm), Branch (index into BranchLabels) and, where it is known,
-/// Confidence. Cells: the number of their group, as ModelFaceID for SimVascular and as
-/// CellEntityIds for VMTK. Field data, as texts: GroupNames and GroupKinds in the order of numbers,
-/// BranchLabels, Unit (mm), Generator, and SPACE (LPS), which 3D Slicer looks for.
+/// Points: Normals, Radius (mm), Branch (index into BranchLabels) and, where known, Confidence.
+/// Cells: the number of their group, as ModelFaceID for SimVascular and as CellEntityIds for VMTK.
+/// Field data, as texts: GroupNames and GroupKinds in the order of numbers, BranchLabels, Unit
+/// (mm), Generator, and SPACE (LPS), for 3D Slicer.
 ///
 /// Throws Error(Failed) if zlib refuses.
 std::string encodeVtp(const SurfaceMesh& surface);

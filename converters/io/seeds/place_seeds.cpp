@@ -23,9 +23,9 @@ constexpr double kOutermost = 0.5, kJustInside = 1e-6;
 /// The largest radius of a vessel as a share of the volume's longest side, and the smallest as a
 /// share of its finest voxel edge.
 constexpr double kWidest = 0.5, kThinnest = 0.1;
-/// Share of the points: with as many inside, the others are mistakes of their own.
+/// Share of the points: if at least this share lies inside, the others are mistakes of their own.
 constexpr double kMostlyInside = 0.75;
-/// mm: a volume that is smaller may be one in metres.
+/// mm: a smaller volume may be stated in metres.
 constexpr double kSmallVolume = 10.0;
 
 struct RadiusRange {
@@ -53,7 +53,7 @@ bool isWithinVoxels(const VolumeGeometry& geometry, const Vector3d& index) {
   return ((index - heldInside(geometry, index, 0)).cwiseAbs().array() <= kOutermost).all();
 }
 
-/// LPS mm of a position as the branch holds it.
+/// Position in LPS mm, as stored in the branch.
 Vector3d worldOf(const SeedBranch& branch, const Vector3d& position,
                  const VolumeGeometry& geometry) {
   return branch.frame.system == SeedSystem::Voxel ? geometry.worldFromIndex(position) : position;
@@ -89,7 +89,7 @@ std::string radiusText(double radius, const RadiusRange& range) {
   return text;
 }
 
-/// Why a point cannot be tracked; nothing if it can.
+/// The reason why a point cannot be tracked; empty if it can.
 std::optional<std::string> faultOf(const Vector3d& world, const SeedPoint& point,
                                    const VolumeGeometry& geometry, const RadiusRange& range) {
   if (!isWithinVoxels(geometry, geometry.indexFromWorld(world)))
@@ -100,14 +100,14 @@ std::optional<std::string> faultOf(const Vector3d& world, const SeedPoint& point
 
 // ---- other readings ----
 
-/// Another way to read coordinates, and the options that ask for it.
+/// Another reading of coordinates, and the options that select it.
 struct OtherReading {
   SeedReading reading;
   const char *words, *options;
 };
 
 constexpr double kMetre = 1000;
-/// Metres first: as voxels, or flipped, they may all lie in the first one.
+/// Metres first: as voxels, or flipped, all points may lie in the first voxel.
 const std::array kOtherReadings = {
     OtherReading{{{}, kMetre}, "as metres", "--seeds-unit m"},
     OtherReading{{SeedSystem::Ras, kMetre},
@@ -126,7 +126,7 @@ Vector3d asInFile(const SeedFrame& frame, const Vector3d& position) {
   return frame.direction(position) / (frame.system == SeedSystem::Voxel ? 1.0 : frame.unit);
 }
 
-/// LPS mm of a position that the branch holds, if its file is read in another way.
+/// Position in LPS mm, under another reading of the branch's file.
 Vector3d reread(const SeedBranch& branch, const Vector3d& position, const SeedReading& reading,
                 const VolumeGeometry& geometry) {
   SeedBranch read;
@@ -158,8 +158,8 @@ bool isAtZero(const SeedBranch& branch) {
                      [](const SeedPoint& point) { return point.position.isZero(0); });
 }
 
-/// True if all points lie within a voxel of the origin: metres that are taken for millimetres do,
-/// and that may be inside of the volume. Points at 0, 0, 0 lie there in every unit.
+/// True if all points lie within a voxel of the origin: metres taken for millimetres do, and that
+/// place may be inside of the volume. Points at 0, 0, 0 lie there in every unit.
 bool allAtOrigin(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry) {
   const double edge = geometry.spacing.maxCoeff();
   if (std::all_of(seeds.begin(), seeds.end(), isAtZero)) return false;
@@ -170,8 +170,8 @@ bool allAtOrigin(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geo
   });
 }
 
-/// The reading under which most points lie inside, if those are more than `inside`; of metres if
-/// that is all that is asked.
+/// The reading under which most points lie inside, if their number exceeds `inside`; only metres
+/// are tried if the caller asks for these alone.
 std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
                       std::size_t points, std::size_t inside, bool onlyMetres) {
   const std::size_t asStated = inside;
@@ -222,7 +222,7 @@ public:
   }
 
   PlacedSeeds placed;
-  std::string firstFault;  ///< of a branch, with its label
+  std::string firstFault;  ///< fault of a branch, with its label
 
 private:
   void place(const SeedBranch& branch) {
@@ -239,7 +239,7 @@ private:
     placed.seeds.push_back(std::move(out));
   }
 
-  /// The direction of `branch`, of voxels as those lie in the volume.
+  /// The direction of `branch`; a direction in voxels is converted by the volume.
   void toMillimetres(const SeedBranch& branch, SeedBranch& out) const {
     if (branch.frame.system != SeedSystem::Voxel || !branch.direction) return;
     out.direction =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seeds in their volume: which of them can be tracked, and why the others cannot.
+// Places seeds in their volume: which of them can be tracked, and why the others cannot.
 #pragma once
 
 #include <filesystem>
@@ -15,23 +15,22 @@ struct PlacedSeeds {
   std::vector<SeedBranch> seeds;     ///< mm, LPS, all points inside; parents first
   std::vector<SeedFailure> leftOut;  ///< branches without a point that is left, and their children
   std::vector<SeedFailure> leftPoints;  ///< points that were left out of `seeds`
-  /// what would make more sense of the coordinates than what they were read as, and the option for
-  /// it; empty if nothing would
+  /// A more plausible reading of the coordinates, and the option for it; empty if there is none.
   std::string advice;
 };
 
 /// Seeds as points of a volume. A point up to half a voxel beyond the centres of the outermost
-/// voxels is moved there. Left out are points farther outside, and those whose radius no vessel of
-/// this volume has: over half of its longest side, or below a tenth of its finest voxel edge. Other
+/// voxels is moved into their box. Points farther outside are left out, and those with a radius
+/// over half of the volume's longest side, or below a tenth of its finest voxel edge. Other
 /// readings of the coordinates (as voxels, in another unit, with x and y flipped) are judged by all
-/// points together. Throws Error(InvalidInput), with `file` and the advice, if nothing is left.
+/// points together. Throws Error(InvalidInput), with `file` and the advice, if no seed is left.
 PlacedSeeds placeSeeds(const std::vector<SeedBranch>& seeds, const VolumeGeometry& geometry,
                        const std::filesystem::path& file);
 
-/// Seeds of the same file, read in another way.
+/// Seeds of a file under another reading of its coordinates.
 struct RereadSeeds {
   std::string words;              ///< such as "as RAS (x and y flipped)"
-  std::string options;            ///< that ask for it
+  std::string options;            ///< options that select this reading
   std::vector<SeedBranch> seeds;  ///< points mm, LPS, also outside of the volume
 };
 

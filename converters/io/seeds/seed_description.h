@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Descriptions of control points, which hold what 3D Slicer has no place for. Private to the sources
+// Descriptions of control points, for data that 3D Slicer has no field for. Private to the sources
 // of seeds.
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace lumen::convert {
 
 /// Reads "parent=LABEL; kind=aneurysm; radius=2.5" into `branch`, its frame included; words without
-/// "=" are remarks. Calls `refuse`, which throws, with what was expected.
+/// "=" are remarks. Calls `refuse`, which throws, with the expectation.
 void applyDescription(const std::string& text, SeedBranch& branch,
                       const std::function<void(const std::string&)>& refuse);
 

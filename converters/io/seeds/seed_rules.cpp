@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using formats::printable;
 
-/// mm: points nearer to one another are one, clicked twice.
+/// mm: points nearer to one another are one point, clicked twice.
 constexpr double kSamePlace = 1e-9;
 
 std::string branchOf(const fs::path& file, const SeedBranch& branch) {
@@ -39,7 +39,7 @@ void checkPoint(const SeedBranch& branch, std::size_t i, const fs::path& file) {
     refuse("has no radius; expected the distance to the wall at each point of an aneurysm");
 }
 
-/// A curve that was clicked twice at one place has that point twice.
+/// Merges points that were clicked twice in one place.
 void mergeDoubledPoints(std::vector<SeedPoint>& points) {
   std::vector<SeedPoint> kept;
   kept.reserve(points.size());
@@ -62,7 +62,7 @@ void normaliseDirection(SeedBranch& branch, const fs::path& file) {
   *branch.direction /= length;
 }
 
-/// A label becomes a branch's in the case, so it follows the case's rules.
+/// A label becomes a branch's label in the case, so it follows the case's rules.
 void checkLabel(const std::string& label, std::size_t number, const fs::path& file) {
   const std::string place = printable(file.string()) + ": branch number " +
                             std::to_string(number + 1) + ": its label " + quotedText(label) + " ";

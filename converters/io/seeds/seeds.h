@@ -21,15 +21,14 @@ struct SeedPoint {
   std::optional<double> radius;                        ///< mm, > 0
 };
 
-/// The coordinates of a file. Voxel: indices, (0, 0, 0) at the centre of the volume's first
-/// voxel.
+/// The coordinates of a file. Voxel: indices, (0, 0, 0) at the centre of the volume's first voxel.
 enum class SeedSystem : std::uint8_t { Lps, Ras, Voxel };
 
-/// Turns a file's coordinates into LPS millimetres. Positions and directions in voxels stay as they
-/// are: the volume alone places them.
+/// Turns a file's coordinates into LPS millimetres. Positions and directions in voxels stay
+/// unchanged: the volume alone places them.
 struct SeedFrame {
   SeedSystem system = SeedSystem::Lps;
-  double unit = 1;  ///< mm; of positions (but in voxels) and radii
+  double unit = 1;  ///< mm; unit of radii, and of positions unless these are in voxels
 
   [[nodiscard]] Eigen::Vector3d direction(const Eigen::Vector3d& v) const {
     return system == SeedSystem::Ras ? Eigen::Vector3d(-v.x(), -v.y(), v.z()) : v;
@@ -45,8 +44,7 @@ struct SeedBranch {
   std::optional<std::string> parent;  ///< label of another branch
   std::vector<SeedPoint> points;      ///< at least one; a vessel's second point gives its direction
   std::optional<Eigen::Vector3d> direction;  ///< unit, LPS
-  /// what its coordinates were read as; those in voxels are so until they are placed
-  /// (place_seeds.h)
+  /// Frame of its coordinates; Voxel until they are placed (place_seeds.h).
   SeedFrame frame{};
 };
 
@@ -56,16 +54,16 @@ struct SeedFailure {
   std::string reason;  ///< one sentence, with the numbers that decided
 };
 
-/// Coordinates that an option states; they replace those of the file.
+/// Frame and unit that an option states; they override those of the file.
 struct SeedReading {
   std::optional<SeedSystem> system;
   std::optional<double> unit;  ///< mm
 };
 
 /// Reads a seeds file: lumen's own JSON (spec/seeds.md), 3D Slicer Markups (`.mrk.json`), or
-/// Slicer's older `.fcsv`; told apart by what is in them. Branches come parents first, otherwise in
-/// file order; a point that lies where the one before does is merged with it. Throws
-/// Error(InvalidInput), naming file, place, what was found and what was expected.
+/// Slicer's older `.fcsv`; the content decides which. Branches come parents first, otherwise in
+/// file order; a point in the place of its predecessor is merged with it. Throws
+/// Error(InvalidInput), naming file, place, finding and expectation.
 std::vector<SeedBranch> readSeeds(const std::filesystem::path& file,
                                   const SeedReading& reading = {});
 

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Columns of a file that does not name its own.
+/// Default columns, for a file that does not name its own.
 constexpr const char* kColumns = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
 
 /// The fields of a row: between commas, or between quotes, which stand for themselves when doubled.
@@ -80,7 +80,7 @@ private:
       readRow(fieldsOf(line));
   }
 
-  /// "# CoordinateSystem = LPS", "# columns = id,x,y,z"; other remarks are passed over.
+  /// "# CoordinateSystem = LPS", "# columns = id,x,y,z"; other remarks are ignored.
   void readHeader(const std::string& line) {
     const auto equals = line.find('=');
     if (equals == std::string::npos) return;

@@ -11,7 +11,7 @@
 
 namespace lumen::convert {
 
-/// One vessel for each row, in file order, not yet checked across branches; `stem` labels those
+/// One vessel for each row, in file order, not yet checked across branches; `stem` labels rows
 /// without a label. Throws Error(InvalidInput) with `file`, the line and the column.
 std::vector<SeedBranch> parseFcsv(std::string_view text, const std::filesystem::path& file,
                                   const std::string& stem, const SeedReading& reading);

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The frame of the file, or of `reading` where that states one.
+/// The frame of the file, overridden by `reading` where that states one.
 SeedFrame parseFrame(const JsonPlace& root, const SeedReading& reading) {
   const JsonPlace system = root.at("coordinateSystem"), units = root.at("units");
   SeedFrame frame;
@@ -35,8 +35,8 @@ SeedPoint parsePoint(const JsonPlace& place, const SeedFrame& frame) {
   return point;
 }
 
-/// A branch's own radius is that of a vessel's first point, and of an aneurysm's points that have
-/// none.
+/// A branch's own radius applies to a vessel's first point, and to those points of an aneurysm that
+/// have none.
 void spreadRadius(SeedBranch& branch, double radius) {
   const bool all = branch.kind == formats::BranchKind::Aneurysm;
   const std::size_t count =

@@ -10,7 +10,7 @@
 namespace lumen::convert {
 namespace {
 
-/// "LPS" (the default), "RAS", or as older versions wrote them: 1 and 0.
+/// "LPS" (the default), "RAS", or the numbers of older versions: 1 and 0.
 SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
   if (reading.system) return *reading.system;
   if (!markup.has("coordinateSystem")) return SeedSystem::Lps;
@@ -21,8 +21,8 @@ SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
   place.refuse("\"LPS\" or \"RAS\"; --seeds-frame states another");
 }
 
-/// "mm" (the default) or "m"; a coded unit such as ["mm", "UCUM", "millimeter"] counts by its first
-/// word.
+/// "mm" (the default) or "m"; a coded unit such as ["mm", "UCUM", "millimeter"] is read by its
+/// first word.
 double unitScale(const JsonPlace& markup, const SeedReading& reading) {
   if (reading.unit) return *reading.unit;
   if (!markup.has("coordinateUnits")) return 1;

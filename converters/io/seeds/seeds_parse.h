@@ -13,7 +13,7 @@ namespace lumen::convert {
 /// Millimetres in the unit that `unit` names: "mm" or "m".
 double scaleOf(const JsonPlace& unit);
 
-/// "vessel" or "aneurysm"; nothing for another word.
+/// "vessel" or "aneurysm"; empty for another word.
 std::optional<formats::BranchKind> branchKind(const std::string& word);
 
 }  // namespace lumen::convert

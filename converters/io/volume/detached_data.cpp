@@ -21,14 +21,14 @@ bool isWithin(const fs::path& file, const fs::path& folder) {
          folder.end();
 }
 
-/// `path` with every link followed and no slash at its end; empty if it is not there.
+/// `path` with every link followed and no slash at its end; empty if it does not exist.
 fs::path resolved(const fs::path& path) {
   std::error_code error;
   const fs::path place = fs::canonical(path.empty() ? fs::path(".") : path, error);
   return error ? fs::path() : place;
 }
 
-/// A pattern in three: before the number, after it, and its width.
+/// A pattern in three parts: before the number, after it, and its width.
 struct NamePattern {
   std::string before, after;
   std::size_t width = 0;
@@ -44,7 +44,7 @@ struct NamePattern {
   }
 };
 
-/// Reads the number's place at `at`, behind its %; false unless it is sound.
+/// Reads the number's placeholder at `at`, after its %; false unless it is valid.
 bool readPlace(const std::string& text, std::size_t& at, NamePattern& pattern) {
   if (at < text.size() && text[at] == '0') pattern.zeros = true;
   for (; at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at) {

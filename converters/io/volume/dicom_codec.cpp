@@ -17,11 +17,11 @@
 namespace lumen::convert {
 namespace {
 
-// What decoders may take: twenty times the pixels, and time at a tenth of the slowest that is usual.
+// Limits of decoders: twenty times the pixels, and time at a tenth of the slowest usual rate.
 constexpr std::size_t kSpareMemory = 64 << 20, kMemoryPerByte = 20;
 constexpr std::size_t kSpareSeconds = 2, kBytesPerSecond = 1 << 20;
 
-/// What a compressed stream says of its image.
+/// Properties of an image in a compressed stream.
 struct StreamHeader {
   std::size_t columns = 0, rows = 0, components = 0, bits = 0;
 };
@@ -43,7 +43,7 @@ private:
   const std::vector<std::byte>& m_bytes;
 };
 
-/// Of JPEG and JPEG-LS: the first frame header (ITU-T T.81, B.2.2).
+/// Properties of a JPEG or JPEG-LS stream, from the first frame header (ITU-T T.81, B.2.2).
 std::optional<StreamHeader> jpegHeader(const StreamBytes& s) {
   constexpr std::size_t kStart = 0xffd8, kScan = 0xffda;
   if (!s.has(0, 4) || s.big(0, 2) != kStart) return std::nullopt;
@@ -60,8 +60,9 @@ std::optional<StreamHeader> jpegHeader(const StreamBytes& s) {
   return std::nullopt;
 }
 
-/// Of JPEG 2000: the image and tile sizes, which come first (ITU-T T.800, A.5.1). At most as many
-/// tiles as their index counts, and an image that begins at the grid's origin.
+/// Properties of a JPEG 2000 stream, from the image and tile sizes, which come first (ITU-T T.800,
+/// A.5.1). At most as many tiles as their index counts, and an image that begins at the grid's
+/// origin.
 std::optional<StreamHeader> jpeg2000Header(const StreamBytes& s) {
   constexpr std::size_t kStartAndSizes = 0xff4fff51, kMaxTiles = 65535;
   if (!s.has(0, 45) || s.big(0, 4) != kStartAndSizes) return std::nullopt;
@@ -105,7 +106,7 @@ gdcm::DataElement pixelElement(const std::vector<std::byte>& stream) {
   return pixels;
 }
 
-/// False if GDCM refuses. Only in a process of its own.
+/// Decodes a stream; false if GDCM refuses it. Runs only in a process of its own.
 bool decode(const DicomImage& image, const std::vector<std::byte>& stream,
             std::span<std::byte> pixels) {
   gdcm::Trace::WarningOff();

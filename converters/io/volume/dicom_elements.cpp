@@ -14,13 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kWindow = 1 << 14;
-constexpr std::size_t kMaxDepth = 16;  // sequences within sequences; images have up to six
+constexpr std::size_t kMaxDepth = 16;  // maximum nesting of sequences; images have up to six
 constexpr std::uint32_t kUndefined = 0xffffffff;
 constexpr DicomTag kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
 constexpr DicomTag kPixelData = 0x7fe00010;
 
-/// Sequences that are looked into though an implicit syntax does not say that they are some:
-/// functional groups of frames, and what they hold.
+/// Sequences that are parsed although an implicit syntax does not mark them as sequences:
+/// functional groups of frames, and their content.
 constexpr std::array<DicomTag, 6> kSequences = {0x52009229, 0x52009230, 0x00209113,
                                                 0x00209116, 0x00289110, 0x00289145};
 
@@ -39,8 +39,8 @@ public:
   Walker(DicomBytes& bytes, DicomSyntax syntax, const DicomVisitor& visit)
       : m_bytes(bytes), m_syntax(syntax), m_visit(visit) {}
 
-  /// Elements from `at` to `end`, or to the end of an item if that is not known (`open`), or to the
-  /// first of another group than `onlyGroup`. Gives where it stopped.
+  /// Elements from `at` to `end`, or to the end of an item if that is unknown (`open`), or to the
+  /// first of another group than `onlyGroup`. Returns the offset after them.
   std::uint64_t walk(std::uint64_t at, std::uint64_t end, bool open, int onlyGroup = -1) {
     while (at < end) {
       if (m_hasPixels && m_path.empty() && isPadding(at)) return end;
@@ -107,7 +107,8 @@ private:
     return head;
   }
 
-  /// Zeros to the end of the file, which some writers leave behind the pixels.
+  /// True if only zeros follow up to the end of the file, which some writers leave after the
+  /// pixels.
   bool isPadding(std::uint64_t at) {
     std::vector<std::byte> rest(std::min<std::uint64_t>(kWindow, m_bytes.size() - at));
     for (; at < m_bytes.size(); at += rest.size()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structure of a DICOM file (DICOM PS3.5, PS3.10), walked strictly: every length must lie within
-// what holds it. No library sees a file before this walk has accepted it: GDCM's reader asserts,
-// allocates and guesses where a data set is damaged.
+// The structure of a DICOM file (DICOM PS3.5, PS3.10), walked strictly: every length must lie
+// within its container. No library sees a file before this walk has accepted it: GDCM's reader
+// asserts, allocates and guesses where a data set is damaged.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace lumen::convert {
 /// Group in the upper half, element in the lower one.
 using DicomTag = std::uint32_t;
 
-/// Numbers and bytes of a file by their place.
+/// Random access to a file's numbers and bytes.
 class DicomBytes {
 public:
   /// Throws Error(InvalidInput), without the file's name, if `path` cannot be opened.
@@ -42,34 +42,35 @@ struct DicomExtent {
 
 struct DicomElement {
   DicomTag tag = 0;
-  std::array<char, 2> vr{};  ///< "??" where the syntax leaves it out
+  std::array<char, 2> vr{};  ///< value representation; "??" where the syntax leaves it out
   DicomExtent value;
   bool encapsulated = false;           ///< pixels are in `fragments`, not in `value`
   std::vector<DicomExtent> fragments;  ///< without the table of offsets
 };
 
-/// How a data set is written.
+/// Encoding of a data set.
 struct DicomSyntax {
   bool explicitVr = true, bigEndian = false;
 };
 
-/// Called for each element that is not a sequence. `path` are the sequences around it, outermost
+/// Called for each element that is not a sequence. `path` holds the sequences around it, outermost
 /// first; `item` is the number, from 0, of the item of the outermost one.
 using DicomVisitor =
     std::function<void(const DicomElement&, std::span<const DicomTag> path, std::size_t item)>;
 
-/// Walks the file's meta information, group 2, from byte `at`; gives where it ends. Throws what
-/// walkDicom() throws.
+/// Walks the file's meta information, group 2, from byte `at`; returns the byte after it. Throws as
+/// walkDicom() does.
 std::uint64_t walkDicomMeta(DicomBytes& bytes, std::uint64_t at, const DicomVisitor& visit);
 
 /// Walks the data set from byte `at` to the end of the file. Throws Error(InvalidInput), naming a
-/// byte, for a structure that is damaged or deeper than 16 sequences; the message lacks the file.
+/// byte, for a structure that is damaged or deeper than 16 sequences; the message does not name the
+/// file.
 void walkDicom(DicomBytes& bytes, std::uint64_t at, DicomSyntax syntax, const DicomVisitor& visit);
 
 /// True if `vr` is a value representation of DICOM.
 bool isRepresentation(const std::array<char, 2>& vr);
 
-/// "(0028,0010)".
+/// The tag as text, "(0028,0010)".
 std::string tagText(DicomTag tag);
 
 }  // namespace lumen::convert

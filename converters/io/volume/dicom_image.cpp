@@ -65,7 +65,7 @@ std::string trimmedText(std::string text) {
   return first == std::string::npos ? std::string() : text.substr(first);
 }
 
-/// The numbers of "0.5\0.25 "; empty if one of them is none.
+/// The numbers of "0.5\0.25 "; empty if one of them is malformed.
 std::vector<double> numbersOf(const std::string& text) {
   std::vector<double> values;
   std::size_t begin = 0;
@@ -85,13 +85,13 @@ std::vector<double> numbersOf(const std::string& text) {
   return values;
 }
 
-/// What is needed of a data set, as it is walked.
+/// Collects the needed values of a data set during the walk.
 struct Content {
   Values top, shared;
   std::vector<Values> perFrame;
   DicomElement pixels;
 
-  /// Where the value belongs, or null if it is not needed.
+  /// Destination of the value, or null if it is not needed.
   Values* place(DicomTag tag, std::span<const DicomTag> path, std::size_t item) {
     static constexpr std::array kTop = {kSeries,  kDescription,    kPosition,      kOrientation,
                                         kSamples, kPhotometric,    kFrames,        kRows,
@@ -208,7 +208,7 @@ DicomPlane planeOf(const Values& values) {
   return plane;
 }
 
-/// What `specific` states, and otherwise `general`.
+/// Each value of `specific`, or of `general` where it states none.
 DicomPlane joined(DicomPlane specific, const DicomPlane& general) {
   if (!specific.position) specific.position = general.position;
   if (!specific.orientation) specific.orientation = general.orientation;
@@ -248,7 +248,7 @@ void readFormat(const Reader& reader, DicomImage& image) {
                       ", one less than the bits used");
 }
 
-/// Colour has no one number for a pixel.
+/// Refuses colour, which has no single number per pixel.
 void checkGrey(const DicomImage& image) {
   const bool palette = image.photometric == "PALETTE COLOR";
   if (image.samples != 1 || palette)
@@ -259,7 +259,7 @@ void checkGrey(const DicomImage& image) {
                       printable(image.photometric) + "\"; expected MONOCHROME2 or MONOCHROME1");
 }
 
-/// The pixels that are there are those that the numbers announce.
+/// Refuses pixel data that cannot hold the announced pixels.
 void checkPixels(const DicomImage& image) {
   const auto announced = static_cast<double>(image.frameBytes() * image.frames);
   const bool native =
@@ -287,17 +287,17 @@ void checkPixels(const DicomImage& image) {
                        " bytes of pixels, which cannot come out of " + std::to_string(stored));
 }
 
-/// How a file begins.
+/// The beginning of a file.
 struct Beginning {
   bool isDicom = false;
-  std::uint64_t at = 0;  ///< of the first element
+  std::uint64_t at = 0;  ///< offset of the first element
   bool hasMeta = false;  ///< group 2 comes first
   bool hasMark = false;  ///< "DICM" at byte 128
   bool explicitVr = true;
 };
 
-/// Old writers leave the mark out, and the meta information too: such a file begins with an element
-/// of group 2 or 8, little-endian.
+/// Old writers omit the mark and the meta information: such a file begins with an element of group
+/// 2 or 8, little-endian.
 Beginning beginningOf(DicomBytes& bytes) {
   constexpr std::uint64_t kMarkEnd = 132;
   std::array<std::byte, 4> mark{};
@@ -341,7 +341,7 @@ void fillImage(DicomImage& image, const Content& content, const Syntax& syntax) 
   checkPixels(image);
 }
 
-/// The meta information's transfer syntax and storage class; where the data set begins.
+/// The meta information's transfer syntax and storage class; the offset of the data set.
 std::uint64_t readMeta(DicomBytes& bytes, const Beginning& beginning, std::string& syntax,
                        std::string& storage) {
   if (!beginning.hasMeta) {
@@ -356,7 +356,7 @@ std::uint64_t readMeta(DicomBytes& bytes, const Beginning& beginning, std::strin
   return end;
 }
 
-/// Fills `scan` as far as the file is sound; throws without the file's name.
+/// Fills `scan` up to the first fault of the file; throws without the file's name.
 void scanInto(DicomScan& scan, DicomBytes& bytes, const Beginning& beginning) {
   std::string uid, storage;
   const std::uint64_t begin = readMeta(bytes, beginning, uid, storage);
@@ -390,7 +390,7 @@ DicomScan scanDicom(const fs::path& file) {
     if (scan.image) scan.image->file = file;
   } catch (const Error& error) {
     scan.image.reset();
-    // without the mark it was a guess
+    // without the mark the format was a guess
     if (beginning.hasMark || !scan.series.empty())
       scan.fault = Error(error.kind(), file.string() + ": " + error.what());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a DICOM file says of its image, read strictly: lumen's own reading, without a library.
+// Description of the image in a DICOM file, read strictly by lumen's own code, without a library.
 #pragma once
 
 #include <array>
@@ -16,16 +16,18 @@
 
 namespace lumen::convert {
 
-/// How pixels are packed.
+/// Packing of pixels.
 enum class DicomPacking { Native, NativeBigEndian, Jpeg, JpegLs, Jpeg2000, RunLength };
 
-/// Where an image or a frame is, and what its stored values mean. Lengths are mm, vectors LPS.
+/// Placement of an image or a frame, and the meaning of its stored values. Lengths are mm, vectors
+/// LPS.
 struct DicomPlane {
-  std::optional<Eigen::Vector3d> position;            ///< of the first pixel's centre
-  std::optional<std::array<double, 6>> orientation;   ///< of the rows, then of the columns
-  std::optional<std::array<double, 2>> pixelSpacing;  ///< between rows, then between columns
-  std::optional<double> distance;                     ///< between slices or frames
-  std::optional<double> slope, intercept;             ///< finite; the slope is not 0
+  std::optional<Eigen::Vector3d> position;           ///< centre of the first pixel
+  std::optional<std::array<double, 6>> orientation;  ///< rows' direction, then columns'
+  std::optional<std::array<double, 2>>
+      pixelSpacing;                        ///< distance between rows, then between columns
+  std::optional<double> distance;          ///< distance between slices or frames
+  std::optional<double> slope, intercept;  ///< finite; the slope is not 0
 };
 
 struct DicomImage {
@@ -37,23 +39,23 @@ struct DicomImage {
   std::size_t bitsAllocated = 0, bitsStored = 0;
   bool isSigned = false;
   std::string photometric;           ///< interpretation, such as MONOCHROME2
-  DicomPlane plane;                  ///< as stated for all frames
-  std::vector<DicomPlane> perFrame;  ///< what single frames state, for the first of them at least
+  DicomPlane plane;                  ///< properties of all frames
+  std::vector<DicomPlane> perFrame;  ///< properties of single frames, at least the first
   DicomElement pixels;
 
   [[nodiscard]] std::size_t frameBytes() const { return columns * rows * bitsAllocated / 8; }
 };
 
-/// What a file of a folder is to a reader of DICOM images.
+/// Result of reading one file of a folder as a DICOM image.
 struct DicomScan {
-  std::string series;  ///< that the file names, even if it is damaged further on
+  std::string series;  ///< series that the file names, even if it is damaged further on
   std::optional<DicomImage>
       image;                   ///< empty without a fault: no image, such as a text or a DICOMDIR
   std::optional<Error> fault;  ///< why an image cannot be read; names the file
 };
 
 /// Reads all of `file` but its pixels. A fault is InvalidInput for a file that is damaged or whose
-/// numbers describe no image, and Unsupported for what DICOM allows and lumen does not read.
+/// numbers describe no image, and Unsupported for features of DICOM that lumen does not read.
 DicomScan scanDicom(const std::filesystem::path& file);
 
 }  // namespace lumen::convert

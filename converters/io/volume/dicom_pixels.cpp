@@ -91,7 +91,7 @@ Bytes nativePixels(DicomBytes& file, const DicomImage& image, std::size_t frame)
   return pixels;
 }
 
-/// The values of pixels in T, from the bits that are used.
+/// The values of pixels in T, from the used bits.
 template <class T>
 std::vector<T> storedValues(const Bytes& pixels, std::size_t bitsStored) {
   std::vector<T> values(pixels.size() / sizeof(T));
@@ -101,7 +101,7 @@ std::vector<T> storedValues(const Bytes& pixels, std::size_t bitsStored) {
   using U = std::make_unsigned_t<T>;
   for (T& value : values) {
     const auto up = static_cast<U>(static_cast<std::uint64_t>(static_cast<U>(value)) << unused);
-    value = static_cast<T>(static_cast<T>(up) >> unused);  // brings the sign down, if T has one
+    value = static_cast<T>(static_cast<T>(up) >> unused);  // shifts the sign down, if T is signed
   }
   return values;
 }
@@ -114,7 +114,7 @@ std::vector<To> mapped(const std::vector<From>& from, Function function) {
   return to;
 }
 
-/// Stored values as the narrowest type of a volume that holds all that their bits can become.
+/// Stored values as the narrowest volume type that holds every value of their bits.
 template <class T>
 Voxels rescaled(const std::vector<T>& stored, const DicomImage& image, const DicomPlane& plane) {
   const double slope = plane.slope.value_or(1), intercept = plane.intercept.value_or(0);

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A header whose geometry is settled and whose files can hold the voxels.
+/// A header with settled geometry whose files can hold the voxels.
 struct CheckedHeader {
   VolumeHeader shown;
   StoredVoxels voxels;
@@ -50,7 +50,7 @@ std::array<int, 3> volumeSize(const fs::path& path, const std::vector<std::int64
   double voxels = 1;
   for (const std::int64_t size : sizes) voxels *= static_cast<double>(size);
   if (sizes.size() < 3) refuseDimensions(path, static_cast<unsigned>(sizes.size()), text);
-  // beyond any file, and far below what overflows
+  // beyond any file, and far below overflow
   constexpr double kMostVoxels = 1e15;
   if (voxels > kMostVoxels)
     throw invalidInput(path.string() + ": its header announces " + longNumber(voxels) +

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of NRRD and MetaImage. The header is read by lumen's own strict parsers, because that is
-// where a file lies or attacks: libraries repair what is no number, allocate before they look at the
-// data, and open what files a header names. What is then left to do for the voxels, zlib does.
+// Files of NRRD and MetaImage. The header is read by lumen's own strict parsers, because headers
+// are the place of false statements and attacks: libraries repair malformed numbers, allocate
+// before they look at the data, and open any file that a header names. Only zlib takes part in
+// reading the voxels.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +14,7 @@
 
 namespace lumen::convert {
 
-/// `format` is Nrrd or MetaImage. Throw as readVolume() does.
+/// `format` is Nrrd or MetaImage. Both functions throw as readVolume() does.
 Volume readImageFile(const std::filesystem::path& path, VolumeFormat format,
                      const ReadVolumeOptions& options, const Progress& progress);
 VolumeHeader readImageFileHeader(const std::filesystem::path& path, VolumeFormat format,

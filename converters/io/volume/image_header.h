@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A header of NRRD or MetaImage, all of it that concerns lumen: what the parsers of both make of
-// their fields.
+// Header of NRRD or MetaImage, the common result of both parsers.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +16,27 @@ namespace lumen::convert {
 struct ImageHeader {
   StatedGeometry stated;
   StoredVoxels voxels;   ///< with the files that the header names, resolved and allowed
-  std::string encoding;  ///< as the format calls it
+  std::string encoding;  ///< encoding in the format's own words
   std::vector<std::string> assumptions;
 };
 
-/// Throws Error(InvalidInput), naming the file, for what is not a header of NRRD 1 to 5 of a scalar
-/// 3-D volume whose every field that counts is sound, and for files of voxels that are missing or
-/// not allowed; Error(Unsupported) for an encoding that is not read.
+/// The header of an NRRD file. Throws Error(InvalidInput), naming the file, unless it is a header
+/// of NRRD 1 to 5 of a scalar 3-D volume in which every relevant field is sound, and for files of
+/// voxels that are missing or not allowed; Error(Unsupported) for an encoding that is not read.
 ImageHeader readNrrdHeader(const std::filesystem::path& path, const ReadVolumeOptions& options);
 
-/// The same of MetaImage.
+/// The header of a MetaImage file. Throws Error(InvalidInput), naming the file, unless it describes
+/// a scalar 3-D volume and every relevant field is sound, and for files of voxels that are missing
+/// or not allowed; Error(Unsupported) for an encoding that is not read.
 ImageHeader readMetaHeader(const std::filesystem::path& path, const ReadVolumeOptions& options);
 
-/// The first three sizes, those of a volume's axes. Throws Error(InvalidInput) unless there are three,
-/// and the product of all sizes is one that a file can hold.
+/// The sizes along a volume's three axes, the first three of `sizes`. Throws Error(InvalidInput)
+/// unless there are three, and the product of all sizes fits a file.
 std::array<int, 3> volumeSize(const std::filesystem::path& path,
                               const std::vector<std::int64_t>& sizes);
 
-/// Says which of the voxels of a file with axes of these sizes are those of the volume that the
-/// options choose. Throws as chosenVolume() does.
+/// Selects the voxels of the volume that the options choose, in a file with axes of these sizes.
+/// Throws as chosenVolume() does.
 void chooseVoxels(const std::filesystem::path& path, const std::vector<std::int64_t>& sizes,
                   const ReadVolumeOptions& options, StoredVoxels& voxels,
                   std::size_t voxelsOfVolume);

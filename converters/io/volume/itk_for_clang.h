@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Included before everything else when clang compiles the sources that use ITK. Debian's ITK
-// headers carry compiler facts for g++ only and refuse others by name; clang 14 has all the
-// features that they ask for.
+// headers carry compiler facts for g++ only and refuse other compilers by name; clang 14 has all
+// the features that they need.
 #pragma once
 
 #pragma push_macro("__clang__")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The module of ITK, its library lumen_itk: image files that are written by ITK, and the place of filters
-// of ITK. Only its source includes headers of ITK, which cost half a minute of compile time each.
+// ITK's library module lumen_itk: image files written by ITK, and the place of filters of ITK. Only
+// its source includes headers of ITK, which cost half a minute of compile time each.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,11 @@
 
 namespace lumen::convert {
 
-/// Texts that a header of NRRD keeps beside its own fields.
+/// Texts that a header of NRRD holds beside its own fields.
 using VolumeNotes = std::map<std::string, std::string>;
 
-/// Writes header and voxels into one file of NRRD or MetaImage, whose name must end in .nrrd or .mha.
-/// Notes are for NRRD alone. False if ITK reports that it failed; a full disk may go unnoticed.
+/// Writes header and voxels into one file of NRRD or MetaImage, whose name must end in .nrrd or
+/// .mha. Notes are for NRRD alone. False if ITK reports a failure; a full disk may go unnoticed.
 bool writeWithItk(const Volume& volume, const std::filesystem::path& file, VolumeFormat format,
                   bool compressed, const VolumeNotes& notes);
 

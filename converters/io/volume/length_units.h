@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of lengths in headers.
+// Names of length units in headers.
 #pragma once
 
 #include <map>
@@ -10,8 +10,7 @@
 
 namespace lumen::convert {
 
-/// Millimetres of the unit that `name` names, such as "mm", "Metres" or "um"; empty if it is not
-/// known.
+/// Millimetres of the unit `name`, such as "mm", "Metres" or "um"; empty if it is unknown.
 inline std::optional<double> millimetresOf(const std::string& name) {
   static const std::map<std::string, double> known = {
       {"mm", 1},           {"millimeter", 1},   {"millimetre", 1},    {"cm", 10},

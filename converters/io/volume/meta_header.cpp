@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr std::int64_t kMaxMetaInt = std::numeric_limits<int>::max();
 constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();
 
-// fields by the names under which they are kept, and in messages
+// names of fields in this table and in messages
 const std::string kSpacing = "ElementSpacing", kPixelSize = "ElementSize", kSizes = "DimSize";
 const std::string kMatrix = "TransformMatrix", kOffset = "Offset", kType = "ElementType";
 const std::string kDataFile = "ElementDataFile", kBigEndian = "ElementByteOrderMSB";
@@ -31,7 +31,7 @@ const std::string kChannels = "ElementNumberOfChannels", kUnits = "DistanceUnits
 const std::string kSlope = "ElementToIntensityFunctionSlope";
 const std::string kIntercept = "ElementToIntensityFunctionOffset";
 
-/// The name under which a field is kept, whatever its case; fields of two names are one.
+/// The canonical name of a field, whatever its case; synonyms map to one name.
 std::string metaField(const std::string& name) {
   static const std::map<std::string, std::string> names = [] {
     std::map<std::string, std::string> all = {
@@ -49,7 +49,7 @@ std::string metaField(const std::string& name) {
   return found == names.end() ? lowerCase(name) : found->second;
 }
 
-/// "Key = value" lines; ElementDataFile is the last, but for the names of a list.
+/// "Key = value" lines; ElementDataFile is the last, except for the names of a list.
 TextHeader readMetaFields(const fs::path& path) {
   HeaderLines lines(path);
   TextHeader header(path);
@@ -95,7 +95,7 @@ PixelType metaType(const TextHeader& header) {
   return found->second;
 }
 
-/// The numbers of a field, or those of another if it is absent.
+/// The numbers of ElementSpacing, or those of ElementSize if it is absent.
 std::vector<double> spacingsOf(const TextHeader& header, std::size_t dimensions,
                                const ReadVolumeOptions& options) {
   const std::string field = header.has(kSpacing) ? kSpacing : kPixelSize;
@@ -120,7 +120,7 @@ StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int
     const auto e = static_cast<Eigen::Index>(a);
     if (!spacings.empty()) g.spacing[e] = spacings[a];
     if (!offset.empty()) g.origin[e] = offset[a];
-    for (std::size_t r = 0; r < 3 && !matrix.empty(); ++r)  // the axes one after the other
+    for (std::size_t r = 0; r < 3 && !matrix.empty(); ++r)  // one axis after another
       g.direction(static_cast<Eigen::Index>(r), e) = matrix[n * a + r];
   }
   const std::string unit = header.text(kUnits);
@@ -175,7 +175,7 @@ DetachedNames metaPattern(const TextHeader& header, std::int64_t slices) {
   return namesOfPattern(header.path(), words[0], range);
 }
 
-/// One name as it is, or with the ending of a compressed file if only that is there.
+/// A file name as stated, or with the ending of a compressed file if only that file exists.
 std::string metaFile(const TextHeader& header, StoredVoxels& voxels) {
   const std::string& name = header.text(kDataFile);
   std::error_code ignored;
@@ -224,7 +224,7 @@ void setMetaFiles(const TextHeader& header, const std::vector<std::int64_t>& siz
   voxels.files = detachedFiles(header.path(), names, options.allowedDetached);
 }
 
-/// How the voxels are packed and where in their files they begin.
+/// Packing of the voxels, and their offset in their files.
 void setPacking(const TextHeader& header, ImageHeader& image) {
   StoredVoxels& voxels = image.voxels;
   const bool binary = flag(header, "BinaryData", true);
@@ -271,7 +271,7 @@ ImageHeader readMetaHeader(const fs::path& path, const ReadVolumeOptions& option
     throw fields.refusal("HeaderSize", "at least the " + std::to_string(header.voxels.offset) +
                                            " bytes of the header");
   if (stated > 0) header.voxels.offset = stated;
-  if (header.voxels.files.size() > 1) header.voxels.packedSize.reset();  // of all that were one
+  if (header.voxels.files.size() > 1) header.voxels.packedSize.reset();  // the sum of all files
   return header;
 }
 

@@ -35,7 +35,7 @@ static_assert(sizeof(nifti_1_header) == kNiftiHeaderSize);
 
 using GzFile = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
 
-/// A file whose header has been accepted.
+/// A file with an accepted header.
 struct OpenNifti {
   NiftiHeader header;
   VolumeGeometry geometry;
@@ -74,7 +74,7 @@ void checkExtensions(PackedFile& file, const NiftiHeader& header, const fs::path
   }
 }
 
-/// Spacings that --spacing does not replace must be some.
+/// Spacings that --spacing does not override must be valid.
 void checkSpacings(const NiftiHeader& header, const fs::path& path) {
   for (std::size_t a = 0; a < 3; ++a)
     if (!(std::isfinite(header.pixdim[a]) && header.pixdim[a] > 0))
@@ -89,7 +89,7 @@ void settleGeometry(OpenNifti& file, const fs::path& path, const ReadVolumeOptio
   const StatedGeometry stated = niftiGeometry(file.header, options, path, file.assumptions);
   const std::size_t before = file.assumptions.size();
   file.geometry = settledGeometry(stated, options, path, file.assumptions);
-  const bool told = file.assumptions.size() > before;  // that the unit is not known, and odd
+  const bool told = file.assumptions.size() > before;  // the unknown unit is reported
   if (!told && !stated.unit && !options.unit && !options.spacing)
     file.assumptions.push_back(
         "its header states no unit of length that NIfTI has (xyzt_units is " +

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // NIfTI-1 files: one reader for header, geometry and voxels, and a writer. The header is read by
-// ours (nifti_header.h). niftilib's niftiio gives the formulas of quaternions only and does not touch
-// the file: its own readers choose a file by its name's ending and take the voxels of v.nii.gz from
-// v.nii where both exist, allocate what a header announces before they look at the file, read the
-// header as voxels where an offset says so, give zeros for NaN and infinities, do not compare a gzip
-// stream's checksum, and cannot be stopped.
+// lumen's own reader (nifti_header.h). niftilib's niftiio provides the formulas of quaternions only
+// and does not touch the file: its own readers choose a file by its name's ending and take the
+// voxels of v.nii.gz from v.nii where both exist, allocate the announced sizes before they look at
+// the file, read the header as voxels where an offset points into it, return zeros for NaN and
+// infinities, do not verify a gzip stream's checksum, and cannot be stopped.
 #pragma once
 
 #include <filesystem>
@@ -17,20 +17,20 @@
 namespace lumen::convert {
 
 /// A scalar volume, plain or compressed whatever its name. Voxels are scaled by the header's slope
-/// and intercept if it has any other than 1 and 0 (then they are floats); their place is that of
-/// niftiGeometry(). Throws Error(InvalidInput) for what is truncated or damaged, states more voxels
-/// than the file can hold, or has no sound header or geometry; Error(Unsupported) for NIfTI-2, pairs
-/// of files and other pixel types.
+/// and intercept unless these are 1 and 0 (then they are floats); niftiGeometry() places them.
+/// Throws Error(InvalidInput) if the file is truncated or damaged, states more voxels than the file
+/// can hold, or has no sound header or geometry; Error(Unsupported) for NIfTI-2, pairs of files and
+/// other pixel types.
 Volume readNifti(const std::filesystem::path& path, const ReadVolumeOptions& options,
                  const Progress& progress);
 
-/// What readNifti() knows before it reads a voxel.
+/// The header of a NIfTI-1 file, read without its voxels.
 VolumeHeader readNiftiHeader(const std::filesystem::path& path, const ReadVolumeOptions& options,
                              const Progress& progress);
 
-/// Writes to `file` itself, not atomically, and calls it `name` in errors: qform and sform, both of
-/// the scanner, in mm. Throws Error(Failed), or Error(Unsupported) for more than 32767 voxels along
-/// an axis.
+/// Writes to `file` itself, not atomically, and calls it `name` in errors: qform and sform are both
+/// written, as scanner coordinates in mm. Throws Error(Failed), or Error(Unsupported) for more than
+/// 32767 voxels along an axis.
 void writeNifti(const Volume& volume, const std::filesystem::path& file, bool compressed,
                 const std::filesystem::path& name);
 

@@ -19,22 +19,23 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Which transform counts, and how orthogonal an sform must be, is as in ITK's reader (5.2,
-// itkNiftiImageIO.cxx), through which most tools of the field read. That reader differs in two
-// things: it turns an orthogonal sform down where its inverse in floats is inaccurate, and leaves
-// the origin of a file in metres as it is.
+// The choice of the transform, and the required orthogonality of an sform, follow ITK's reader
+// (5.2, itkNiftiImageIO.cxx), through which most tools of the field read. That reader differs in
+// two points: it rejects an orthogonal sform whose inverse in floats is inaccurate, and leaves the
+// origin of a file in metres unconverted.
 constexpr double kOrthogonal = 1e-4;
 constexpr int kScanner = NIFTI_XFORM_SCANNER_ANAT;
-// A quaternion's b, c and d are of a unit vector: this much longer than 1 is no rounding of floats.
+// Limit of the norm of a quaternion's b, c and d, which belong to a unit vector: a greater one is
+// no rounding of floats.
 constexpr double kLongQuaternion = 1 + 1e-3;
-// Two transforms agree if they place no voxel further apart than this share of the spacing ...
+// Share of the spacing within which two transforms must place every voxel in order to agree.
 constexpr double kAgree = 0.5;
-// ... and an sform agrees with pixdim if its axes are as long within this share.
+// Relative tolerance between the lengths of an sform's axes and pixdim.
 constexpr double kSameSpacing = 1e-3;
 
 const Vector3d kLpsFromRas(-1, -1, 1);
 
-/// A transform of the header in RAS and the file's unit; its fault, if it can place nothing.
+/// A transform of the header in RAS and the file's unit; a fault, if it is invalid.
 struct Transform {
   bool stated = false;
   std::string fault;
@@ -104,7 +105,8 @@ Transform qformOf(const NiftiHeader& header) {
   return qform;
 }
 
-/// The furthest that a corner of the volume is apart in two transforms with the spacing of pixdim.
+/// The greatest distance between a corner of the volume in one transform and in another, with the
+/// spacing of pixdim.
 double distanceOf(const Transform& one, const Transform& other, const NiftiHeader& header) {
   Matrix3d difference = one.axes.colwise().normalized() - other.axes.colwise().normalized();
   difference *= vectorOf(header.pixdim).asDiagonal();
@@ -156,7 +158,7 @@ const Transform* chosenTransform(const Transform& sform, const Transform& qform,
   throw invalidInput(path.string() + ": " + faults + "; " + first.remedy);
 }
 
-/// pixdim counts; an sform with axes of other lengths says something else.
+/// Adds an assumption if the lengths of the sform's axes contradict pixdim, which counts.
 void tellOtherSpacing(const Transform& sform, const Vector3d& spacing,
                       std::vector<std::string>& assumptions) {
   if (!sform.usable()) return;

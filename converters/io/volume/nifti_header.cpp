@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every whole number up to here is exact in the float that holds the voxels' offset; no header
-// with its extensions is as long.
+// Every whole number up to here is exact in the float that holds the voxels' offset; headers with
+// extensions are shorter.
 constexpr double kMaxOffset = 1 << 24;
 
 /// A type of one number for each voxel.
@@ -77,7 +77,8 @@ private:
   throw invalidInput(path.string() + ": " + found + "; expected " + expected);
 }
 
-/// The byte order is the one in which the header's size, its first field, is 348.
+/// True if the bytes are swapped: the header's size, its first field, is 348 in the right byte
+/// order.
 bool isSwapped(std::span<const std::byte, kNiftiHeaderSize> bytes, const fs::path& path) {
   constexpr std::int32_t kSize = kNiftiHeaderSize, kSizeOfNifti2 = 540;
   for (const bool swapped : {false, true}) {
@@ -100,7 +101,7 @@ void checkMagic(std::span<const std::byte, kNiftiHeaderSize> bytes, const fs::pa
          "NIfTI-1 rather than, for instance, ANALYZE 7.5");
 }
 
-/// dim: at least three axes, and at least one voxel along each.
+/// Reads dim: at least three axes, and at least one voxel along each.
 void readSizes(const Fields& fields, NiftiHeader& header, const fs::path& path) {
   const int dimensions = fields.get16(40);
   if (dimensions < 1 || dimensions > 7)
@@ -117,7 +118,7 @@ void readSizes(const Fields& fields, NiftiHeader& header, const fs::path& path) 
     header.sizes += (a > 1 ? " x " : "") + std::to_string(count);
   }
   if (dimensions < 3) refuseDimensions(path, static_cast<unsigned>(dimensions), header.sizes);
-  constexpr double kMostVoxels = 1e15;  // beyond any file, and far below what overflows
+  constexpr double kMostVoxels = 1e15;  // beyond any file, and far below overflow
   if (static_cast<double>(header.volumes) * static_cast<double>(header.voxelCount()) > kMostVoxels)
     refuse(path, "dim announces " + header.sizes + " voxels", "as many as a file can hold");
 }

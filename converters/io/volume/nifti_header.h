@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The header of a NIfTI-1 file, read strictly: each field that decides about voxels or their place
-// is checked against its definition (nifti1.h of the NIfTI data format working group) before
-// anything is made of it. No library is asked: niftiio repairs such fields without a word.
+// The header of a NIfTI-1 file, read strictly: each field that determines voxels or their place is
+// checked against its definition (nifti1.h of the NIfTI data format working group) before its use.
+// No library is involved: niftiio repairs such fields silently.
 #pragma once
 
 #include <array>
@@ -16,20 +16,21 @@
 namespace lumen::convert {
 
 constexpr std::size_t kNiftiHeaderSize = 348;
-/// Where voxels begin at the earliest: after the header and the four bytes that announce extensions.
+/// The smallest offset of the voxels, bytes: the header and the four bytes that announce extensions
+/// come first.
 constexpr std::size_t kNiftiFirstVoxel = 352;
 
 struct NiftiHeader {
-  bool swapped = false;       ///< the file has the other byte order than this machine
+  bool swapped = false;       ///< the file's byte order is not this machine's
   std::array<int, 3> size{};  ///< voxels along i, j, k; at least 1
-  std::uint64_t volumes = 1;  ///< of that size
-  std::string sizes;          ///< along all axes, such as "4 x 2 x 2 x 9"
+  std::uint64_t volumes = 1;  ///< number of volumes of that size
+  std::string sizes;          ///< sizes along all axes, such as "4 x 2 x 2 x 9"
   PixelType type = PixelType::UInt8;
   std::size_t voxelOffset = 0;     ///< bytes before the first voxel; at least 352
   std::array<float, 3> pixdim{};   ///< spacings in the file's unit, unchecked
   float handedness = 1;            ///< qfac, pixdim[0], unchecked
   float slope = 0, intercept = 0;  ///< finite; a slope of 0 means no scaling
-  int unitCode = 0;                ///< of lengths: 1 m, 2 mm, 3 um, 0 unknown; others mean nothing
+  int unitCode = 0;  ///< unit of lengths: 1 m, 2 mm, 3 um, 0 unknown; others are undefined
   int qformCode = 0, sformCode = 0;              ///< 0: the transform is not stated
   std::array<float, 3> quaternion{}, qOffset{};  ///< unchecked
   std::array<std::array<float, 4>, 3> sform{};   ///< rows, unchecked
@@ -42,14 +43,14 @@ struct NiftiHeader {
   [[nodiscard]] bool isScaled() const { return slope != 0 && (slope != 1 || intercept != 0); }
 };
 
-/// Throws Error(InvalidInput), naming `path`, unless bytes begin as a header of NIfTI-1 does, in either
+/// Throws Error(InvalidInput), naming `path`, unless bytes begin with a NIfTI-1 header in either
 /// byte order; Error(Unsupported) for NIfTI-2.
 void checkNiftiStart(std::span<const std::byte, kNiftiHeaderSize> bytes,
                      const std::filesystem::path& path);
 
-/// The header in `bytes`, the first 348 of a file. Throws Error(InvalidInput), naming `path` and the
-/// field, unless it is one of a single file of scalar volumes; Error(Unsupported) for
-/// NIfTI-2, for a header whose voxels are in another file, and for types that are not read.
+/// The header in `bytes`, the first 348 of a file. Throws Error(InvalidInput), naming `path` and
+/// the field, unless it describes a single file of scalar volumes; Error(Unsupported) for NIfTI-2,
+/// for a header whose voxels are in another file, and for types that are not read.
 NiftiHeader parseNiftiHeader(std::span<const std::byte, kNiftiHeaderSize> bytes,
                              const std::filesystem::path& path);
 

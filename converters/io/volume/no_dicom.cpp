@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of the reader of DICOM where lumen is built without it.
+// Replacement of the DICOM reader where lumen is built without it.
 #include "converters/base/error.h"
 #include "converters/io/volume/read_dicom.h"
 

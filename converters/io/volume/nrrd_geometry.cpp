@@ -21,7 +21,7 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Summed in the order of Teem, so that the last bit is the same.
+/// Summed in Teem's order, so that the last bit is equal.
 double lengthOf(const Vector3d& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
@@ -32,7 +32,7 @@ struct Axis {
   std::optional<Vector3d> direction;  ///< in the header's space and unit
 };
 
-/// What the field "space" says.
+/// Coordinate system that the field "space" states.
 struct Space {
   std::size_t dimension = 0;  ///< 0: none
   Vector3d toLps = Vector3d::Ones();
@@ -110,7 +110,7 @@ std::vector<std::optional<Vector3d>> vectorsOf(const TextHeader& header, const s
   return vectors;
 }
 
-/// The axes without those of a voxel's components.
+/// The axes without the axes of a voxel's components.
 std::vector<Axis> domainAxes(const TextHeader& header, const std::vector<std::int64_t>& sizes) {
   const std::vector<std::string> kinds = wordsOf(header.text("kinds"));
   if (!kinds.empty() && kinds.size() != sizes.size())
@@ -128,7 +128,7 @@ std::vector<Axis> domainAxes(const TextHeader& header, const std::vector<std::in
   return axes;
 }
 
-/// The three axes of the volume. Further ones of one entry are dropped: those without a direction
+/// The three axes of the volume. Further axes of one entry are dropped: those without a direction
 /// first, then the slowest. Axes of several entries behind those three count volumes.
 std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::int64_t>& sizes,
                               const Space& space) {
@@ -154,7 +154,7 @@ std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::i
   refuseDimensions(header.path(), static_cast<unsigned>(axes.size()), text);
 }
 
-/// The mm of the units that `field` quotes for those `numbers`; NaN for what is no known unit.
+/// The mm of the units that `field` quotes for the `numbers`; NaN for an unknown unit.
 std::vector<double> unitsOf(const TextHeader& header, const std::string& field,
                             const std::vector<std::size_t>& numbers,
                             std::vector<std::string>& assumptions) {
@@ -181,7 +181,7 @@ std::vector<double> unitsOf(const TextHeader& header, const std::string& field,
   return {};
 }
 
-/// Scales everything to mm if the header says what its units are.
+/// Scales everything to mm if the header states its units.
 void settleUnits(const TextHeader& header, std::vector<Axis>& axes, StatedGeometry& stated,
                  std::vector<std::string>& assumptions) {
   const bool oriented = axes[0].direction.has_value();
@@ -197,7 +197,7 @@ void settleUnits(const TextHeader& header, std::vector<Axis>& axes, StatedGeomet
 }
 
 /// The place of the first voxel along axes without directions: in the middle of its cell, unless
-/// the header says that positions are those of voxels (as Teem has it).
+/// the header states that positions are those of voxels (Teem's rule).
 void originOfAxisMins(const TextHeader& header, const std::vector<Axis>& axes, std::size_t count,
                       StatedGeometry& stated) {
   const auto mins = header.numbers("axis mins", count);
@@ -273,7 +273,7 @@ StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int
   const Space space = spaceOf(header, assumptions);
   std::vector<Axis> axes = spatialAxes(header, sizes, space);
   StatedGeometry stated;
-  (void)volumeSize(header.path(), sizes);  // for its faults
+  (void)volumeSize(header.path(), sizes);  // only checks
   stated.geometry.size = volumeSize(header.path(), {axes[0].size, axes[1].size, axes[2].size});
   stated.geometry.spacing.setConstant(kNaN);
   settleSpacings(header, axes, sizes.size(), options, stated);

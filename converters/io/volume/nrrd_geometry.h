@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the axes of an NRRD file lie in space.
+// Placement of the axes of an NRRD file in space.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,8 @@
 namespace lumen::convert {
 
 /// The geometry of a header with these `sizes`, one for each of its axes; axes of a voxel's
-/// components or of time are dropped if they have one entry. A unit that is not known appends a
-/// sentence to `assumptions`. Throws Error(InvalidInput) unless three axes remain whose fields agree
-/// with one another.
+/// components or of time are dropped if they have one entry. An unknown unit appends a sentence to
+/// `assumptions`. Throws Error(InvalidInput) unless three axes with consistent fields remain.
 StatedGeometry nrrdGeometry(const TextHeader& header, const std::vector<std::int64_t>& sizes,
                             const ReadVolumeOptions& options,
                             std::vector<std::string>& assumptions);

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kMaxDimension = 16;
 constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
 
-/// Names of fields that may be written in two ways, all in lower case, as they are kept here.
+/// Synonyms of field names, all in lower case, and the names kept here.
 std::string fieldName(const std::string& name) {
   static const std::map<std::string, std::string> other = {{"datafile", "data file"},
                                                            {"lineskip", "line skip"},
@@ -55,7 +55,7 @@ void setField(TextHeader& header, const std::string& line) {
   if (colon == std::string::npos)
     throw invalidInput(header.path().string() + ": its header has the line " + cited(line) +
                        "; expected a field, a colon and a value");
-  if (line.compare(colon, 2, ":=") == 0) return;  // a key and a value of the user's own
+  if (line.compare(colon, 2, ":=") == 0) return;  // a key and value of the user
   const std::string name = fieldName(lowerCase(trimmed(line.substr(0, colon))));
   header.set(name, trimmed(line.substr(colon + 1)));
 }
@@ -64,7 +64,7 @@ bool isList(const TextHeader& header) {
   return header.text("data file").rfind("LIST", 0) == 0;
 }
 
-/// "field: value" lines up to an empty one; a list of files is followed by their names.
+/// Reads "field: value" lines up to an empty one; a list of files is followed by their names.
 TextHeader readFields(const fs::path& path) {
   HeaderLines lines(path);
   TextHeader header(path);
@@ -73,7 +73,7 @@ TextHeader readFields(const fs::path& path) {
   checkMagic(path, line);
   while (!isList(header)) {
     if (!lines.next(line)) {
-      if (header.has("data file")) return header;  // needs no empty line
+      if (header.has("data file")) return header;  // an empty line is not required
       throw invalidInput(path.string() + ": truncated: no empty line ends its NRRD header");
     }
     header.size = lines.size();
@@ -152,8 +152,8 @@ bool isBigEndian(const TextHeader& header, const StoredVoxels& voxels) {
 }
 
 /// The files of a field "data file": a name; LIST and then names; or a pattern of names and the
-/// numbers that it runs through. The last two may end with how many `axes` each file holds, of
-/// `most`; a single file holds them all.
+/// numbers that it runs through. Lists and patterns may end with the number of `axes` that each
+/// file holds, of `most`; a single file holds them all.
 DetachedNames detachedNames(const TextHeader& header, std::int64_t most, std::int64_t& axes) {
   const std::string& text = header.text("data file");
   std::vector<std::string> words = wordsOf(text);

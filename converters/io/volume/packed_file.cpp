@@ -40,7 +40,7 @@ public:
     if (limit) m_left = *limit;
   }
 
-  /// The bytes that are buffered, at least one unless the file has ended.
+  /// The buffered bytes, at least one unless the file has ended.
   std::string_view peek() {
     if (m_at == m_held) {
       m_at = 0;
@@ -51,7 +51,7 @@ public:
   }
   void drop(std::size_t count) { m_at += count; }
 
-  /// Past the buffer, for what comes unpacked.
+  /// Reads past the buffer, for unpacked data.
   std::size_t read(std::byte* to, std::size_t size) {
     std::size_t got = std::min(size, m_held - m_at);
     if (got > 0) std::memcpy(to, m_block.data() + m_at, got);
@@ -65,7 +65,7 @@ public:
     return got;
   }
 
-  /// False if the file ends before.
+  /// Skips a line; false if the file ends first.
   bool skipLine() {
     for (std::string_view text = peek(); !text.empty(); text = peek()) {
       const auto end = text.find('\n');
@@ -93,7 +93,7 @@ class RawFile : public PackedFile {
 public:
   explicit RawFile(std::unique_ptr<Blocks> blocks) : m_blocks(std::move(blocks)) {}
   std::size_t read(std::byte* to, std::size_t size) override { return m_blocks->read(to, size); }
-  bool hasMore() override { return false; }  // checkStored() has seen it
+  bool hasMore() override { return false; }  // checkStored() has checked the size
 
 private:
   std::unique_ptr<Blocks> m_blocks;
@@ -170,7 +170,7 @@ public:
   bool hasMore() override { return digit() >= 0; }
 
 private:
-  /// -1 at the end.
+  /// The next hexadecimal digit; -1 at the end.
   int digit() {
     for (std::string_view in = m_blocks->peek(); !in.empty(); in = m_blocks->peek()) {
       const char c = in[0];
@@ -210,7 +210,7 @@ private:
     return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == ',' || c == '\v' || c == '\f';
   }
   bool nextWord() {
-    constexpr std::size_t kLongest = 400;  // digits of a number; beyond it is none
+    constexpr std::size_t kLongest = 400;  // digits of a number; a longer text is not a number
     m_word.clear();
     for (std::string_view in = m_blocks->peek(); !in.empty(); in = m_blocks->peek()) {
       const char c = in[0];
@@ -274,7 +274,7 @@ std::unique_ptr<PackedFile> openText(PixelType type, std::unique_ptr<Blocks> blo
   return std::make_unique<TextFile<double>>(std::move(blocks));
 }
 
-/// Of what is not deflated.
+/// Reads data that is not deflated.
 std::unique_ptr<PackedFile> unpacked(const StoredVoxels& stored, std::unique_ptr<Blocks> blocks) {
   if (stored.packing == Packing::Text) return openText(stored.type, std::move(blocks));
   if (stored.packing == Packing::Hex) return std::make_unique<HexFile>(std::move(blocks));
@@ -283,7 +283,7 @@ std::unique_ptr<PackedFile> unpacked(const StoredVoxels& stored, std::unique_ptr
 
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 
-/// Drops up to `count` bytes of what `read` gives; how many there were.
+/// Drops up to `count` bytes from `read`; returns their number.
 template <class Read>
 std::uint64_t dropBytes(std::uint64_t count, const Progress& progress, Read read) {
   std::vector<std::byte> dropped(kBlock);

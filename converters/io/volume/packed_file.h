@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One file of voxels, unpacked as it is read.
+// One file of voxels, unpacked while it is read.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@ public:
   PackedFile(const PackedFile&) = delete;
   PackedFile& operator=(const PackedFile&) = delete;
 
-  /// The next bytes of the voxels, `size` of them unless they end before: in this machine's byte
-  /// order if they were text, in the file's otherwise. Throws Error(InvalidInput) if they are
-  /// damaged.
+  /// The next bytes of the voxels, `size` of them unless the file ends before: in this machine's
+  /// byte order if the voxels are text, in the file's otherwise. Throws Error(InvalidInput) if they
+  /// are damaged.
   virtual std::size_t read(std::byte* to, std::size_t size) = 0;
-  /// True if more would come. Throws Error(InvalidInput) if the stream ends wrongly.
+  /// True if more bytes follow. Throws Error(InvalidInput) if the stream ends wrongly.
   virtual bool hasMore() = 0;
 };
 
-/// `file` of `stored`, from which `size` bytes of voxels are expected. Throws Error(InvalidInput) if
+/// Opens `file` of `stored`, which must hold `size` bytes of voxels. Throws Error(InvalidInput) if
 /// it cannot be opened or ends before its voxels, and Error(Cancelled).
 std::unique_ptr<PackedFile> openPacked(const StoredVoxels& stored,
                                        const std::filesystem::path& file, std::uint64_t size,

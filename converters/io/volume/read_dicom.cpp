@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Slices lie on a regular grid if their distances agree within this share of their mean ...
+// Share of the mean distance within which distances between slices of a regular grid agree.
 constexpr double kGapTolerance = 0.02;
-// ... and the stack leans by at most this share of a pixel from its first to its last slice.
+// Lean of a stack from its first to its last slice, at most this share of a pixel.
 constexpr double kShearTolerance = 0.5;
-// Slices of one grid agree in pixel spacing, mm, and in the axes' directions within this.
+// Tolerance of slices of one grid in pixel spacing, mm, and in the axes' directions.
 constexpr double kSameGrid = 1e-4;
 
 /// One frame of one file.
@@ -43,7 +43,7 @@ struct Slice {
   }
 };
 
-/// A series that is known but for its pixels.
+/// A series, complete except for its pixels.
 struct Stack {
   std::vector<DicomImage> images;
   std::vector<Slice> slices;  ///< in the volume's order
@@ -62,7 +62,7 @@ Matrix3d directionOf(const std::array<double, 6>& v) {
   return direction;
 }
 
-/// NaN where the image does not say; it must unless the options do.
+/// Spacing along columns and rows; NaN where the image states none, which only --spacing permits.
 Vector3d pixelSpacing(const Slice& slice, const ReadVolumeOptions& options) {
   const auto& stated = slice.plane.pixelSpacing;
   const bool sound = stated && (*stated)[0] > 0 && (*stated)[1] > 0;
@@ -75,7 +75,7 @@ Vector3d pixelSpacing(const Slice& slice, const ReadVolumeOptions& options) {
   return sound ? Vector3d((*stated)[1], (*stated)[0], none) : Vector3d(none, none, none);
 }
 
-/// Slices without a position in space cannot be stacked.
+/// Refuses slices without a position in space, which cannot be stacked.
 void checkPlaced(const Slice& slice) {
   if (!slice.plane.position || !slice.plane.orientation)
     throw invalidInput(slice.image->file.string() +
@@ -127,7 +127,7 @@ void checkUpright(const std::vector<Slice>& slices, const Matrix3d& direction,
                          "stack along the slices' normal");
 }
 
-/// Sorts slices with positions; gives their geometry.
+/// Sorts slices with positions; returns their geometry.
 VolumeGeometry stackPlaced(std::vector<Slice>& slices, const ReadVolumeOptions& options,
                            const fs::path& path) {
   VolumeGeometry geometry;
@@ -180,7 +180,7 @@ std::vector<Slice> slicesOf(const std::vector<DicomImage>& images) {
   return slices;
 }
 
-/// Pixels behind those that are announced may be frames that are not counted.
+/// Adds an assumption about pixels after the announced ones, which may be uncounted frames.
 void tellRest(Stack& stack) {
   for (const DicomImage& image : stack.images) {
     const std::size_t used = image.frameBytes() * image.frames;
@@ -210,7 +210,7 @@ Stack openStack(const fs::path& path, const ReadVolumeOptions& options, const Pr
   stated.geometry.size = {static_cast<int>(stack.images[0].columns),
                           static_cast<int>(stack.images[0].rows),
                           static_cast<int>(stack.slices.size())};
-  stated.unit = 1;  // DICOM has no other
+  stated.unit = 1;  // DICOM has no other unit
   tellRest(stack);
   stack.geometry = settledGeometry(stated, options, path, stack.assumptions);
   return stack;

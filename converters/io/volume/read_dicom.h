@@ -11,11 +11,11 @@
 namespace lumen::convert {
 
 /// The series of DICOM files in the folder `path` that the options name, or its only one: slices
-/// that make a regular stack, or one multi-frame file. Throws as readVolume() does.
+/// that form a regular stack, or one multi-frame file. Throws as readVolume() does.
 Volume readDicom(const std::filesystem::path& path, const ReadVolumeOptions& options,
                  const Progress& progress);
 
-/// What readDicom() knows before it reads a voxel.
+/// The header of a DICOM series, read without its pixels.
 VolumeHeader readDicomHeader(const std::filesystem::path& path, const ReadVolumeOptions& options,
                              const Progress& progress);
 

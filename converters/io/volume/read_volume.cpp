@@ -49,7 +49,7 @@ VolumeHeader readHeader(const fs::path& path, VolumeFormat format, const ReadVol
   return readImageFileHeader(path, format, options, progress);
 }
 
-/// Refuses what a server sent instead of the file.
+/// Refuses an error page that a server sent instead of the file.
 void refuseWebPage(const fs::path& path) {
   std::array<char, 256> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size() - 1);
@@ -65,7 +65,7 @@ void refuseWebPage(const fs::path& path) {
                        "download with a page of its own");
 }
 
-/// Throws unless there is a folder for DICOM, and a file for another format.
+/// Throws unless the path is a folder for DICOM, and a file for any other format.
 void checkPlace(const fs::path& path, VolumeFormat format, const ReadVolumeOptions& options) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw invalidInput(path.string() + ": no such file or directory");
@@ -87,7 +87,7 @@ void checkPlace(const fs::path& path, VolumeFormat format, const ReadVolumeOptio
   if (!folder) refuseWebPage(path);
 }
 
-/// Refuses values that are not finite, and a volume in which nothing can be found.
+/// Refuses values that are not finite, and constant volumes.
 template <class T>
 void checkValues(const std::vector<T>& voxels, const fs::path& path) {
   if constexpr (std::is_floating_point_v<T>) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume files into memory.
+// Reader of volume files.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +11,20 @@
 
 namespace lumen::convert {
 
-/// What the header of a volume says, with the options applied, in a time that does not depend on the
-/// number of its voxels. Throws as readVolume() does for what can be known without a voxel, such as
-/// a file that is too short for the voxels that its header announces.
+/// The header of a volume, with the options applied, in a time that does not depend on the number
+/// of its voxels. Throws as readVolume() does for faults that show without a voxel, such as a file
+/// that is too short for the voxels that its header announces.
 VolumeHeader readVolumeHeader(const std::filesystem::path& path, VolumeFormat format,
                               const ReadVolumeOptions& options, const Progress& progress);
 
 /// Reads a file of NIfTI-1, NRRD or MetaImage, or a DICOM series (the files of a folder, not of its
 /// subfolders), whatever its name; 3-D, scalar, of any pixel type. A direction that is orthonormal
-/// within 1e-3 is made exactly so. Throws Error(InvalidInput) for a file that is missing, truncated
-/// or damaged, not 3-D, multi-component, constant, has voxels that are not finite, axes that are
-/// not orthogonal, a spacing that is not positive or a crop box outside of it, for a DICOM stack
-/// with gaps, for an ambiguous DICOM series (the message lists them), or for voxels in a file
-/// outside of the header's folder that the options do not allow; Error(Unsupported) for what these
-/// formats allow and lumen does not read; Error(Cancelled).
+/// within 1e-3 is made exactly orthonormal. Throws Error(InvalidInput) for a file that is missing,
+/// truncated or damaged, not 3-D, multi-component, constant, has voxels that are not finite, axes
+/// that are not orthogonal, a spacing that is not positive or a crop box outside of it, for a DICOM
+/// stack with gaps, for an ambiguous DICOM series (the message lists them), or for voxels in a file
+/// outside of the header's folder that the options do not allow; Error(Unsupported) for features of
+/// these formats that lumen does not read; Error(Cancelled).
 Volume readVolume(const std::filesystem::path& path, VolumeFormat format,
                   const ReadVolumeOptions& options, const Progress& progress);
 

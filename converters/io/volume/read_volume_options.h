@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a volume is to be read, and what of it the user states instead of its header.
+// Options for reading a volume, and the user's statements that override its header.
 #pragma once
 
 #include <filesystem>
@@ -13,22 +13,23 @@
 
 namespace lumen::convert {
 
-/// How a volume is stored. Of NRRD and MetaImage, the voxels may be in files of their own that the
-/// header names.
+/// Storage format of a volume. The voxels of NRRD and MetaImage may be in files of their own that
+/// the header names.
 enum class VolumeFormat { Nrrd, Nifti, MetaImage, Dicom };
 
 struct ReadVolumeOptions {
   /// DICOM: instance UID of a series, or its number in the listing, from 1; empty: the only one.
   std::string series{};
   std::optional<CellBox> crop{};  ///< keep only this box; the origin moves with it
-  /// Which volume of a file that holds several, from 0, as 4-D files of NIfTI, NRRD and MetaImage do.
+  /// Index of the volume in a file that holds several, from 0, as 4-D files of NIfTI, NRRD and
+  /// MetaImage do.
   std::optional<int> volumeIndex{};
-  /// --spacing: mm along i, j, k, whatever the header says or leaves out.
+  /// --spacing: mm along i, j, k; overrides the header.
   std::optional<Eigen::Vector3d> spacing{};
-  /// --unit: mm of the unit that the header's lengths are in, whatever the header says of it.
+  /// --unit: mm of the unit of the header's lengths; overrides the header's own statement.
   std::optional<double> unit{};
-  /// --allow-detached: files, and folders with all that is below them, that voxels may come from
-  /// besides the header's own folder.
+  /// --allow-detached: files, and folders with everything below them, that may hold voxels besides
+  /// the header's own folder.
   std::vector<std::filesystem::path> allowedDetached{};
 };
 

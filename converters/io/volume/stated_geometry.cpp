@@ -11,9 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Beyond these a spacing is no distance between voxels of a body, whatever its unit ...
+// Bounds, mm, beyond which a spacing is no distance between voxels of a body, whatever its unit.
 constexpr double kLeastSpacing = 1e-6, kMostSpacing = 1e4;
-// ... and beyond these, mm, it is likely to be of another unit: 5 um is a fine micro-CT, 50 mm no scan.
+// Bounds, mm, beyond which a spacing is likely to be in another unit: 5 um is a fine micro-CT, 50
+// mm no scan.
 constexpr double kLeastUsual = 5e-3, kMostUsual = 50;
 
 std::string spacingText(const Eigen::Vector3d& spacing) {

@@ -21,18 +21,18 @@ namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little, "voxels are swapped if big-endian");
 
-// Voxels are read in blocks of so many bytes: few calls, and each within the cache and 100 ms.
+// Bytes per block of voxels: few calls, and each within the cache and 100 ms.
 constexpr std::size_t kBlockBytes = 1 << 18;
 
 std::uint64_t bytesOfEachFile(const StoredVoxels& stored) {
   return stored.count / stored.files.size() * sizeOf(stored.type);
 }
 
-/// The fewest bytes that can hold the voxels of one file; of a deflated one, unpacked.
+/// The minimum size, bytes, of the voxels of one file; for a deflated file, unpacked.
 double leastBytes(const StoredVoxels& stored) {
   const auto bytes = static_cast<double>(bytesOfEachFile(stored));
   if (stored.packing == Packing::Hex) return 2 * bytes;
-  if (stored.packing == Packing::Text)  // a digit each, and what is between them
+  if (stored.packing == Packing::Text)  // a digit per voxel, and separators
     return 2 * bytes / static_cast<double>(sizeOf(stored.type)) - 1;
   return bytes;
 }
@@ -41,7 +41,7 @@ void reverseBytes(std::byte* bytes, std::size_t size, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) std::reverse(bytes + i * size, bytes + (i + 1) * size);
 }
 
-/// Reads voxels of type From, stored as those of type To, file after file.
+/// Reads voxels of type From into those of type To, file after file.
 template <class From, class To>
 class VoxelReader {
 public:
@@ -82,7 +82,7 @@ private:
           " goes on after the voxels that the header announces; the rest is not read");
   }
 
-  /// Appends up to `wanted` voxels, and gives the bytes that were there.
+  /// Appends up to `wanted` voxels, and returns the number of bytes read.
   std::size_t readBlock(PackedFile& packed, std::size_t wanted) {
     const std::size_t before = m_voxels.size();
     m_voxels.resize(before + wanted);
@@ -103,7 +103,7 @@ private:
     }
   }
 
-  /// True if the bytes of the file are those in memory.
+  /// True if voxels in the file and in memory have equal bytes.
   [[nodiscard]] bool isPlain() const { return std::is_same_v<From, To> && !m_stored.scaling; }
 
   [[nodiscard]] To converted(From value) const {

@@ -14,7 +14,7 @@
 namespace lumen::convert {
 namespace {
 
-/// Numbers may be written in several ways, and words in either case.
+/// Numbers have several notations, and words either case.
 bool isSameValue(const std::string& a, const std::string& b) {
   const auto same = [](const std::string& v, const std::string& w) {
     const auto number = numberOf(v);
@@ -62,7 +62,7 @@ std::optional<std::int64_t> integerOf(std::string_view text) {
 }
 
 HeaderLines::HeaderLines(const std::filesystem::path& path) {
-  constexpr std::size_t kMaxHeader = 1 << 22;  // names of 50 000 files
+  constexpr std::size_t kMaxHeader = 1 << 22;  // enough for names of 50 000 files
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw invalidInput(path.string() + ": cannot be opened");
   std::error_code ignored;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the headers of NRRD and MetaImage have in common: lines of a field and its value.
+// Common parts of the headers of NRRD and MetaImage: lines of a field and its value.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@
 
 namespace lumen::convert {
 
-/// "text" in quotes, fit to print and cut to 60 bytes: how a message cites a header.
+/// "text" in quotes, printable and cut to 60 bytes, as a message quotes a header.
 std::string cited(std::string_view text);
 
 /// The words of `text` between characters of `separators`.
 std::vector<std::string> wordsOf(std::string_view text, std::string_view separators = " \t\r");
 
-/// The number that the whole of `text` is; "nan" and "inf" in any case are numbers, and a sign may
-/// be +. Empty for anything else, also for a number beyond a double's range.
+/// The number that the whole of `text` represents; "nan" and "inf" in any case are numbers, and a
+/// sign may be +. Empty for anything else, also for a number beyond a double's range.
 std::optional<double> numberOf(std::string_view text);
 std::optional<std::int64_t> integerOf(std::string_view text);
 
-/// The lines of the beginning of a file, in which a header must end.
+/// Reads lines at the beginning of a file, within which a header must end.
 class HeaderLines {
 public:
   /// Throws Error(InvalidInput) if the file cannot be read.
   explicit HeaderLines(const std::filesystem::path& path);
   /// The next line without its end; false if there is none.
   bool next(std::string& line);
-  /// Bytes of the lines so far.
+  /// Total size of the lines read so far, bytes.
   [[nodiscard]] std::uint64_t size() const { return m_at; }
 
 private:
@@ -40,12 +40,12 @@ private:
   std::size_t m_at = 0;
 };
 
-/// The fields of a header, by names in lower case, and where what follows it begins.
+/// The fields of a header, by names in lower case, and the offset of the data after it.
 class TextHeader {
 public:
   explicit TextHeader(std::filesystem::path path) : m_path(std::move(path)) {}
 
-  /// Throws Error(InvalidInput) if the field is there already with another value.
+  /// Throws Error(InvalidInput) if the field already has another value.
   void set(const std::string& name, const std::string& value);
 
   [[nodiscard]] bool has(const std::string& name) const { return m_fields.contains(name); }
@@ -53,11 +53,11 @@ public:
   [[nodiscard]] const std::string& text(const std::string& name) const;
   /// Throws if the field is absent.
   [[nodiscard]] const std::string& required(const std::string& name) const;
-  /// `count` numbers, or none if the field is absent; throws for anything else. NaN and infinity
+  /// `count` numbers, or none if the field is absent; throws for any other text. NaN and infinity
   /// are numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& name, std::size_t count) const;
-  /// As many whole numbers within `low` and `high`, however they are written ("48.0"); throws for
-  /// anything else.
+  /// `count` whole numbers within `low` and `high`, in any notation ("48.0"); throws for any other
+  /// text.
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& name, std::size_t count,
                                                    std::int64_t low, std::int64_t high) const;
   [[nodiscard]] std::int64_t integer(const std::string& name, std::int64_t low, std::int64_t high,

@@ -30,8 +30,8 @@ bool isConstant(const Volume& volume) {
       volume.voxels);
 }
 
-/// True if the file holds the volume's voxels: ITK may not notice that a disk is full. Volumes whose
-/// voxels are all the same are not read back.
+/// True if the file holds the volume's voxels: ITK may not notice that a disk is full. Constant
+/// volumes are not read back.
 bool readsBack(const Volume& volume, const fs::path& file, VolumeFormat format) {
   if (isConstant(volume)) return true;
   return readVolume(file, format, {}, Progress()).voxels == volume.voxels;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes from memory into files and into the record that a case keeps of its volume.
+// Writers of volumes, to files and to a case's record of its volume.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@
 
 namespace lumen::convert {
 
-/// Writes header and voxels into one file, atomically. For ITK's sake the name must end in .nrrd
-/// for NRRD, and in .mha for MetaImage. Throws Error(Unsupported) for DICOM.
+/// Writes header and voxels into one file, atomically. ITK requires that the name ends in .nrrd for
+/// NRRD, and in .mha for MetaImage. Throws Error(Unsupported) for DICOM.
 void writeVolume(const Volume& volume, const std::filesystem::path& path, VolumeFormat format,
                  bool compressed);
 
-/// The bytes of the file that writeVolume() writes, by way of one in the system's folder of temporary
-/// files. Notes are for NRRD alone. Throws as writeVolume().
+/// The bytes of the file that writeVolume() writes, through a file in the system's folder for
+/// temporary files. Notes are for NRRD alone. Throws as writeVolume().
 std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compressed,
                          const VolumeNotes& notes = {});
 

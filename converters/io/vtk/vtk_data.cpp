@@ -17,7 +17,7 @@ namespace lumen {
 namespace {
 
 constexpr std::size_t kShownVtkBytes = 24;
-// deflate packs at most 258 bytes into two bits, and its streams have a few bytes around them
+// deflate packs at most 258 bytes into two bits, and its streams have a few bytes of overhead
 constexpr std::uint64_t kMostPerPackedByte = 1032;
 
 bool isSpace(char c) {
@@ -32,8 +32,8 @@ int base64Digit(char c) {
   return c == '/' ? 63 : -1;
 }
 
-/// The bytes that stand in a text as they are, or as base64. Writers end a run of base64 by padding
-/// after a header, or go on: both are read, as each group of four stands for itself.
+/// The bytes of a text, raw or as base64. Writers end a run of base64 by padding after a header, or
+/// continue it: both are read, as each group of four stands for itself.
 class VtkBytes {
 public:
   VtkBytes(std::string_view text, bool base64) : m_rest(text), m_base64(base64) {}
@@ -101,18 +101,18 @@ public:
     return data;
   }
 
-  /// How many bytes it says that it has; consumes that.
+  /// The announced number of bytes; consumes its header.
   std::uint64_t size() {
     const std::uint64_t first = headers(1)[0];
     if (!m_packing.zlib) return first;
-    if (first > 1) return std::numeric_limits<std::uint64_t>::max();  // blocks: nothing short
+    if (first > 1) return std::numeric_limits<std::uint64_t>::max();  // blocks: never short
     const std::vector<std::uint64_t> sizes = headers(2);
     return first == 0 ? 0 : sizes[1] != 0 ? sizes[1] : sizes[0];
   }
 
   std::vector<double> ascii(std::uint64_t count) const {
     std::vector<double> values;
-    // a number takes a digit, and what parts it from the next
+    // a number takes a digit and a separator
     values.reserve(std::min<std::uint64_t>(count, m_array.text.size() / 2 + 1));
     for (std::string_view rest = m_array.text;;) {
       while (!rest.empty() && isSpace(rest.front())) rest.remove_prefix(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points, cells and arrays as VTK's files of polygonal data hold them.
+// Points, cells and arrays of VTK's files of polygonal data.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace lumen {
 
 /// Cells of one kind. Indices of points are below the number of points.
 struct VtkCells {
-  std::vector<std::uint32_t> point;  ///< of all cells, one after the other
-  std::vector<std::uint32_t> end;    ///< of each cell, in `point`; ascending
+  std::vector<std::uint32_t> point;  ///< points of all cells, one cell after the other
+  std::vector<std::uint32_t> end;    ///< end of each cell in `point`; ascending
 
   [[nodiscard]] std::size_t size() const { return end.size(); }
   [[nodiscard]] std::uint32_t begin(std::size_t cell) const { return cell ? end[cell - 1] : 0; }
@@ -25,11 +25,12 @@ struct VtkCells {
 struct VtkArray {
   std::string name;
   std::uint32_t components = 1;
-  std::vector<double> values;  ///< components after another; may hold what is not finite
+  std::vector<double> values;  ///< tuple after tuple; may hold non-finite values
 };
 
-/// Lengths and axes are the file's: its words for both are `unit` and `space`, empty if it has none. Values may be infinite or no numbers.
-/// Values of cells are in the order verts, lines, polys, strips.
+/// Lengths and axes are the file's; `unit` and `space` hold its words for them, empty if it has
+/// none. Values may be infinite or NaN. Values of cells are in the order verts, lines, polys,
+/// strips.
 struct VtkPolyData {
   std::vector<Eigen::Vector3d> position;
   VtkCells verts, lines, polys, strips;

@@ -37,7 +37,7 @@ const VtkArray* VtkPolyData::cellArray(std::string_view name) const {
 
 namespace {
 
-constexpr int kDeepest = 16;  // the format itself is five levels deep
+constexpr int kDeepest = 16;  // limit; the format itself is five levels deep
 constexpr std::size_t kFed = std::size_t{16} << 20;
 constexpr std::uint32_t kMostComponents = 64;
 constexpr std::uint32_t kMostIndices = std::numeric_limits<std::uint32_t>::max();
@@ -60,7 +60,7 @@ enum Section {
 constexpr std::array<const char*, 8> kSectionNames = {
     "Points", "PointData", "CellData", "Verts", "Lines", "Polys", "Strips", "FieldData"};
 
-// A <DataArray> as its tag has it.
+// A <DataArray> as described by its tag.
 struct Element {
   Section section = kNoSection;
   std::string name, type;
@@ -68,13 +68,13 @@ struct Element {
   bool isAppended = false;
   std::uint64_t offset = 0;
   std::uint64_t components = 1;
-  std::size_t from = 0, to = 0;  // of its text in the file
+  std::size_t from = 0, to = 0;  // range of its text in the file
   std::size_t line = 0;
 };
 
 struct Piece {
   std::uint64_t points = 0;
-  std::array<std::uint64_t, 7> cells{};  // by section
+  std::array<std::uint64_t, 7> cells{};  // count of each section
   std::vector<Element> elements;
 };
 
@@ -147,7 +147,7 @@ private:
 
   void beginSection(Section section) {
     m_section = section;
-    m_isOpen = false;  // an array that a section is within has no end
+    m_isOpen = false;  // an array around a section has no end
   }
 
   void end(const char* tag) {
@@ -197,7 +197,7 @@ private:
     piece.cells[kStrips] = count(attributes, "NumberOfStrips");
     m_document.pieces.push_back(std::move(piece));
     m_inPiece = true;
-    m_isOpen = false;  // an array that this piece is within has no end
+    m_isOpen = false;  // an array around this piece has no end
   }
 
   // The list that holds the open array.
@@ -290,7 +290,7 @@ private:
   Section m_section = kNoSection;
 };
 
-// Puts the pieces of a document together.
+// Merges the pieces of a document.
 class Assembler {
 public:
   Assembler(const Document& document, std::string_view text, const std::string& name)
@@ -335,7 +335,7 @@ private:
   }
 
   void addCells(Section section, VtkCells& cells) {
-    std::size_t first = 0;  // of the piece's points
+    std::size_t first = 0;  // index of the piece's first point
     for (const Piece& piece : m_document.pieces) {
       if (piece.cells[section] > 0) addCells(piece, section, first, cells);
       first += static_cast<std::size_t>(piece.points);
@@ -390,7 +390,7 @@ private:
     return true;
   }
 
-  // The last of a section and name; of any name if it is null.
+  // The last array of a section and name, or of any name if it is null.
   static const Element* find(const Piece& piece, Section section, const char* name) {
     const Element* found = nullptr;
     for (const Element& element : piece.elements)
@@ -413,7 +413,7 @@ private:
     return array;
   }
 
-  // The appended data of an array, up to the next array: no byte belongs to two.
+  // The appended data of an array, up to the next array: no byte belongs to two arrays.
   std::string_view appendedText(const Element& element) const {
     if (!m_document.appended)
       refuse(place(element) + " is appended, but the file has no appended data");
@@ -441,7 +441,7 @@ private:
   const Document& m_document;
   std::string_view m_text;
   const std::string& m_name;
-  std::vector<std::uint64_t> m_offsets;  // of appended arrays, ascending
+  std::vector<std::uint64_t> m_offsets;  // offsets of appended arrays, ascending
   VtkPolyData m_result;
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double kCorner = 1.5;               // radii of a ball: it does not fill a right angle
 constexpr std::size_t kCheckEvery = 1 << 14;  // voxels: well below 100 ms
 
-/// The node nearest to a place, by cells of some voxels: levels vary slowly.
+/// The node nearest to a place, by cells of several voxels, as levels vary slowly.
 class NearestNode {
 public:
   NearestNode(const VolumeGeometry& geometry, const formats::CenterlineTree& tree)
@@ -90,8 +90,8 @@ std::vector<Reached> grow(const LumenVoxels& lumen, const Levels& levels, Neares
   return reached;
 }
 
-/// Spreads from the voxels of `seeds` to the neighbours that take(j, offset) wants; the offset from
-/// the seed is in mm along the axes of the grid.
+/// Spreads from the voxels of `seeds` to the neighbours that take(j, offset) accepts; the offset
+/// from the seed is in mm along the axes of the grid.
 template <class Take>
 void flood(const VoxelSet& voxels, const std::vector<std::uint32_t>& seeds,
            const Progress& progress, Take&& take) {
@@ -107,8 +107,8 @@ void flood(const VoxelSet& voxels, const std::vector<std::uint32_t>& seeds,
   }
 }
 
-/// 1 for voxels within kCorner of the centres of balls of radius `widest` that the region holds, and
-/// for those connected with the lumen only through them.
+/// Marks (1) voxels within kCorner of the centres of balls of radius `widest` inside the region,
+/// and those connected with the lumen only through them.
 std::vector<std::uint8_t> wideParts(const BrightRegion& region, double widest,
                                     const Progress& progress) {
   const VoxelSet& voxels = region.voxels;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bright voxels outside of a case that hang together with its lumen (docs/method.md, section 7.2).
+// The bright voxels outside of a case that are connected with its lumen (docs/method.md, section
+// 7.2).
 #pragma once
 
 #include <cstdint>
@@ -16,14 +17,14 @@
 
 namespace lumen::convert {
 
-/// How the voxels of a volume are judged.
+/// Criteria for the voxels of a volume.
 struct Levels {
   const Volume& volume;
   bool dark;  ///< vessels are darker than their background
   std::span<const NodeLevels> node;
 };
 
-/// The intensity of voxel i, brighter is more: calls visit(value), where value(i) gives it.
+/// Calls visit(value), where value(i) is the intensity of voxel i, brighter is more.
 template <class Visit>
 void withVoxels(const Levels& levels, Visit&& visit) {
   std::visit(
@@ -36,19 +37,21 @@ void withVoxels(const Levels& levels, Visit&& visit) {
       levels.volume.voxels);
 }
 
-/// Voxels outside, reached from the lumen through their 26 neighbours, that are brighter than the half
-/// level of the node where the path began and than the faint level of the node nearest to them.
+/// Voxels outside, reached from the lumen through their 26 neighbours, that are brighter than the
+/// half level of the node where the path began and than the faint level of the node nearest to
+/// them.
 struct BrightRegion {
   VoxelSet voxels;
-  std::vector<std::uint32_t> node;   ///< for each: where its path began
-  std::vector<std::uint32_t> order;  ///< all of them as they were reached, nearest first
-  std::size_t rim = 0;               ///< how many of these touch the lumen
+  std::vector<std::uint32_t> node;   ///< for each voxel: node where its path began
+  std::vector<std::uint32_t> order;  ///< all voxels as they were reached, nearest first
+  std::size_t rim = 0;               ///< number of these that touch the lumen
   std::vector<float> depth;          ///< mm to the nearest voxel that is not bright
   std::vector<std::uint8_t>
-      wide;  ///< 1: in, or only reached through, what is too wide for a vessel
+      wide;  ///< 1: in a region too wide for a vessel, or reached only through one
 };
 
-/// `widest`: mm; what holds a ball of that radius is too wide. Throws Error(Cancelled).
+/// The bright region; a part that holds a ball of radius `widest`, mm, is too wide. Throws
+/// Error(Cancelled).
 BrightRegion growBrightRegion(const LumenVoxels& lumen, const Levels& levels,
                               const formats::CenterlineTree& tree, double widest,
                               const Progress& progress);

@@ -17,7 +17,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSameLength = 1e-4;  // of a voxel: floats of one file and doubles of another
+constexpr double kSameLength = 1e-4;  // voxels: floats of one file and doubles of another
 
 Offsets summarise(std::span<const WallOffset> offsets, double voxel) {
   Offsets result;
@@ -61,7 +61,7 @@ Agreement agreementOf(const Offsets& offsets, double voxel) {
   return offsets.absoluteMedian > 0.5 * voxel ? Agreement::Fair : Agreement::Good;
 }
 
-/// The range of those of the nodes [first, end); `offsets` are sorted by node.
+/// The range of the offsets of the nodes [first, end); `offsets` are sorted by node.
 std::span<const WallOffset> ofNodes(const std::vector<WallOffset>& offsets, std::uint32_t first,
                                     std::uint32_t end) {
   const auto before = [](const WallOffset& o, std::uint32_t node) { return o.node < node; };
@@ -81,7 +81,7 @@ void summariseAll(const formats::CenterlineTree& tree, const std::vector<WallOff
         agreementOf(summarise(ofNodes(offsets, n, n + 1), report.voxelSize), report.voxelSize));
 }
 
-/// Nodes outside of the volume, were every coordinate multiplied.
+/// The number of nodes outside of the volume if every coordinate is multiplied by a factor.
 std::size_t countOutside(const Volume& volume, const formats::CenterlineTree& tree,
                          const Eigen::Vector3d& factor) {
   return static_cast<std::size_t>(
@@ -90,7 +90,7 @@ std::size_t countOutside(const Volume& volume, const formats::CenterlineTree& tr
       }));
 }
 
-/// Why a case has no node in the volume, as far as that can be seen.
+/// The likely reason why a case has no node in the volume.
 std::string likelyReason(const Volume& volume, const formats::CenterlineTree& tree) {
   const std::pair<Eigen::Vector3d, const char*> reasons[] = {
       {{-1, -1, 1}, "with x and y negated they do: one of the two is in RAS"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well a case agrees with its volume (docs/method.md, section 7).
+// Agreement of a case with its volume (docs/method.md, section 7).
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,17 @@
 
 namespace lumen::convert {
 
-/// Where the wall lies with respect to the edges of the volume. Lengths in mm, positive where the
-/// model is too wide; those of no sample are NaN. Shares are of the judged samples, in [0, 1].
+/// Position of the wall with respect to the edges of the volume. Lengths in mm, positive where the
+/// model is too wide; NaN without samples. Shares refer to the judged samples, in [0, 1].
 struct Offsets {
   std::size_t samples = 0;  ///< judged
   std::size_t beside = 0;   ///< not judged, as another part of the tree begins outside
   std::size_t outside = 0;  ///< not judged, as they lie outside of the volume
-  double median = 0;        ///< over the samples with an edge, as the next ones
+  double median = 0;        ///< over the samples with an edge, as the following fields
   double absoluteMedian = 0, absoluteP90 = 0;
-  double uncorrectedMedian = 0;  ///< from the edge as it is seen, blur and all
-  double steepestMedian = 0;     ///< from where the intensity changes most, blur and all
-  double beyondVoxel = 0;        ///< share whose wall is more than a voxel off its edge
+  double uncorrectedMedian = 0;  ///< from the visible edge, including its blur
+  double steepestMedian = 0;     ///< from the steepest change of intensity, including its blur
+  double beyondVoxel = 0;        ///< share of samples whose wall is over a voxel off its edge
   double noEdge = 0;
   double wrongPolarity = 0;
 };
@@ -36,11 +36,11 @@ struct BranchCheck {
   Offsets offsets;
 };
 
-/// The wall around one node.
+/// Verdict on the wall around one node.
 enum class Agreement : std::uint8_t {
   NotJudged,
   Good,  ///< at least half of its samples have an edge, half of those within half a voxel
-  Fair,  ///< the same within a voxel
+  Fair,  ///< at least half of its samples have an edge, half of those within a voxel
   Poor,
 };
 
@@ -51,7 +51,7 @@ struct CheckReport {
   Offsets offsets;
   std::vector<BranchCheck> branches;
   std::vector<Agreement> nodes;
-  double lumenVolume = 0;  ///< mm^3, of the voxels inside
+  double lumenVolume = 0;  ///< mm^3; volume of the voxels inside
   Regions dark;
   Missing missing;
   std::vector<OpenEnd> ends;
@@ -68,14 +68,15 @@ struct CheckResult {
   std::vector<LumenVoxel> lumen;  ///< by index
 };
 
-/// What the case's tracking recorded; no blur where it recorded none.
+/// The options that the case's tracking recorded; no blur where it recorded none.
 EdgeOptions recordedEdgeOptions(const formats::Case& value);
 
-/// How many nodes lie outside of the volume. Throws Error(InvalidInput) if all do, with the likely reason.
+/// The number of nodes outside of the volume. Throws Error(InvalidInput) with the likely reason if
+/// all nodes are outside.
 std::size_t requireOverlap(const Volume& volume, const formats::CenterlineTree& tree);
 
-/// How the volume differs from the one that the case says that it was made from; nothing if it does
-/// not differ.
+/// The difference of the volume from the one from which the case states that it was made; empty if
+/// there is none.
 struct SourceDifference {
   std::string what;  ///< "size", "spacing", "origin", "direction" or "voxels"
   std::string found, expected;
@@ -88,7 +89,8 @@ std::optional<SourceDifference> sourceDifference(const formats::SourceVolume& vo
 CheckResult checkCase(const Volume& volume, const formats::Case& value, const EdgeOptions& options,
                       Progress& progress);
 
-/// The lumen as a label volume of the same geometry: 0 outside, 1 for the first branch, and so on.
+/// The lumen as a label volume with the volume's geometry: 0 outside, 1 for the first branch, and
+/// so on.
 Volume labelVolume(const VolumeGeometry& geometry, const formats::CenterlineTree& tree,
                    const std::vector<LumenVoxel>& lumen);
 

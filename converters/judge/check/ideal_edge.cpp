@@ -12,13 +12,12 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kRadiusStep = 0.25;  // voxels
-constexpr int kRadii =
-    48;  // up to 12 voxels; from there on s^2/2R is exact to a hundredth of a voxel
+constexpr int kRadii = 48;  // up to 12 voxels; beyond, s^2/2R is exact to a hundredth of a voxel
 constexpr int kQuadrature = 64;
-constexpr double kTail = 5;  // standard deviations, beyond which a Gaussian is nothing
+constexpr double kTail = 5;  // standard deviations, beyond which a Gaussian is negligible
 
-/// A disc of radius `radius` under a Gaussian of standard deviation `s`, at `r` from its centre: the
-/// integral over the chords at x, each of which holds a share of the Gaussian along it.
+/// A disc of radius `radius` under a Gaussian of standard deviation `s`, at `r` from its centre:
+/// the integral over the chords at x, each weighted by the share of the Gaussian along it.
 double blurredDisc(double radius, double s, double r) {
   const double low = std::max(-radius, r - kTail * s), high = std::min(radius, r + kTail * s);
   if (low >= high) return 0;
@@ -32,7 +31,7 @@ double blurredDisc(double radius, double s, double r) {
   return sum * step / (s * std::sqrt(2 * std::numbers::pi));
 }
 
-/// The same of a ball.
+/// A ball of radius `radius` under a Gaussian of standard deviation `s`, at `r` from its centre.
 double blurredBall(double radius, double s, double r) {
   const double from = std::max(r, 1e-6 * s);  // the limit at the centre
   const double a = (radius - from) / s, b = (radius + from) / s;
@@ -41,7 +40,7 @@ double blurredBall(double radius, double s, double r) {
              (std::exp(-0.5 * a * a) - std::exp(-0.5 * b * b));
 }
 
-/// mm from the wall of the shape to its edge.
+/// Distance, mm, from the wall of the shape to its edge.
 template <class Shape>
 double displacement(const Shape& shape, double radius, double s, double voxel) {
   const ProfileReach reach = profileReach(radius, voxel);
@@ -58,7 +57,7 @@ double displacement(const Shape& shape, double radius, double s, double voxel) {
 }  // namespace
 
 // Three voxels show both levels of an edge that lies up to a voxel off; half a radius serves wide
-// vessels. Beyond the axis lies the wall on the other side; a voxel is the least that has a level.
+// vessels. The opposite wall lies beyond the axis; a level needs at least a voxel.
 ProfileReach profileReach(double radius, double voxel) {
   const double reach = std::max(3 * voxel, 0.5 * radius);
   return {std::max(std::min(reach, radius), voxel), reach};

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the edge of a round vessel appears that a scanner has blurred (docs/method.md, section 7.1).
+// Apparent edge of a round vessel under the blur of a scanner (docs/method.md, section 7.1).
 #pragma once
 
 #include <vector>
 
 namespace lumen::convert {
 
-/// How far in profiles reach from the wall of a vessel of this radius, and how far out; mm.
+/// Extent of profiles inward and outward from the wall of a vessel of this radius, mm.
 struct ProfileReach {
   double inward, outward;
 };
 ProfileReach profileReach(double radius, double voxel);
 
-/// The displacement of the edge that findEdge() sees at the wall of a cylinder or a ball which a
-/// Gaussian has blurred: measured on exact profiles, so it holds for that definition of an edge.
+/// Displacement of the edge that findEdge() detects at the wall of a cylinder or a ball blurred by
+/// a Gaussian: measured on exact profiles, so it holds for findEdge()'s definition of an edge.
 class IdealEdge {
 public:
-  /// `pointSpread`: standard deviation of the Gaussian, mm; 0: nothing is displaced.
+  /// `pointSpread`: standard deviation of the Gaussian, mm; 0: no displacement.
   IdealEdge(double pointSpread, double voxel);
 
   /// mm outward of the wall, so less than 0 where vessels appear too narrow.

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kReachRadii = 2;  // a wall farther out than that is no wall of this node
+constexpr double kReachRadii = 2;  // limit: a wall farther out belongs to another node
 
 struct Claim {
   std::size_t index;
@@ -22,7 +22,7 @@ struct Claim {
   std::uint32_t node;
 };
 
-/// The cells within `reach` mm of `centre`, and more, as it is a box; it may be empty.
+/// The cells of a box around a ball of radius `reach` mm at `centre`; it may be empty.
 CellBox boxAround(const VolumeGeometry& geometry, const Vector3d& centre, double reach) {
   const Vector3d at = geometry.indexFromWorld(centre);
   const Cell last = geometry.cells().high();

@@ -16,20 +16,20 @@
 namespace lumen::convert {
 
 struct LumenVoxel {
-  std::size_t index = 0;   ///< x fastest
-  std::uint32_t node = 0;  ///< at which a cursor is that has the voxel inside; of several, the one
-                           ///< of least power
+  std::size_t index = 0;  ///< x fastest
+  /// Node of a cursor that has the voxel inside; the node of least power, if there are several.
+  std::uint32_t node = 0;
 };
 
 /// The index of one of the eight voxels around `at`, an index position in the volume.
 std::size_t cornerIndex(const VolumeGeometry& geometry, const Eigen::Vector3d& at, int corner);
 
 /// The lumen of a case on the grid of a volume: f > T of the blended field with a cursor that began
-/// in the voxel's own vessel. What lies farther from every node than twice its radius and a voxel is
-/// not looked at.
+/// in the voxel's own vessel. Voxels farther from every node than twice its radius and a voxel are
+/// skipped.
 class LumenVoxels {
 public:
-  /// `tree` and `surface` must stay.
+  /// Both `tree` and `surface` must outlive this object.
   LumenVoxels(const formats::CenterlineTree& tree, const field::BlendedField& surface,
               const VolumeGeometry& geometry, Progress& progress);
 
@@ -37,11 +37,11 @@ public:
   /// For each voxel of the volume 1 inside and 0 outside.
   [[nodiscard]] const std::vector<std::uint8_t>& inside() const { return m_inside; }
 
-  /// The node of a voxel; nothing outside.
+  /// The node of a voxel; empty outside.
   [[nodiscard]] std::optional<std::uint32_t> nodeAt(std::size_t index) const;
 
-  /// Whether `point` (mm, LPS), seen from the cursor `own`, lies in the lumen of another stretch of
-  /// the tree than the one that cursor follows it to. Sees lumens of a voxel or more.
+  /// Whether `point` (mm, LPS) lies in the lumen of another stretch of the tree than the one to
+  /// which the cursor `own` follows it. Lumens narrower than a voxel go undetected.
   [[nodiscard]] bool isInAnother(const Eigen::Vector3d& point, std::uint32_t own) const;
 
 private:

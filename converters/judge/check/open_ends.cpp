@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Missing vessels begin two voxels outside of the lumen, and this ends up to a radius beyond its node.
+// Missing vessels begin two voxels outside of the lumen, which ends up to a radius beyond its node.
 constexpr double kNearRadii = 2, kNearVoxels = 3;
 
 std::vector<OpenEnd> openEndsOf(const formats::CenterlineTree& tree) {
@@ -31,7 +31,8 @@ std::vector<OpenEnd> openEndsOf(const formats::CenterlineTree& tree) {
   return ends;
 }
 
-/// mm from the node along the vessel to its farther tip; 0 if the vessel does not begin there.
+/// Length, mm, from the node along the vessel to its farther tip; 0 if the vessel does not begin
+/// there.
 double lengthBeyond(const formats::CenterlineTree& tree, const OpenEnd& end, double voxel,
                     const MissingVessel& vessel) {
   const Vector3d centre = toEigen(tree.centre[end.node]);
@@ -39,7 +40,7 @@ double lengthBeyond(const formats::CenterlineTree& tree, const OpenEnd& end, dou
   std::size_t nearest = vessel.path.size();
   for (std::size_t i = 0; i < vessel.path.size(); ++i) {
     const Vector3d away = vessel.path[i].position - centre;
-    // of another vessel that only passes by, the middle comes near
+    // a vessel that only passes by comes near with its middle
     const bool tip = i == 0 || i + 1 == vessel.path.size();
     if (away.norm() > best || away.dot(end.outward) <= 0 ||
         (!tip && tree.branch[vessel.path[i].node] != tree.branch[end.node]))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where branches of a case end, and whether the volume shows that the vessel goes on.
+// Ends of branches of a case, and whether the volume shows that the vessel continues.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ struct OpenEnd {
   std::uint32_t node = 0;
   bool first = false;                                 ///< the branch begins here
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();  ///< unit, along the vessel
-  double goesOn = 0;  ///< mm of vessel that is seen beyond it; 0 if none is
+  double goesOn = 0;                                  ///< mm of visible vessel beyond it; 0 if none
 };
 
-/// The open ends of all vessels, branch by branch. One goes on in a missing vessel that comes within
-/// two radii and three voxels of the node, ahead of it, by its own tip or where it was reached from
-/// that branch; that vessel gets `atEnd`.
+/// The open ends of all vessels, branch by branch. An end continues in a missing vessel that comes
+/// within two radii and three voxels of the node, ahead of it, with its own tip or the place where
+/// it was reached from that branch; that vessel gets `atEnd`.
 std::vector<OpenEnd> findOpenEnds(const formats::CenterlineTree& tree, double voxel,
                                   std::vector<MissingVessel>& vessels);
 

@@ -17,14 +17,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Radii: two clicks that are nearer to one another say nothing of where a vessel goes.
+/// Radii: clicks nearer to one another give no direction of a vessel.
 constexpr double kTelling = 4;
 
 constexpr double kDarkDepth = 1, kBrightAway = 2;         // voxels: the wall's own blur and error
-constexpr std::size_t kLeastDark = 4, kLeastBright = 20;  // voxels: less is a speck
+constexpr std::size_t kLeastDark = 4, kLeastBright = 20;  // voxels: fewer are noise
 constexpr double kLeastLength = 4;                        // voxels
-constexpr double kTooWide =
-    1.5;  // of the widest vessel: the parent of all is seldom wider than that
+constexpr double kTooWide = 1.5;  // times the widest vessel: the root is seldom wider
 
 /// The connected groups of the voxels i with free[i] != 0, which are used up.
 Regions regionsOf(const VoxelSet& set, std::span<const float> depth,
@@ -167,7 +166,8 @@ Clicks clicksOn(const MissingVessel& vessel) {
 double shownLength(const formats::CenterlineTree& tree, const LumenVoxels& lumen,
                    const Levels& levels) {
   const VolumeGeometry& geometry = levels.volume.geometry;
-  // of an edge's middle: the brightest of the eight voxels around it, as thin vessels have no more
+  // Brightness at an edge's middle: the brightest of the eight voxels around it, as thin vessels
+  // have no more
   const auto isShown = [&](const Vector3d& middle, std::uint32_t n, const auto& value) {
     const Vector3d at = geometry.indexFromWorld(middle);
     if (!geometry.containsIndex(at)) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places where case and volume disagree: dark voxels inside of the case, and bright ones that belong
-// to its vessels and lie outside (docs/method.md, section 7.2).
+// Places where case and volume disagree: dark voxels inside of the case, and bright ones that
+// belong to its vessels but lie outside (docs/method.md, section 7.2).
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ namespace lumen::convert {
 
 /// A connected group of voxels.
 struct Region {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS: where it is deepest
-  std::uint32_t node = 0;  ///< of the case: inside of which it lies, or from which it was reached
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS: the deepest place
+  std::uint32_t node = 0;  ///< case's node whose lumen holds it, or that reached it
   std::size_t voxels = 0;
   double volume = 0;  ///< mm^3
-  double radius = 0;  ///< mm, of the greatest ball in it
+  double radius = 0;  ///< mm; radius of the greatest ball in it
 };
 
 struct Regions {
-  double volume = 0;            ///< mm^3, of all such voxels, in regions or not
+  double volume = 0;            ///< mm^3; all such voxels, in regions or not
   std::vector<Region> regions;  ///< the greatest volume first
 };
 
@@ -42,13 +42,13 @@ struct MissingVessel {
   double volume = 0;   ///< mm^3
   double length = 0;   ///< mm
   double radius = 0;   ///< mm
-  bool atEnd = false;  ///< a branch of the case goes on in it
+  bool atEnd = false;  ///< a branch of the case continues in it
 };
 
 struct Missing {
   double volume = 0;                   ///< mm^3, all bright voxels outside, but for `wide`
   std::vector<MissingVessel> vessels;  ///< the longest first
-  Regions wide;                        ///< what is too wide to be a vessel, and all beyond it
+  Regions wide;  ///< regions too wide to be vessels, and all voxels beyond them
 };
 
 /// Voxels inside, deeper than a voxel, that are darker than the half level of their node. A region
@@ -56,23 +56,23 @@ struct Missing {
 Regions darkInside(const LumenVoxels& lumen, const Levels& levels, const Progress& progress);
 
 /// The vessels of the bright region that lie farther than two voxels from the lumen, of at least 20
-/// voxels and four voxels' length. What is half again as wide as the widest vessel of the case is
-/// none.
+/// voxels and four voxels' length. Regions over 1.5 times as wide as the widest vessel of the case
+/// are not vessels.
 Missing brightOutside(const LumenVoxels& lumen, const Levels& levels,
                       const formats::CenterlineTree& tree, const Progress& progress);
 
-/// Where to click, so that a missing vessel is tracked.
+/// Points to click for tracking a missing vessel.
 struct Clicks {
   std::vector<Eigen::Vector3d> points;  ///< on its path, mm, LPS
   double radius = 0;                    ///< mm
-  std::uint32_t beside = 0;             ///< the node of the case that it begins at
+  std::uint32_t beside = 0;             ///< node of the case at which the vessel begins
 };
-/// One click in the middle of the vessel, where its lumen is its own; a second halfway on to its tip, if
-/// that is far enough to tell which way it goes.
+/// One click in the middle of the vessel, where its lumen is separate; a second halfway to its tip,
+/// if that is far enough to show the vessel's direction.
 Clicks clicksOn(const MissingVessel& vessel);
 
-/// mm of the tree's vessels whose axis the volume shows: where it is brighter than the half level,
-/// and counted once where branches lie in each other.
+/// Length, mm, of the tree's vessels whose axis the volume shows: where it is brighter than the
+/// half level. Branches that lie in each other count once.
 double shownLength(const formats::CenterlineTree& tree, const LumenVoxels& lumen,
                    const Levels& levels);
 

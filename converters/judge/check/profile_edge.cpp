@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kHalfWindow = kSamplesPerVoxel / 2;  // changes and levels are taken over one voxel
 constexpr int kLevelReach =
-    5 * kSamplesPerVoxel / 2;        // how far from its edge a level is looked for
-constexpr double kLeastShare = 0.5;  // of the greatest change: weaker places are texture
+    5 * kSamplesPerVoxel / 2;        // distance from an edge within which its levels are searched
+constexpr double kLeastShare = 0.5;  // relative to the greatest change: weaker places are texture
 
 /// The part of a profile that lies in the volume.
 class Profile {
@@ -44,7 +44,7 @@ public:
     return best;
   }
 
-  /// Where sign * fall has its maximum, in samples from the wall: of the parabola through `i` and
+  /// Place of the maximum of sign * fall, in samples from the wall, by the parabola through `i` and
   /// its neighbours.
   [[nodiscard]] double peak(int i, double sign) const {
     if (i <= first() || i >= last()) return i - m_wall;
@@ -67,8 +67,8 @@ public:
     return sign * best / (2 * kHalfWindow);
   }
 
-  /// Where the profile passes `level` in the direction of `sign`, nearest to `edge`, in samples
-  /// from the wall; the edge itself if it does not within the reach of the levels.
+  /// Place where the profile passes `level` in the direction of `sign`, nearest to `edge`, in
+  /// samples from the wall; the edge itself if there is none within the reach of the levels.
   [[nodiscard]] double crossing(int edge, double level, double sign) const {
     for (int away = 0; away <= kLevelReach; ++away)
       for (const int i : {edge - away, edge + away - 1}) {

@@ -21,7 +21,7 @@ constexpr std::size_t kChord = 5;  // voxels: a path along the grid is longer th
 SkeletonPath SkeletonPaths::pathTo(std::uint32_t tip) const {
   const VoxelSet& set = m_skeleton.voxels();
   SkeletonPath path;
-  path.voxels =  // the first is covered by a path before it
+  path.voxels =  // an earlier path covers the first voxel
       m_skeleton.paths().pathTo(tip, [&](std::uint32_t i) { return m_free[i] != kInGroup; });
   path.length = set.geometry().voxelSize();  // half a voxel beyond either end
   for (std::size_t i = 0; i + 1 < path.voxels.size(); i += kChord) {
@@ -38,7 +38,7 @@ void SkeletonPaths::cover(SkeletonPath& path) {
       path.covered += m_free[j] == kInGroup;
       if (m_free[j] == kInGroup) m_free[j] = kTaken;
     });
-  // depths come in steps of about half a voxel, and volumes have the beginnings of side branches
+  // depths come in steps of about half a voxel, and volumes include the beginnings of side branches
   std::vector<float> depths;
   for (const std::uint32_t i : path.voxels) depths.push_back(m_skeleton.depth(i));
   const auto depth = static_cast<double>(upperMedian(depths));

@@ -18,18 +18,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-// An edge counts with a quarter of its branch's contrast, and with a sixth of the tree's: a branch
-// in the dark has no edges, one whose contrast agent is thin still has. The tree's is that of its
-// better quarter, which stays when half of the tree lies in the dark.
+// Contrast thresholds: an edge counts with a quarter of its branch's contrast, and with a sixth of
+// the tree's: a dark branch has no edges, one with thin contrast agent still has. The tree's
+// contrast is that of its better quarter, which is robust when half of the tree is dark.
 constexpr double kShareOfBranch = 0.25, kShareOfTree = 1.0 / 6, kBetterQuarter = 0.75;
 
-// Another lumen nearer than that, in voxels, hides the wall's edge.
+// Distance, voxels, within which another lumen hides the wall's edge.
 constexpr double kClearOf[] = {0.5, 1.0, 1.5};
 
-constexpr std::uint32_t kNodesAround = 4;  // on either side, whose edges give a node's half level
-constexpr std::size_t kLeastEdges = 8;     // for a median that one of them does not decide
+constexpr std::uint32_t kNodesAround = 4;  // per side; their edges determine a node's half level
+constexpr std::size_t kLeastEdges = 8;     // minimum for a median that no single edge decides
 
-constexpr double kTexture = 3 * 1.4826;  // of the median deviation: three standard deviations
+constexpr double kTexture = 3 * 1.4826;  // median deviations: three standard deviations
 
 /// The mean over the last voxel of a profile that lies in the volume.
 double farEnd(const std::vector<float>& values) {
@@ -41,7 +41,7 @@ double farEnd(const std::vector<float>& values) {
   return sum / static_cast<double>(count);
 }
 
-/// What one thread keeps.
+/// Buffers of one thread.
 struct Scratch {
   std::vector<WallSample> samples;
   std::vector<float> values;
@@ -116,7 +116,7 @@ bool hasEdge(const WallOffset& o) {
   return o.verdict == Verdict::Edge;
 }
 
-/// Edges of too little contrast are none.
+/// Discards edges with too little contrast.
 void dropFaintEdges(const formats::CenterlineTree& tree, std::vector<WallOffset>& offsets) {
   std::vector<double> all;
   std::vector<std::vector<double>> each(tree.branches.size());
@@ -137,8 +137,9 @@ void dropFaintEdges(const formats::CenterlineTree& tree, std::vector<WallOffset>
       o.verdict = Verdict::NoEdge;
 }
 
-/// The level above which the background around some samples seldom is. Where most of them have the
-/// lumen beyond as well, as their wall lies inside of it, those with an edge tell of the background.
+/// The level that the background around some samples seldom exceeds. Where most of them have the
+/// lumen beyond as well, as their wall lies inside of it, samples with an edge represent the
+/// background.
 double textureTop(std::span<const WallOffset> offsets, double lumen) {
   std::vector<double> beyond, beyondEdges;
   for (const WallOffset& o : offsets) {
@@ -152,7 +153,7 @@ double textureTop(std::span<const WallOffset> offsets, double lumen) {
   return middle + kTexture * upperMedian(beyond);
 }
 
-/// The medians over the edges in a range; nothing if they are too few.
+/// The medians over the edges in a range; empty if there are too few.
 std::optional<NodeLevels> levelsOf(std::span<const WallOffset> offsets, std::size_t least) {
   std::vector<double> halves, faints, lumens;
   for (const WallOffset& o : offsets) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the wall of a case lies from the edges of its volume (docs/method.md, section 7.1).
+// Distance of a case's wall from the edges of its volume (docs/method.md, section 7.1).
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct EdgeOptions {
 
 enum class Verdict : std::uint8_t {
   Edge,           ///< the volume has an edge here: `offset` holds
-  NoEdge,         ///< nothing within reach, or too little contrast
+  NoEdge,         ///< no edge within reach, or too little contrast
   WrongPolarity,  ///< the volume becomes brighter outwards
   BesideAnother,  ///< another part of the tree begins outside: not judged
   OutsideVolume,  ///< not judged
@@ -31,28 +31,29 @@ enum class Verdict : std::uint8_t {
 struct WallOffset {
   std::uint32_t node = 0;
   Verdict verdict = Verdict::NoEdge;
-  double offset = 0;               ///< mm, of the wall outward of where the edge says that it is
-  double fromSteepest = 0;         ///< mm, outward of where the intensity changes most
-  double displaced = 0;            ///< mm, of the edge outward of such a wall, by the blur
+  double offset = 0;               ///< mm outward of the volume's edge to the wall
+  double fromSteepest = 0;         ///< mm outward of the steepest change of intensity
+  double displaced = 0;            ///< mm outward of such a wall to the edge, by the blur
   double inside = 0, outside = 0;  ///< levels on the two sides, voxel units, brighter is more
-  double beyond = 0;               ///< the same at the far end of the profile, where one was taken
+  double beyond = 0;               ///< level at the far end of the profile, if one was taken
 };
 
-/// The offsets, sorted by node. Throws Error(Cancelled).
+/// The wall's offsets, sorted by node. Throws Error(Cancelled).
 std::vector<WallOffset> wallOffsets(const formats::CenterlineTree& tree,
                                     const field::BlendedField& surface, const BsplineVolume& volume,
                                     const LumenVoxels& lumen, const EdgeOptions& options,
                                     Progress& progress);
 
-/// What is lumen and what is background around a node; brighter is more, so values are negative if
-/// vessels are dark.
+/// Intensity levels that separate lumen from background around a node; brighter is more, so values
+/// are negative if vessels are dark.
 struct NodeLevels {
   float half = 0;   ///< halfway between lumen and background
-  float faint = 0;  ///< a quarter of the way to the lumen, or where the background's texture ends
+  float faint = 0;  ///< a quarter up to the lumen, or the top of the background's texture
 };
 
 /// The levels of each node: medians over the edges of the nodes around it in its branch, of the
-/// branch where they have none, of the tree where it has none. Empty if there is no edge at all.
+/// whole branch where these have no edge, of the whole tree where the branch has none. Empty if
+/// there is no edge at all.
 std::vector<NodeLevels> nodeLevels(const formats::CenterlineTree& tree,
                                    const std::vector<WallOffset>& offsets);
 

@@ -15,18 +15,18 @@ namespace lumen::convert {
 struct WallSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS, on f = T
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();   ///< unit normal
-  std::uint32_t node = 0;                              ///< of the cell in which it lies
-  double radius = 0;  ///< mm from the axis, of an aneurysm from its node
+  std::uint32_t node = 0;                              ///< node of the cell in which it lies
+  double radius = 0;  ///< mm from the axis, for an aneurysm from its node
 };
 
 /// Samples of the wall, node by node. Vessels: rings of rays, about `spacing` mm apart, around the
-/// axis between a node and the one before it in its branch (around the node, if it is the only one).
-/// Aneurysms: rays from each node in all directions. Every ray's end is projected on the surface; it
-/// is a sample if it stays within three radii and ends in a cell of its own branch (aneurysms: of its
-/// own node), so that no place is taken twice.
+/// axis between a node and the one before it in its branch (around the node, if it is the only
+/// one). Aneurysms: rays from each node in all directions. Every ray's end is projected on the
+/// surface; it is a sample if it stays within three radii and ends in a cell of its own branch
+/// (aneurysms: of its own node), so that no place is sampled twice.
 class WallSampler {
 public:
-  /// All must stay.
+  /// All arguments must outlive this object.
   WallSampler(const formats::CenterlineTree& tree, const field::BlendedField& surface,
               double spacing)
       : m_tree(tree), m_surface(surface), m_spacing(spacing) {}

@@ -23,7 +23,7 @@ enum class State : std::uint8_t { Unmatched, Matched, Ignored };
 
 struct TrueBranch {
   SampledPath path;
-  std::size_t begin = 0;  // samples before it lie in the parent's lumen
+  std::size_t begin = 0;  // number of leading samples in the parent's lumen
   int parent = -1;        // branch
   bool vessel = true;
   int answer = -1;  // found branch with the same label
@@ -93,7 +93,7 @@ public:
 
   CenterlineComparison run() {
     std::vector<Tally> tallies(m_true.size());
-    // found branches answer for one true branch each, so these do not share state
+    // each found branch answers for one true branch, so these share no state
     tbb::parallel_for(std::size_t{0}, m_true.size(), [&](std::size_t b) {
       m_progress.check();
       if (m_true[b].answer >= 0) tallies[b] = scoreLabelled(b);
@@ -119,7 +119,7 @@ public:
   }
 
 private:
-  // The found tree with no thickness: its wall is the centerline.
+  // The found tree without thickness: its wall is the centerline.
   static TubeTreeDistance axesOf(formats::CenterlineTree tree) {
     std::fill(tree.radius.begin(), tree.radius.end(), 0.0F);
     return TubeTreeDistance(tree);
@@ -166,7 +166,7 @@ private:
     }
   }
 
-  // How many samples from the first on lie in the lumen, at most `limit`.
+  // Number of samples from the first on that lie in the lumen, at most `limit`.
   static std::size_t samplesInside(const TubeTreeDistance& lumen,
                                    const std::vector<PathSample>& path, std::size_t limit) {
     std::size_t n = 0;
@@ -186,7 +186,7 @@ private:
     all.reversed = apart(path.front(), start) + apart(path.back(), end) >
                    apart(path.front(), end) + apart(path.back(), start);
     if (t.parent >= 0 && !all.reversed) {
-      // as much as the true child spends in its parent, and the detour of a link
+      // limit: the length of the true child in its parent, and the detour of a link
       const auto p = static_cast<std::size_t>(t.parent);
       const double radius = closestOn(m_true[p].path.samples, start.position).radius;
       const double allowed = static_cast<double>(t.begin) * t.path.spacing + 2 * radius;
@@ -332,7 +332,7 @@ private:
   TubeTreeDistance m_wall, m_axes;
   Progress& m_progress;
   std::vector<TrueBranch> m_true;
-  std::vector<TubeTreeDistance> m_lumen;  // of each true branch
+  std::vector<TubeTreeDistance> m_lumen;  // lumen of each true branch
   std::vector<FoundBranch> m_found;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The centerline measures, and which found branch answers for which true one.
+// Centerline measures, and the assignment of found branches to true ones.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct CenterlineComparison {
   std::vector<CenterlineScore> branch;  ///< one per true branch
 };
 
-/// See compare.h for the rules. `step`: mm between samples.
+/// The scores by the rules of compare.h. `step`: mm between samples.
 CenterlineComparison compareCenterlines(const formats::CenterlineTree& found,
                                         const formats::CenterlineTree& truth, double step,
                                         Progress& progress);

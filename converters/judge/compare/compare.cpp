@@ -12,7 +12,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kFinestStep =
-    1.0 / 6000;  // of the longest branch: bounds the memory of a correspondence
+    1.0 / 6000;  // relative to the longest branch: bounds the memory of a correspondence
 constexpr double kCoarsestStep = 0.1;  // mm
 
 double samplingStep(const formats::Case& found, const formats::Case& truth) {

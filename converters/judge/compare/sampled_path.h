@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Centerlines at an even, small step.
+// Centerlines sampled at an even, small step.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace lumen::convert {
 struct PathSample {
   Eigen::Vector3d position;  ///< mm
   double radius;             ///< mm, interpolated along the centerline
-  bool onLink;               ///< on the straight link to the parent node; its radius means nothing
+  bool onLink;  ///< sample on the straight link to the parent node; its radius is undefined
 };
 
 struct SampledPath {
@@ -31,8 +31,8 @@ SampledPath samplePath(const formats::CenterlineTree& tree, std::uint32_t branch
 
 struct ClosestPoint {
   double distance;    ///< mm; infinity if the path is empty
-  double radius;      ///< mm, of the path there
-  std::size_t index;  ///< of the sample at or before it
+  double radius;      ///< mm; radius of the path there
+  std::size_t index;  ///< index of the sample at or before it
 };
 
 /// The point nearest to `point` on the polyline through the samples.
@@ -40,9 +40,9 @@ ClosestPoint closestOn(const std::vector<PathSample>& path, const Eigen::Vector3
 
 /// Pairs (index into `a`, index into `b`): the ordered correspondence of Schaap et al. (2009). It
 /// begins with the two first and ends with the two last samples, each pair advances one or both of
-/// the paths by one sample, and the sum of the pairs' distances is the smallest of all. (Advancing
-/// both at once is allowed here, so that equal paths side by side are paired straight across and
-/// not in a zigzag.) Empty if a path is. Memory: one byte for each pair of samples.
+/// the paths by one sample, and the sum of the pairs' distances is minimal. (Both may advance at
+/// once, so that equal parallel paths are paired straight across and not in a zigzag.) Empty if a
+/// path is empty. Memory: one byte for each pair of samples.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> correspond(const std::vector<PathSample>& a,
                                                                 const std::vector<PathSample>& b);
 

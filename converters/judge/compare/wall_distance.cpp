@@ -23,8 +23,8 @@ using formats::CenterlineTree;
 
 constexpr int kBisections = 40;
 constexpr int kRays = 64;
-constexpr double kRayStep = 0.125;  // of the radius: no wall of a lumen is thinner
-constexpr double kRayReach = 4;     // radii: farther out is another vessel
+constexpr double kRayStep = 0.125;  // relative to the radius: no wall of a lumen is thinner
+constexpr double kRayReach = 4;     // radii: a surface farther out is another vessel's
 
 // Unit vectors spread evenly over the sphere along a golden spiral.
 std::vector<Vector3d> rayDirections() {
@@ -47,15 +47,15 @@ public:
         m_centre(toEigen(tree.centre[node])),
         m_radius(static_cast<double>(tree.radius[node])) {}
 
-  // The point of the surface that the gradient leads to; nothing if it leads nowhere or out of the
-  // node's own power cell.
+  // The point of the surface reached along the gradient; empty if there is none or it lies outside
+  // of the node's own power cell.
   [[nodiscard]] std::optional<Vector3d> project(const Vector3d& point) const {
     const auto found = projectOnSurface(m_surface, point, m_node, m_radius);
     if (!found || found->node != m_node) return std::nullopt;
     return found->position;
   }
 
-  // The first point of the surface along a ray from the node's centre; nothing if there is none
+  // The first point of the surface along a ray from the node's centre; empty if there is none
   // within 4 radii, or not in the node's own power cell.
   [[nodiscard]] std::optional<Vector3d> cast(const Vector3d& direction) const {
     const auto inside = [&](double t) { return isInside(m_centre + t * direction); };
@@ -89,7 +89,7 @@ private:
   double m_radius;
 };
 
-// The wall of the truth, and where it should not be looked at.
+// The wall of the truth, and its excluded places.
 class TrueWall {
 public:
   explicit TrueWall(const CenterlineTree& truth)
@@ -128,7 +128,7 @@ private:
   const CenterlineTree& m_truth;
   TubeTreeDistance m_all;
   std::vector<TubeTreeDistance> m_branch;
-  std::vector<std::vector<std::uint32_t>> m_joined;  // for each branch, its parent and children
+  std::vector<std::vector<std::uint32_t>> m_joined;  // parent and children of each branch
 };
 
 // Whether a point lies beyond the first or the last node of the node's branch.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the surface of a case lies from the true wall.
+// Distance of a case's surface from the true wall.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ struct WallComparison {
   std::vector<std::optional<Quantiles>> branch;  ///< one per true branch
 };
 
-/// See Comparison::wallDistance for what is measured. `found` has models.
+/// The distances of Comparison::wallDistance. `found` has models.
 WallComparison compareWalls(const formats::Case& found, const formats::CenterlineTree& truth,
                             Progress& progress);
 

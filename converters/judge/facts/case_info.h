@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The facts that `lumen info` gives of a case.
+// Facts of a case for `lumen info`.
 #pragma once
 
 #include <optional>

@@ -17,7 +17,7 @@ using formats::ErrorCode;
 using formats::Issue;
 using formats::ValidationReport;
 
-constexpr int kClosedEdge = 651;  // no rule of the format: see spec/errors.md
+constexpr int kClosedEdge = 651;  // not a rule of the format: see spec/errors.md
 
 Remark remarkOf(const Issue& issue) {
   return {formats::errorName(issue.code),
@@ -55,7 +55,7 @@ Remark remarkOf(const ClosedWay& way) {
           code + " at " + pointer + ": " + message};
 }
 
-/// What is no case may be known as something else.
+/// The issue; its message names the file's kind if that is another than a case.
 Issue named(Issue issue, const std::string& file) {
   const std::string other = notA(ContentKind::Case, file);
   if (!other.empty()) issue.message = other;

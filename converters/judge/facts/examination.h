@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that is wrong in a case file, or worth a warning: what `lumen validate` tells.
+// Faults and warnings of a case file, as `lumen validate` reports them.
 #pragma once
 
 #include <cstddef>
@@ -30,16 +30,19 @@ struct FileReport {
   bool valid = true;
   bool refusedByStrict = false;  ///< valid, but for a warning and --strict
   bool personal = false;         ///< the privacy check found something, which is a warning
-  formats::IssueCounts counts;   ///< of all that was found, listed or not
-  std::vector<Remark> remarks;   ///< what is listed, errors first
+  formats::IssueCounts counts;   ///< counts of all findings, listed or not
+  std::vector<Remark> remarks;   ///< the listed findings, errors first
   [[nodiscard]] std::size_t unlisted() const { return counts.total() - remarks.size(); }
 };
 
-/// What is wrong in a case file: rules of the format, closed ways, and with `privacy` texts that may tell who a patient
-/// is. Everything counts for the verdict; at most `maxIssues` remarks are listed. A file that cannot be read is a remark.
+/// The faults of a case file: broken rules of the format, closed paths, and with `privacy` texts
+/// that may identify a patient. Every fault counts for the verdict; at most `maxIssues` remarks are
+/// listed. An unreadable file is a remark.
 FileReport examine(const std::string& file, std::size_t maxIssues, bool privacy,
                    const Progress& progress);
-/// The same of its bytes.
+/// The faults of a case file in memory: broken rules of the format, closed paths, and with
+/// `privacy` texts that may identify a patient. Every fault counts for the verdict; at most
+/// `maxIssues` remarks are listed.
 FileReport examineBytes(std::span<const std::byte> bytes, const std::string& file,
                         std::size_t maxIssues, bool privacy, const Progress& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which part of a case a tool can be pushed through, for answers and warnings.
+// The part of a case that a tool can reach, for answers and warnings.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +13,37 @@
 
 namespace lumen::convert {
 
-/// Where the way is closed: see formats::Barrier.
+/// A place where the path is closed: see formats::Barrier.
 struct ClosedWay {
-  std::string branch;      ///< its label
-  std::uint32_t node = 0;  ///< index in the case; the way to it is closed
+  std::string branch;      ///< label of the branch
+  std::uint32_t node = 0;  ///< index in the case; the path to it is closed
   field::Vec position{};   ///< mm, LPS
   double beyond = 0;       ///< mm
 };
 
 struct Reach {
   double length = 0, of = 0;      ///< mm
-  std::vector<ClosedWay> closed;  ///< the one with most beyond it first
+  std::vector<ClosedWay> closed;  ///< the one with the greatest length beyond it first
 };
 
-/// Empty for a case without models. The case is valid.
+/// The reachable length of a valid case; empty for a case without models.
 std::optional<Reach> reachOf(const formats::Case& value, const Progress& progress);
 
-/// "3448.1 of 3477.0 mm", or why that is not known.
+/// "3448.1 of 3477.0 mm", or the reason why it is unknown.
 std::string reachText(const std::optional<Reach>& reach);
 
-/// "reachable: 3448.1 of 3477.0 mm\n".
+/// A line of text, "reachable: 3448.1 of 3477.0 mm\n".
 std::string reachLine(const std::optional<Reach>& reach);
 
-/// "branch a-1 is closed before node 27 at (1.0, 2.0, 3.0): 28.9 mm beyond cannot be reached".
+/// A closed path as text: "branch a-1 is closed before node 27 at (1.0, 2.0, 3.0): 28.9 mm beyond
+/// cannot be reached".
 std::string closedText(const ClosedWay& way);
 
-/// One text for each closed way, or as many as are worth reading and then how many more there are.
+/// One text for each closed path; a long list is cut, and its last text states the number of the
+/// others.
 std::vector<std::string> closedTexts(const Reach& reach);
 
-/// A warning of each of these texts.
+/// Reports each closed path's text as a warning.
 void warnOfClosed(const std::optional<Reach>& reach, Progress& progress);
 
 }  // namespace lumen::convert
