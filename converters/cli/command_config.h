@@ -17,8 +17,8 @@
 
 namespace lumen::cli {
 
-/// Reads the file for one command, whose parser it must not outlive. Throws Error(Usage) with the file's name and
-/// the line for everything that is wrong in it.
+/// Reads the file for one command, whose parser it must not outlive. Throws Error(Usage) with the
+/// file's name and the line for everything that is wrong in it.
 class CommandConfig : public CLI::Config {
 public:
   CommandConfig(const CLI::App& app, const engine::Engine& commands,

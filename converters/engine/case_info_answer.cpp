@@ -90,7 +90,7 @@ std::string plain(double value) {
   return text.str();
 }
 
-/// What few cases have.
+/// Adds lines for facts that few cases have.
 void addExtras(const convert::CaseInfo& info, Lines& lines) {
   const formats::Metadata& metadata = info.metadata;
   if (info.links > 0) lines.add("links", std::to_string(info.links));

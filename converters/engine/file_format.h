@@ -36,7 +36,7 @@ struct OutputOptions {
   bool patches = false;  ///< the surface in pieces
 };
 
-/// One row. A function that is null says what the format cannot do; each throws lumen::Error with
+/// One row. A function is null where the format cannot do its work; each throws lumen::Error with
 /// the file's name.
 struct FileFormat {
   using CaseReader = formats::Case (*)(const std::filesystem::path&);
@@ -48,7 +48,7 @@ struct FileFormat {
   using CenterlineReader = convert::CenterlineFile (*)(const std::filesystem::path&);
   using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
   using SceneReader = convert::MeshFile (*)(const std::filesystem::path&, const SceneArguments&);
-  /// What it returns is null unless a closed surface was made.
+  /// Returns null unless a closed surface was made.
   using CaseWriter = std::optional<convert::SurfaceReport> (*)(const formats::Case&,
                                                                const std::filesystem::path&,
                                                                const OutputOptions&, Progress&);
@@ -70,10 +70,10 @@ struct FileFormat {
 
 const std::vector<FileFormat>& fileFormats();
 
-/// What a file of this format is.
+/// Kind of content of a file of this format.
 convert::ContentKind contentKind(const FileFormat& format);
 
-/// What a list of formats is about.
+/// Whether a format belongs in a list of formats.
 using FormatTest = bool (*)(const FileFormat&);
 bool canRead(const FileFormat& format);
 bool canReadVolume(const FileFormat& format);

@@ -14,7 +14,7 @@ namespace lumen::engine {
 
 struct VolumeArguments;
 
-/// What a user says of a volume of labels.
+/// The user's statements about a volume of labels.
 struct MaskArguments {
   bool isMask = false;                ///< every label but 0 is a vessel
   std::optional<std::int64_t> label;  ///< this one alone is
@@ -26,8 +26,8 @@ struct MaskArguments {
 };
 
 /// Tree and wall points of the labels in `file`; a branch has the name of its label where there are
-/// several, or names were given. Throws Error(InvalidInput) for what holds no labels, and for labels
-/// that are no vessels.
+/// several, or names were given. Throws Error(InvalidInput) for a file without labels, and for
+/// labels that are no vessels.
 formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat& format,
                              const VolumeArguments& volume, const MaskArguments& arguments,
                              Progress& progress);

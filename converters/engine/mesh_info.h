@@ -19,7 +19,7 @@ struct MeshInfo {
   std::string unitFrom;        ///< "option", "file" or "guess"
 };
 
-/// `unit` is what the user says, or empty. Warns where the unit is a guess that is not mm.
+/// `unit` is the user's, or empty. Warns where the unit is a guess that is not mm.
 MeshInfo describeMesh(convert::MeshFile file, const std::string& name, const std::string& unit,
                       Progress& progress);
 

@@ -20,7 +20,7 @@ struct CaseMesh {
   std::optional<convert::SurfaceReport> report;  ///< of a closed surface
 };
 
-/// The surface as the options say; one level unless `hasLevels`. Warns of what the mesh in `file`
+/// The surface by the options; one level unless `hasLevels`. Warns of parts that the mesh in `file`
 /// lacks.
 CaseMesh meshOfCase(const formats::Case& value, const std::filesystem::path& file,
                     const OutputOptions& options, bool hasLevels, Progress& progress);

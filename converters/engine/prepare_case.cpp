@@ -90,7 +90,7 @@ void checkWishes(const CaseWishes& wishes) {
   }
 }
 
-/// What needs models, of a case without.
+/// Refuses wishes that need models, for a case without.
 void requireModels(const CaseWishes& wishes, const std::string& file) {
   const auto refuse = [&](const std::string& option) {
     throw invalidInput(printable(file) + ": this case has no models, so there is nothing for " +
@@ -178,8 +178,8 @@ private:
   const Progress& m_asked;
 };
 
-/// Adds pages that other commands make of the case. They see it under its id, as the name of a file may identify a
-/// patient.
+/// Adds pages that other commands make of the case. They see it under its id, as the name of a file
+/// may identify a patient.
 void addPages(std::string_view caseBytes, const CaseWishes& wishes, IncomingCase& incoming,
               const Surroundings& around) {
   if (!wishes.report && !wishes.viewer) return;

@@ -14,7 +14,7 @@
 
 namespace lumen::engine {
 
-/// What of a case is to be made for a library, besides the case itself.
+/// Parts of a case to be made for a library, besides the case itself.
 struct CaseWishes {
   std::string id;                    ///< empty: of the case's digest
   bool replace = false;              ///< a case of this id may be there
@@ -31,10 +31,11 @@ struct CaseWishes {
 /// The words that views may have.
 const std::vector<std::string>& pictureViews();
 
-/// Makes all of it beside `library`. Everything that can be refused is refused before long work: Error(InvalidInput) for a
-/// case that cannot be read, for what convert::missingStatement() says and for wishes that a case without models cannot
-/// fulfil; Error(Usage) for an id that is there already; Error(Unsupported) for a target. Warns of texts that look like
-/// a person's, and as exports and surfaces do. `about` gets a title if it has none.
+/// Makes everything in `wishes` beside `library`. Everything that can be refused is refused before
+/// long work: Error(InvalidInput) for a case that cannot be read, for a missing statement
+/// (convert::missingStatement()) and for wishes that a case without models cannot fulfil;
+/// Error(Usage) for an id that is there already; Error(Unsupported) for a target. Warns of texts
+/// that look like a person's, and as exports and surfaces do. `about` gets a title if it has none.
 convert::IncomingCase prepareCase(const std::filesystem::path& caseFile, convert::CaseAbout about,
                                   const CaseWishes& wishes, const std::filesystem::path& library,
                                   const Surroundings& around);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bag and the RO-Crate of a library beside what library.json and the records give. One case at a time is in memory.
+// The bag and the RO-Crate of a library beside what library.json and the records give. One case at
+// a time is in memory.
 #pragma once
 
 #include <memory>

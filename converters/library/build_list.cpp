@@ -67,8 +67,8 @@ std::vector<TableRow> rowsOf(const std::string& text, const std::string& name) {
     all.rows.push_back(std::exchange(all.row, {}));
   };
   bool isRead = true;
-  for (std::size_t at = 0, line = 1; isRead && at < text.size();
-       ++at) {  // as libcsv tells no lines
+  // lines are counted here, as libcsv does not report them
+  for (std::size_t at = 0, line = 1; isRead && at < text.size(); ++at) {
     const bool isEnd = text[at] == '\n' || text[at] == '\r';
     if (table.row.line == 0 && !isEnd) table.row.line = line;
     isRead = csv_parse(&parser, &text[at], 1, cell, row, &table) == 1;

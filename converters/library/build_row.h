@@ -28,8 +28,8 @@ PlannedRow planRow(const BuildRow& row, const LibraryFile& library, const BuildO
 /// Whether `staged` is complete.
 bool isStaged(const PlannedRow& plan);
 
-/// Runs lumen until `staged` is complete; goes on with what is there. Throws Error(Cancelled); anything else that goes
-/// wrong is in the result.
+/// Runs lumen until `staged` is complete; goes on with what is there. Throws Error(Cancelled);
+/// anything else that goes wrong is in the result.
 RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
                   const Progress& progress);
 

@@ -29,10 +29,11 @@ namespace {
 constexpr std::uint64_t kMostLibrary = std::uint64_t{1}
                                        << 27;  // bytes: 100,000 cases with long titles
 
-/// Cases on their way for each thread: so that one large case does not stop the others, and memory stays bounded.
+/// Cases on their way for each thread: so that one large case does not stop the others, and memory
+/// stays bounded.
 constexpr std::size_t kAhead = 8;
 
-/// Sorts the cases and leaves each id once, telling what was not so.
+/// Sorts the cases and leaves each id once; reports a fault where that was not so.
 void sortCases(LibraryFile& library, FaultList& faults) {
   std::unordered_set<std::string> seen;
   std::vector<LibraryEntry> kept;
@@ -105,7 +106,7 @@ void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultLi
   checkKindsOfOthers(folder, faults);
 }
 
-/// What a case gave, in its place.
+/// Result of a case, in its place.
 struct Checked {
   std::size_t at = 0;
   std::shared_ptr<CaseCheck> check;  // TBB copies what goes from filter to filter

@@ -27,7 +27,7 @@ bool isSame(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return isSame(a.x(), b.x()) && isSame(a.y(), b.y()) && isSame(a.z(), b.z());
 }
 
-/// What the record has beside what the case gives.
+/// Comparison of the record's figures with those of the case.
 class Figures {
 public:
   Figures(const CaseRecord& record, const std::string& path, FaultList& faults)

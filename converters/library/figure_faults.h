@@ -10,8 +10,9 @@
 
 namespace lumen::convert {
 
-/// Bounds, figures, insertions and ends that are not those of the case, to a thousandth of a millimetre, which is finer than
-/// anything in a volume and coarser than what rounding does. `path` is the record's.
+/// Bounds, figures, insertions and ends that are not those of the case, to a thousandth of a
+/// millimetre, which is finer than anything in a volume and coarser than what rounding does. `path`
+/// is the record's.
 void checkFigures(const formats::Case& value, const CaseRecord& record, const std::string& path,
                   FaultList& faults);
 

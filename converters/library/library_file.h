@@ -17,7 +17,7 @@ struct LibraryEntry {
   std::string title;
   std::uint64_t recordBytes = 0;
   std::string recordSha256;
-  std::uint64_t files = 0, bytes = 0;  ///< that the record lists
+  std::uint64_t files = 0, bytes = 0;  ///< number and size of the files in the record
 };
 
 /// The revision of another library that cases were extracted from.
@@ -48,8 +48,9 @@ inline constexpr const char* kPayload = "data";
 /// The bytes of library.json. Equal libraries give equal bytes.
 std::string libraryText(const LibraryFile& library);
 
-/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected. What a schema cannot say
-/// is not looked at: ids may be twice there or out of order, the licence may be empty.
+/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected.
+/// Rules that a schema cannot state are not checked: ids may be twice there or out of order, the
+/// licence may be empty.
 LibraryFile readLibrary(const std::string& text, const std::filesystem::path& file);
 
 /// library.json of a folder. Throws Error(InvalidInput) for a folder without one.

@@ -15,14 +15,15 @@ class LineComparison {
 public:
   LineComparison(const PlainFolder& folder, const std::string& path, const Progress& progress);
 
-  /// What should come next. Throws Error(Cancelled).
+  /// Compares the next text with the file. Throws Error(Cancelled).
   void expect(std::string_view text);
   /// Passes over the lines of the file that have `part` in them, up to the first that has not.
   void skip(std::string_view part);
   /// Nothing should follow.
   void finish();
 
-  /// Why the file is not what was expected: PlainFault for one that is not had, or the first other line.
+  /// Reason why the file is not the expected one: PlainFault for one that is not had, or the first
+  /// other line.
   [[nodiscard]] bool isOther() const { return !m_found.empty(); }
   [[nodiscard]] const std::string& found() const { return m_found; }
   [[nodiscard]] const std::string& expected() const { return m_expected; }

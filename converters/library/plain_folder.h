@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of a folder that somebody else made: nothing is reached through a link, and nothing but a file is read.
+// Files of a folder that somebody else made: nothing is reached through a link, and nothing but a
+// file is read.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +36,7 @@ struct PlainRead {
   std::string content;      ///< if it was to be kept
 };
 
-/// What to read of a file.
+/// Limits of the reading of a file.
 struct WantedRead {
   std::optional<std::uint64_t> bytes;  ///< a file of another size is not read
   bool isKept = false;
@@ -63,7 +64,8 @@ private:
 
 class PlainFolder {
 public:
-  /// Throws Error(InvalidInput) if there is no such folder or it cannot be read. Here a link is followed.
+  /// Throws Error(InvalidInput) if there is no such folder or it cannot be read. Here a link is
+  /// followed.
   explicit PlainFolder(const std::filesystem::path& folder);
 
   /// As it was named.
@@ -76,7 +78,8 @@ public:
   /// Opens a file; null, and `why`, for what is none.
   [[nodiscard]] std::unique_ptr<PlainStream> stream(const std::string& path, PlainRead& why) const;
 
-  /// Calls `see` with each entry of a folder ("" is this one) in the order of the file system, until it gives false.
+  /// Calls `see` with each entry of a folder ("" is this one) in the order of the file system,
+  /// until it gives false.
   [[nodiscard]] PlainRead list(const std::string& path,
                                const std::function<bool(const PlainEntry&)>& see) const;
 

@@ -24,7 +24,7 @@ struct AnatomyCode {
   std::string name;
 };
 
-/// What only people can tell of a case. All texts are UTF-8 without control characters.
+/// Facts of a case that only people know. All texts are UTF-8 without control characters.
 struct CaseAbout {
   std::string title, description;
   std::string anatomy;
@@ -36,7 +36,7 @@ struct CaseAbout {
   std::string attribution, doi, origin, consent, deidentification;
 };
 
-/// What lumen tells of it. Lengths: mm.
+/// Facts of a case that lumen computes. Lengths: mm.
 struct CaseFigures {
   std::size_t branches = 0, aneurysms = 0, nodes = 0;
   double length = 0;
@@ -79,29 +79,31 @@ struct CaseRecord {
 /// The bytes of record.json. Equal records give equal bytes.
 std::string recordText(const CaseRecord& record);
 
-/// A path that spec/library.md does not allow: one that could leave the folder, or clash with another.
+/// A path that spec/library.md does not allow: one that could leave the folder, or clash with
+/// another.
 class PathError : public Error {
 public:
   explicit PathError(const std::string& what) : Error(ErrorKind::InvalidInput, what) {}
 };
 
-/// Throws Error(InvalidInput) with `file`, the place, what was found and what was expected; PathError
-/// for a path. Of the rules that a schema cannot state it checks those of files alone: exactly one
+/// Throws Error(InvalidInput) with `file`, the place, what was found and what was expected;
+/// PathError for a path. Checks those rules beyond the schema that concern files alone: exactly one
 /// case, and sorted paths that all file systems keep apart. Entries of `files` in `passedOver` are
 /// left out.
 CaseRecord readRecord(const std::string& text, const std::filesystem::path& file,
                       const std::set<std::size_t>& passedOver = {});
 
-/// The texts that may tell whose case it is, with their places in the record. Whom to name, licence, DOI and origin are
-/// meant to name people and places.
+/// The texts that may reveal whose case it is, with their places in the record. Credit, licence,
+/// DOI and origin are meant to name people and places.
 std::vector<std::pair<const char*, const std::string*>> textsToLookAt(const CaseAbout& about);
 
-/// What can be told of a case by such a record but not shared under the format's rules: no licence, or no consent or
-/// de-identification of a patient. One sentence, or nothing.
+/// A missing fact without which such a record may exist but not be shared under the format's rules:
+/// no licence, or no consent or de-identification of a patient. One sentence, or nothing.
 std::string missingStatement(const CaseAbout& about);
 
-/// Takes the keys of CaseAbout from an object of their own, such as people write for `lumen library add --about`, or from
-/// a whole record.json; the members of missing keys are those of `known`. Throws as readRecord().
+/// Takes the keys of CaseAbout from an object of their own, such as people write for `lumen library
+/// add --about`, or from a whole record.json; the members of missing keys are those of `known`.
+/// Throws as readRecord().
 CaseAbout readAbout(const std::string& text, const std::filesystem::path& file,
                     CaseAbout known = {});
 

@@ -131,7 +131,8 @@ Json readParameter(const JsonPlace& place) {
   place.refuse("true, false, a number or a text");
 }
 
-/// As the metadata of a case has it: name, tool, parameters, and what begins with x-, which is not kept.
+/// As the metadata of a case has it: name, tool, parameters, and what begins with x-, which is not
+/// kept.
 Json readStep(const JsonPlace& place) {
   const JsonPlace parameters = place.at("parameters");
   Json step = {{"name", plainText(place.at("name"), 255, 1)},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of keys of minisign and OpenSSH, known by their content. What is in a key is the programs' business.
+// Files of keys of minisign and OpenSSH, known by their content. The content of a key is the
+// programs' business.
 #pragma once
 
 #include <cstdint>

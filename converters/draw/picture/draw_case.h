@@ -38,7 +38,7 @@ public:
   /// lies in it; Error(Cancelled).
   void setVolume(const Volume& volume, Progress& progress);
 
-  /// The blended surface, shaded. The same bytes on any number of threads. Throws
+  /// The blended surface, shaded; its bytes do not depend on the number of threads. Throws
   /// Error(InvalidInput) for a case that does not have what is to be the colour; Error(Cancelled).
   [[nodiscard]] Picture draw(const PictureOptions& options, Progress& progress) const;
 

@@ -34,7 +34,7 @@ std::string sideOf(const Eigen::Vector3d& direction);
 /// The sides in the middle of the picture's four edges.
 void drawSides(Picture& picture, const Camera& camera, const Rgb& ink);
 
-/// What colours mean.
+/// Meaning of the colours of a picture.
 struct Legend {
   std::string title;                ///< with the unit
   std::vector<Rgb> colours;         ///< from left to right

@@ -41,7 +41,7 @@ float horizonOf(const TracedSurface& surface, double pixelsPerMm, int x, int y, 
                              surface.depth[other] - surface.depth[pixel]);
     const float distance = to.norm();
     if (distance <= 0) continue;
-    // what is far in front shades little
+    // points far in front shade little
     const auto range = static_cast<float>(2 * reach / pixelsPerMm);
     const float weight = std::max(0.0F, 1 - distance / (2 * range));
     highest = std::max(highest, weight * (normal.dot(to) / distance - 0.1F));

@@ -25,8 +25,8 @@ std::uint8_t codedOf(float light);
 std::vector<float> occlusionOf(const TracedSurface& surface, const Camera& camera, double reach);
 
 /// The picture of a surface that has `samples` times `samples` pixels for each of the background's:
-/// lit from the upper left in front, with the colour of each node, over the background. The same
-/// bits on any number of threads.
+/// lit from the upper left in front, with the colour of each node, over the background. Its bits do
+/// not depend on the number of threads.
 Picture shade(const TracedSurface& surface, const Camera& camera, const std::vector<Light>& colours,
               const Picture& background, int samples);
 

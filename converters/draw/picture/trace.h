@@ -32,7 +32,7 @@ struct TracedSurface {
   [[nodiscard]] bool isHit(std::size_t pixel) const { return depth[pixel] > kNothing; }
 };
 
-/// Where rays meet the wall, as section 4.6 of docs/method.md says: sphere tracing (J. C. Hart,
+/// Points where rays meet the wall, by section 4.6 of docs/method.md: sphere tracing (J. C. Hart,
 /// 1996) of libblob's distance, of each node in its own power cell, so vessels that touch stay
 /// apart.
 class SurfaceTracer {

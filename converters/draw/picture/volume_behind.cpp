@@ -108,7 +108,7 @@ public:
         const double inside = std::min(std::max(place, 0.0), m_size[a] - 1.0);
         const int b = static_cast<int>(inside) / kBrick;
         brick = brick * static_cast<std::size_t>(m_count[a]) + static_cast<std::size_t>(b);
-        // what lies beyond the outermost centres is of the outermost bricks
+        // points beyond the outermost centres are of the outermost bricks
         const double side = step[axis] > 0 ? (b + 1 < m_count[a] ? kBrick * (b + 1.0) : kInfinity)
                                            : (b > 0 ? 1.0 * kBrick * b : -kInfinity);
         if (std::abs(step[axis]) > 1e-12)

@@ -19,9 +19,9 @@ public:
   /// Reads the volume once. Throws Error(Cancelled).
   Projector(const Volume& volume, Progress& progress);
 
-  /// For each pixel; rows from the top; minus infinity beside the volume. The same bits on any
-  /// number of threads, and those of taking every sample: whole bricks are passed over that hold
-  /// nothing greater than what was met. Throws Error(Cancelled).
+  /// One value for each pixel; rows from the top; minus infinity beside the volume. The bits do not
+  /// depend on the number of threads, and are those of taking every sample: whole bricks are passed
+  /// over that hold nothing greater than what was met. Throws Error(Cancelled).
   [[nodiscard]] std::vector<float> greatest(const Camera& camera, Progress& progress) const;
 
 private:

@@ -36,7 +36,8 @@ struct Picture {
   int text(int x, int y, int scale, std::string_view letters, const Rgb& colour);
 };
 
-/// Pixels from the left side of the first letter to the right side of the last, as Picture::text() draws them.
+/// Pixels from the left side of the first letter to the right side of the last, as Picture::text()
+/// draws them.
 int textWidth(std::string_view letters, int scale);
 
 /// The bytes of a PNG file. Throws Error(Failed).

@@ -14,8 +14,8 @@ struct Axis {
   int digits = 0;             ///< behind the decimal point of a mark
 };
 
-/// The axis with one mark besides 0 at least, and at most `most`, which is at least 3. An `end` that is not above 0, or is not finite,
-/// becomes 1.
+/// The axis with one mark besides 0 at least, and at most `most`, which is at least 3. An `end`
+/// that is not above 0, or is not finite, becomes 1.
 Axis axisTo(double end, int most);
 
 /// Fixed-point, whatever the locale; "-" for what is not finite.

@@ -51,7 +51,7 @@ Markup plotCaption(std::size_t number, const BranchInfo& branch) {
   return element("figcaption", caption);
 }
 
-/// Of the nodes of a profile; empty without a volume.
+/// Agreement at the nodes of a profile; empty without a volume.
 std::span<const convert::Agreement> agreementOf(const ReportFacts& facts,
                                                 const convert::TreeProfile& profile) {
   if (!facts.volume || !facts.volume->check) return {};

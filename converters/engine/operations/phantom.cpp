@@ -31,7 +31,7 @@ public:
   }
 
   void addRows(OptionTable& table) override {
-    // with --tree the first name is that of the output: sortArguments() says which is which
+    // with --tree the first name is that of the output: sortArguments() decides which is which
     table
         .argument("NAME", &m_options.name,
                   alternatives(convert::phantomNames()) + "; left out with --tree")

@@ -146,7 +146,7 @@ private:
     return facts;
   }
 
-  /// The page tells names of files, too.
+  /// The page shows names of files, too.
   void addNames(ReportFacts& facts) const {
     std::vector<std::string> names = {facts.caseName};
     if (!m_title.empty()) names.push_back(m_title);

@@ -26,7 +26,7 @@ struct Lattice {
   [[nodiscard]] std::size_t count() const;
 };
 
-/// A grid that is held whole has at most as many samples: 256 MB.
+/// Maximum number of samples of a grid that is held whole: 256 MB.
 inline constexpr std::size_t kMostGridSamples = std::size_t{1} << 25;
 
 /// A box, mm.

@@ -31,7 +31,7 @@ struct FlowJoint {
 /// A vessel without forks. Its radius changes linearly between points.
 struct FlowSegment {
   std::string name;          ///< unique: the branch's label; from its second part on LABEL_2, ...
-  std::uint32_t branch = 0;  ///< of the case's tree: that of its last point
+  std::uint32_t branch = 0;  ///< index in the case's tree: the branch of its last point
   std::uint32_t from = 0, to = 0;       ///< joints
   std::vector<Eigen::Vector3d> points;  ///< two at least, mm, LPS
   std::vector<double> radii;            ///< at them, mm

@@ -39,7 +39,7 @@ struct ExportResult {
   std::vector<NamedEnd> ends;            ///< under the names that the files use
   std::optional<SurfaceReport> surface;  ///< of the surface among the files
   std::vector<std::string> remarks;      ///< sentences for the answer
-  std::vector<std::string> losses;       ///< sentences: what is in the case and not in the folder
+  std::vector<std::string> losses;       ///< sentences: parts of the case that the folder lacks
   /// README.md: how to start, and what to know; Markdown, without headings of level 1.
   std::string start;
   /// README.md: rows of its table for files that are many, or made later.

@@ -41,12 +41,12 @@ public:
 
   /// The distance to all vessels together, which one grid can hold: the nearest node answers, and
   /// every branch within whose doubled radius a point lies; the least counts. `points` are near
-  /// each other, such as a part of a grid's row; `answers` has as many entries. What lies beyond
-  /// `band`, mm, may be answered by the band.
+  /// each other, such as a part of a grid's row; `answers` has one entry for each. A distance
+  /// beyond `band`, mm, may be answered by the band.
   void ofAll(std::span<const Place> points, double band, std::span<WallDistance> answers) const;
 
   /// The distance to one part of the tree: from its node of least power a cursor follows the tree,
-  /// so vessels that merely touch have no say.
+  /// so vessels that merely touch do not count.
   void ofRegion(const TreeRegion& region, std::span<const Place> points, double band,
                 std::span<WallDistance> answers) const;
 

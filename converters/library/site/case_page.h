@@ -13,7 +13,7 @@ namespace lumen::convert {
 std::string casePage(const LibraryFile& library, const CaseRecord& record,
                      const std::string& signature);
 
-// Its sections, in case_sections.cpp; each is complete HTML, empty where there is nothing to tell.
+// Its sections, in case_sections.cpp; each is complete HTML, empty where there is nothing to show.
 
 std::string pictureSection(const CaseRecord& record);
 std::string factsSection(
@@ -25,8 +25,8 @@ std::string filesSection(const CaseRecord& record);
 std::string citeSection(const LibraryFile& library, const CaseRecord& record);
 std::string provenanceSection(const CaseRecord& record);
 
-/// Commands of a shell that fetch all files of the case and compare them with their digests. The address of the
-/// library is left to fill in; a script does that where the page came from a server.
+/// Commands of a shell that fetch all files of the case and compare them with their digests. The
+/// address of the library is left to fill in; a script does that where the page came from a server.
 std::string fetchCommands(const CaseRecord& record);
 
 }  // namespace lumen::convert

@@ -29,7 +29,8 @@ std::string_view takeNumber(const std::string& text, std::size_t& at) {
   return std::string_view(text).substr(begin, at - begin);
 }
 
-/// Less than, equal to or greater than zero, as a comes before, with or after b. Both in lower case.
+/// Less than, equal to or greater than zero, as a comes before, with or after b. Both in lower
+/// case.
 int compareNaturally(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {

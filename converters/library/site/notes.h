@@ -8,7 +8,8 @@
 
 namespace lumen::convert {
 
-/// How to verify the library, on any system. A page cannot do it: who changes a file can change the page.
+/// Steps to verify the library, on any system. A page cannot do it: whoever changes a file can
+/// change the page.
 std::string howToVerify(const LibraryFile& library, const std::string& root,
                         const std::string& signature);
 

@@ -16,9 +16,10 @@ struct CasePictures {
   std::vector<std::string> others;  ///< all that are neither
 };
 
-/// From files of the role picture that a browser draws (PNG, JPEG, WebP). The first is picture.png, or by path the
-/// first that is no frame. A turntable is three or more files that differ in three digits at the end, as
-/// `lumen picture --turntable` and `lumen library add --turntable` name them.
+/// Pictures from files of the role picture that a browser draws (PNG, JPEG, WebP). The first is
+/// picture.png, or by path the first that is no frame. A turntable is three or more files that
+/// differ in three digits at the end, as `lumen picture --turntable` and `lumen library add
+/// --turntable` name them.
 CasePictures picturesOf(const CaseRecord& record);
 
 }  // namespace lumen::convert

@@ -32,7 +32,7 @@ struct ContactScene {
     placeSamples(*contact->l_interpolation, state->readPositions().ref(), false, samples, points);
     return points;
   }
-  /// Of the frames from the axis of the tube at y, mm.
+  /// Greatest distance of the frames from the axis of the tube at y, mm.
   double farthest(double y) {
     double most = 0;
     for (const auto& frame : state->readPositions())
@@ -172,9 +172,10 @@ std::string freeBeam(double friction) {
   </Node>)";
 }
 
-// Coulomb on an incline: with gravity g at an angle to the normal the beam sticks if its tangent is below mu, and else
-// slides with the acceleration g (sin - mu cos). Measured between the steps 5, 25 and 45, so that how it began does not
-// count. The fitted wall is not quite straight: a hundredth of a millimetre.
+// Coulomb on an incline: with gravity g at an angle to the normal the beam sticks if its tangent is
+// below mu, and else slides with the acceleration g (sin - mu cos). Measured between the steps 5,
+// 25 and 45, so that how it began does not count. The fitted wall is not quite straight: a
+// hundredth of a millimetre.
 constexpr double kGravity = 100, kDt = 0.01;
 
 double acceleration(double friction, double angle) {

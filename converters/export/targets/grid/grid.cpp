@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kBorder = 1,
                  kBorderSamples = 3;  // mm, and samples, that a grid goes on behind the wall
 constexpr double kVdbBand = 3;        // samples, as OpenVDB's own level sets have
-constexpr std::size_t kMostBranches = 65535;  // that numbers of 16 bits tell apart
+constexpr std::size_t kMostBranches = 65535;  // numbers of 16 bits, without 0
 
 const char* const kDistances = "distances to the wall, negative in the lumen";
 const char* const kBranches = "in which branch's lumen a sample is: the numbers of branches.json";

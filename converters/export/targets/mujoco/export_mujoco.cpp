@@ -30,9 +30,9 @@ constexpr std::size_t kCells = 64;
 constexpr double kCellRadii = 0.4;
 
 // MuJoCo finds contacts of distance fields by a search that misses shallow ones, so contacts are
-// soft, as many steps: a wire that is pressed to the wall rests some hundredths of a millimetre in
-// it. Harder, it flickers, and snaps through the wall. Damping is within the contact solver
-// (eulerdamp), where it does not make contacts soft.
+// soft, over kContactSteps steps: a wire that is pressed to the wall rests some hundredths of a
+// millimetre in it. Harder, it flickers, and snaps through the wall. Damping is within the contact
+// solver (eulerdamp), where it does not make contacts soft.
 constexpr double kContactSteps = 20;
 
 struct Solid {
@@ -151,7 +151,7 @@ ExportResult exportMujoco(const ExportInput& input) {
   Solid solid = solidOf(input);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
   Wire wire = wireFor(insertion);
-  // what the wire cannot touch costs memory and time, most of them in a large tree
+  // walls out of the wire's reach cost memory and time, and are most of a large tree
   solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree,
                                     insertion.node, wire.length() * 1e3);
   const std::vector<SurfaceMesh> pieces = piecesOf(solid.surface.mesh, kCells, kCellRadii);

@@ -92,7 +92,8 @@ std::string inputCards(const OneDNetwork& network, const std::string& name) {
              numberText(kDyn * blood::kStiffness3))}});
 }
 
-/// The end of a vessel of openBF: what a wave meets, the rest of the resistance, and a compliance.
+/// The end of a vessel of openBF: the impedance that a wave meets, the rest of the resistance, and
+/// a compliance.
 std::string windkessel(const OneDVessel& vessel, double stiffness) {
   const double r = vessel.outRadius, area = kPi * r * r;
   // c^2 = (A / rho) dp/dA at the mean pressure, of the wall that blood.h states

@@ -17,7 +17,7 @@ struct SceneDatum {
 /// A node, or a component of one.
 struct SceneItem {
   std::string type;     ///< a component's class; "Node" for a node
-  std::string comment;  ///< what it does, with units; may be empty
+  std::string comment;  ///< its purpose, with units; may be empty
   std::vector<SceneDatum> data{};
   std::vector<SceneItem> children{};  ///< of a node, in the order of their creation
 

@@ -12,10 +12,11 @@
 
 namespace lumensofa {
 
-/// Contact with friction of an instrument's beams with the wall of a case. Samples along each beam are asked for
-/// their distance to the wall; those near it get one row (normal), or three with friction, of the Lagrangian
-/// constraints. Each sample has a cursor of its own, which follows the tree; when
-/// beams are added or nodes placed anew, cursors go on by the abscissa along the instrument.
+/// Contact with friction of an instrument's beams with the wall of a case. Samples along each beam
+/// are asked for their distance to the wall; those near it get one row (normal), or three with
+/// friction, of the Lagrangian constraints. Each sample has a cursor of its own, which follows the
+/// tree; when beams are added or nodes placed anew, cursors go on by the abscissa along the
+/// instrument.
 class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Rigid3> {
 public:
   SOFA_CLASS(BeamBlobContact, SOFA_TEMPLATE(sofa::core::behavior::Constraint, Rigid3));
