@@ -41,7 +41,7 @@ private:
   const engine::Engine& m_commands;
   const engine::BoundCommand& m_command;
   const OptionTable& m_common;
-  mutable std::map<std::string, std::string> m_places;  ///< by the option's name with its dashes
+  mutable std::map<std::string, std::string> m_places;  ///< keys: the option's name with its dashes
 };
 
 }  // namespace lumen::cli

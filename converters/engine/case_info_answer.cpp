@@ -83,7 +83,7 @@ std::string sourceText(const formats::SourceVolume& source) {
   return text.str();
 }
 
-/// As a stream writes it.
+/// A number as a stream writes it.
 std::string plain(double value) {
   std::ostringstream text;
   text << value;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a mesh lacks of the surface that it was made from.
+// Parts that a mesh lacks of the surface that it was made from.
 #pragma once
 
 #include <string>

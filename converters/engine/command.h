@@ -24,7 +24,7 @@ struct Answer {
   Json json;
   std::string text;      ///< whole lines
   int code = 0;          ///< exit code
-  bool isAsked = false;  ///< the text is what the command is for, so even --quiet prints it
+  bool isAsked = false;  ///< the text is the command's purpose, so even --quiet prints it
 };
 
 class Engine;
@@ -65,7 +65,7 @@ struct BoundCommand {
   std::unique_ptr<OptionTable> table;
 };
 
-/// The commands that can be asked for, in the order of the help.
+/// The program's commands, in the order of the help.
 class Engine {
 public:
   using Maker = std::function<std::unique_ptr<Command>()>;
@@ -78,7 +78,7 @@ public:
   /// Runs the command. Throws Error(Usage) for a command, an argument or an option that there is
   /// not, or whose value is not allowed, and what the command throws.
   [[nodiscard]] Answer run(const Operation& operation, const Surroundings& around) const;
-  /// Runs a command whose rows are set. Throws what the command throws.
+  /// Runs a command whose rows are set. Throws as the command.
   [[nodiscard]] Answer run(const BoundCommand& bound, const Surroundings& around) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command reads and writes by name, and what it refuses before any work.
+// Files that a command reads and writes by name, and refusals before any work.
 #pragma once
 
 #include "converters/engine/app_alias.h"
@@ -17,7 +17,7 @@
 namespace lumen::engine {
 
 /// A case in either encoding, by its content. Throws Error(InvalidInput) with the file's name and
-/// what is wrong in it.
+/// the fault.
 formats::Case readCase(const std::filesystem::path& file);
 /// A case in either encoding, by its content, with the bytes of the whole file. Throws as
 /// readCase().
@@ -48,7 +48,7 @@ void writeText(std::string_view text, const std::filesystem::path& file);
 /// as "seeds file".
 void requireInput(const std::filesystem::path& path, std::string_view what);
 
-/// Throws Error(Usage) if `output` is what only an input can be, a volume or seeds, and
+/// Throws Error(Usage) if `output` is a file that only an input can be, a volume or seeds, and
 /// Error(InvalidInput) if `input` is missing while `output` could be one: they look swapped.
 void requireOrder(const std::filesystem::path& input, const std::filesystem::path& output);
 

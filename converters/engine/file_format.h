@@ -27,11 +27,11 @@ namespace lumen::engine {
 
 enum class FormatKind { Volume, Case, Mesh, Centerline };
 
-/// How a case is written; each format takes what concerns it.
+/// Options for writing a case; each format takes those that concern it.
 struct OutputOptions {
   formats::EncodeOptions encoding;
-  convert::PolygoniseOptions polygonise;  ///< of patches
-  convert::ClosedSurfaceOptions surface;  ///< of the closed surface
+  convert::PolygoniseOptions polygonise;  ///< options of patches
+  convert::ClosedSurfaceOptions surface;  ///< options of the closed surface
   convert::WriteMeshOptions mesh;
   bool patches = false;  ///< the surface in pieces
 };
@@ -57,7 +57,7 @@ struct FileFormat {
   std::string_view name;   ///< as --from and --to take it
   std::string_view title;  ///< as a help text calls it; rows of one title are listed once
   FormatKind kind;
-  std::vector<std::string_view> endings{};  ///< of a name, lower case; empty: a folder
+  std::vector<std::string_view> endings{};  ///< endings of a name, lower case; empty: a folder
   CaseReader readCase = nullptr;
   VolumeReader readVolume = nullptr;
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What checks of libraries answer.
+// Answers of checks of libraries.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A volume of labels as an input: which of them are vessels, and what they are called.
+// A volume of labels as an input: the labels that are vessels, and their names.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct MaskArguments {
   std::string labels;                 ///< or "N=NAME,N=NAME"
   /// The volume holds labels.
   [[nodiscard]] bool isGiven() const { return isMask || label || !labels.empty(); }
-  /// Those chosen; empty: all. Throws Error(Usage) for what cannot be read.
+  /// The labels chosen; empty: all. Throws Error(Usage) for a text that cannot be read.
   [[nodiscard]] convert::LabelNames names() const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The facts that `lumen info` gives of a mesh.
+// Facts of a mesh for `lumen info`.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ struct MeshArguments {
   std::string centerline;       ///< a file; empty: the tree is found
   std::string centerlineFrame;  ///< lps or ras; empty: the file's, or the mesh's
   std::string centerlineUnit;   ///< empty: the file's, or the mesh's
-  SceneArguments scene;         ///< of a scene
+  SceneArguments scene;         ///< options of a scene
 };
 
 /// Tree and wall points of the mesh in `file`. Repairs and assumptions become warnings. Throws

@@ -54,7 +54,7 @@ std::string_view asText(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// As a name below files/.
+/// Path of a file below files/.
 std::string pathOfFile(const std::string& file) {
   return "files/" + fs::path(file).filename().string();
 }

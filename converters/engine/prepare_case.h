@@ -21,11 +21,11 @@ struct CaseWishes {
   bool surface = true;               ///< surface.glb
   std::vector<std::string> views;    ///< picture-VIEW.png each; thumbnail.png with any
   int turntable = 0;                 ///< pictures around the case
-  std::vector<std::string> targets;  ///< of lumen export
+  std::vector<std::string> targets;  ///< targets of lumen export
   bool report = false;               ///< report.html
   bool viewer = false;               ///< view.html: the viewer with the case, as one file
-  std::vector<std::string> files;    ///< to come along, below files/
-  std::string recipe;                ///< digest of what it was made from, for `lumen library build`
+  std::vector<std::string> files;    ///< extra files, below files/
+  std::string recipe;                ///< digest of the inputs, for `lumen library build`
 };
 
 /// The words that views may have.

@@ -20,7 +20,7 @@ std::string idOfCase(const std::filesystem::path& caseFile);
 std::optional<convert::CaseRecord> replacedVersion(const std::filesystem::path& library,
                                                    const std::string& id);
 
-/// Adds to `wishes` what the version before has: its exports, pages, pictures and files.
+/// Adds to `wishes` the parts of the version before: its exports, pages, pictures and files.
 /// `keepsViews`, `keepsTurntable`: no other number of them is asked for.
 void keepWishes(const convert::CaseRecord& before, const std::filesystem::path& library,
                 bool keepsViews, bool keepsTurntable, CaseWishes& wishes);

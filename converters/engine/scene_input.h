@@ -18,8 +18,7 @@ struct SceneArguments {
 
 /// The mesh that `file` loads as its vessels, where the scene places it; its axes are taken as LPS.
 /// Throws Error(InvalidInput) and Error(Unsupported) for a file that is no scene, does not state
-/// which mesh the vessels are, or takes it from elsewhere than it may; and what the mesh's reader
-/// throws.
+/// which mesh the vessels are, or takes it from elsewhere than it may; and as the mesh's reader.
 convert::MeshFile readSceneMesh(const std::filesystem::path& file, const SceneArguments& arguments);
 
 }  // namespace lumen::engine

@@ -41,7 +41,7 @@ constexpr ContentMask kTree = 1 << 5;  ///< a centerline
 struct Situation {
   ContentMask input = kAnyContent;
   ContentMask output = kAnyContent;
-  std::string inputName, outputName;  ///< of the files, for messages
+  std::string inputName, outputName;  ///< names of the files, for messages
 };
 
 /// One bit: the content of an input of this format. A case is taken as it is.

@@ -12,8 +12,8 @@
 
 namespace lumen::engine {
 
-/// Warns of what a user should look at: ends that are not flat, vessels that had to be opened or
-/// cut.
+/// Warns of parts that a user should look at: ends that are not flat, vessels that had to be opened
+/// or cut.
 void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
                    Progress& progress);
 

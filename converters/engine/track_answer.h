@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What became of seeds, for the answers of track and convert.
+// Outcome of seeds, for the answers of track and convert.
 #pragma once
 
 #include <string>

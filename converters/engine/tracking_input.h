@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands that read a volume have in common: the volume, the seeds, the tracks.
+// Inputs of the commands that read a volume: the volume, the seeds, the tracks.
 #pragma once
 
 #include <filesystem>
@@ -18,12 +18,12 @@ namespace lumen::engine {
 convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
                                        const VolumeArguments& volume, Progress& progress);
 
-/// The volume in `file`, read as `format` whatever the name; shows a stage of progress. Assumptions
+/// The volume in `file`, read as `format` whatever its name; shows a stage of progress. Assumptions
 /// of the reader about facts that the file leaves open become warnings.
 convert::Volume readVolumeFile(const std::filesystem::path& file, const FileFormat& format,
                                const VolumeArguments& volume, Progress& progress);
 
-/// The volume in `file`, read as `format` whatever the name, for tracking; shows a stage of
+/// The volume in `file`, read as `format` whatever its name, for tracking; shows a stage of
 /// progress. Assumptions of the reader and reasons to doubt the voxels become warnings.
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress);

@@ -18,7 +18,7 @@ struct BuildOptions {
   /// Does an operation in a process of its own, which appends its messages to a file.
   std::function<OperationEnd(const Operation&, const std::filesystem::path& log, const Progress&)>
       run;
-  std::string version;         ///< of lumen: another one makes every case again
+  std::string version;         ///< version of lumen: another one makes every case again
   std::filesystem::path work;  ///< where rows are made; a run continues another's files
   int jobs = 1;                ///< rows at once
   std::string day;             ///< YYYY-MM-DD: of the revisions that come of it
@@ -28,7 +28,7 @@ enum class RowEnd : std::uint8_t { Made, Kept, Failed };
 
 /// Outcome of a row.
 struct RowResult {
-  std::size_t line = 0;  ///< where it begins in the list
+  std::size_t line = 0;  ///< its first line in the list
   std::string id;
   RowEnd end = RowEnd::Failed;
   double seconds = 0;

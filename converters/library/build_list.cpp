@@ -51,7 +51,7 @@ std::string linePrefix(std::size_t line) {
   return "line " + std::to_string(line) + ": ";
 }
 
-/// Rows and cells as libcsv finds them; throws what breaks RFC 4180.
+/// Rows and cells as libcsv finds them; throws for breaches of RFC 4180.
 std::vector<TableRow> rowsOf(const std::string& text, const std::string& name) {
   csv_parser parser{};
   if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL) != 0)
@@ -152,7 +152,7 @@ void requireFile(const fs::path& file, const std::string& column) {
     throw invalidInput(column + ": there is no " + formats::printable(file.string()));
 }
 
-/// Throws what is wrong, without the place.
+/// A row of the list; throws with the fault, without the place.
 BuildRow rowOf(const Cells& names, const Cells& cells, const fs::path& folder) {
   if (cells.size() > names.size())
     throw invalidInput("found " + std::to_string(cells.size()) + " cells, expected " +

@@ -11,12 +11,12 @@ namespace lumen::convert {
 
 /// A case to be made.
 struct BuildRow {
-  std::size_t line = 0;              ///< of the file where the row begins; the first is 1
+  std::size_t line = 0;              ///< the file's line where the row begins; the first is 1
   std::filesystem::path input;       ///< volume, mesh, centerline or case; or a folder of DICOM
   std::filesystem::path seeds;       ///< may be empty
   std::string id;                    ///< may be empty: made from the input's digest
-  std::vector<std::string> targets;  ///< of lumen export
-  std::map<std::string, std::string> options;  ///< of lumen convert: "--crop" and its value
+  std::vector<std::string> targets;  ///< targets of lumen export
+  std::map<std::string, std::string> options;  ///< options of lumen convert: "--crop" and its value
   std::string about;  ///< the user's statements: JSON, as `lumen library add --about` reads it
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in the folder of a case, beside what its record lists.
+// Entries in the folder of a case, against the list of its record.
 #pragma once
 
 #include <set>
@@ -31,7 +31,7 @@ struct FolderState {
 FolderState walkFolder(const PlainFolder& library, const std::string& folder,
                        const ExpectedFiles& expected, const std::string& caseId, std::size_t most);
 
-/// Tells what is neither file nor folder below `folder`, whose files nothing lists.
+/// Reports entries that are neither file nor folder below `folder`, whose files nothing lists.
 void checkKinds(const PlainFolder& library, const std::string& folder, FaultList& faults);
 
 }  // namespace lumen::convert

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changing a library in one step: whoever looks, whenever it is killed, finds the library of before
-// or that of after.
+// A change of a library in one step: a reader finds the library of before or that of after,
+// whenever the change is killed.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ public:
   /// Error(InvalidInput) for a library whose ids are not in order.
   LibraryChange(const std::filesystem::path& library, Progress& progress);
 
-  /// As it is before the change.
+  /// The library before the change.
   [[nodiscard]] const LibraryFile& library() const { return m_library; }
 
   /// The case is to be in the library, in place of one with its id. `files` is a folder with

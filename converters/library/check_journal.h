@@ -29,7 +29,7 @@ public:
   [[nodiscard]] bool isUsed() const { return m_descriptor.isOpen(); }
   /// Whether the case was found whole when its files had this `mark`, a digest.
   [[nodiscard]] bool knows(const std::string& caseId, const std::string& mark) const;
-  /// Keeps it. Throws Error(Failed).
+  /// Adds a case that is whole. Throws Error(Failed).
   void add(const std::string& caseId, const std::string& mark);
 
 private:

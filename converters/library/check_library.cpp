@@ -112,7 +112,7 @@ struct Checked {
   std::shared_ptr<CaseCheck> check;  // TBB copies what goes from filter to filter
 };
 
-/// All cases, in parallel, and what follows from them, in order.
+/// All cases, in parallel, and the checks that follow from them, in order.
 void checkCases(const PlainFolder& folder, const LibraryFile& library, CheckJournal& journal,
                 BagCheck& bag, LibraryCheck& result, Progress& progress) {
   std::size_t next = 0;

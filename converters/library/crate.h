@@ -27,7 +27,7 @@ CrateEntity reference(std::string_view id);
 /// only entity without a comma before it.
 CrateEntity descriptor();
 
-/// By which a licence expression is referred to: its page at SPDX, or a name within the document.
+/// Identifier that refers to a licence expression: its page at SPDX, or a name within the document.
 std::string licenceId(const std::string& expression);
 CrateEntity licenceEntity(const std::string& expression);
 

@@ -15,7 +15,7 @@ namespace lumen::convert {
 /// byte for byte. `library` gives its id, texts, licence and date; its origin becomes the revision
 /// of `from`. Throws Error(Usage) for an id that `from` lacks, Error(InvalidInput) for a file that
 /// is not the one that its record states, Error(Failed) where something exists already,
-/// Error(Cancelled). Gives the library as it is then.
+/// Error(Cancelled). Returns the new library.
 LibraryFile extractCases(const std::filesystem::path& from, const std::filesystem::path& to,
                          const std::vector<std::string>& ids, LibraryFile library,
                          Progress& progress);

@@ -42,7 +42,7 @@ private:
   formats::PendingFolder m_workspace;
 };
 
-/// By the ending of a file's name; "application/octet-stream" for one that is not known.
+/// Media type by the ending of a file's name; "application/octet-stream" for one that is not known.
 std::string mediaTypeOf(const std::string& path);
 
 }  // namespace lumen::convert

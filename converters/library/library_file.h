@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in a library: library.json (spec/library.md).
+// Contents of a library: library.json (spec/library.md).
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace lumen::convert {
 
-/// A case of a library, and what its record must be.
+/// A case of a library, with facts that its record must match.
 struct LibraryEntry {
   std::string id;
   std::uint32_t version = 1;
@@ -24,14 +24,14 @@ struct LibraryEntry {
 struct LibraryOrigin {
   std::string id;  ///< UUID
   std::uint64_t revision = 1;
-  std::string sha256;  ///< of its library.json
+  std::string sha256;  ///< digest of its library.json
 };
 
 struct LibraryFile {
   std::string id;  ///< UUID
   std::uint64_t revision = 1;
   std::optional<std::string> previous;  ///< SHA-256 of library.json of the revision before
-  std::optional<LibraryOrigin> origin;  ///< of a library that lumen library extract made
+  std::optional<LibraryOrigin> origin;  ///< origin of a library that lumen library extract made
   std::string title, description, publisher;
   std::string licence;  ///< an SPDX expression
   std::string date;     ///< YYYY-MM-DD

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns of those who read and those who change a library.
+// Turns of programs that read and programs that change a library.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A text file beside what should be in it, line by line, of which neither is in memory as a whole.
+// Comparison of a text file with its expected text, line by line; neither is in memory as a whole.
 #pragma once
 
 #include <memory>
@@ -35,11 +35,11 @@ private:
 
   std::unique_ptr<PlainStream> m_stream;
   const Progress& m_progress;
-  std::string m_buffer;  ///< of the file, from m_at on
+  std::string m_buffer;  ///< bytes of the file, from m_at on
   std::size_t m_at = 0;
   std::string m_line;  ///< the next of the file, if m_hasLine
   bool m_hasLine = false;
-  std::string m_partial;  ///< of what is expected: a line that has not ended
+  std::string m_partial;  ///< expected text of a line that has not ended
   std::size_t m_number = 0;
   std::string m_found, m_expected;
 };

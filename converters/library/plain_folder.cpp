@@ -39,7 +39,7 @@ PlainRead fault(PlainFault kind, std::string found) {
   return read;
 }
 
-/// Why opening `name` in `folder` failed with `code`.
+/// Reason why opening `name` in `folder` failed with `code`.
 PlainRead openFault(int folder, const char* name, int code) {
   if (code == ENOENT) return fault(PlainFault::Missing, "nothing");
   struct stat status {};

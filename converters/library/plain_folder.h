@@ -19,7 +19,7 @@
 
 namespace lumen::convert {
 
-/// Why a file is not had.
+/// Reason why a file cannot be had.
 enum class PlainFault : std::uint8_t {
   None,
   Missing,
@@ -29,10 +29,10 @@ enum class PlainFault : std::uint8_t {
 
 struct PlainRead {
   PlainFault fault = PlainFault::None;
-  std::string found;        ///< of a fault: "a symbolic link", "Permission denied"
+  std::string found;        ///< the fault: "a symbolic link", "Permission denied"
   std::uint64_t bytes = 0;  ///< the size of the file
   bool isRead = false;      ///< it has the size that was wanted, and was read
-  std::string sha256;       ///< of what was read
+  std::string sha256;       ///< digest of the bytes read
   std::string content;      ///< if it was to be kept
 };
 
@@ -45,7 +45,7 @@ struct WantedRead {
 /// A name in a folder.
 struct PlainEntry {
   std::string name;
-  struct stat status {};  ///< of the entry itself, not of what it leads to
+  struct stat status {};  ///< the entry's own, not its link's target's
 };
 
 /// "a file", "a folder", "a symbolic link", "a named pipe", "a device".
@@ -68,14 +68,14 @@ public:
   /// followed.
   explicit PlainFolder(const std::filesystem::path& folder);
 
-  /// As it was named.
+  /// The path as it was named.
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
 
   /// Reads a file; `path` is relative, with a / between folders. Throws Error(Cancelled) only.
   [[nodiscard]] PlainRead read(const std::string& path, const WantedRead& wanted,
                                const Progress& progress) const;
 
-  /// Opens a file; null, and `why`, for what is none.
+  /// Opens a file; null, with the reason in `why`, for an entry that is none.
   [[nodiscard]] std::unique_ptr<PlainStream> stream(const std::string& path, PlainRead& why) const;
 
   /// Calls `see` with each entry of a folder ("" is this one) in the order of the file system,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a case is made from, as one digest: equal recipes give equal cases.
+// Inputs of a case as one digest: equal recipes give equal cases.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace lumen::convert {
 /// SHA-256 of an input: of a file; of all files of a folder, with their names; of a header and the
 /// files beside it that it names, or names by a pattern, or that are called alike, where it is one
 /// of a format that keeps its voxels or vertices apart (.nhdr, .mhd, .hdr, .img, .gltf). Throws
-/// Error(Failed) for what cannot be read, Error(Cancelled).
+/// Error(Failed) for a file that cannot be read, Error(Cancelled).
 std::string digestOfInput(const std::filesystem::path& input, const Progress& progress);
 
 struct Recipe {

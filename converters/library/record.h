@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a library states of one case: data/ID/record.json (spec/library.md).
+// Record of one case of a library: data/ID/record.json (spec/library.md).
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ struct CaseFigures {
 /// A place where an instrument enters, or a vessel ends. mm, LPS.
 struct CasePlace {
   std::string name;
-  std::string kind;  ///< of ends: inlet or outlet
+  std::string kind;  ///< kind of an end: inlet or outlet
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction =
       Eigen::Vector3d::UnitX();  ///< unit; insertions: into, ends: out of the vessel
@@ -58,7 +58,7 @@ struct CasePlace {
 struct RecordedFile {
   std::string path;    ///< relative to the folder of the record
   std::string role;    ///< case, surface, export, picture, report, other
-  std::string target;  ///< of an export
+  std::string target;  ///< target of an export
   std::string media;   ///< media type
   std::uint64_t bytes = 0;
   std::string sha256;
@@ -107,7 +107,7 @@ std::string missingStatement(const CaseAbout& about);
 CaseAbout readAbout(const std::string& text, const std::filesystem::path& file,
                     CaseAbout known = {});
 
-/// Whether spec/library.md allows it, and in words what it allows.
+/// Rules of spec/library.md for ids and paths, in words; isCaseId() and isRecordedPath() test them.
 inline constexpr const char* kCaseIdRule =
     "1 to 64 of a to z, 0 to 9 and -, not beginning with - and no device of Windows such as con";
 inline constexpr const char* kPathRule =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// record.h: how ids and paths are spelt, and what must be stated.
+// record.h: spelling of ids and paths, and statements that a record needs.
 #include <algorithm>
 #include <string_view>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a record states of a case that follows from the case itself.
+// Facts of a case's record that follow from the case itself.
 #pragma once
 
 #include <string>

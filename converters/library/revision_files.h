@@ -30,8 +30,8 @@ void linkFile(const std::filesystem::path& from, const std::filesystem::path& to
 void makeFolderLike(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Links everything below `from` below `to`, which exists, except entries of `from` itself that
-/// `skips` names and what a killed writer left there. Throws Error(InvalidInput) for a device or a
-/// pipe, Error(Failed) otherwise.
+/// `skips` names and files that a killed writer left there. Throws Error(InvalidInput) for a device
+/// or a pipe, Error(Failed) otherwise.
 void linkAll(const std::filesystem::path& from, const std::filesystem::path& to,
              const std::function<bool(const std::string& name)>& skips = {});
 

@@ -21,7 +21,7 @@ inline constexpr const char* kSignatureNamespace = "lumen-library";
 struct Signer {
   std::string program;   ///< "minisign" or "OpenSSH"
   std::string key;       ///< minisign's id of the key, or OpenSSH's "SHA256:..."
-  std::string identity;  ///< of a list of allowed signers; may be empty
+  std::string identity;  ///< name in a list of allowed signers; may be empty
 };
 
 struct Signature {
@@ -29,7 +29,7 @@ struct Signature {
   std::string bytes;
   Signer signer;
   bool isVerified =
-      false;  ///< with the public key beside the secret one, or by the key that it holds
+      false;  ///< checked with the public key beside the secret one, or by the key that it holds
 };
 
 /// Throws Error(InvalidInput) for a key that cannot sign.
@@ -44,14 +44,14 @@ Signature sign(const std::string& libraryText, const LibraryFile& library, const
 enum class Trust : std::uint8_t {
   Trusted,
   Unsigned,   ///< there is no signature of the key's kind
-  Untrusted,  ///< by a key that is not trusted
+  Untrusted,  ///< the key is not trusted
   Broken,     ///< no signature, or one of other bytes
 };
 
 struct TrustAnswer {
   Trust trust = Trust::Broken;
   Signer signer;      ///< as far as it is known
-  std::string found;  ///< why it is not trusted, and what would be
+  std::string found;  ///< reason why it is not trusted; `expected`: the trusted state
   std::string expected;
 };
 

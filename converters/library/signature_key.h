@@ -22,17 +22,17 @@ enum class KeyKind : std::uint8_t {
 struct KeyFile {
   std::filesystem::path file;  ///< as it was named
   KeyKind kind = KeyKind::MinisignPublic;
-  std::string id;  ///< of a public key of minisign: 16 hexadecimal digits, as it prints them
-  std::vector<std::string> keys;  ///< of OpenSshPublic: "ssh-ed25519 AAAA..."
+  std::string id;  ///< id of a public key of minisign: 16 hexadecimal digits, as it prints them
+  std::vector<std::string> keys;  ///< keys of OpenSshPublic: "ssh-ed25519 AAAA..."
 };
 
-/// Throws Error(InvalidInput) for what is none of these.
+/// Throws Error(InvalidInput) for a file of another kind.
 KeyFile readKeyFile(const std::filesystem::path& file);
 
 /// "a secret key of minisign"
 std::string keyKindText(KeyKind kind);
 
-/// The id of the key that made a signature of minisign; nothing for what is none.
+/// The id of the key that made a signature of minisign; nothing for another text.
 std::optional<std::string> minisignSigner(const std::string& signature);
 
 }  // namespace lumen::convert

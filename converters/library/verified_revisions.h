@@ -18,7 +18,7 @@ std::filesystem::path defaultStateFile();
 
 struct VerifiedRevision {
   std::uint64_t revision = 0;
-  std::string sha256;  ///< of library.json
+  std::string sha256;  ///< digest of library.json
 };
 
 /// The state file, which nobody else changes while this lives: two verifications at once take

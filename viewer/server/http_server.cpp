@@ -91,7 +91,7 @@ private:
   const socket_t m_socket;
   const Clock::time_point m_start = Clock::now();
   std::array<char, 1 << 14> m_buffer{};
-  std::size_t m_begin = 0, m_end = 0;  ///< of the buffer: bytes that nobody has read yet
+  std::size_t m_begin = 0, m_end = 0;  ///< bytes of the buffer that nobody has read yet
   std::uint64_t m_arrived = 0;
 };
 

@@ -29,7 +29,7 @@ constexpr NumberType numberType() {
   return NumberType::I32;
 }
 
-/// Gathers what a pack holds. Arrays are copied.
+/// Gathers the members of a pack. Arrays are copied.
 class PackWriter {
 public:
   /// A member of the JSON beside the arrays.

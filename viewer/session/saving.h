@@ -50,7 +50,7 @@ private:
 
   mutable std::mutex m_mutex;  ///< guards all that follow
   std::filesystem::path m_target;
-  FileStamp m_stamp;               ///< of the target
+  FileStamp m_stamp;               ///< stamp of the target
   std::filesystem::path m_keepAt;  ///< counts where there is no target
   std::shared_ptr<const formats::Case> m_case;
   std::shared_ptr<const Seeds> m_seeds;

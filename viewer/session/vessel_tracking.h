@@ -25,7 +25,7 @@ struct TrackedCase {
 };
 
 /// The case of the document with the vessels of these seeds, or a new case. The document has a
-/// volume. Throws what the stages throw.
+/// volume. Throws as the stages.
 TrackedCase trackedFrom(const Document& document, const Seeds& seeds, TrackingCache& cache,
                         const SessionOptions& options, Progress& progress);
 

@@ -10,7 +10,7 @@
 
 namespace lumen::convert {
 
-/// From which side of the patient; Best: along the direction in which the vessels extend least.
+/// Side of the patient; Best: along the direction in which the vessels extend least.
 enum class View : std::uint8_t { Best, Anterior, Posterior, Left, Right, Superior, Inferior };
 
 /// A parallel projection. Rows of `axes` are unit vectors in LPS: to the right of the picture, up,

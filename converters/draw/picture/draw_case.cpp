@@ -25,7 +25,7 @@ constexpr double kCoarse = 0.125;      // of the pixels, each way: enough for th
 constexpr Rgb kPaper = {250, 250, 250}, kInk = {60, 60, 60}, kInkOnVolume = {230, 230, 230};
 constexpr std::array<float, 3> kVessel = {0.62F, 0.07F, 0.06F};
 
-/// Linear light of each node, and what it means.
+/// Linear light of each node, and its meaning.
 struct Colours {
   std::vector<Light> ofNode;
   Legend legend;  ///< without colours: none is needed
@@ -66,7 +66,7 @@ Legend legendOf(const ColorScale& scale) {
   return legend;
 }
 
-/// As colours of a mesh with a vertex at each node.
+/// Colours of a mesh with a vertex at each node.
 Colours coloursOf(const formats::CenterlineTree& tree, ColorBy by) {
   if (by == ColorBy::None)
     return {{tree.nodeCount(), Light(kVessel[0], kVessel[1], kVessel[2])}, {}};

@@ -15,7 +15,7 @@ constexpr int kLeastPicture = 160;  // pixels
 constexpr double kSideways = 0.38;  // sin(22.5 degrees)
 constexpr int kLetterWidth = 6, kLetterHeight = 7;
 
-/// How large a letter's pixels are drawn, and the width of lines.
+/// Size of a letter's pixels, and width of lines.
 int letterScale(int width, int height) {
   return std::max(1, std::min(width, height) / 400);
 }

@@ -40,7 +40,7 @@ struct Legend {
   std::vector<Rgb> colours;         ///< from left to right
   std::vector<std::string> values;  ///< at even distances, the first at the left end; three at most
 };
-/// In the lower right corner.
+/// Draws the legend in the lower right corner.
 void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink);
 
 }  // namespace lumen::convert

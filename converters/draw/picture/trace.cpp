@@ -58,7 +58,7 @@ public:
         m_balls(balls),
         m_surface(surface) {}
 
-  /// Those of rows `first` to `last` - 1 that meet a ball.
+  /// Sends the rays of rows `first` to `last` - 1 that may meet a ball.
   void meet(const Ball& ball, int first, int last) const {
     const double reach = m_camera.scale * ball.radius;
     const int y0 = std::max(first, static_cast<int>(std::ceil(ball.y - reach - 0.5)));

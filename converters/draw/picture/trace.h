@@ -23,7 +23,7 @@ struct TracedSurface {
   int width = 0, height = 0;
   std::vector<float> depth;             ///< mm towards the viewer; kNothing where no vessel is
   std::vector<Eigen::Vector3f> normal;  ///< unit, out of the lumen, in the camera's axes
-  std::vector<std::uint32_t> node;      ///< at which a cursor on the surface is
+  std::vector<std::uint32_t> node;      ///< node of a cursor on the surface
 
   [[nodiscard]] std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

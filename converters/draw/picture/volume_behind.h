@@ -27,7 +27,7 @@ public:
 private:
   const Volume& m_volume;
   std::array<int, 3> m_bricks{};
-  std::vector<float> m_most;  ///< of what lies in a brick or is interpolated with it
+  std::vector<float> m_most;  ///< the greatest value in a brick or interpolated with it
 };
 
 /// Values that are black and white.
@@ -35,7 +35,7 @@ struct GreyWindow {
   float black = 0, white = 1;
 };
 
-/// From the median of a projection to its highest thousandth.
+/// Window from the median of a projection to its highest thousandth.
 GreyWindow windowOf(std::vector<float> projection);
 
 /// A projection as a picture; black beside the volume.

@@ -39,7 +39,7 @@ Markup pngFigure(std::string_view png, const Markup& caption, std::string_view a
 /// <section id="id"><h2>title</h2>content</section>.
 Markup section(std::string_view id, std::string_view title, const Markup& content);
 
-/// Names and what they stand for.
+/// Names and their values.
 using Facts = std::vector<std::pair<std::string, Markup>>;
 Markup factList(const Facts& facts);
 

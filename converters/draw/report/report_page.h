@@ -14,7 +14,7 @@ namespace lumen::convert {
 /// that the case or the volume lacks.
 std::string reportPage(const ReportFacts& facts);
 
-// Its sections, each with its heading.
+// Sections of the page, each with its heading.
 convert::Markup branchSection(const ReportFacts& facts);      ///< report_vessels.cpp
 convert::Markup profileSection(const ReportFacts& facts);     ///< report_vessels.cpp
 convert::Markup confidenceSection(const ReportFacts& facts);  ///< report_vessels.cpp

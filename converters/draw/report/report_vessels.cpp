@@ -18,7 +18,7 @@ namespace {
 
 using convert::Markup, convert::element, convert::paragraph, convert::text;
 
-/// Why tracking stopped, for people.
+/// Reason why tracking stopped, for people.
 std::string stopText(const std::string& reason) {
   static const std::map<std::string, std::string> kTexts = {
       {"unknown", "not recorded"},          {"no-valid-cylinder", "no cylinder fits"},

@@ -26,7 +26,7 @@ struct TreeProfile {
   std::vector<double> forks;      ///< mm: where branches leave it, ascending
 };
 
-/// In tree order.
+/// One profile for each branch, in tree order.
 std::vector<TreeProfile> treeProfiles(const formats::CenterlineTree& tree);
 
 /// Indices of the values to draw so that a line through them looks like one through all, in steps
@@ -35,11 +35,11 @@ std::vector<TreeProfile> treeProfiles(const formats::CenterlineTree& tree);
 std::vector<std::size_t> drawnValues(std::span<const double> along, std::span<const float> values,
                                      std::size_t steps);
 
-/// How much of the vessels' length has which confidence.
+/// Share of the vessels' length for each confidence.
 struct ConfidenceShares {
   std::vector<double> length;  ///< mm with a rate below 0.1, 0.2, ... and up to 1
   double total = 0;            ///< mm
-  double mean = 0;             ///< by length
+  double mean = 0;             ///< weighted by length
 };
 /// Shares of a tree that has inlier rates; a node counts with its edge.
 ConfidenceShares confidenceShares(const formats::CenterlineTree& tree);

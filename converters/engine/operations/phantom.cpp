@@ -83,7 +83,7 @@ private:
     if (m_output.empty()) throw Error(ErrorKind::Usage, std::string("OUT is missing") + usage);
   }
 
-  /// Refuses what could not be written in the end.
+  /// Refuses outputs that could not be written in the end.
   Outputs checkOutputs(Surroundings& around) const {
     const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
                           m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};

@@ -18,7 +18,7 @@ namespace lumen::convert {
 /// Where the samples of a grid are, mm, LPS; axes are x, y, z.
 struct Lattice {
   std::array<int, 3> size{};  ///< samples along x, y, z
-  Place first{};              ///< of the first sample
+  Place first{};              ///< place of the first sample
   double spacing = 0;         ///< along each axis
 
   [[nodiscard]] Place last() const;
@@ -46,10 +46,10 @@ std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTre
 /// axis.
 Lattice latticeOver(const PlaceBox& box, double margin, double spacing);
 
-/// Those of `whole` that lie in the box with its margin; at least two along each axis.
+/// The samples of `whole` that lie in the box with its margin; at least two along each axis.
 Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin);
 
-/// The source of the answers on a grid, and how far from the wall it is asked.
+/// The source of the answers on a grid, and the greatest distance from the wall that is asked for.
 struct GridSource {
   const VesselDistance& vessels;
   const TreeRegion* region = nullptr;  ///< none: all vessels
@@ -80,7 +80,7 @@ using TakeLayers = std::function<void(const DistanceGrid& part, int firstLayer)>
 void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
                   const TakeLayers& take, Progress& progress);
 
-/// Throws Error(Usage) that names the option and what it would make too large.
+/// Throws Error(Usage) that names the option and the grid that it would make too large.
 [[noreturn]] void refuseSpacing(double spacing, const std::string& what);
 
 }  // namespace lumen::convert

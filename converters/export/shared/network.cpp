@@ -68,7 +68,7 @@ private:
     m_next[b].push_back(a);
   }
 
-  /// Nothing flows through the part of an aneurysm on which no vessel hangs.
+  /// Leaves out the part of an aneurysm to which no vessel is connected: nothing flows through it.
   void leaveOutDomes() {
     std::vector<std::uint32_t> blind;
     const auto look = [&](std::uint32_t n) {

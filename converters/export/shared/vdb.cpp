@@ -66,7 +66,7 @@ struct VdbGrids {
   openvdb::Int32Grid::Ptr labels;
 };
 
-/// In place of the random name that the library gives each file, one that its content gives.
+/// Replaces the random name that the library gives each file by one that follows from its content.
 void nameByContent(std::string& bytes) {
   // magic number, versions of file and library, and whether there are offsets, stand before it
   constexpr std::size_t kAt = 8 + 4 + 4 + 4 + 1, kLength = 36;

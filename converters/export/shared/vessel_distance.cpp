@@ -20,7 +20,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// A wall lies within the doubled ball of its node: beyond it, a branch is left to the nearest
 /// node's answer.
 constexpr double kReach = 2;
-/// As far, in radii, as libblob lets nodes blend along the tree.
+/// Radii along the tree within which libblob lets nodes blend.
 constexpr double kNeighbourhood = 4;
 
 Place centreOf(const formats::CenterlineTree& tree, std::uint32_t node) {

@@ -33,8 +33,8 @@ TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t bra
 /// Answers of libblob. Any number of threads may ask.
 class VesselDistance {
 public:
-  /// Outside of the lumen distances are those to the nearest point of the wall: libblob's
-  /// one-evaluation form may be many millimetres short there. In the lumen they are of that form
+  /// The distance outside of the lumen is to the nearest point of the wall: libblob's
+  /// one-evaluation form may be many millimetres short there. In the lumen it is that of this form
   /// (blob.h), which has no kink at the axis, or with `exact` to the nearest point as well. Throws
   /// Error(InvalidInput) for a case whose models libblob refuses.
   explicit VesselDistance(const formats::Case& source, bool exact = false);
@@ -67,7 +67,7 @@ private:
   const formats::CenterlineTree& m_tree;
   std::unique_ptr<blob_model, void (*)(blob_model*)> m_model;
   std::uint32_t m_flags;
-  std::vector<Box> m_reach;  ///< of each branch: the box of its nodes' balls of twice the radius
+  std::vector<Box> m_reach;  ///< each branch's box of its nodes' balls of twice the radius
 };
 
 }  // namespace lumen::convert

@@ -13,11 +13,12 @@ namespace lumen::convert {
 std::string casePage(const LibraryFile& library, const CaseRecord& record,
                      const std::string& signature);
 
-// Its sections, in case_sections.cpp; each is complete HTML, empty where there is nothing to show.
+// Sections of a case's page, in case_sections.cpp; each is complete HTML, empty where there is
+// nothing to show.
 
 std::string pictureSection(const CaseRecord& record);
 std::string factsSection(
-    const CaseRecord& record);  ///< figures, and what can be opened or downloaded at once
+    const CaseRecord& record);  ///< figures, and files to open or download at once
 std::string statementsSection(const CaseRecord& record);  ///< licence, origin, consent
 std::string placesSection(const std::string& heading, const std::string& note,
                           const std::vector<CasePlace>& places, bool kinds);

@@ -59,7 +59,7 @@ std::string pageLink(const std::string& address, const std::string& text, const 
   return link;
 }
 
-/// To the pages before, after, at both ends, and around this one.
+/// Links to the pages before, after, at both ends, and around this one.
 std::string pageLinks(std::size_t page, std::size_t pages, const std::string& root) {
   constexpr std::size_t kAround = 2;
   std::string links = "<nav id=\"pages\" class=\"pages\" aria-label=\"Pages of the gallery\">\n";

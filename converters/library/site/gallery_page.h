@@ -21,7 +21,7 @@ std::vector<std::size_t> galleryOrder(const LibraryFile& library);
 /// One case as an item of the list. `root`: as in PageFrame.
 std::string galleryCard(const CaseRecord& record, const std::string& root);
 
-/// How many pages a gallery of that many cases has; at least one.
+/// Number of pages of a gallery of that many cases; at least one.
 std::size_t galleryPages(std::size_t cases);
 
 /// Where page 1, 2, ... lies in the folder of the library: index.html is the first.

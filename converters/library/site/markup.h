@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all pages of a library's site are made with: frame, addresses, numbers.
+// Parts of all pages of a library's site: frame, addresses, numbers.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace lumen::convert {
 /// Frame around the content of a page.
 struct PageFrame {
   std::string title;                 ///< any text
-  std::string root;                  ///< from the page to the library's folder: "" or "../../"
+  std::string root;                  ///< path from the page to the library's folder: "" or "../../"
   std::vector<const char*> scripts;  ///< names in site/, in this order
   std::string data;                  ///< attributes of the body, ready: " data-page=\"1\""
 };

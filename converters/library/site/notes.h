@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands below every page: how to verify the library, and what it is not.
+// Notes below every page: steps to verify the library, and its limits.
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@ namespace lumen::convert {
 struct CasePictures {
   std::string first;                ///< path in the folder of the case; empty without pictures
   std::string thumbnail;            ///< thumbnail.png, or the first
-  std::vector<std::string> frames;  ///< of a turntable, in order; empty without one
+  std::vector<std::string> frames;  ///< pictures of a turntable, in order; empty without one
   std::vector<std::string> others;  ///< all that are neither
 };
 

@@ -29,7 +29,7 @@ std::string shown(const fs::path& path) {
   return formats::printable(path.string());
 }
 
-/// A record that is what library.json states.
+/// A record that matches library.json.
 CaseRecord statedRecord(const fs::path& folder, const LibraryEntry& entry) {
   const fs::path file = folder / kPayload / entry.id / kRecordFile;
   const std::string text = readWholeFile(file, "record");

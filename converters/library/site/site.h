@@ -13,7 +13,7 @@ namespace lumen::convert {
 struct SiteReport {
   std::size_t cases = 0;
   std::size_t pages = 0;    ///< HTML files
-  std::uint64_t bytes = 0;  ///< of index.html and site/
+  std::uint64_t bytes = 0;  ///< size of index.html and site/
 };
 
 /// Makes the pages of the library in `folder` anew, out of library.json and the records, which it

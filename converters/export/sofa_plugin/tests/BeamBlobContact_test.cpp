@@ -89,7 +89,7 @@ TEST_F(BeamBlobContact, SamplesLieAtTheEndOfEachBeamAndEvenlyBeforeIt) {
   EXPECT_EQ(samples.back().radius, 0.2);
 }
 
-// At 20 degrees to the axis, so that it meets the wall.
+// A direction at 20 degrees to the axis, so that it meets the wall.
 constexpr const char* kOblique = "0 0 0.17365 0.98481";
 
 TEST_F(BeamBlobContact, HoldsAWireInATube) {
@@ -152,7 +152,7 @@ TEST_F(BeamBlobContact, TheNearestSamplesAlongTheInstrumentAreFound) {
   EXPECT_EQ(nearest, (std::vector<std::size_t>{0, 0, 0, 2, 3, 3}));
 }
 
-/// A straight beam of 10 mm that rests on the bottom of the tube, y the way up; nothing holds it.
+/// A straight beam of 10 mm that rests on the bottom of the tube, with y upwards; nothing holds it.
 std::string freeBeam(double friction) {
   return field("tube.lumen") + R"(
   <Node name="instrument">

@@ -39,7 +39,7 @@ const char* const kBranches = "in which branch's lumen a sample is: the numbers 
 
 /// One of the grids of a folder.
 struct GridPlan {
-  std::string stem;   ///< of its files: empty, or "NAME."
+  std::string stem;   ///< stem of its files: empty, or "NAME."
   TreeRegion region;  ///< empty: all vessels
   Lattice lattice;
 };
@@ -113,7 +113,7 @@ std::vector<GridPlan> plansOf(const ExportInput& input, const GridOptions& optio
   return plans;
 }
 
-/// Which number of a branch grid is which branch.
+/// Branches by their numbers in a branch grid.
 VolumeNotes notesOf(const formats::CenterlineTree& tree) {
   VolumeNotes notes = {{"lumen.distance", "mm, negative in the lumen"}};
   for (std::size_t b = 0; b < tree.branches.size(); ++b)

@@ -65,8 +65,8 @@ void keepSide(const Facet& facet, int axis, double at, double sign, Facets& kept
   }
 }
 
-/// How much wall runs along a plane beside it: area, times the share of its normal that is across,
-/// squared twice.
+/// Amount of wall that runs along a plane beside it: area, times the share of its normal that is
+/// across, squared twice.
 double wallAlong(const Facets& facets, int axis, double at) {
   double sum = 0;
   for (const Facet& facet : facets) {

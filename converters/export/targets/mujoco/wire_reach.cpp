@@ -32,7 +32,7 @@ std::vector<std::vector<std::uint32_t>> neighboursOf(const CenterlineTree& tree)
   return neighbours;
 }
 
-/// mm from `node` to each node; infinity where there is no way.
+/// mm from `node` to each node; infinity where there is no path.
 std::vector<double> distancesFrom(const CenterlineTree& tree, std::uint32_t node) {
   const auto neighbours = neighboursOf(tree);
   std::vector<double> distance(tree.nodeCount(), std::numeric_limits<double>::infinity());

@@ -67,7 +67,7 @@ std::string segmentCards(const OneDNetwork& network) {
   return text + "\n" + tables;
 }
 
-/// For svOneDSolver, cgs.
+/// Input of svOneDSolver, cgs.
 std::string inputCards(const OneDNetwork& network, const std::string& name) {
   std::string nodes;
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
@@ -105,7 +105,7 @@ std::string windkessel(const OneDVessel& vessel, double stiffness) {
          "\n    Cc: " + numberText(blood::kDecay / second) + "\n";
 }
 
-/// For openBF v2, SI.
+/// Input of openBF v2, SI.
 std::string yaml(const OneDNetwork& network, const std::string& name) {
   std::string text;
   for (const OneDVessel& vessel : network.vessels) {

@@ -19,7 +19,7 @@ struct OneDVessel {
   std::uint32_t from = 0, to = 0;      ///< nodes
   double length = 0;                   ///< m
   double inRadius = 0, outRadius = 0;  ///< m
-  double resistance = 0;  ///< of the outlet that it ends at, Pa s/m^3; 0: it ends at a junction
+  double resistance = 0;               ///< its outlet's, Pa s/m^3; 0: it ends at a junction
 
   [[nodiscard]] double meanRadius() const { return 0.5 * (inRadius + outRadius); }
   /// Cells or elements: of a millimetre, and five at least.

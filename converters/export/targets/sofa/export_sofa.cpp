@@ -33,7 +33,7 @@ double insertedRadius(InstrumentKind kind) {
 }
 
 SceneInput inputOf(const ExportInput& asked, const SofaOptions& options) {
-  // a coil is as long as it is; others are pushed to the end of the way, and end behind it
+  // a coil has its own length; others are pushed to the end of the path, and end behind it
   constexpr double kBehind = 20, kLeast = 80, kCurlShare = 1.6;
   const formats::CenterlineTree& tree = asked.source.tree;
   SceneInput input;

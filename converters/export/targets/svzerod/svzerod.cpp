@@ -28,7 +28,7 @@ constexpr double kCgsResistance = 1e-5;               // dyn s/cm^5 of Pa s/m^3
 constexpr double kCgsInertance = 1e-5;                // dyn s^2/cm^5 of Pa s^2/m^3
 constexpr double kCgsCompliance = 1e5;                // cm^5/dyn of m^3/Pa
 
-// Seconds until what walls take up is settled; the last one is answered.
+// Seconds until the flow that walls take up is settled; the last one is answered.
 constexpr int kCycles = 10;
 
 /// Where an end lies, cm, LPS: the solver passes over names that begin with "_".

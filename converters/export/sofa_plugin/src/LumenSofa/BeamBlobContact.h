@@ -83,8 +83,8 @@ private:
 
   // Kept from step to step, so that a step allocates nothing once they have grown.
   std::vector<BeamSample> m_samples;
-  std::vector<double> m_abscissae;       ///< of the samples that m_cursors and m_forces belong to
-  std::vector<std::uint32_t> m_cursors;  ///< at the start of the step
+  std::vector<double> m_abscissae;       ///< one for each of m_cursors and m_forces
+  std::vector<std::uint32_t> m_cursors;  ///< cursors at the start of the step
   std::vector<Vec3> m_forces;  ///< last step's, in the world's frame: where the solver begins
   std::vector<std::size_t> m_nearest;
   std::vector<std::uint32_t> m_cursorBuffer;

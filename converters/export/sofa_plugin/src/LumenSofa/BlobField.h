@@ -35,7 +35,7 @@ public:
   Vec3d getGradient(Vec3d& point, int& domain) override;
   void getHessian(Vec3d& point, Mat3x3& hessian) override;
   void getValueAndGradient(Vec3d& point, double& value, Vec3d& gradient, int& domain) override;
-  /// The first crossing of the wall on the way from one end to the other. False if there is none.
+  /// The first crossing of the wall on the path from one end to the other. False if there is none.
   bool computeSegIntersection(Vec3d& from, Vec3d& to, Vec3d& crossing, int domain = -1) override;
   /// Moves the point to the nearest one of the wall.
   void projectPointonSurface(Vec3d& point, int domain = -1) override;

@@ -22,7 +22,7 @@ using Vec3 = sofa::type::Vec3;
 struct BeamSample {
   sofa::Index beam = 0;
   sofa::Index node[2] = {0, 0};  ///< frames
-  double share = 0;              ///< of the beam's length, 0 to 1
+  double share = 0;              ///< share of the beam's length, 0 to 1
   double abscissa = 0;  ///< mm along the instrument from its handle; rises from sample to sample
   double radius = 0;    ///< mm
   double weight[2] = {0, 0};
