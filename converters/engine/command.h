@@ -76,7 +76,7 @@ public:
   /// The command of that name, new; null where there is none.
   [[nodiscard]] BoundCommand find(const std::string& name) const;
   /// Runs the command. Throws Error(Usage) for a command, an argument or an option that there is
-  /// not, or whose value is not allowed, and what the command throws.
+  /// not, or whose value is not allowed, and as the command.
   [[nodiscard]] Answer run(const Operation& operation, const Surroundings& around) const;
   /// Runs a command whose rows are set. Throws as the command.
   [[nodiscard]] Answer run(const BoundCommand& bound, const Surroundings& around) const;

@@ -63,7 +63,7 @@ struct FileFormat {
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
   MeshReader readMesh = nullptr;
   CenterlineReader readCenterline = nullptr;
-  SceneReader readScene = nullptr;     ///< where a file may have several meshes, or names others
+  SceneReader readScene = nullptr;     ///< for files with several meshes, or that name others
   CaseWriter writeCase = nullptr;      ///< atomically
   VolumeWriter writeVolume = nullptr;  ///< atomically
 };

@@ -15,7 +15,7 @@ struct MeshInfo {
   convert::MeshFile file;
   convert::MeshReport report;  ///< in the file's unit
   std::string unit;            ///< mm, cm, m or um
-  double millimetres = 1;      ///< in one unit of the file
+  double millimetres = 1;      ///< length of one unit of the file
   std::string unitFrom;        ///< "option", "file" or "guess"
 };
 

@@ -37,7 +37,7 @@ void tellAssumptions(const std::filesystem::path& file, const std::vector<std::s
     progress.warn(file.string() + ": " + assumption);
 }
 
-/// One line for each seed, as long as there are not too many to read.
+/// One line for each seed, unless there are too many to read.
 void warnOfSeeds(const std::string& file, const std::string& what,
                  const std::vector<convert::SeedFailure>& failures, Progress& progress) {
   constexpr std::size_t kMost = 20;

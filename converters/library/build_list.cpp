@@ -38,7 +38,7 @@ bool holds(const List& list, std::string_view word) {
 }
 
 struct TableRow {
-  std::size_t line = 0;  ///< where it begins; the first is 1
+  std::size_t line = 0;  ///< the row's first line; the first is 1
   Cells cells;
 };
 

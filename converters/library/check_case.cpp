@@ -18,13 +18,13 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::uint64_t kMostRecord = 16U << 20U;  // bytes: tens of thousands of files
-constexpr std::size_t kMostIssues = 20;            // of a case: the rest is lumen validate's
+constexpr std::size_t kMostIssues = 20;            // issues of a case: the rest is lumen validate's
 
 std::span<const std::byte> bytesOf(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
-/// One case on its way.
+/// Check of one case.
 class CaseChecker {
 public:
   CaseChecker(const PlainFolder& library, const LibraryEntry& entry, const CheckJournal& journal,

@@ -26,10 +26,10 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr std::uint64_t kMostLibrary = std::uint64_t{1}
-                                       << 27;  // bytes: 100,000 cases with long titles
+/// Bytes: 100,000 cases with long titles.
+constexpr std::uint64_t kMostLibrary = std::uint64_t{1} << 27;
 
-/// Cases on their way for each thread: so that one large case does not stop the others, and memory
+/// Cases in progress for each thread: so that one large case does not stop the others, and memory
 /// stays bounded.
 constexpr std::size_t kAhead = 8;
 

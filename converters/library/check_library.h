@@ -25,7 +25,7 @@ struct LibraryCheck {
   FaultList faults;
   std::optional<LibraryFile> library;  ///< none if library.json cannot be read
   std::size_t cases = 0;               ///< number of cases checked
-  std::size_t passedOver = 0;          ///< how many of these the journal knew
+  std::size_t passedOver = 0;          ///< number of these that the journal knew
   std::uint64_t files = 0, bytes = 0;  ///< number and size of the cases' files read
 };
 

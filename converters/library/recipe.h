@@ -18,8 +18,8 @@ std::string digestOfInput(const std::filesystem::path& input, const Progress& pr
 
 struct Recipe {
   std::string input;  ///< digest
-  std::string
-      tree;  ///< of all that the tree and the models come from: version, input, seeds, options
+  /// Digest of all inputs of the tree and the models: version, input, seeds, options.
+  std::string tree;
   std::string all;  ///< digest of `tree`, statements and exports
 };
 

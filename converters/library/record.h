@@ -50,8 +50,8 @@ struct CasePlace {
   std::string name;
   std::string kind;  ///< kind of an end: inlet or outlet
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction =
-      Eigen::Vector3d::UnitX();  ///< unit; insertions: into, ends: out of the vessel
+  /// Unit vector; insertions: into, ends: out of the vessel.
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   double radius = 0;
 };
 

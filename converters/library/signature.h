@@ -28,8 +28,8 @@ struct Signature {
   std::string file;  ///< its name in the folder
   std::string bytes;
   Signer signer;
-  bool isVerified =
-      false;  ///< checked with the public key beside the secret one, or by the key that it holds
+  /// Checked with the public key beside the secret one, or by the key that it holds.
+  bool isVerified = false;
 };
 
 /// Throws Error(InvalidInput) for a key that cannot sign.

@@ -18,7 +18,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 1U << 20U;  // of a file of keys: thousands of signers
+constexpr std::size_t kMostBytes = 1U << 20U;  // size of a file of keys: thousands of signers
 
 // minisign(1): sizes of the contents of its files, in bytes; each begins with two that name the
 // algorithm

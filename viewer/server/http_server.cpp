@@ -20,7 +20,7 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr milliseconds kHead{2000};  // on the loopback interface a head arrives at once
+constexpr milliseconds kHead{2000};  // a head arrives at once on the loopback interface
 constexpr milliseconds kEachMiB{1000};
 constexpr milliseconds kWrite{5000};  // between two writes to a page that does not read
 

@@ -32,8 +32,9 @@ struct Layout {
 };
 
 /// Front view (x to the right, z up), beside it the side view (y to the right, z up), below it the
-/// view from the feet (x to the right, y down), all of one scale, as far as the axes of the grid go
-/// along those of the patient; the legend in the fourth quarter, of at least that size, pixels.
+/// view from the feet (x to the right, y down), all of one scale; these directions hold as far as
+/// the axes of the grid follow those of the patient. The legend is in the fourth quarter, of at
+/// least that size, pixels.
 Layout layOut(const VolumeGeometry& geometry, int gap, int legendWidth, int legendHeight);
 
 struct Projection {

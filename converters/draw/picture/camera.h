@@ -36,8 +36,8 @@ struct Framing {
   /// Radians about the upright axis of the unturned picture, which from the sides is that from foot
   /// to head: from in front to the patient's left.
   double turn = 0;
-  bool allTurns =
-      false;  ///< centre and scale are those at which the vessels are in the picture at any turn
+  /// Centre and scale are those at which the vessels are in the picture at any turn.
+  bool allTurns = false;
   int width = 0, height = 0;
   double margin = 0;  ///< pixels that at least stay free above and below
 };

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kSamples = 2;            // across a pixel, and down
 constexpr std::size_t kOfLegend = 64;  // colours
-constexpr double kCoarse = 0.125;      // of the pixels, each way: enough for the levels of grey
+constexpr double kCoarse = 0.125;  // share of the pixels, each way: enough for the levels of grey
 constexpr Rgb kPaper = {250, 250, 250}, kInk = {60, 60, 60}, kInkOnVolume = {230, 230, 230};
 constexpr std::array<float, 3> kVessel = {0.62F, 0.07F, 0.06F};
 

@@ -39,7 +39,7 @@ public:
   void setVolume(const Volume& volume, Progress& progress);
 
   /// The blended surface, shaded; its bytes do not depend on the number of threads. Throws
-  /// Error(InvalidInput) for a case that does not have what is to be the colour; Error(Cancelled).
+  /// Error(InvalidInput) for a case that lacks the values to be shown as colours; Error(Cancelled).
   [[nodiscard]] Picture draw(const PictureOptions& options, Progress& progress) const;
 
 private:

@@ -84,7 +84,7 @@ void drawSides(Picture& picture, const Camera& camera, const Rgb& ink) {
 
 void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink) {
   const int scale = letterScale(picture), margin = 8 * scale;
-  int least = -kLetterWidth * scale;  // of the values, with a letter's room between two
+  int least = -kLetterWidth * scale;  // width of the values, with a letter's room between two
   for (const std::string& value : legend.values)
     least += textWidth(value, scale) + kLetterWidth * scale;
   const int length = std::max({picture.width / 4, textWidth(legend.title, scale), least});

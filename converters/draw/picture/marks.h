@@ -36,9 +36,10 @@ void drawSides(Picture& picture, const Camera& camera, const Rgb& ink);
 
 /// Meaning of the colours of a picture.
 struct Legend {
-  std::string title;                ///< with the unit
-  std::vector<Rgb> colours;         ///< from left to right
-  std::vector<std::string> values;  ///< at even distances, the first at the left end; three at most
+  std::string title;         ///< title, with the unit
+  std::vector<Rgb> colours;  ///< colours from left to right
+  /// Numbers at even distances, the first at the left end; three at most.
+  std::vector<std::string> values;
 };
 /// Draws the legend in the lower right corner.
 void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink);

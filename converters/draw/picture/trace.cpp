@@ -18,10 +18,10 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kBall = 2;  // radii: a model's wall in its own cell does not reach beyond
-constexpr double kInset =
-    1e-4;  // radii: rays stay off the sides of cells, where a cursor would step across
-constexpr int kMostSteps = 64;   // of a ray in one cell
-constexpr double kShare = 0.9;   // of the distance: it is right to first order only
+// Inset in radii: rays stay off the sides of cells, where a cursor would step across.
+constexpr double kInset = 1e-4;
+constexpr int kMostSteps = 64;   // steps of a ray in one cell
+constexpr double kShare = 0.9;   // share of the distance: it is right to first order only
 constexpr double kNear = 0.002;  // radii: on the surface
 constexpr int kRowsOfTile = 16;
 

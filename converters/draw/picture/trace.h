@@ -37,8 +37,7 @@ struct TracedSurface {
 /// apart.
 class SurfaceTracer {
 public:
-  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob does not take
-  /// it.
+  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob refuses it.
   explicit SurfaceTracer(const formats::Case& source);
 
   /// On all cores; the same bits on any number of them. Throws Error(Cancelled).

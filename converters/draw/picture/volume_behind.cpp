@@ -16,7 +16,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr int kBrick = 8;          // voxels
-constexpr float kBrightest = 190;  // of 255: vessels stand out before it
+constexpr float kBrightest = 190;  // brightness, at most 255: vessels stand out before it
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Where a ray in index space lies in the box of the voxels: from `first` to `last` steps; empty if

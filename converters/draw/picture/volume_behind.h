@@ -20,8 +20,8 @@ public:
   Projector(const Volume& volume, Progress& progress);
 
   /// One value for each pixel; rows from the top; minus infinity beside the volume. The bits do not
-  /// depend on the number of threads, and are those of taking every sample: whole bricks are passed
-  /// over that hold nothing greater than what was met. Throws Error(Cancelled).
+  /// depend on the number of threads, and are those of taking every sample: bricks that hold no
+  /// value above the greatest so far are passed over. Throws Error(Cancelled).
   [[nodiscard]] std::vector<float> greatest(const Camera& camera, Progress& progress) const;
 
 private:

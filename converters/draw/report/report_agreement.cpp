@@ -18,7 +18,7 @@ namespace {
 
 using convert::CheckReport, convert::Markup, convert::Offsets, convert::paragraph, convert::text;
 
-constexpr std::size_t kPlacesListed = 25;  // of each kind
+constexpr std::size_t kPlacesListed = 25;  // places of each kind
 
 /// A place in the case: the branch's label and coordinates.
 std::vector<Markup> placeCells(const formats::CenterlineTree& tree, std::uint32_t node,

@@ -39,9 +39,9 @@ struct ReportFacts {
   formats::Case value;
   CaseInfo info;
   FileReport examination;
-  std::vector<std::string>
-      otherWarnings;             ///< of reading the volume, how the case lies in it, names of files
-  std::vector<DrawnView> sides;  ///< none of a case without models
+  /// Warnings about reading the volume, how the case lies in it, and names of files.
+  std::vector<std::string> otherWarnings;
+  std::vector<DrawnView> sides;         ///< none of a case without models
   std::optional<DrawnView> confidence;  ///< none if a case without models or inlier rates
   std::optional<ReportVolume> volume;   ///< none without --volume
 

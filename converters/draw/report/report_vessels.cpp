@@ -58,7 +58,7 @@ std::span<const convert::Agreement> agreementOf(const ReportFacts& facts,
   return std::span(facts.volume->check->nodes).subspan(profile.firstNode, profile.along.size());
 }
 
-/// The inlier rate that tracking asked for, from the newest step that has one.
+/// The inlier rate that tracking required, from the newest step that has one.
 std::optional<double> acceptedRate(const formats::Metadata& metadata) {
   for (auto step = metadata.steps.rbegin(); step != metadata.steps.rend(); ++step)
     if (const auto found = step->parameters.find("inlier-rate"); found != step->parameters.end())

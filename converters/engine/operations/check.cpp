@@ -22,7 +22,7 @@ namespace {
 
 using formats::printable;
 
-constexpr std::size_t kPlacesShown = 10;  // of each kind; --json has all
+constexpr std::size_t kPlacesShown = 10;  // places of each kind; --json has all
 
 std::vector<std::string> offsetsRow(const std::string& label, const convert::Offsets& o,
                                     double voxel) {

@@ -109,7 +109,8 @@ private:
         });
   }
 
-  /// Adds to the wishes the parts that stay of a replaced case, and gives the statements about it.
+  /// Adds to the wishes the parts that stay of a replaced case, and returns the statements about
+  /// it.
   convert::CaseAbout completeWishes(const std::filesystem::path& library,
                                     const OptionTable& table) {
     m_wishes.surface = !m_noSurface;

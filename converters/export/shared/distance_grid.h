@@ -34,8 +34,8 @@ struct PlaceBox {
   Place low{}, high{};
 };
 
-/// The spacing that is asked for, mm; for 0 a quarter of the tree's least radius, but at most eight
-/// million samples over the box and `margin`.
+/// The spacing `asked`, mm; for 0 a quarter of the tree's least radius, but at most eight million
+/// samples over the box and `margin`.
 double gridSpacing(double asked, const PlaceBox& box, double margin,
                    const formats::CenterlineTree& tree);
 

@@ -34,7 +34,7 @@ struct FlowSegment {
   std::uint32_t branch = 0;  ///< index in the case's tree: the branch of its last point
   std::uint32_t from = 0, to = 0;       ///< joints
   std::vector<Eigen::Vector3d> points;  ///< two at least, mm, LPS
-  std::vector<double> radii;            ///< at them, mm
+  std::vector<double> radii;            ///< radii at them, mm
 
   [[nodiscard]] double length() const;  ///< mm; 0 if its points lie on each other
 };
@@ -49,8 +49,8 @@ struct FlowNetwork {
   std::vector<FlowJoint> joints;
   std::vector<FlowSegment> segments;
   std::vector<FlowTree> trees;
-  std::vector<std::string>
-      messages;  ///< sentences on what was left out or added; labels as they are
+  /// Sentences on vessels that were left out or added; labels as they are.
+  std::vector<std::string> messages;
 };
 
 /// The vessels of a valid case. Ends are named as on its surface. A branch that leaves its parent

@@ -83,7 +83,7 @@ void requireVdb() {}
 
 std::string encodeVdb(const GridSource& source, const Lattice& lattice, const VdbOptions& options,
                       Progress& progress) {
-  constexpr int kLayers = 8;  // of a leaf of the tree, so that no leaf is opened again
+  constexpr int kLayers = 8;  // layers of a leaf of the tree, so that no leaf is opened again
   openvdb::initialize();
   VdbGrids grids(source, lattice, options);
   sampleLayers(

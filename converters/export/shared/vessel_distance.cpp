@@ -67,7 +67,7 @@ std::vector<std::vector<std::uint32_t>> edgesOf(const formats::CenterlineTree& t
 
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch) {
   const auto edges = edgesOf(tree);
-  std::vector<double> left(tree.nodeCount(), -1);  // of the way that a node may go on, mm
+  std::vector<double> left(tree.nodeCount(), -1);  // path that a node may still go on, mm
   std::deque<std::uint32_t> next;
   const formats::Branch& own = tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {

@@ -26,8 +26,8 @@ struct WallDistance {
 /// Nodes of a tree that a query may begin at, ascending.
 using TreeRegion = std::vector<std::uint32_t>;
 
-/// The branch's nodes, and those that are at most four radii from them along the tree, which is as
-/// far as nodes may blend (blob_model_neighbours()).
+/// The branch's nodes, and those that are at most four radii from them along the tree, the greatest
+/// distance over which nodes may blend (blob_model_neighbours()).
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch);
 
 /// Answers of libblob. Any number of threads may ask.

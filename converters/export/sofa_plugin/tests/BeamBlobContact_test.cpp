@@ -44,7 +44,7 @@ struct ContactScene {
   State* state;
 };
 
-// The rows of a force on a sample are what BeamAdapter itself maps it to.
+// The rows of a force on a sample are those that BeamAdapter itself maps it to.
 TEST_F(BeamBlobContact, ForcesOnSamplesAreMappedAsByBeamAdapter) {
   ContactScene s(field("tube.lumen") + wire("0 0 0 1", kContact));
   s.run(100);
@@ -173,8 +173,8 @@ std::string freeBeam(double friction) {
 }
 
 // Coulomb on an incline: with gravity g at an angle to the normal the beam sticks if its tangent is
-// below mu, and else slides with the acceleration g (sin - mu cos). Measured between the steps 5,
-// 25 and 45, so that how it began does not count. The fitted wall is not quite straight: a
+// below mu, and else slides with the acceleration g (sin - mu cos). The test measures between the
+// steps 5, 25 and 45, so that the start does not count. The fitted wall is not quite straight: a
 // hundredth of a millimetre.
 constexpr double kGravity = 100, kDt = 0.01;
 

@@ -29,9 +29,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kBorder = 1,
-                 kBorderSamples = 3;  // mm, and samples, that a grid goes on behind the wall
-constexpr double kVdbBand = 3;        // samples, as OpenVDB's own level sets have
+// Border of a grid behind the wall, in mm and in samples.
+constexpr double kBorder = 1, kBorderSamples = 3;
+constexpr double kVdbBand = 3;                // samples, as OpenVDB's own level sets have
 constexpr std::size_t kMostBranches = 65535;  // numbers of 16 bits, without 0
 
 const char* const kDistances = "distances to the wall, negative in the lumen";

@@ -71,7 +71,7 @@ double wallAlong(const Facets& facets, int axis, double at) {
   double sum = 0;
   for (const Facet& facet : facets) {
     const Eigen::Vector3d& o = facet[0].position;
-    constexpr double kBeside = 0.5;  // of a radius
+    constexpr double kBeside = 0.5;  // share of a radius
     if (std::abs(o[axis] - at) > kBeside * facet[0].radius) continue;
     const Eigen::Vector3d area = (facet[1].position - o).cross(facet[2].position - o);
     if (area.norm() > 0) sum += area.norm() * std::pow(area[axis] / area.norm(), 4);

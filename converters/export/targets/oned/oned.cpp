@@ -20,7 +20,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kCm = 100, kCm2 = 1e4, kCm3 = 1e6;  // of SI
+constexpr double kCm = 100, kCm2 = 1e4, kCm3 = 1e6;  // cgs units in one of SI
 constexpr double kDyn = 10;                          // dyn/cm^2 of Pa
 constexpr double kCgsResistance = 1e-5;              // dyn s/cm^5 of Pa s/m^3
 
@@ -98,7 +98,7 @@ std::string windkessel(const OneDVessel& vessel, double stiffness) {
   const double r = vessel.outRadius, area = kPi * r * r;
   // c^2 = (A / rho) dp/dA at the mean pressure, of the wall that blood.h states
   const double speed = std::sqrt(stiffness / (1.5 * blood::kDensity));
-  constexpr double kMostShare = 0.5;  // of the whole, should a wave meet more than that
+  constexpr double kMostShare = 0.5;  // share of the whole, should a wave meet more than that
   const double first = std::min(blood::kDensity * speed / area, kMostShare * vessel.resistance);
   const double second = vessel.resistance - first;
   return "    R1: " + numberText(first) + "\n    R2: " + numberText(second) +

@@ -15,7 +15,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kMetres = 1e-3;  // of a millimetre
+constexpr double kMetres = 1e-3;  // metres in a millimetre
 
 /// The cone with the segment's resistance.
 OneDVessel coneOf(const FlowSegment& segment) {

@@ -84,8 +84,8 @@ std::string startOf(const SceneInput& input, const SofaOptions& options) {
 }
 
 void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
-  constexpr double kBorder = 1,
-                   kBorderSamples = 3;  // mm: contacts look for the wall so far from it
+  // mm, and samples: distance from the wall within which contacts look for it
+  constexpr double kBorder = 1, kBorderSamples = 3;
   const PlaceBox box{scene.low, scene.high};
   const double spacing = gridSpacing(input.options.spacing, box, kBorder, input.source.tree);
   const Lattice lattice = latticeOver(box, kBorder + kBorderSamples * spacing, spacing);

@@ -22,9 +22,10 @@ struct RodSection {
 };
 
 struct Instrument {
-  std::string name;                  ///< a word
-  double poissonRatio = 0;           ///< one for all sections
-  std::vector<RodSection> sections;  ///< from handle to tip; only the first may be straight
+  std::string name;         ///< a word
+  double poissonRatio = 0;  ///< one for all sections
+  /// Sections from handle to tip; only the first may be straight.
+  std::vector<RodSection> sections;
   double color[3] = {1, 1, 1};
   [[nodiscard]] double length() const;  ///< mm
   [[nodiscard]] double radius() const;  ///< mm, the greatest

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMetres = 1e-3, kCentimetres = 0.1;  // of a millimetre
+constexpr double kMetres = 1e-3, kCentimetres = 0.1;  // metres and centimetres in a millimetre
 constexpr double kCgsFlow = 1e6;                      // cm^3/s of m^3/s
 constexpr double kCgsResistance = 1e-5;               // dyn s/cm^5 of Pa s/m^3
 constexpr double kCgsInertance = 1e-5;                // dyn s^2/cm^5 of Pa s^2/m^3

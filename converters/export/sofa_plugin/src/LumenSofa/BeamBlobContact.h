@@ -13,10 +13,9 @@
 namespace lumensofa {
 
 /// Contact with friction of an instrument's beams with the wall of a case. Samples along each beam
-/// are asked for their distance to the wall; those near it get one row (normal), or three with
-/// friction, of the Lagrangian constraints. Each sample has a cursor of its own, which follows the
-/// tree; when beams are added or nodes placed anew, cursors go on by the abscissa along the
-/// instrument.
+/// measure their distance to the wall; those near it get one row (normal), or three with friction,
+/// of the Lagrangian constraints. Each sample has a cursor of its own, which follows the tree; when
+/// beams are added or nodes placed anew, cursors go on by the abscissa along the instrument.
 class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Rigid3> {
 public:
   SOFA_CLASS(BeamBlobContact, SOFA_TEMPLATE(sofa::core::behavior::Constraint, Rigid3));
@@ -90,7 +89,7 @@ private:
   std::vector<std::uint32_t> m_cursorBuffer;
   std::vector<Vec3> m_forceBuffer;
   std::vector<Vec3> m_start, m_next, m_free;  ///< mm; m_next: where a sample slides to
-  std::vector<blob_sample> m_walls;           ///< at m_start, then at m_next
+  std::vector<blob_sample> m_walls;           ///< wall at m_start, then at m_next
   std::vector<Contact> m_contacts;
   unsigned int m_firstRow = 0;
 };
