@@ -27,9 +27,8 @@ OperationEnd runInProcess(const Operation& operation, const ProcessOptions& opti
 /// another file.
 ProcessOptions operationOptions(const std::filesystem::path& file);
 
-/// Other side of runInProcess(): runs the operation of a file that it wrote, and leaves the
-/// operation's end in a file beside it. Returns the exit code. Throws Error(InvalidInput) for
-/// another file.
+/// Runs the operation of a file that runInProcess() wrote, and leaves the operation's end in a file
+/// beside it. Returns the exit code. Throws Error(InvalidInput) for another file.
 int runOperationFile(const std::filesystem::path& file, const Engine& engine, Surroundings& around);
 
 }  // namespace lumen::engine

@@ -37,7 +37,7 @@ public:
 
   /// Writes the next revision, of the day `date`, and puts it in place of the old one; once only.
   /// The signature and the pages are those of the old one, and go with it. Throws
-  /// Error(InvalidInput), and changes nothing, for records that are not what library.json states;
+  /// Error(InvalidInput), and changes nothing, for records that do not match library.json;
   /// Error(Failed) if something cannot be written; Error(Cancelled).
   void commit(const std::string& date);
 

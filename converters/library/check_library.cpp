@@ -58,7 +58,7 @@ void sortCases(LibraryFile& library, FaultList& faults) {
   library.cases = std::move(kept);
 }
 
-/// Files that nothing reads here: they must be files all the same.
+/// Files that nothing reads here: they must be files nevertheless.
 void checkKindsOfOthers(const PlainFolder& folder, FaultList& faults) {
   std::set<std::string> wrong;
   const auto look = [&](const PlainEntry& entry) {
@@ -109,7 +109,7 @@ void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultLi
 /// Result of a case, in its place.
 struct Checked {
   std::size_t at = 0;
-  std::shared_ptr<CaseCheck> check;  // TBB copies what goes from filter to filter
+  std::shared_ptr<CaseCheck> check;  // TBB copies values between filters
 };
 
 /// All cases, in parallel, and the checks that follow from them, in order.

@@ -20,7 +20,7 @@ inline constexpr const char* kTagManifestFile = "tagmanifest-sha256.txt";
 inline constexpr const char* kBagFile = "bagit.txt";
 inline constexpr const char* kBagInfoFile = "bag-info.txt";
 
-/// Where a text goes, piece by piece.
+/// Receiver of a text, piece by piece.
 using TextSink = std::function<void(std::string_view)>;
 
 /// data/ID/ro-crate-metadata.json: the case as an RO-Crate of its own.

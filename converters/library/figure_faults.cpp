@@ -17,7 +17,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kSame = 1e-3;          // mm, and of unit vectors
-constexpr double kSameRelative = 1e-5;  // sums of lengths: a hundred times what a float rounds off
+constexpr double kSameRelative = 1e-5;  // sums of lengths: a hundred roundings of a float
 
 bool isSame(double a, double b) {
   return std::abs(a - b) <= std::max(kSame, kSameRelative * std::max(std::abs(a), std::abs(b)));

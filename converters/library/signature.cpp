@@ -24,7 +24,7 @@ using Words = std::vector<std::string>;
 constexpr unsigned kSecondsToAsk = 600;    // somebody looks for a password, or touches a token
 constexpr unsigned kSecondsToVerify = 60;  // nobody is asked
 constexpr std::size_t kShownWords = 300;   // bytes of a program's message
-constexpr const char* kPublisher = "publisher";  // whoever has a key that is given without a name
+constexpr const char* kPublisher = "publisher";  // owner of a key that is given without a name
 
 bool isOfMinisign(KeyKind kind) {
   return kind == KeyKind::MinisignSecret || kind == KeyKind::MinisignPublic;

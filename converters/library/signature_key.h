@@ -16,7 +16,7 @@ enum class KeyKind : std::uint8_t {
   MinisignPublic,
   OpenSshPrivate,
   OpenSshPublic,   ///< lines as in NAME.pub
-  AllowedSigners,  ///< lines as ssh-keygen(1) has them: who, and a key
+  AllowedSigners,  ///< lines as ssh-keygen(1) has them: a signer, and a key
 };
 
 struct KeyFile {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the document is saved, and which of its parts the files on disk hold.
+// Place where the document is saved, and the parts of it that the files on disk hold.
 #pragma once
 
 #include <filesystem>

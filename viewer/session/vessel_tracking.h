@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From seeds to vessels, and the vessel under the pointer.
+// Tracking of vessels from seeds, and the vessel under the pointer.
 #pragma once
 
 #include <cstddef>

@@ -25,8 +25,8 @@ constexpr double kShare = 0.9;   // share of the distance: it is right to first 
 constexpr double kNear = 0.002;  // radii: on the surface
 constexpr int kRowsOfTile = 16;
 
-/// Where the power of a node is at most that of a neighbour: across . X <= level, X from the node's
-/// centre in the camera's axes, mm.
+/// Half-space in which the power of a node is at most that of a neighbour: across . X <= level, X
+/// from the node's centre in the camera's axes, mm.
 struct Side {
   Eigen::Vector3d across;
   double level;

@@ -40,7 +40,7 @@ public:
   /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob refuses it.
   explicit SurfaceTracer(const formats::Case& source);
 
-  /// On all cores; the same bits on any number of them. Throws Error(Cancelled).
+  /// Traces on all cores; the bits do not depend on their number. Throws Error(Cancelled).
   [[nodiscard]] TracedSurface trace(const Camera& camera, Progress& progress) const;
 
 private:

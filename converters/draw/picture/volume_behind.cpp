@@ -19,8 +19,8 @@ constexpr int kBrick = 8;          // voxels
 constexpr float kBrightest = 190;  // brightness, at most 255: vessels stand out before it
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a ray in index space lies in the box of the voxels: from `first` to `last` steps; empty if
-/// first > last.
+/// Range of a ray in index space that lies in the box of the voxels: from `first` to `last` steps;
+/// empty if first > last.
 struct Stretch {
   double first = -kInfinity, last = kInfinity;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a case comes from, in a report: steps with their parameters, source, digests.
+// Provenance of a case in a report: steps with their parameters, source, digests.
 #include <array>
 #include <cstddef>
 #include <sstream>

@@ -15,7 +15,7 @@
 
 namespace lumen::convert {
 
-/// Where the samples of a grid are, mm, LPS; axes are x, y, z.
+/// Places of the samples of a grid, mm, LPS; axes are x, y, z.
 struct Lattice {
   std::array<int, 3> size{};  ///< samples along x, y, z
   Place first{};              ///< place of the first sample

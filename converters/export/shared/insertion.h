@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an instrument enters a case, and how far it can be pushed.
+// Place where an instrument enters a case, and the length that it can be pushed.
 #pragma once
 
 #include <cstdint>

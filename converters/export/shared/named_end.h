@@ -12,7 +12,7 @@
 
 namespace lumen::convert {
 
-/// Where a vessel begins or ends.
+/// Beginning or end of a vessel.
 struct NamedEnd {
   std::string name;  ///< its group of faces: "inlet", "inlet-LABEL", "outlet-LABEL", "cap-LABEL"
   FaceKind kind = FaceKind::Outlet;

@@ -134,8 +134,8 @@ private:
     return n + 1 != branch.firstNode + branch.nodeCount && !isRoot(n);
   }
 
-  /// At a joint in another vessel, a segment has its own radius, and begins at the wall if that
-  /// vessel goes on.
+  /// Sets the segment's end at a joint in another vessel: it has its own radius there, and begins
+  /// at the wall if that vessel goes on.
   void beginAtWall(FlowSegment& segment, const std::vector<std::uint32_t>& nodes, bool last) const {
     const std::size_t at = last ? nodes.size() - 1 : 0, beside = last ? at - 1 : 1;
     if (!isGuest(nodes[beside], nodes[at])) return;

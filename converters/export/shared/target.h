@@ -34,7 +34,7 @@ struct ExportFile {
 };
 
 struct ExportResult {
-  /// Without README.md and lumen-export.json, which every folder gets.
+  /// Files besides README.md and lumen-export.json, which every folder gets.
   std::vector<ExportFile> files;
   std::vector<NamedEnd> ends;            ///< under the names that the files use
   std::optional<SurfaceReport> surface;  ///< report on the surface among the files

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How to cite a case of a library.
+// Citations of a case of a library.
 #pragma once
 
 #include <string>

@@ -24,7 +24,7 @@ std::string galleryCard(const CaseRecord& record, const std::string& root);
 /// Number of pages of a gallery of that many cases; at least one.
 std::size_t galleryPages(std::size_t cases);
 
-/// Where page 1, 2, ... lies in the folder of the library: index.html is the first.
+/// Path of page 1, 2, ... in the folder of the library: index.html is the first.
 std::string galleryPath(std::size_t page);
 
 /// A page of the gallery. `cards`: the items of its list. `signature`: the file's name, empty if

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pictures of a case its pages show.
+// Pictures of a case on its pages.
 #pragma once
 
 #include <string>

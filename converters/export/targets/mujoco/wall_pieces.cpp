@@ -36,7 +36,7 @@ Facets facetsOf(const SurfaceMesh& mesh) {
   return facets;
 }
 
-/// Where the plane x[axis] = at cuts the edge; the same for both orders of its ends.
+/// Point where the plane x[axis] = at cuts the edge; it does not depend on the order of its ends.
 Corner cut(const Corner& a, const Corner& b, int axis, double at) {
   const bool ordered = a.position[axis] < b.position[axis];
   const Corner& low = ordered ? a : b;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How finely the inside of vessels is cut into cells, and from which points it is found.
+// Size of the cells inside vessels, and the points from which the inside is found.
 #pragma once
 
 #include <array>

@@ -31,7 +31,7 @@ constexpr double kCgsCompliance = 1e5;                // cm^5/dyn of m^3/Pa
 // Seconds until the flow that walls take up is settled; the last one is answered.
 constexpr int kCycles = 10;
 
-/// Where an end lies, cm, LPS: the solver passes over names that begin with "_".
+/// Place of an end, cm, LPS: the solver passes over names that begin with "_".
 Json placeJson(const FlowNetwork& network, std::uint32_t joint) {
   const Eigen::Vector3d p = kCentimetres * network.joints[joint].place;
   return Json::array({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0});

@@ -50,7 +50,7 @@ public:
   [[nodiscard]] const blob_model* model() const { return m_vessel.model.get(); }
   /// Flags of libblob's queries: BLOB_BLENDED or BLOB_LOCAL.
   [[nodiscard]] std::uint32_t flags() const { return m_flags; }
-  /// Where a point that has no cursor begins; see load().
+  /// Node at which a point that has no cursor begins; see load().
   [[nodiscard]] std::uint32_t locatePoint(const double point[3]) const {
     return locate(m_vessel, point);
   }

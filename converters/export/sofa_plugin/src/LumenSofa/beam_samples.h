@@ -40,8 +40,8 @@ void layOutSamples(Beams& beams, unsigned perBeam, double radius, std::vector<Be
 void placeSamples(Beams& beams, const Rigid3::VecCoord& x, bool jacobian,
                   std::vector<BeamSample>& samples, std::vector<Vec3>& positions);
 
-/// For each new sample the index of the old one that is nearest along the instrument, the first
-/// among equals. Both rise; `oldAbscissa` is not empty. O(old + new).
+/// Index, for each new sample, of the old one that is nearest along the instrument, the first among
+/// equals. Both rise; `oldAbscissa` is not empty. O(old + new).
 void nearestAlong(std::span<const double> oldAbscissa, std::span<const BeamSample> samples,
                   std::vector<std::size_t>& nearest);
 
