@@ -34,7 +34,7 @@ std::string spaced(std::string list) {
 
 /// File names are completed by the shell itself wherever nothing here answers.
 std::string bashScript(const engine::Engine& commands) {
-  std::map<std::string, std::string> seconds;  // by the word of their group
+  std::map<std::string, std::string> seconds;  // keys: the word of their group
   std::string names, last;
   std::ostringstream options, groups;
   for (const auto& [command, table] : commands.commands()) {

@@ -18,8 +18,8 @@ namespace {
   throw Error(ErrorKind::Usage, place + text);
 }
 
-/// A quote opens a text only where a text can begin: at the start, and after "=", "," or "[". An apostrophe within a
-/// word is a letter.
+/// A quote opens a text only where a text can begin: at the start, and after "=", "," or "[". An
+/// apostrophe within a word is a letter.
 bool opensText(const std::string& line, std::size_t at) {
   if (line[at] != '"' && line[at] != '\'') return false;
   const std::size_t before = at == 0 ? std::string::npos : line.find_last_not_of(" \t", at - 1);
@@ -157,7 +157,7 @@ std::vector<CLI::ConfigItem> CommandConfig::from_config(std::istream& input) con
              line.key + " is set twice; see " + first->second.substr(0, first->second.size() - 2));
     if (!isOwn) continue;
     checkLine(line, m_command);
-    // what the command line gives wins
+    // options of the command line win
     if (const std::string name = "--" + line.key; m_app.get_option(name)->count() == 0) {
       if (!line.section.empty()) m_places[name] = line.place;
       m_places.emplace(name, line.place);

@@ -17,8 +17,8 @@
 
 namespace lumen::cli {
 
-/// Reads the file for one command, whose parser it must not outlive. Throws Error(Usage) with the file's name and
-/// the line for everything that is wrong in it.
+/// Reads the file for one command, whose parser it must not outlive. Throws Error(Usage) with the
+/// file's name and the line for everything that is wrong in it.
 class CommandConfig : public CLI::Config {
 public:
   CommandConfig(const CLI::App& app, const engine::Engine& commands,
@@ -41,7 +41,7 @@ private:
   const engine::Engine& m_commands;
   const engine::BoundCommand& m_command;
   const OptionTable& m_common;
-  mutable std::map<std::string, std::string> m_places;  ///< by the option's name with its dashes
+  mutable std::map<std::string, std::string> m_places;  ///< keys: the option's name with its dashes
 };
 
 }  // namespace lumen::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From argv to a running command and its exit code.
+// Running a command from argv to its exit code.
 #pragma once
 
 namespace lumen::cli {

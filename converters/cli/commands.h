@@ -12,7 +12,8 @@ namespace lumen::cli {
 /// The commands of the engine, `lumen view` and `lumen completion`.
 engine::Engine allCommands();
 
-/// Summary, in one line, of the commands whose names begin with this word and a space; null for another word.
+/// Summary, in one line, of the commands whose names begin with this word and a space; null for
+/// another word.
 const char* groupSummary(const std::string& word);
 
 /// The options that every command has.

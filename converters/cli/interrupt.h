@@ -18,10 +18,10 @@ namespace lumen {
 void reportFileSizeLimit();
 
 /// While the guard lives, the first SIGINT, SIGTERM or SIGHUP cancels `progress`. If the process is
-/// still there 0.8 s later (inside a library call that cannot be stopped), or at a second signal, it
-/// exits with code 130 at once. Before that exit the temporary files of the registered outputs are
-/// removed; the outputs themselves are whole, because they only ever appear by a rename. A process
-/// that was started with SIGHUP ignored (nohup) goes on at that signal.
+/// still there 0.8 s later (inside a library call that cannot be stopped), or at a second signal,
+/// it exits with code 130 at once. Before that exit the temporary files of the registered outputs
+/// are removed; the outputs themselves are whole, because they only ever appear by a rename. A
+/// process that was started with SIGHUP ignored (nohup) goes on at that signal.
 ///
 /// Construct one before any other thread starts: threads inherit the blocked signals, and a thread
 /// of the guard waits for them, so no code runs inside a signal handler.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A parser of command lines that is made from rows of options. CLI11 takes the words apart; the rows judge and store
-// the values.
+// Parser of command lines, made from rows of options. CLI11 takes the words apart; the rows judge
+// and store the values.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ public:
   CommandParser(const engine::Engine& commands, const engine::BoundCommand& command,
                 OptionTable& common);
 
-  /// Parses the words and sets the rows. Throws Error(Usage), Error(InvalidInput) for a configuration file that is not
-  /// there, and CLI::CallForHelp.
+  /// Parses the words and sets the rows. Throws Error(Usage), Error(InvalidInput) for a
+  /// configuration file that is not there, and CLI::CallForHelp.
   void parse(int argc, const char* const* argv);
   /// The help, which ends with `footer`.
   [[nodiscard]] std::string help(const std::string& footer);

@@ -107,7 +107,8 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error,
   return text;
 }
 
-/// As didYouMean(), by the second words alone: the first one makes all commands of a group look alike.
+/// The nearest name, as didYouMean(), by the second words alone: the first one makes all commands
+/// of a group look alike.
 std::string meantInGroup(const std::string& word, const std::string& group,
                          std::vector<std::string> names) {
   for (std::string& name : names) name.erase(0, group.size() + 1);

@@ -11,8 +11,8 @@
 
 namespace lumen::cli {
 
-/// The error for an argument that the parser refused, with the line of the configuration file if it came from one, and
-/// a suggestion.
+/// Error for an argument that the parser refused, with the line of the configuration file if the
+/// argument came from one, and a suggestion.
 Error usageError(const CLI::App& app, const CLI::ParseError& error, const engine::Engine& commands,
                  const engine::BoundCommand& command, const CommandConfig& config);
 

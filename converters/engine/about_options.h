@@ -21,8 +21,9 @@ struct AboutArguments {
 
 void addAboutRows(OptionTable& table, AboutArguments& about);
 
-/// The statements of the command line, then those of the file, then `known`; `licence` where none of them has one. Throws
-/// as convert::readAbout(), Error(InvalidInput) for a file that is not there.
+/// The statements of the command line, then those of the file, then `known`; `licence` where none
+/// of them has one. Throws as convert::readAbout(), Error(InvalidInput) for a file that is not
+/// there.
 convert::CaseAbout aboutOf(const AboutArguments& arguments, const convert::CaseAbout& known,
                            const std::string& licence);
 
@@ -33,8 +34,8 @@ ValueCheck licence();
 ValueCheck uuidText();
 ValueCheck caseIdText();
 
-/// The day of a revision: `given`, or that of SOURCE_DATE_EPOCH, or today's in UTC. Throws Error(Usage) if
-/// SOURCE_DATE_EPOCH is no number of seconds.
+/// The day of a revision: `given`, or that of SOURCE_DATE_EPOCH, or today's in UTC. Throws
+/// Error(Usage) if SOURCE_DATE_EPOCH is no number of seconds.
 std::string revisionDay(const std::string& given);
 
 /// --date of commands that make a revision.

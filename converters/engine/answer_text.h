@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 Json jsonNumber(float value);
 Json jsonNumber(double value);
 
-/// What convert, track and fit answer: branches, nodes, points, blobs, length_mm.
+/// Answer of convert, track and fit: branches, nodes, points, blobs, length_mm.
 Json caseSummary(const formats::Case& value);
 
 /// One line for a person: "out.lumen: 3 branches, 210 nodes, 1830 points, 902 blobs, 123.4 mm".

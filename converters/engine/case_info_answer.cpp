@@ -83,14 +83,14 @@ std::string sourceText(const formats::SourceVolume& source) {
   return text.str();
 }
 
-/// As a stream writes it.
+/// A number as a stream writes it.
 std::string plain(double value) {
   std::ostringstream text;
   text << value;
   return text.str();
 }
 
-/// What few cases have.
+/// Adds lines for facts that few cases have.
 void addExtras(const convert::CaseInfo& info, Lines& lines) {
   const formats::Metadata& metadata = info.metadata;
   if (info.links > 0) lines.add("links", std::to_string(info.links));

@@ -37,7 +37,8 @@ std::string atMost(double value) {
   return text.data();
 }
 
-/// What is to be done about losses at nodes of at least that radius, mm. `promise`: of finer cells.
+/// Advice on losses at nodes of at least the radius `thinnest`, mm. `promise`: the effect of finer
+/// cells.
 std::string advice(double thinnest, double cell, const std::string& promise) {
   const double coarsest = convert::coarsestCellFor(thinnest);
   if (cell <= coarsest)

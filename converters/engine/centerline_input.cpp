@@ -14,9 +14,10 @@ namespace lumen::engine {
 
 namespace {
 
-/// The fit is made for vessels of a few voxels in radius; so many the middle one of a tree gets.
+/// Voxels in the median radius of a tree: the fit is made for vessels of a few voxels in radius.
 constexpr double kVoxelsOfRadius = 5;
-/// Of that radius: radii that are given have no noise to stop at. With twice this the volume of a narrowing is 1 % short.
+/// Accuracy as a share of the median radius: given radii have no noise to stop at. With twice this
+/// the volume of a narrowing is 1 % short.
 constexpr double kAccuracyOfRadius = 0.005;
 
 std::string unitText(double unit) {
@@ -76,7 +77,8 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::Fit
   std::nth_element(radii.begin(), middle, radii.end());
   convert::FitOptions scaled = options;
   if (!scaled.accuracy) scaled.accuracy = kAccuracyOfRadius * double{*middle};
-  // Cohesion is for blobs that noise would scatter. Here it would draw the wall inwards, by .35 % of the radius.
+  // Cohesion is for blobs that noise would scatter. Here it would draw the wall inwards, by .35 %
+  // of the radius.
   if (scaled.cohesionWeight == convert::FitOptions{}.cohesionWeight) scaled.cohesionWeight = 0;
   return scaled.resolved(double{*middle} / kVoxelsOfRadius);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Centerlines of other programs on the command line: reading, what is said of one, and its case.
+// Centerlines of other programs on the command line: reading, the facts of one, and its case.
 #pragma once
 
 #include <filesystem>
@@ -21,16 +21,16 @@ void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline);
 
 struct LoadedCenterline {
   convert::CenterlineFile file;  ///< in mm and LPS
-  double unit = 1;               ///< mm; what its lengths were
+  double unit = 1;               ///< mm: the unit of its lengths in the file
 };
 
-/// The centerline in `file`. What was assumed becomes warnings. Throws Error(InvalidInput).
+/// The centerline in `file`. Assumptions become warnings. Throws Error(InvalidInput).
 LoadedCenterline loadCenterline(const std::filesystem::path& file, const FileFormat& format,
                                 const VolumeArguments& volume,
                                 const CenterlineArguments& centerline, Progress& progress);
 
-/// Options for a case that has no voxels: what scales with them scales with a fifth of the tree's
-/// median radius, but for the accuracy, which is a hundredth of it.
+/// Options for a case that has no voxels: lengths scale with a fifth of the tree's median radius,
+/// but for the accuracy, which is a hundredth of it.
 convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::FitOptions& options);
 
 /// The facts of `lumen info`.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `lumen check --json` answers.
+// Answer of `lumen check --json`.
 #pragma once
 
 #include <cstdint>

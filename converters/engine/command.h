@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands: what the program can be asked for. A command states its options as rows and answers with facts; it neither
-// prints nor knows who asked.
+// Commands: the work that the program can be asked for. A command states its options as rows and
+// answers with facts; it neither prints nor knows who asked.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace lumen::engine {
 
-/// Exit code 3: an input is invalid. For answers that are complete although what they judge is not valid.
+/// Exit code 3: an input is invalid. It is for complete answers about an input that is not valid.
 constexpr int kInvalidCode = static_cast<int>(ErrorKind::InvalidInput);
 
 /// The outcome of a command, in both forms.
@@ -24,12 +24,12 @@ struct Answer {
   Json json;
   std::string text;      ///< whole lines
   int code = 0;          ///< exit code
-  bool isAsked = false;  ///< the text is what the command is for, so even --quiet prints it
+  bool isAsked = false;  ///< the text is the command's purpose, so even --quiet prints it
 };
 
 class Engine;
 
-/// What a command works in.
+/// Environment of a command that runs.
 struct Surroundings {
   const Engine& engine;
   Progress& progress;
@@ -65,7 +65,7 @@ struct BoundCommand {
   std::unique_ptr<OptionTable> table;
 };
 
-/// The commands that can be asked for, in the order of the help.
+/// The program's commands, in the order of the help.
 class Engine {
 public:
   using Maker = std::function<std::unique_ptr<Command>()>;
@@ -75,10 +75,10 @@ public:
   [[nodiscard]] std::vector<BoundCommand> commands() const;
   /// The command of that name, new; null where there is none.
   [[nodiscard]] BoundCommand find(const std::string& name) const;
-  /// Does what is asked. Throws Error(Usage) for a command, an argument or an option that there is not, or whose
-  /// value is not allowed, and what the command throws.
+  /// Runs the command. Throws Error(Usage) for a command, an argument or an option that there is
+  /// not, or whose value is not allowed, and as the command.
   [[nodiscard]] Answer run(const Operation& operation, const Surroundings& around) const;
-  /// Runs a command whose rows are set. Throws what the command throws.
+  /// Runs a command whose rows are set. Throws as the command.
   [[nodiscard]] Answer run(const BoundCommand& bound, const Surroundings& around) const;
 
 private:
@@ -88,7 +88,7 @@ private:
 /// All commands but those of the viewer and of the terminal.
 Engine makeEngine();
 
-/// Sets the rows as the operation says. Throws Error(Usage).
+/// Sets the rows by the operation. Throws Error(Usage).
 void setRows(OptionTable& table, const Operation& operation);
 
 /// The first word of a command's name.

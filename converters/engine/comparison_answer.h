@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `lumen compare --json` answers.
+// Answer of `lumen compare --json`.
 #pragma once
 
 #include "converters/engine/answer_text.h"

@@ -13,7 +13,8 @@ namespace lumen::engine {
 /// Adds the rows of all targets, whose values are stored in `options`.
 void addExportRows(OptionTable& table, convert::ExportOptions& options);
 
-/// The texts of the target's options, given or default, as lumen-export.json records them. The table has export rows.
+/// The texts of the target's options, given or default, as lumen-export.json records them. The
+/// table has export rows.
 convert::OptionTexts exportOptionTexts(const OptionTable& table,
                                        const convert::ExportTarget& target);
 

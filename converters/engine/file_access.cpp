@@ -118,7 +118,8 @@ void requireWritable(const fs::path& path, convert::ContentKind written) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored))
     throw failed(path.string() + ": the output's folder " + folder.string() + " does not exist");
-  // permission bits do not tell (read-only mounts, privileged users), so a file is begun and dropped
+  // permission bits are not enough (read-only mounts, privileged users), so a file is begun and
+  // dropped
   const auto begun = formats::PendingFile::beside(path);
   if (!begun) throw failed(errorText(path, begun.error()));
 }

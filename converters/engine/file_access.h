@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command reads and writes by name, and what it refuses before any work.
+// Files that a command reads and writes by name, and refusals before any work.
 #pragma once
 
 #include "converters/engine/app_alias.h"
@@ -17,13 +17,15 @@
 namespace lumen::engine {
 
 /// A case in either encoding, by its content. Throws Error(InvalidInput) with the file's name and
-/// what is wrong in it.
+/// the fault.
 formats::Case readCase(const std::filesystem::path& file);
-/// The same, with the whole of the file.
+/// A case in either encoding, by its content, with the bytes of the whole file. Throws as
+/// readCase().
 std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(
     const std::filesystem::path& file);
 
-/// The same, and the bytes of the file.
+/// A case in either encoding, by its content, with the bytes of the whole file. Throws as
+/// readCase().
 std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(
     const std::filesystem::path& file);
 
@@ -35,22 +37,24 @@ formats::Case readParentCase(const std::filesystem::path& file);
 void writeCase(const formats::Case& value, const std::filesystem::path& file,
                formats::CaseEncoding encoding, const formats::EncodeOptions& options);
 
-/// The whole of a file that is neither a folder nor a pipe. Throws Error(InvalidInput); `what` names its role.
+/// The whole of a file that is neither a folder nor a pipe. Throws Error(InvalidInput); `what`
+/// names its role.
 std::string readText(const std::filesystem::path& file, std::string_view what);
 
 /// Writes atomically; throws Error(Failed) with the file's name.
 void writeText(std::string_view text, const std::filesystem::path& file);
 
-/// Throws Error(InvalidInput) if `path` is missing or may not be read; `what` names its role, such as "seeds file".
+/// Throws Error(InvalidInput) if `path` is missing or may not be read; `what` names its role, such
+/// as "seeds file".
 void requireInput(const std::filesystem::path& path, std::string_view what);
 
-/// Throws Error(Usage) if `output` is what only an input can be, a volume or seeds, and
+/// Throws Error(Usage) if `output` is a file that only an input can be, a volume or seeds, and
 /// Error(InvalidInput) if `input` is missing while `output` could be one: they look swapped.
 void requireOrder(const std::filesystem::path& input, const std::filesystem::path& output);
 
 /// Throws Error(Failed) unless `path` can be created: its folder must exist and take new files, and
-/// it must not itself be a folder. Leaves nothing behind. Throws Error(Usage) if `path` is a volume,
-/// seeds or a case, and something else is going to be written.
+/// it must not itself be a folder. Leaves nothing behind. Throws Error(Usage) if `path` is a
+/// volume, seeds or a case, and something else is going to be written.
 void requireWritable(const std::filesystem::path& path, convert::ContentKind written);
 
 }  // namespace lumen::engine

@@ -235,7 +235,7 @@ const FileFormat& require(const FileFormat* format, const fs::path& path, std::s
                     didYouMean(path.extension().string(), endingsOf(test)));
 }
 
-/// An input whose name does not tell its format, but whose content does.
+/// Refuses an input whose format its content shows, though its name does not.
 void refuseByContent(const fs::path& path) {
   const convert::FileContent content = convert::contentOf(path);
   if (content.kind == convert::ContentKind::Volume || content.kind == convert::ContentKind::Case ||

@@ -27,16 +27,16 @@ namespace lumen::engine {
 
 enum class FormatKind { Volume, Case, Mesh, Centerline };
 
-/// How a case is written; each format takes what concerns it.
+/// Options for writing a case; each format takes those that concern it.
 struct OutputOptions {
   formats::EncodeOptions encoding;
-  convert::PolygoniseOptions polygonise;  ///< of patches
-  convert::ClosedSurfaceOptions surface;  ///< of the closed surface
+  convert::PolygoniseOptions polygonise;  ///< options of patches
+  convert::ClosedSurfaceOptions surface;  ///< options of the closed surface
   convert::WriteMeshOptions mesh;
   bool patches = false;  ///< the surface in pieces
 };
 
-/// One row. A function that is null says what the format cannot do; each throws lumen::Error with
+/// One row. A function is null where the format cannot do its work; each throws lumen::Error with
 /// the file's name.
 struct FileFormat {
   using CaseReader = formats::Case (*)(const std::filesystem::path&);
@@ -48,7 +48,7 @@ struct FileFormat {
   using CenterlineReader = convert::CenterlineFile (*)(const std::filesystem::path&);
   using MeshReader = convert::MeshFile (*)(const std::filesystem::path&);
   using SceneReader = convert::MeshFile (*)(const std::filesystem::path&, const SceneArguments&);
-  /// What it returns is null unless a closed surface was made.
+  /// Returns null unless a closed surface was made.
   using CaseWriter = std::optional<convert::SurfaceReport> (*)(const formats::Case&,
                                                                const std::filesystem::path&,
                                                                const OutputOptions&, Progress&);
@@ -57,23 +57,23 @@ struct FileFormat {
   std::string_view name;   ///< as --from and --to take it
   std::string_view title;  ///< as a help text calls it; rows of one title are listed once
   FormatKind kind;
-  std::vector<std::string_view> endings{};  ///< of a name, lower case; empty: a folder
+  std::vector<std::string_view> endings{};  ///< endings of a name, lower case; empty: a folder
   CaseReader readCase = nullptr;
   VolumeReader readVolume = nullptr;
   VolumeHeaderReader readVolumeHeader = nullptr;  ///< wherever readVolume is
   MeshReader readMesh = nullptr;
   CenterlineReader readCenterline = nullptr;
-  SceneReader readScene = nullptr;     ///< where a file may have several meshes, or names others
+  SceneReader readScene = nullptr;     ///< for files with several meshes, or that name others
   CaseWriter writeCase = nullptr;      ///< atomically
   VolumeWriter writeVolume = nullptr;  ///< atomically
 };
 
 const std::vector<FileFormat>& fileFormats();
 
-/// What a file of this format is.
+/// Kind of content of a file of this format.
 convert::ContentKind contentKind(const FileFormat& format);
 
-/// What a list of formats is about.
+/// Whether a format belongs in a list of formats.
 using FormatTest = bool (*)(const FileFormat&);
 bool canRead(const FileFormat& format);
 bool canReadVolume(const FileFormat& format);

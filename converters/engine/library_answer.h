@@ -15,7 +15,7 @@ namespace lumen::engine {
 /// "1.2 MB"
 std::string bytesText(std::uint64_t bytes);
 
-/// What a change left out of a library, as a line of its own; empty if nothing.
+/// The files that a change left out of a library, as a line of its own; empty if none.
 std::string goneText(const std::vector<std::string>& gone);
 
 /// id, revision, title, licence, date, and how many cases there are.

@@ -55,7 +55,7 @@ void requireAbout(const BuildRow& row, const convert::LibraryFile& library) {
     throw invalidInput(missing);
 }
 
-/// Refuses, all at once, what would only fail after work.
+/// Refuses, all at once, rows that would only fail after work.
 void requireRows(const std::vector<BuildRow>& rows, const convert::LibraryFile& library,
                  const std::string& list, const Engine& engine) {
   const BoundCommand convertCommand = engine.find("convert");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `lumen library build` and `lumen library sample` share: options, the run, the table at its end.
+// Parts that `lumen library build` and `lumen library sample` share: options, the run, the table at
+// its end.
 #pragma once
 
 #include <string>
@@ -20,9 +21,10 @@ void addBuildRows(OptionTable& table, BuildArguments& arguments);
 /// Throws Error(InvalidInput) as convert::readBuildList(), and for a file that cannot be read.
 std::vector<convert::BuildRow> loadBuildList(const std::string& file);
 
-/// Makes the rows and answers with a table of what failed and why. Throws Error(InvalidInput) for a row that cannot
-/// succeed, as far as that is seen before any work. Returns the exit code: 0 if every row is in the library, 3 if
-/// the inputs alone are to blame for those that are not, else 1.
+/// Makes the rows and answers with a table of the rows that failed and why. Throws
+/// Error(InvalidInput) for a row that cannot succeed, as far as that is seen before any work.
+/// Returns the exit code: 0 if every row is in the library, 3 if the inputs alone are to blame for
+/// those that are not, else 1.
 Answer buildLibrary(const std::vector<convert::BuildRow>& rows, const std::string& list,
                     const std::string& library, const BuildArguments& arguments,
                     const Surroundings& around);

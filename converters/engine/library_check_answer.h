@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What checks of libraries answer.
+// Answers of checks of libraries.
 #pragma once
 
 #include <string>
@@ -10,11 +10,10 @@
 
 namespace lumen::engine {
 
-/// The exit code for a library with faults, which are answered rather than thrown.
-/// id, title, revision, counts and faults: what check and verify have in common.
+/// Facts that check and verify have in common: id, title, revision, counts and faults.
 Json libraryCheckJson(const std::string& folder, const convert::LibraryCheck& check);
 
-/// A line for each fault, and one that tells how many are not listed.
+/// A line for each fault, and one with the number of faults that are not listed.
 std::string libraryFaultsText(const std::string& folder, const convert::LibraryCheck& check);
 
 /// "revision 7 of "Carotid siphons"", or nothing if library.json could not be read.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A volume of labels as an input: which of them are vessels, and what they are called.
+// A volume of labels as an input: the labels that are vessels, and their names.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,20 @@ namespace lumen::engine {
 
 struct VolumeArguments;
 
-/// What a user says of a volume of labels.
+/// The user's statements about a volume of labels.
 struct MaskArguments {
   bool isMask = false;                ///< every label but 0 is a vessel
   std::optional<std::int64_t> label;  ///< this one alone is
   std::string labels;                 ///< or "N=NAME,N=NAME"
   /// The volume holds labels.
   [[nodiscard]] bool isGiven() const { return isMask || label || !labels.empty(); }
-  /// Those chosen; empty: all. Throws Error(Usage) for what cannot be read.
+  /// The labels chosen; empty: all. Throws Error(Usage) for a text that cannot be read.
   [[nodiscard]] convert::LabelNames names() const;
 };
 
 /// Tree and wall points of the labels in `file`; a branch has the name of its label where there are
-/// several, or names were given. Throws Error(InvalidInput) for what holds no labels, and for labels
-/// that are no vessels.
+/// several, or names were given. Throws Error(InvalidInput) for a file without labels, and for
+/// labels that are no vessels.
 formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat& format,
                              const VolumeArguments& volume, const MaskArguments& arguments,
                              Progress& progress);

@@ -53,7 +53,7 @@ Json genusJson(const std::optional<std::int64_t>& genus) {
   return genus ? Json(*genus) : Json(nullptr);
 }
 
-/// Of all components, if each has one.
+/// Sum of the genus of all components, if each has one.
 std::optional<std::int64_t> genusOf(const convert::MeshReport& report) {
   std::int64_t sum = 0;
   for (const convert::MeshComponent& c : report.components) {

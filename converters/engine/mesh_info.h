@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The facts that `lumen info` gives of a mesh.
+// Facts of a mesh for `lumen info`.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ struct MeshInfo {
   convert::MeshFile file;
   convert::MeshReport report;  ///< in the file's unit
   std::string unit;            ///< mm, cm, m or um
-  double millimetres = 1;      ///< in one unit of the file
+  double millimetres = 1;      ///< length of one unit of the file
   std::string unitFrom;        ///< "option", "file" or "guess"
 };
 
-/// `unit` is what the user says, or empty. Warns where the unit is a guess that is not mm.
+/// `unit` is the user's, or empty. Warns where the unit is a guess that is not mm.
 MeshInfo describeMesh(convert::MeshFile file, const std::string& name, const std::string& unit,
                       Progress& progress);
 

@@ -65,7 +65,7 @@ std::optional<convert::GivenCenterline> givenCenterline(const MeshArguments& arg
   return given;
 }
 
-/// mm in a unit of the mesh; says so where it had to guess.
+/// mm in a unit of the mesh; warns where it had to guess.
 double unitOf(const convert::MeshFile& file, const convert::TriangleMesh& mesh,
               const std::string& name, const MeshArguments& arguments, Progress& progress) {
   if (const double stated = millimetresIn(arguments.unit); stated > 0) return stated;

@@ -11,17 +11,18 @@
 
 namespace lumen::engine {
 
-/// What a user says of a mesh.
+/// The user's statements about a mesh.
 struct MeshArguments {
-  std::string unit;             ///< empty: as its file says, or what makes vessels plausible
+  std::string unit;             ///< empty: the file's, or the one that makes vessels plausible
   std::string centerline;       ///< a file; empty: the tree is found
-  std::string centerlineFrame;  ///< lps or ras; empty: as its file says, or the mesh's
-  std::string centerlineUnit;   ///< empty: as its file says, or the mesh's
-  SceneArguments scene;         ///< of a scene
+  std::string centerlineFrame;  ///< lps or ras; empty: the file's, or the mesh's
+  std::string centerlineUnit;   ///< empty: the file's, or the mesh's
+  SceneArguments scene;         ///< options of a scene
 };
 
-/// Tree and wall points of the mesh in `file`. What had to be repaired or assumed becomes warnings. Throws
-/// Error(InvalidInput) for what is no surface of vessels, and for a centerline that is not one of it.
+/// Tree and wall points of the mesh in `file`. Repairs and assumptions become warnings. Throws
+/// Error(InvalidInput) for a mesh that is no surface of vessels, and for a centerline that does not
+/// belong to it.
 formats::Case caseOfMeshFile(const std::filesystem::path& file, const FileFormat& format,
                              const MeshArguments& arguments, Progress& progress);
 

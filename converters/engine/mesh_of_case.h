@@ -17,10 +17,10 @@ namespace lumen::engine {
 struct CaseMesh {
   /// The surface, and coarser ones behind it, all with the same groups and labels.
   std::vector<convert::SurfaceMesh> levels;
-  std::optional<convert::SurfaceReport> report;  ///< of a closed surface
+  std::optional<convert::SurfaceReport> report;  ///< report on a closed surface
 };
 
-/// The surface as the options say; one level unless `hasLevels`. Warns of what the mesh in `file`
+/// The surface by the options; one level unless `hasLevels`. Warns of parts that the mesh in `file`
 /// lacks.
 CaseMesh meshOfCase(const formats::Case& value, const std::filesystem::path& file,
                     const OutputOptions& options, bool hasLevels, Progress& progress);

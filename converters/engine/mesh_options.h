@@ -12,7 +12,8 @@ namespace lumen::engine {
 /// The closed surface: edges, flow extensions, a wall, simplification.
 void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface);
 
-/// How `lumen convert` writes a mesh: the surface, its patches, and the file's own options.
+/// Rows for writing a mesh by `lumen convert`: the surface, its patches, and the file's own
+/// options.
 void addMeshFileRows(OptionTable& table, OutputOptions& output);
 
 }  // namespace lumen::engine

@@ -54,7 +54,7 @@ std::string_view asText(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// As a name below files/.
+/// Path of a file below files/.
 std::string pathOfFile(const std::string& file) {
   return "files/" + fs::path(file).filename().string();
 }
@@ -90,7 +90,7 @@ void checkWishes(const CaseWishes& wishes) {
   }
 }
 
-/// What needs models, of a case without.
+/// Refuses wishes that need models, for a case without.
 void requireModels(const CaseWishes& wishes, const std::string& file) {
   const auto refuse = [&](const std::string& option) {
     throw invalidInput(printable(file) + ": this case has no models, so there is nothing for " +
@@ -178,8 +178,8 @@ private:
   const Progress& m_asked;
 };
 
-/// Adds pages that other commands make of the case. They see it under its id, as the name of a file may identify a
-/// patient.
+/// Adds pages that other commands make of the case. They see it under its id, as the name of a file
+/// may identify a patient.
 void addPages(std::string_view caseBytes, const CaseWishes& wishes, IncomingCase& incoming,
               const Surroundings& around) {
   if (!wishes.report && !wishes.viewer) return;

@@ -14,27 +14,28 @@
 
 namespace lumen::engine {
 
-/// What of a case is to be made for a library, besides the case itself.
+/// Parts of a case to be made for a library, besides the case itself.
 struct CaseWishes {
   std::string id;                    ///< empty: of the case's digest
   bool replace = false;              ///< a case of this id may be there
   bool surface = true;               ///< surface.glb
   std::vector<std::string> views;    ///< picture-VIEW.png each; thumbnail.png with any
   int turntable = 0;                 ///< pictures around the case
-  std::vector<std::string> targets;  ///< of lumen export
+  std::vector<std::string> targets;  ///< targets of lumen export
   bool report = false;               ///< report.html
   bool viewer = false;               ///< view.html: the viewer with the case, as one file
-  std::vector<std::string> files;    ///< to come along, below files/
-  std::string recipe;                ///< digest of what it was made from, for `lumen library build`
+  std::vector<std::string> files;    ///< extra files, below files/
+  std::string recipe;                ///< digest of the inputs, for `lumen library build`
 };
 
 /// The words that views may have.
 const std::vector<std::string>& pictureViews();
 
-/// Makes all of it beside `library`. Everything that can be refused is refused before long work: Error(InvalidInput) for a
-/// case that cannot be read, for what convert::missingStatement() says and for wishes that a case without models cannot
-/// fulfil; Error(Usage) for an id that is there already; Error(Unsupported) for a target. Warns of texts that look like
-/// a person's, and as exports and surfaces do. `about` gets a title if it has none.
+/// Makes everything in `wishes` beside `library`. Everything that can be refused is refused before
+/// long work: Error(InvalidInput) for a case that cannot be read, for a missing statement
+/// (convert::missingStatement()) and for wishes that a case without models cannot fulfil;
+/// Error(Usage) for an id that is there already; Error(Unsupported) for a target. Warns of texts
+/// that look like a person's, and as exports and surfaces do. `about` gets a title if it has none.
 convert::IncomingCase prepareCase(const std::filesystem::path& caseFile, convert::CaseAbout about,
                                   const CaseWishes& wishes, const std::filesystem::path& library,
                                   const Surroundings& around);

@@ -10,15 +10,15 @@
 
 namespace lumen::engine {
 
-/// What a user says of a scene.
+/// The user's statements about a scene.
 struct SceneArguments {
   std::string mesh;                        ///< --mesh; empty: the one that the scene shows it is
   std::vector<std::string> allowDetached;  ///< files and folders besides the scene's own
 };
 
 /// The mesh that `file` loads as its vessels, where the scene places it; its axes are taken as LPS.
-/// Throws Error(InvalidInput) and Error(Unsupported) for what is no scene, does not say which mesh
-/// the vessels are, or takes it from elsewhere than it may; and what the mesh's reader throws.
+/// Throws Error(InvalidInput) and Error(Unsupported) for a file that is no scene, does not state
+/// which mesh the vessels are, or takes it from elsewhere than it may; and as the mesh's reader.
 convert::MeshFile readSceneMesh(const std::filesystem::path& file, const SceneArguments& arguments);
 
 }  // namespace lumen::engine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kinds of inputs and outputs, by which rows say where an option counts.
+// Kinds of inputs and outputs, by which rows state where an option counts.
 #pragma once
 
 #include <string>
@@ -41,7 +41,7 @@ constexpr ContentMask kTree = 1 << 5;  ///< a centerline
 struct Situation {
   ContentMask input = kAnyContent;
   ContentMask output = kAnyContent;
-  std::string inputName, outputName;  ///< of the files, for messages
+  std::string inputName, outputName;  ///< names of the files, for messages
 };
 
 /// One bit: the content of an input of this format. A case is taken as it is.
@@ -49,9 +49,10 @@ ContentMask inputContent(const FileFormat& format, bool holdsLabels);
 /// One bit: the content of an output of this format.
 ContentMask outputContent(const FileFormat& format);
 
-/// Throws Error(Usage) for an option that is given and would do nothing: --stl-solids when a .glb is written. The
-/// message says for which inputs or outputs the option is, or which other option it needs. A preference of a
-/// configuration file is warned of instead, as such a file serves several runs.
+/// Throws Error(Usage) for an option that is given and would do nothing: --stl-solids when a .glb
+/// is written. The message states for which inputs or outputs the option is, or which other option
+/// it needs. A preference of a configuration file is warned of instead, as such a file serves
+/// several runs.
 void requireInScope(const OptionTable& table, const Situation& situation, Progress& progress);
 
 }  // namespace lumen::engine

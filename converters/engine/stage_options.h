@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of the options that several commands share: how inputs are read, vessels tracked, models fitted and cases
-// written.
+// Rows of the options that several commands share: how inputs are read, vessels tracked, models
+// fitted and cases written.
 #pragma once
 
 #include "converters/engine/app_alias.h"
@@ -21,20 +21,20 @@
 
 namespace lumen::engine {
 
-/// What a user states of a volume's file.
+/// The user's statements about a volume's file.
 struct VolumeArguments {
   std::string series;
-  std::vector<int> crop;  ///< empty, or i0, i1, j0, j1, k0, k1
+  std::vector<int> crop;                    ///< empty, or i0, i1, j0, j1, k0, k1
   std::optional<std::int64_t> volumeIndex;  ///< from 0
-  std::string spacing;    ///< empty, or mm of one or three axes, with commas between them
-  std::string unit;       ///< empty, or mm, cm, m or um
+  std::string spacing;  ///< empty, or mm of one or three axes, with commas between them
+  std::string unit;     ///< empty, or mm, cm, m or um
   std::vector<std::string> allowDetached;
   [[nodiscard]] convert::ReadVolumeOptions options() const;
 };
 
 struct TrackArguments {
   std::string seeds;
-  std::string seedsFrame, seedsUnit;  ///< empty: as the seeds file says
+  std::string seedsFrame, seedsUnit;  ///< empty: those of the seeds file
   convert::TrackOptions options;
   [[nodiscard]] convert::SeedReading reading() const;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said of a closed surface.
+// Facts of a closed surface, as text and as JSON.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,17 @@
 
 namespace lumen::engine {
 
-/// Warns of what a user should look at: ends that are not flat, vessels that had to be opened or
-/// cut.
+/// Warns of parts that a user should look at: ends that are not flat, vessels that had to be opened
+/// or cut.
 void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
                    Progress& progress);
 
-/// Lines for the answer: triangles, ends, and where vessels overlap and by how much. Empty without a
-/// surface.
+/// Lines for the answer: triangles, ends, and where vessels overlap and by how much. Empty without
+/// a surface.
 std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
                          const formats::Case& value);
 
-/// The same as an object; null without a surface.
+/// Facts of a closed surface as an object; null without a surface.
 Json surfaceJson(const std::optional<convert::SurfaceReport>& report, const formats::Case& value);
 
 }  // namespace lumen::engine

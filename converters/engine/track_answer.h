@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What became of seeds, for the answers of track and convert.
+// Outcome of seeds, for the answers of track and convert.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace lumen::engine {
 /// An answer with the members failed_seeds, missed_points, unjoined and ends.
 Json withRemarks(Json json, const convert::TrackRemarks& remarks);
 
-/// A line for each end beyond which the lumen is seen to lead on, the longest first, as long as
-/// there are not too many to read.
+/// A line for each end beyond which the lumen is seen to lead on, the longest first, unless there
+/// are too many to read.
 std::string endLines(const convert::TrackRemarks& remarks);
 
 }  // namespace lumen::engine

@@ -15,7 +15,8 @@ namespace lumen::engine {
 
 namespace {
 
-/// What `read` gives; what cannot be read as a volume may be something else altogether.
+/// The result of `read`. An error about a file that is no volume but has other known content names
+/// that content.
 template <class Result>
 Result readAs(Result (*read)(const std::filesystem::path&, const convert::ReadVolumeOptions&,
                              const Progress&),
@@ -36,7 +37,7 @@ void tellAssumptions(const std::filesystem::path& file, const std::vector<std::s
     progress.warn(file.string() + ": " + assumption);
 }
 
-/// One line for each seed, as long as there are not too many to read.
+/// One line for each seed, unless there are too many to read.
 void warnOfSeeds(const std::string& file, const std::string& what,
                  const std::vector<convert::SeedFailure>& failures, Progress& progress) {
   constexpr std::size_t kMost = 20;
@@ -53,8 +54,8 @@ std::string share(std::size_t count, std::size_t seeds) {
   return std::to_string(count) + " of " + std::to_string(seeds) + " lie";
 }
 
-/// Why seeds may start no track, after a semicolon: they stand out of the volume in another reading of
-/// their file, or hardly at all.
+/// Reason why seeds may start no track, after a semicolon: they stand out of the volume in another
+/// reading of their file, or hardly at all.
 std::string doubtAboutSeeds(const convert::Volume& volume,
                             const std::vector<convert::SeedBranch>& seeds,
                             const std::vector<convert::SeedBranch>& placed,

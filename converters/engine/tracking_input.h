@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands that read a volume have in common: the volume, the seeds, the tracks.
+// Inputs of the commands that read a volume: the volume, the seeds, the tracks.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,21 @@
 
 namespace lumen::engine {
 
-/// What the header of the volume in `file` says; tells of what it leaves open.
+/// The facts in the header of the volume in `file`; warns of those that it leaves open.
 convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
                                        const VolumeArguments& volume, Progress& progress);
 
-/// The volume in `file`, read as `format` whatever the name; shows a stage of progress. What the
-/// file leaves open and the reader assumed becomes warnings.
+/// The volume in `file`, read as `format` whatever its name; shows a stage of progress. Assumptions
+/// of the reader about facts that the file leaves open become warnings.
 convert::Volume readVolumeFile(const std::filesystem::path& file, const FileFormat& format,
                                const VolumeArguments& volume, Progress& progress);
 
-/// The same, for tracking: what makes its voxels doubtful becomes a warning, too.
+/// The volume in `file`, read as `format` whatever its name, for tracking; shows a stage of
+/// progress. Assumptions of the reader and reasons to doubt the voxels become warnings.
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress);
 
-/// The seeds of --seeds, read as the options say. Throws Error(Usage) without the option, and
+/// The seeds of --seeds, read by the options. Throws Error(Usage) without the option, and
 /// Error(InvalidInput) for a file that is missing or invalid.
 std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The facts that `lumen info` gives of a volume.
+// Facts of a volume for `lumen info`.
 #pragma once
 
 #include <optional>

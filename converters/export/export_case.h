@@ -19,7 +19,7 @@ struct ExportOptions : CommonOptions {
 };
 
 struct ExportTarget : TargetRow {
-  /// Throws lumen::Error: InvalidInput where a case is not what the target can hold, and why.
+  /// Throws lumen::Error: InvalidInput, with the reason, for a case that the target cannot hold.
   using Writer = ExportResult (*)(const ExportInput& input, const ExportOptions& options);
 
   Writer write = nullptr;

@@ -73,7 +73,7 @@ void BagCheck::finish(FaultList& faults) {
   State& state = *m_state;
   if (state.isWhole) {
     TagTexts tags = state.texts.finish();
-    // library.json may be written in another way that says the same
+    // library.json may be written in another way of equal content
     const std::string written = digestOf(libraryText(state.library));
     if (const std::size_t at = tags.tagManifest.find(written); at != std::string::npos)
       tags.tagManifest.replace(at, written.size(), digestOf(state.text));

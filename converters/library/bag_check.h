@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bag and the RO-Crate of a library beside what library.json and the records give. One case at a time is in memory.
+// Check of the bag and the RO-Crate of a library against library.json and the records. One case at
+// a time is in memory.
 #pragma once
 
 #include <memory>
@@ -22,9 +23,9 @@ public:
   BagCheck(const BagCheck&) = delete;
   BagCheck& operator=(const BagCheck&) = delete;
 
-  /// The next case. Nothing is known of what follows from a record that is not there.
+  /// Checks the next case. A record that is not there leaves the files that follow from it unknown.
   void add(const LibraryEntry& entry, const CaseCheck& check);
-  /// After the last case.
+  /// Ends the check after the last case.
   void finish(FaultList& faults);
 
 private:

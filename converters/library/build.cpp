@@ -34,15 +34,16 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kWorkMark = "lumen-library-build.txt";
 constexpr const char* kMarkText =
     "lumen library build works here, and removes this folder when all is made.\n";
-constexpr double kPatience =
-    20;  // a batch waits for as many times as long as the last one took to put in
+// a batch waits this multiple of the time that the last one took to put in
+constexpr double kPatience = 20;
 
 CaseRecord recordIn(const fs::path& library, const std::string& id) {
   const fs::path file = library / kPayload / id / kRecordFile;
   return readRecord(readWholeFile(file, "record"), file);
 }
 
-/// Whether the library's case is made from what the row says. A record that cannot be read is not.
+/// Whether the library's case is made from the row as it stands. A record that cannot be read is
+/// not.
 bool isKept(const fs::path& folder, const LibraryFile& library, const PlannedRow& plan) {
   if (findCase(library, plan.id) == nullptr) return false;
   try {
@@ -53,7 +54,7 @@ bool isKept(const fs::path& folder, const LibraryFile& library, const PlannedRow
   }
 }
 
-/// What workers hand over: results, and rows that lie ready for the library.
+/// Results that workers hand over, and rows that lie ready for the library.
 class Building {
 public:
   Building(const std::vector<BuildRow>& rows, fs::path folder, const BuildOptions& options,
@@ -75,7 +76,7 @@ public:
       putAll();
     } catch (...) {
       failure = std::current_exception();
-      m_next = m_rows.size();  // what runs ends, nothing else begins
+      m_next = m_rows.size();  // rows that run end, no other begins
     }
     for (std::thread& worker : workers) worker.join();
     if (failure) std::rethrow_exception(failure);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Making the cases of a list, each by commands of lumen in processes of their own, so that one that crashes or runs out
-// of memory costs its own row only.
+// Making the cases of a list, each by commands of lumen in processes of their own, so that one that
+// crashes or runs out of memory costs its own row only.
 #pragma once
 
 #include <filesystem>
@@ -18,37 +18,38 @@ struct BuildOptions {
   /// Does an operation in a process of its own, which appends its messages to a file.
   std::function<OperationEnd(const Operation&, const std::filesystem::path& log, const Progress&)>
       run;
-  std::string version;  ///< of lumen: another one makes every case again
-  std::filesystem::path
-      work;         ///< where rows are made: what is there from another run is gone on with
-  int jobs = 1;     ///< rows at once
-  std::string day;  ///< YYYY-MM-DD: of the revisions that come of it
+  std::string version;         ///< version of lumen: another one makes every case again
+  std::filesystem::path work;  ///< where rows are made; a run continues another's files
+  int jobs = 1;                ///< rows at once
+  std::string day;             ///< YYYY-MM-DD: of the revisions that come of it
 };
 
 enum class RowEnd : std::uint8_t { Made, Kept, Failed };
 
-/// What became of a row.
+/// Outcome of a row.
 struct RowResult {
-  std::size_t line = 0;  ///< where it begins in the list
+  std::size_t line = 0;  ///< its first line in the list
   std::string id;
   RowEnd end = RowEnd::Failed;
   double seconds = 0;
   int code = 0;     ///< exit code of the command that failed
   std::string why;  ///< its message
   std::size_t warnings = 0;
-  std::filesystem::path log;  ///< what the row's commands wrote to standard error, where it failed
+  std::filesystem::path log;  ///< standard error of the row's commands, where it failed
 };
 
-/// Makes the folder for work, and marks one that it made, or found empty, as lumen's own. Throws Error(Failed).
+/// Makes the folder for work, and marks one that it made, or found empty, as lumen's own. Throws
+/// Error(Failed).
 void claimWorkFolder(const std::filesystem::path& folder);
 
-/// Removes a folder for work that is marked, with all that is in it. Any other stays: it is somebody's.
+/// Removes a folder for work that is marked, with everything in it. A folder without the mark is
+/// somebody's, and stays.
 void removeWorkFolder(const std::filesystem::path& folder);
 
-/// Makes every row whose recipe is not that of the case in the library, and puts it there; cases are put into the
-/// library in batches, each atomic. A row that fails is passed over. Results are in the order of the list. Throws
-/// Error(Cancelled): what is made by then is used by the next run; Error(Failed) where neither the library nor the
-/// folder for work can be written.
+/// Makes every row whose recipe is not that of the case in the library, and puts it there; cases
+/// are put into the library in batches, each atomic. A row that fails is passed over. Results are
+/// in the order of the list. Throws Error(Cancelled), after which the next run uses the rows made
+/// by then; Error(Failed) where neither the library nor the folder for work can be written.
 std::vector<RowResult> buildLibrary(const std::vector<BuildRow>& rows,
                                     const std::filesystem::path& library,
                                     const BuildOptions& options, Progress& progress);

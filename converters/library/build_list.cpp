@@ -38,7 +38,7 @@ bool holds(const List& list, std::string_view word) {
 }
 
 struct TableRow {
-  std::size_t line = 0;  ///< where it begins; the first is 1
+  std::size_t line = 0;  ///< the row's first line; the first is 1
   Cells cells;
 };
 
@@ -51,7 +51,7 @@ std::string linePrefix(std::size_t line) {
   return "line " + std::to_string(line) + ": ";
 }
 
-/// Rows and cells as libcsv finds them; throws what breaks RFC 4180.
+/// Rows and cells as libcsv finds them; throws for breaches of RFC 4180.
 std::vector<TableRow> rowsOf(const std::string& text, const std::string& name) {
   csv_parser parser{};
   if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL) != 0)
@@ -67,8 +67,8 @@ std::vector<TableRow> rowsOf(const std::string& text, const std::string& name) {
     all.rows.push_back(std::exchange(all.row, {}));
   };
   bool isRead = true;
-  for (std::size_t at = 0, line = 1; isRead && at < text.size();
-       ++at) {  // as libcsv tells no lines
+  // lines are counted here, as libcsv does not report them
+  for (std::size_t at = 0, line = 1; isRead && at < text.size(); ++at) {
     const bool isEnd = text[at] == '\n' || text[at] == '\r';
     if (table.row.line == 0 && !isEnd) table.row.line = line;
     isRead = csv_parse(&parser, &text[at], 1, cell, row, &table) == 1;
@@ -152,7 +152,7 @@ void requireFile(const fs::path& file, const std::string& column) {
     throw invalidInput(column + ": there is no " + formats::printable(file.string()));
 }
 
-/// Throws what is wrong, without the place.
+/// A row of the list; throws with the fault, without the place.
 BuildRow rowOf(const Cells& names, const Cells& cells, const fs::path& folder) {
   if (cells.size() > names.size())
     throw invalidInput("found " + std::to_string(cells.size()) + " cells, expected " +

@@ -12,12 +12,12 @@
 
 namespace lumen::convert {
 
-/// A row, what it is made from, and where.
+/// A row, its recipe, and its place.
 struct PlannedRow {
   const BuildRow* row = nullptr;
   Recipe recipe;
   std::string id;
-  std::filesystem::path folder;  ///< of the tree, so that another export does not track again
+  std::filesystem::path folder;  ///< the tree's, so that another export does not track again
   std::filesystem::path staged;  ///< a library of this case alone, when it is made
 };
 
@@ -28,8 +28,8 @@ PlannedRow planRow(const BuildRow& row, const LibraryFile& library, const BuildO
 /// Whether `staged` is complete.
 bool isStaged(const PlannedRow& plan);
 
-/// Runs lumen until `staged` is complete; goes on with what is there. Throws Error(Cancelled); anything else that goes
-/// wrong is in the result.
+/// Runs lumen until `staged` is complete; continues with the files that are there. Throws
+/// Error(Cancelled); any other failure is in the result.
 RowResult makeRow(const PlannedRow& plan, const LibraryFile& library, const BuildOptions& options,
                   const Progress& progress);
 

@@ -15,10 +15,12 @@ namespace lumen::convert {
 
 namespace {
 
-// Times of files come from a clock that ticks every few milliseconds, and some file systems keep whole or even seconds.
+// Times of files come from a clock that ticks every few milliseconds, and some file systems keep
+// whole or even seconds.
 constexpr std::time_t kSettled = 3;  // s
 
-// Names that are kept to be told in order: more than one would read, and a bound for a folder of millions.
+// Names that are kept to be reported in order: more than one would read, and a bound for a folder
+// of millions.
 constexpr std::size_t kMostNames = 100000;
 
 // Pages lie in few folders; beyond this something else is there.
@@ -85,7 +87,7 @@ FolderState walkFolder(const PlainFolder& library, const std::string& folder,
       }
       return true;
     });
-    // a missing folder is told by each file that is listed in it
+    // a missing folder is reported by each file that is listed in it
     if (seen.fault == PlainFault::Unreadable)
       state.faults.add({FaultCode::FileUnreadable, caseId, joined(folder, below), seen.found,
                         "a folder that can be read"});

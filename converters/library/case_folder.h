@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in the folder of a case, beside what its record lists.
+// Entries in the folder of a case, against the list of its record.
 #pragma once
 
 #include <set>
@@ -11,7 +11,7 @@
 
 namespace lumen::convert {
 
-/// What may be in a folder of a library.
+/// Files and folders that may be in a folder of a library.
 struct ExpectedFiles {
   std::set<std::string> files, folders;  ///< relative to the folder
 
@@ -19,19 +19,19 @@ struct ExpectedFiles {
   void add(const std::string& path);
 };
 
-/// What a walk through a folder saw.
+/// State of a folder that a walk found.
 struct FolderState {
   FaultList faults;
   std::string mark;        ///< digest of names, devices, inodes, sizes and times
   bool isSettled = false;  ///< the last change is so long ago that another would get another time
 };
 
-/// Walks through `folder` (relative to the library) and tells what nothing expects there, in the order of names. Folders
-/// that are not expected are not looked into.
+/// Walks through `folder` (relative to the library) and reports every entry that is not expected,
+/// in the order of names. Folders that are not expected are not looked into.
 FolderState walkFolder(const PlainFolder& library, const std::string& folder,
                        const ExpectedFiles& expected, const std::string& caseId, std::size_t most);
 
-/// Tells what is neither file nor folder below `folder`, whose files nothing lists.
+/// Reports entries that are neither file nor folder below `folder`, whose files nothing lists.
 void checkKinds(const PlainFolder& library, const std::string& folder, FaultList& faults);
 
 }  // namespace lumen::convert

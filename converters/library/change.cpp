@@ -33,14 +33,14 @@ fs::path existingFolder(const fs::path& folder) {
   return path;
 }
 
-/// What is true of one revision alone: it does not come along into the next.
+/// Whether a file is true of one revision alone: it does not come along into the next.
 bool lapses(const std::string& name) {
   constexpr std::array<std::string_view, 4> kNames = {"library.json.minisig", "library.json.sig",
                                                       "index.html", "site"};
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
-/// What a change writes anew.
+/// Whether a change writes the file anew.
 bool isWritten(const std::string& name) {
   constexpr std::array<std::string_view, 6> kNames = {kLibraryFile,  kBagFile,         kBagInfoFile,
                                                       kManifestFile, kTagManifestFile, kPayload};

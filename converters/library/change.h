@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changing a library in one step: whoever looks, whenever it is killed, finds the library of before or that of after.
+// A change of a library in one step: a reader finds the library of before or that of after,
+// whenever the change is killed.
 #pragma once
 
 #include <filesystem>
@@ -19,27 +20,29 @@ namespace lumen::convert {
 /// One new revision of a library.
 class LibraryChange {
 public:
-  /// Holds the library's lock from here on. Throws as openLibrary() and LibraryLock(), and Error(InvalidInput) for a
-  /// library whose ids are not in order.
+  /// Holds the library's lock from here on. Throws as openLibrary() and LibraryLock(), and
+  /// Error(InvalidInput) for a library whose ids are not in order.
   LibraryChange(const std::filesystem::path& library, Progress& progress);
 
-  /// As it is before the change.
+  /// The library before the change.
   [[nodiscard]] const LibraryFile& library() const { return m_library; }
 
-  /// The case is to be in the library, in place of one with its id. `files` is a folder with record.files in it, as they
-  /// are recorded, which stays until commit() and is not changed. Throws Error(InvalidInput) for what missingStatement()
-  /// says and for two cases of one id.
+  /// The case is to be in the library, in place of one with its id. `files` is a folder with
+  /// record.files in it, as they are recorded, which stays until commit() and is not changed.
+  /// Throws Error(InvalidInput) for a missing statement (missingStatement()) and for two cases of
+  /// one id.
   void put(CaseRecord record, std::filesystem::path files);
   /// Throws Error(Usage) if there is none of this id.
   void remove(const std::string& id);
 
-  /// Writes the next revision, of the day `date`, and puts it in place of the old one; once only. The signature and the
-  /// pages are those of the old one, and go with it. Throws Error(InvalidInput), and changes nothing, for records that
-  /// are not what library.json states; Error(Failed) if something cannot be written; Error(Cancelled).
+  /// Writes the next revision, of the day `date`, and puts it in place of the old one; once only.
+  /// The signature and the pages are those of the old one, and go with it. Throws
+  /// Error(InvalidInput), and changes nothing, for records that do not match library.json;
+  /// Error(Failed) if something cannot be written; Error(Cancelled).
   void commit(const std::string& date);
 
-  /// After commit(): what the old revision had and the new one lacks, relative to the library: its signatures and pages,
-  /// and files of cases that were replaced.
+  /// Files that the old revision had and the new one lacks, relative to the library, after
+  /// commit(): its signatures and pages, and files of cases that were replaced.
   [[nodiscard]] const std::vector<std::string>& gone() const { return m_gone; }
 
 private:
@@ -65,15 +68,17 @@ void requireNewId(const LibraryFile& library, const std::string& id);
 /// The case of this id. Throws Error(Usage) if the library has none.
 const LibraryEntry& requireCase(const LibraryFile& library, const std::string& id);
 
-/// A hidden folder with an empty data/ that becomes a new library; `library` gets revision 1 and its generator. Throws as
-/// makeLibrary().
+/// A hidden folder with an empty data/ that becomes a new library; `library` gets revision 1 and
+/// its generator. Throws as makeLibrary().
 formats::PendingFolder newLibraryFolder(const std::filesystem::path& folder, LibraryFile& library);
 
-/// A new library without cases, at revision 1; `library` has its id, texts, licence and date. Throws Error(InvalidInput)
-/// for a licence that is none, and Error(Failed) where there is something already.
+/// A new library without cases, at revision 1; `library` has its id, texts, licence and date.
+/// Throws Error(InvalidInput) for a licence that is none, and Error(Failed) where there is
+/// something already.
 void makeLibrary(const std::filesystem::path& folder, LibraryFile library);
 
-/// The record of a case. Throws Error(InvalidInput) if it is not what the entry states, with the advice to check.
+/// The record of a case. Throws Error(InvalidInput) if it is not what the entry states, with the
+/// advice to check.
 CaseRecord openRecord(const std::filesystem::path& library, const LibraryEntry& entry);
 
 }  // namespace lumen::convert

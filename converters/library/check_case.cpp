@@ -18,13 +18,13 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::uint64_t kMostRecord = 16U << 20U;  // bytes: tens of thousands of files
-constexpr std::size_t kMostIssues = 20;            // of a case: the rest is lumen validate's
+constexpr std::size_t kMostIssues = 20;            // issues of a case: the rest is lumen validate's
 
 std::span<const std::byte> bytesOf(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
-/// One case on its way.
+/// Check of one case.
 class CaseChecker {
 public:
   CaseChecker(const PlainFolder& library, const LibraryEntry& entry, const CheckJournal& journal,
@@ -91,7 +91,8 @@ private:
     return true;
   }
 
-  /// The record, even if it is another than the library states: it still tells which files there should be.
+  /// The record, even if it is another than the library states: it still lists the files there
+  /// should be.
   std::optional<CaseRecord> readStated() {
     const std::string path = recordPath();
     PlainRead text = read(path, {m_entry.recordBytes, m_entry.recordBytes <= kMostRecord});
@@ -151,8 +152,8 @@ private:
             sha256(bytesOf(m_result.crate)) + ", which the record gives");
   }
 
-  /// Whether the journal may keep the case: what was walked through before is there now, as it was, and has been for so
-  /// long that a change in the meantime would show.
+  /// Whether the journal may keep the case: the files that were walked through are there now, as
+  /// they were, and have been for so long that a change in the meantime would show.
   void settle(const ExpectedFiles& expected, const std::string& mark) {
     if (!m_journal.isUsed() || !m_result.faults.empty() || !m_isStated) return;
     const FolderState after = walk(expected);

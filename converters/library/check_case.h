@@ -17,12 +17,13 @@ namespace lumen::convert {
 
 struct CaseCheck {
   FaultList faults;
-  /// The record that the library states, and the case's RO-Crate that follows from it; none if the record is another.
+  /// The record that the library states, and the case's RO-Crate that follows from it; none if the
+  /// record is another.
   std::optional<CaseRecord> record;
   std::string crate;
   bool isPassedOver = false;  ///< the journal knows it
   std::string mark;  ///< for the journal: the case is whole, and nothing can have touched it unseen
-  std::uint64_t files = 0, bytes = 0;  ///< that were read
+  std::uint64_t files = 0, bytes = 0;  ///< number and size of the files read
 };
 
 /// Checks the case of `entry`; keeps `most` faults. Throws Error(Cancelled).

@@ -64,7 +64,8 @@ CheckJournal::CheckJournal(const std::filesystem::path& file, const std::string&
        std::string(kFormat) + "lumen " LUMEN_VERSION ", of " + libraryId + "\n");
 }
 
-/// A line for each case: the mark, a space, the id. What a killed check left of a line is cut off.
+/// A line for each case: the mark, a space, the id. The rest of a line that a killed check left is
+/// cut off.
 void CheckJournal::read(const std::string& text, const std::string& head) {
   if (!text.empty() && !text.starts_with(kFormat))
     throw invalidInput(

@@ -26,13 +26,14 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr std::uint64_t kMostLibrary = std::uint64_t{1}
-                                       << 27;  // bytes: 100,000 cases with long titles
+/// Bytes: 100,000 cases with long titles.
+constexpr std::uint64_t kMostLibrary = std::uint64_t{1} << 27;
 
-/// Cases on their way for each thread: so that one large case does not stop the others, and memory stays bounded.
+/// Cases in progress for each thread: so that one large case does not stop the others, and memory
+/// stays bounded.
 constexpr std::size_t kAhead = 8;
 
-/// Sorts the cases and leaves each id once, telling what was not so.
+/// Sorts the cases and leaves each id once; reports a fault where that was not so.
 void sortCases(LibraryFile& library, FaultList& faults) {
   std::unordered_set<std::string> seen;
   std::vector<LibraryEntry> kept;
@@ -57,7 +58,7 @@ void sortCases(LibraryFile& library, FaultList& faults) {
   library.cases = std::move(kept);
 }
 
-/// Files that nothing reads here: they must be files all the same.
+/// Files that nothing reads here: they must be files nevertheless.
 void checkKindsOfOthers(const PlainFolder& folder, FaultList& faults) {
   std::set<std::string> wrong;
   const auto look = [&](const PlainEntry& entry) {
@@ -105,13 +106,13 @@ void checkFolders(const PlainFolder& folder, const LibraryFile& library, FaultLi
   checkKindsOfOthers(folder, faults);
 }
 
-/// What a case gave, in its place.
+/// Result of a case, in its place.
 struct Checked {
   std::size_t at = 0;
-  std::shared_ptr<CaseCheck> check;  // TBB copies what goes from filter to filter
+  std::shared_ptr<CaseCheck> check;  // TBB copies values between filters
 };
 
-/// All cases, in parallel, and what follows from them, in order.
+/// All cases, in parallel, and the checks that follow from them, in order.
 void checkCases(const PlainFolder& folder, const LibraryFile& library, CheckJournal& journal,
                 BagCheck& bag, LibraryCheck& result, Progress& progress) {
   std::size_t next = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that is wrong with a library: spec/library.md, Faults. Cases are checked in parallel; answers come in one order on
-// any number of threads, and records are in memory only while their case is checked.
+// Check of a library for every fault: spec/library.md, Faults. Cases are checked in parallel;
+// answers come in one order on any number of threads, and records are in memory only while their
+// case is checked.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +17,24 @@
 namespace lumen::convert {
 
 struct LibraryCheckOptions {
-  std::size_t mostFaults = 1000;  ///< that are kept; all are counted
+  std::size_t mostFaults = 1000;  ///< maximum number kept; all are counted
   std::filesystem::path journal;  ///< CheckJournal's file; none: all is read
 };
 
 struct LibraryCheck {
   FaultList faults;
   std::optional<LibraryFile> library;  ///< none if library.json cannot be read
-  std::size_t cases = 0;               ///< that were looked at
-  std::size_t passedOver = 0;          ///< of these, that the journal knew
-  std::uint64_t files = 0, bytes = 0;  ///< of cases, that were read
+  std::size_t cases = 0;               ///< number of cases checked
+  std::size_t passedOver = 0;          ///< number of these that the journal knew
+  std::uint64_t files = 0, bytes = 0;  ///< number and size of the cases' files read
 };
 
-/// library.json, or a fault that tells why there is none.
+/// library.json, or a fault with the reason why there is none.
 std::optional<std::string> readLibraryText(const PlainFolder& folder, FaultList& faults,
                                            const Progress& progress);
 
-/// Finds every fault of the library with that library.json. Throws Error(Cancelled), and as CheckJournal.
+/// Finds every fault of the library with that library.json. Throws Error(Cancelled), and as
+/// CheckJournal.
 LibraryCheck checkLibrary(const PlainFolder& folder, const std::string& text,
                           const LibraryCheckOptions& options, Progress& progress);
 

@@ -12,7 +12,8 @@ namespace lumen::convert {
 namespace {
 
 constexpr const char* kVersion = "https://w3id.org/ro/crate/1.2";
-constexpr const char* kAnyVersion = "https://w3id.org/ro/crate";  // of a crate that is referred to
+// Profile of a crate that is referred to, in any version.
+constexpr const char* kAnyVersion = "https://w3id.org/ro/crate";
 
 std::string orElse(const std::string& text, const std::string& other) {
   return text.empty() ? other : text;

@@ -23,10 +23,11 @@ std::string crateEnd();
 /// {"@id": id}
 CrateEntity reference(std::string_view id);
 
-/// What every metadata file says of itself first; with crateHead(), the only entity without a comma before it.
+/// The entity of the metadata file itself, which every such file begins with; with crateHead(), the
+/// only entity without a comma before it.
 CrateEntity descriptor();
 
-/// By which a licence expression is referred to: its page at SPDX, or a name within the document.
+/// Identifier that refers to a licence expression: its page at SPDX, or a name within the document.
 std::string licenceId(const std::string& expression);
 CrateEntity licenceEntity(const std::string& expression);
 

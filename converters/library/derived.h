@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a library states a second time for those who do not know its format: the tag files of its bag and its RO-Crates.
-// All follows from library.json and the records, so whoever writes a library and whoever checks it make them by this.
+// Restatement of a library for readers who do not know its format: the tag files of its bag and its
+// RO-Crates. All follows from library.json and the records, so the writer and the checker of a
+// library make them by this.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ inline constexpr const char* kTagManifestFile = "tagmanifest-sha256.txt";
 inline constexpr const char* kBagFile = "bagit.txt";
 inline constexpr const char* kBagInfoFile = "bag-info.txt";
 
-/// Where a text goes, piece by piece.
+/// Receiver of a text, piece by piece.
 using TextSink = std::function<void(std::string_view)>;
 
 /// data/ID/ro-crate-metadata.json: the case as an RO-Crate of its own.
@@ -33,17 +34,19 @@ struct TagTexts {
 /// The texts of a whole library, of which one case at a time is in memory.
 class LibraryTexts {
 public:
-  /// `library` must outlive this. `manifest` is given manifest-sha256.txt, `crate` data/ro-crate-metadata.json.
+  /// `library` must outlive this. `manifest` is given manifest-sha256.txt, `crate`
+  /// data/ro-crate-metadata.json.
   LibraryTexts(const LibraryFile& library, TextSink manifest, TextSink crate);
   ~LibraryTexts();
   LibraryTexts(const LibraryTexts&) = delete;
   LibraryTexts& operator=(const LibraryTexts&) = delete;
 
-  /// The next case of library.cases. The digest of its record is the one that the library states. `crate` is
-  /// caseCrate(record).
+  /// The next case of library.cases. The digest of its record is the one that the library states.
+  /// `crate` is caseCrate(record).
   void add(const CaseRecord& record, std::string_view crate);
 
-  /// Passes over the next case, whose record is not there; what is made of all cases is not to be had then.
+  /// Passes over the next case, whose record is not there; files that are made of all cases are not
+  /// to be had then.
   void skip();
 
   /// After the last case.

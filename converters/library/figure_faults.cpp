@@ -17,7 +17,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kSame = 1e-3;          // mm, and of unit vectors
-constexpr double kSameRelative = 1e-5;  // sums of lengths: a hundred times what a float rounds off
+constexpr double kSameRelative = 1e-5;  // sums of lengths: a hundred roundings of a float
 
 bool isSame(double a, double b) {
   return std::abs(a - b) <= std::max(kSame, kSameRelative * std::max(std::abs(a), std::abs(b)));
@@ -27,7 +27,7 @@ bool isSame(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return isSame(a.x(), b.x()) && isSame(a.y(), b.y()) && isSame(a.z(), b.z());
 }
 
-/// What the record has beside what the case gives.
+/// Comparison of the record's figures with those of the case.
 class Figures {
 public:
   Figures(const CaseRecord& record, const std::string& path, FaultList& faults)

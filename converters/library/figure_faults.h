@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a record states of its case beside what the case gives.
+// Comparison of the figures in a record with those of its case.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@
 
 namespace lumen::convert {
 
-/// Bounds, figures, insertions and ends that are not those of the case, to a thousandth of a millimetre, which is finer than
-/// anything in a volume and coarser than what rounding does. `path` is the record's.
+/// Adds faults for bounds, figures, insertions and ends that are not those of the case, to a
+/// thousandth of a millimetre, which is finer than anything in a volume and coarser than rounding.
+/// `path` is the record's.
 void checkFigures(const formats::Case& value, const CaseRecord& record, const std::string& path,
                   FaultList& faults);
 

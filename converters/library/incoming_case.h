@@ -11,21 +11,25 @@
 
 namespace lumen::convert {
 
-/// The files of a case, hidden beside the library until a change puts them in; they go with this object if none does.
+/// The files of a case, hidden beside the library until a change puts them in; they go with this
+/// object if none does.
 class IncomingCase {
 public:
   /// Throws Error(Failed) if nothing can be written beside `library`, which need not exist.
   explicit IncomingCase(const std::filesystem::path& library);
 
-  /// Writes a file and records it. `path` as record.files has it, not one that is there. `target`: of an export.
-  /// Throws Error(InvalidInput) for a path that a library may not have, Error(Failed) if it cannot be written.
+  /// Writes a file and records it. `path` as record.files has it, not one that is there. `target`:
+  /// of an export. Throws Error(InvalidInput) for a path that a library may not have, Error(Failed)
+  /// if it cannot be written.
   void add(const std::string& path, const std::string& role, std::string_view bytes,
            const std::string& target = "");
-  /// The same with the bytes of a file, which is read piece by piece.
+  /// Copies the file `source` into the case and records it. Throws Error(InvalidInput) for a path
+  /// that a library may not have, Error(Failed) if it cannot be copied.
   void addFile(const std::string& path, const std::string& role,
                const std::filesystem::path& source);
 
-  /// What is known of the case. Its files are recorded by add(); version and date are the library's to set.
+  /// The record of the case. Its files are recorded by add(); version and date are the library's to
+  /// set.
   CaseRecord record;
 
   /// The folder of the files.
@@ -38,7 +42,7 @@ private:
   formats::PendingFolder m_workspace;
 };
 
-/// By the ending of a file's name; "application/octet-stream" for one that is not known.
+/// Media type by the ending of a file's name; "application/octet-stream" for one that is not known.
 std::string mediaTypeOf(const std::string& path);
 
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be wrong with a library: the table of spec/library.md, Faults.
+// Faults of a library: the table of spec/library.md, Faults.
 #pragma once
 
 #include <cstdint>

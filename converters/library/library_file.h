@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in a library: library.json (spec/library.md).
+// Contents of a library: library.json (spec/library.md).
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,28 @@
 
 namespace lumen::convert {
 
-/// A case of a library, and what its record must be.
+/// A case of a library, with facts that its record must match.
 struct LibraryEntry {
   std::string id;
   std::uint32_t version = 1;
   std::string title;
   std::uint64_t recordBytes = 0;
   std::string recordSha256;
-  std::uint64_t files = 0, bytes = 0;  ///< that the record lists
+  std::uint64_t files = 0, bytes = 0;  ///< number and size of the files in the record
 };
 
 /// The revision of another library that cases were extracted from.
 struct LibraryOrigin {
   std::string id;  ///< UUID
   std::uint64_t revision = 1;
-  std::string sha256;  ///< of its library.json
+  std::string sha256;  ///< digest of its library.json
 };
 
 struct LibraryFile {
   std::string id;  ///< UUID
   std::uint64_t revision = 1;
   std::optional<std::string> previous;  ///< SHA-256 of library.json of the revision before
-  std::optional<LibraryOrigin> origin;  ///< of a library that lumen library extract made
+  std::optional<LibraryOrigin> origin;  ///< origin of a library that lumen library extract made
   std::string title, description, publisher;
   std::string licence;  ///< an SPDX expression
   std::string date;     ///< YYYY-MM-DD
@@ -48,8 +48,9 @@ inline constexpr const char* kPayload = "data";
 /// The bytes of library.json. Equal libraries give equal bytes.
 std::string libraryText(const LibraryFile& library);
 
-/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected. What a schema cannot say
-/// is not looked at: ids may be twice there or out of order, the licence may be empty.
+/// Throws Error(InvalidInput), naming `file`, the place, what was found and what was expected.
+/// Rules that a schema cannot state are not checked: ids may be twice there or out of order, the
+/// licence may be empty.
 LibraryFile readLibrary(const std::string& text, const std::filesystem::path& file);
 
 /// library.json of a folder. Throws Error(InvalidInput) for a folder without one.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns of those who read and those who change a library.
+// Turns of programs that read and programs that change a library.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace lumen::convert {
 
-/// The folder of a library, through a link if there is one. Throws Error(InvalidInput) if no such folder exists or it
-/// cannot be read.
+/// The folder of a library, through a link if there is one. Throws Error(InvalidInput) if no such
+/// folder exists or it cannot be read.
 formats::FileDescriptor openLibraryFolder(const std::filesystem::path& library);
 
-/// A lock on a library: on its folder, so that nothing of it is left behind. Whoever opens the library again under its
-/// name may find another folder there. A file system without locks has no other users either.
+/// A lock on a library: on its folder, so that nothing of it is left behind. A program that opens
+/// the library again under its name may find another folder there. A file system without locks has
+/// no other users either.
 class LibraryLock {
 public:
   enum class Use : std::uint8_t {
@@ -23,7 +24,8 @@ public:
     Change
   };  ///< readers share a lock, a change excludes all others
 
-  /// Waits for others, and reports that to `progress`. Throws as openLibraryFolder(), and Error(Cancelled).
+  /// Waits for others, and reports that to `progress`. Throws as openLibraryFolder(), and
+  /// Error(Cancelled).
   LibraryLock(const std::filesystem::path& library, Progress& progress, Use use = Use::Change);
 
 private:

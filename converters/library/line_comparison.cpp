@@ -10,7 +10,8 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
-// The longest line is that of the parts of a library: 100,000 ids of 64 letters. Longer ones are cut, so they differ.
+// The longest line is that of the parts of a library: 100,000 ids of 64 letters. Longer ones are
+// cut, so they differ.
 constexpr std::size_t kLongest = std::size_t{1} << 24;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A text file beside what should be in it, line by line, of which neither is in memory as a whole.
+// Comparison of a text file with its expected text, line by line; neither is in memory as a whole.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,15 @@ class LineComparison {
 public:
   LineComparison(const PlainFolder& folder, const std::string& path, const Progress& progress);
 
-  /// What should come next. Throws Error(Cancelled).
+  /// Compares the next text with the file. Throws Error(Cancelled).
   void expect(std::string_view text);
   /// Passes over the lines of the file that have `part` in them, up to the first that has not.
   void skip(std::string_view part);
   /// Nothing should follow.
   void finish();
 
-  /// Why the file is not what was expected: PlainFault for one that is not had, or the first other line.
+  /// Reason why the file is not the expected one: PlainFault for one that is not had, or the first
+  /// other line.
   [[nodiscard]] bool isOther() const { return !m_found.empty(); }
   [[nodiscard]] const std::string& found() const { return m_found; }
   [[nodiscard]] const std::string& expected() const { return m_expected; }
@@ -34,11 +35,11 @@ private:
 
   std::unique_ptr<PlainStream> m_stream;
   const Progress& m_progress;
-  std::string m_buffer;  ///< of the file, from m_at on
+  std::string m_buffer;  ///< bytes of the file, from m_at on
   std::size_t m_at = 0;
   std::string m_line;  ///< the next of the file, if m_hasLine
   bool m_hasLine = false;
-  std::string m_partial;  ///< of what is expected: a line that has not ended
+  std::string m_partial;  ///< expected text of a line that has not ended
   std::size_t m_number = 0;
   std::string m_found, m_expected;
 };

@@ -39,7 +39,7 @@ PlainRead fault(PlainFault kind, std::string found) {
   return read;
 }
 
-/// Why opening `name` in `folder` failed with `code`.
+/// Reason why opening `name` in `folder` failed with `code`.
 PlainRead openFault(int folder, const char* name, int code) {
   if (code == ENOENT) return fault(PlainFault::Missing, "nothing");
   struct stat status {};
@@ -49,7 +49,8 @@ PlainRead openFault(int folder, const char* name, int code) {
   return fault(PlainFault::Unreadable, errorText(code));
 }
 
-/// The file or folder of that path below `root`, through folders only; O_NONBLOCK, as a pipe would wait for a writer.
+/// The file or folder of that path below `root`, through folders only; O_NONBLOCK, as a pipe would
+/// wait for a writer.
 std::pair<FileDescriptor, PlainRead> openBelow(int root, const std::string& path, int flags) {
   FileDescriptor at(openat(root, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!at.isOpen()) return {FileDescriptor(), fault(PlainFault::Unreadable, errorText(errno))};
@@ -72,7 +73,7 @@ bool isSame(const struct stat& a, const struct stat& b) {
          a.st_ctim.tv_nsec == b.st_ctim.tv_nsec;
 }
 
-/// The rest of a file that says to have `size` bytes.
+/// The rest of a file whose state gives `size` bytes.
 PlainRead readOpen(int file, std::uint64_t size, bool isKept, const Progress& progress) {
   PlainRead result;
   Sha256 digest;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of a folder that somebody else made: nothing is reached through a link, and nothing but a file is read.
+// Files of a folder that somebody else made: nothing is reached through a link, and nothing but a
+// file is read.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,7 @@
 
 namespace lumen::convert {
 
-/// Why a file is not had.
+/// Reason why a file cannot be had.
 enum class PlainFault : std::uint8_t {
   None,
   Missing,
@@ -28,14 +29,14 @@ enum class PlainFault : std::uint8_t {
 
 struct PlainRead {
   PlainFault fault = PlainFault::None;
-  std::string found;        ///< of a fault: "a symbolic link", "Permission denied"
+  std::string found;        ///< the fault: "a symbolic link", "Permission denied"
   std::uint64_t bytes = 0;  ///< the size of the file
   bool isRead = false;      ///< it has the size that was wanted, and was read
-  std::string sha256;       ///< of what was read
+  std::string sha256;       ///< digest of the bytes read
   std::string content;      ///< if it was to be kept
 };
 
-/// What to read of a file.
+/// Limits of the reading of a file.
 struct WantedRead {
   std::optional<std::uint64_t> bytes;  ///< a file of another size is not read
   bool isKept = false;
@@ -44,7 +45,7 @@ struct WantedRead {
 /// A name in a folder.
 struct PlainEntry {
   std::string name;
-  struct stat status {};  ///< of the entry itself, not of what it leads to
+  struct stat status {};  ///< the entry's own, not its link's target's
 };
 
 /// "a file", "a folder", "a symbolic link", "a named pipe", "a device".
@@ -63,20 +64,22 @@ private:
 
 class PlainFolder {
 public:
-  /// Throws Error(InvalidInput) if there is no such folder or it cannot be read. Here a link is followed.
+  /// Throws Error(InvalidInput) if there is no such folder or it cannot be read. Here a link is
+  /// followed.
   explicit PlainFolder(const std::filesystem::path& folder);
 
-  /// As it was named.
+  /// The path as it was named.
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
 
   /// Reads a file; `path` is relative, with a / between folders. Throws Error(Cancelled) only.
   [[nodiscard]] PlainRead read(const std::string& path, const WantedRead& wanted,
                                const Progress& progress) const;
 
-  /// Opens a file; null, and `why`, for what is none.
+  /// Opens a file; null, with the reason in `why`, for an entry that is none.
   [[nodiscard]] std::unique_ptr<PlainStream> stream(const std::string& path, PlainRead& why) const;
 
-  /// Calls `see` with each entry of a folder ("" is this one) in the order of the file system, until it gives false.
+  /// Calls `see` with each entry of a folder ("" is this one) in the order of the file system,
+  /// until it gives false.
   [[nodiscard]] PlainRead list(const std::string& path,
                                const std::function<bool(const PlainEntry&)>& see) const;
 

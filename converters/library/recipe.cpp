@@ -50,7 +50,7 @@ bool isHeader(const fs::path& file) {
          kApart.end();
 }
 
-/// A header and what its voxels may be in.
+/// A header and the files that its voxels may be in.
 std::vector<fs::path> filesOfHeader(const fs::path& header) {
   const std::string text = readWholeFile(header, "header");
   const bool isPattern = text.find('%') != std::string::npos;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a case is made from, as one digest: equal recipes give equal cases.
+// Inputs of a case as one digest: equal recipes give equal cases.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +10,21 @@
 
 namespace lumen::convert {
 
-/// SHA-256 of an input: of a file; of all files of a folder, with their names; of a header and the files beside it that it
-/// names, or names by a pattern, or that are called alike, where it is one of a format that keeps its voxels or
-/// vertices apart (.nhdr, .mhd, .hdr, .img, .gltf). Throws Error(Failed) for what cannot be read, Error(Cancelled).
+/// SHA-256 of an input: of a file; of all files of a folder, with their names; of a header and the
+/// files beside it that it names, or names by a pattern, or that are called alike, where it is one
+/// of a format that keeps its voxels or vertices apart (.nhdr, .mhd, .hdr, .img, .gltf). Throws
+/// Error(Failed) for a file that cannot be read, Error(Cancelled).
 std::string digestOfInput(const std::filesystem::path& input, const Progress& progress);
 
 struct Recipe {
   std::string input;  ///< digest
-  std::string
-      tree;  ///< of all that the tree and the models come from: version, input, seeds, options
-  std::string all;  ///< and of what is told and exported
+  /// Digest of all inputs of the tree and the models: version, input, seeds, options.
+  std::string tree;
+  std::string all;  ///< digest of `tree`, statements and exports
 };
 
-/// `version`: of lumen. `shared`: what all rows have in common, such as the licence of the library.
+/// `version`: of lumen. `shared`: facts that all rows have in common, such as the licence of the
+/// library.
 Recipe recipeOf(const BuildRow& row, const std::string& version, const std::string& shared,
                 const Progress& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a library states of one case: data/ID/record.json (spec/library.md).
+// Record of one case of a library: data/ID/record.json (spec/library.md).
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct AnatomyCode {
   std::string name;
 };
 
-/// What only people can tell of a case. All texts are UTF-8 without control characters.
+/// Facts of a case that only people know. All texts are UTF-8 without control characters.
 struct CaseAbout {
   std::string title, description;
   std::string anatomy;
@@ -36,7 +36,7 @@ struct CaseAbout {
   std::string attribution, doi, origin, consent, deidentification;
 };
 
-/// What lumen tells of it. Lengths: mm.
+/// Facts of a case that lumen computes. Lengths: mm.
 struct CaseFigures {
   std::size_t branches = 0, aneurysms = 0, nodes = 0;
   double length = 0;
@@ -48,17 +48,17 @@ struct CaseFigures {
 /// A place where an instrument enters, or a vessel ends. mm, LPS.
 struct CasePlace {
   std::string name;
-  std::string kind;  ///< of ends: inlet or outlet
+  std::string kind;  ///< kind of an end: inlet or outlet
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction =
-      Eigen::Vector3d::UnitX();  ///< unit; insertions: into, ends: out of the vessel
+  /// Unit vector; insertions: into, ends: out of the vessel.
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
   double radius = 0;
 };
 
 struct RecordedFile {
   std::string path;    ///< relative to the folder of the record
   std::string role;    ///< case, surface, export, picture, report, other
-  std::string target;  ///< of an export
+  std::string target;  ///< target of an export
   std::string media;   ///< media type
   std::uint64_t bytes = 0;
   std::string sha256;
@@ -79,33 +79,35 @@ struct CaseRecord {
 /// The bytes of record.json. Equal records give equal bytes.
 std::string recordText(const CaseRecord& record);
 
-/// A path that spec/library.md does not allow: one that could leave the folder, or clash with another.
+/// A path that spec/library.md does not allow: one that could leave the folder, or clash with
+/// another.
 class PathError : public Error {
 public:
   explicit PathError(const std::string& what) : Error(ErrorKind::InvalidInput, what) {}
 };
 
-/// Throws Error(InvalidInput) with `file`, the place, what was found and what was expected; PathError
-/// for a path. Of the rules that a schema cannot state it checks those of files alone: exactly one
+/// Throws Error(InvalidInput) with `file`, the place, what was found and what was expected;
+/// PathError for a path. Checks those rules beyond the schema that concern files alone: exactly one
 /// case, and sorted paths that all file systems keep apart. Entries of `files` in `passedOver` are
 /// left out.
 CaseRecord readRecord(const std::string& text, const std::filesystem::path& file,
                       const std::set<std::size_t>& passedOver = {});
 
-/// The texts that may tell whose case it is, with their places in the record. Whom to name, licence, DOI and origin are
-/// meant to name people and places.
+/// The texts that may reveal whose case it is, with their places in the record. Credit, licence,
+/// DOI and origin are meant to name people and places.
 std::vector<std::pair<const char*, const std::string*>> textsToLookAt(const CaseAbout& about);
 
-/// What can be told of a case by such a record but not shared under the format's rules: no licence, or no consent or
-/// de-identification of a patient. One sentence, or nothing.
+/// A missing fact without which such a record may exist but not be shared under the format's rules:
+/// no licence, or no consent or de-identification of a patient. One sentence, or nothing.
 std::string missingStatement(const CaseAbout& about);
 
-/// Takes the keys of CaseAbout from an object of their own, such as people write for `lumen library add --about`, or from
-/// a whole record.json; the members of missing keys are those of `known`. Throws as readRecord().
+/// Takes the keys of CaseAbout from an object of their own, such as people write for `lumen library
+/// add --about`, or from a whole record.json; the members of missing keys are those of `known`.
+/// Throws as readRecord().
 CaseAbout readAbout(const std::string& text, const std::filesystem::path& file,
                     CaseAbout known = {});
 
-/// Whether spec/library.md allows it, and in words what it allows.
+/// Rules of spec/library.md for ids and paths, in words; isCaseId() and isRecordedPath() test them.
 inline constexpr const char* kCaseIdRule =
     "1 to 64 of a to z, 0 to 9 and -, not beginning with - and no device of Windows such as con";
 inline constexpr const char* kPathRule =

@@ -22,8 +22,8 @@ std::string withoutFile(const Error& error, const std::string& path) {
   return at == std::string::npos ? text : text.substr(at + path.size() + 2);
 }
 
-/// The files of a record, by their place in it, whose paths none may have, or which another file has
-/// in upper or lower case. Adds a fault for each.
+/// The indices of a record's files whose paths none may have, or which another file has in upper or
+/// lower case. Adds a fault for each.
 std::set<std::size_t> faultyPaths(const formats::JsonValue& record, const std::string& caseId,
                                   const std::string& path, FaultList& faults) {
   std::set<std::size_t> faulty;

@@ -11,13 +11,13 @@
 
 namespace lumen::convert {
 
-/// The record in `text`, without the files whose paths none may have; nothing if it breaks its format otherwise. `path` is
-/// the record's, for the faults.
+/// The record in `text`, without the files whose paths none may have; nothing if it breaks its
+/// format otherwise. `path` is the record's, for the faults.
 std::optional<CaseRecord> readRecordFaults(const std::string& text, const std::string& caseId,
                                            const std::string& path, FaultList& faults);
 
-/// What is not as the line of library.json has it; a missing licence, consent or de-identification; texts that look like a
-/// person's.
+/// Adds faults for values that differ from the line of library.json, for a missing licence, consent
+/// or de-identification, and for texts that look like a person's.
 void checkRecord(const CaseRecord& record, const LibraryEntry& entry, const std::string& path,
                  FaultList& faults);
 
@@ -25,7 +25,7 @@ void checkRecord(const CaseRecord& record, const LibraryEntry& entry, const std:
 void checkLicence(const std::string& licence, const std::string& caseId, const std::string& path,
                   FaultList& faults);
 
-/// A text that looks like a person's; `pointer` tells which of the file.
+/// Adds a fault for a text that looks like a person's; `pointer` is its place in the file.
 void checkPrivacy(const std::string& text, const std::string& pointer, const std::string& caseId,
                   const std::string& path, FaultList& faults);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// record.h: how ids and paths are spelt, and what must be stated.
+// record.h: spelling of ids and paths, and statements that a record needs.
 #include <algorithm>
 #include <string_view>
 
@@ -22,7 +22,8 @@ bool isPathCharacter(char c) {
          std::string_view("._+-").find(c) != std::string_view::npos;
 }
 
-/// Names of devices, which Windows refuses for files whatever their ending ("Naming Files, Paths, and Namespaces").
+/// Names of devices, which Windows refuses for files whatever their ending ("Naming Files, Paths,
+/// and Namespaces").
 bool isOfWindows(std::string_view part) {
   const std::string stem = lowerCase(std::string(part.substr(0, part.find('.'))));
   if (stem.size() == 4 && (stem.starts_with("com") || stem.starts_with("lpt")))

@@ -73,7 +73,7 @@ CaseFigures figuresOf(const formats::Case& source, Progress& progress) {
   return figures;
 }
 
-/// At the beginning of each vessel that is a root, as exports enter it.
+/// Insertions at the beginning of each vessel that is a root, as exports enter it.
 std::vector<CasePlace> insertionsOf(const CenterlineTree& tree) {
   std::vector<CasePlace> places;
   for (const formats::Branch& branch : tree.branches) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a record states of a case that follows from the case itself.
+// Facts of a case's record that follow from the case itself.
 #pragma once
 
 #include <string>
@@ -10,9 +10,10 @@
 
 namespace lumen::convert {
 
-/// Sets bounds, figures, insertions, ends and provenance of `record`, whose other members stay. The case is valid and has
-/// a node; `caseSha256` is of its file. Numbers have the precision of a float, in the shortest decimals. Equal cases
-/// give equal records. Throws Error(InvalidInput) for a case without nodes, Error(Cancelled).
+/// Sets bounds, figures, insertions, ends and provenance of `record`, whose other members stay. The
+/// case is valid and has a node; `caseSha256` is of its file. Numbers have the precision of a
+/// float, in the shortest decimals. Equal cases give equal records. Throws Error(InvalidInput) for
+/// a case without nodes, Error(Cancelled).
 void describe(const formats::Case& source, const std::string& caseSha256, CaseRecord& record,
               Progress& progress);
 

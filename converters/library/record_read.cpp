@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// record.h: reading record.json, and what people write about a case.
+// record.h: reading record.json, and the statements of people about a case.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -131,7 +131,8 @@ Json readParameter(const JsonPlace& place) {
   place.refuse("true, false, a number or a text");
 }
 
-/// As the metadata of a case has it: name, tool, parameters, and what begins with x-, which is not kept.
+/// A step as the metadata of a case has it: name, tool, parameters, and keys with x-, which are not
+/// kept.
 Json readStep(const JsonPlace& place) {
   const JsonPlace parameters = place.at("parameters");
   Json step = {{"name", plainText(place.at("name"), 255, 1)},

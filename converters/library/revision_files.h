@@ -22,22 +22,26 @@ formats::PendingFolder pendingFolder(const std::filesystem::path& folder,
 /// Puts it in place. Throws Error(Failed).
 void putInPlace(formats::PendingFolder& pending);
 
-/// Gives a file a second name, or copies it where the file system has no links. Throws Error(Failed).
+/// Gives a file a second name, or copies it where the file system has no links. Throws
+/// Error(Failed).
 void linkFile(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Makes a folder with the permissions of another.
 void makeFolderLike(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Links everything below `from` below `to`, which exists, except entries of `from` itself that `skips` names and what a
-/// killed writer left there. Throws Error(InvalidInput) for a device or a pipe, Error(Failed) otherwise.
+/// Links everything below `from` below `to`, which exists, except entries of `from` itself that
+/// `skips` names and files that a killed writer left there. Throws Error(InvalidInput) for a device
+/// or a pipe, Error(Failed) otherwise.
 void linkAll(const std::filesystem::path& from, const std::filesystem::path& to,
              const std::function<bool(const std::string& name)>& skips = {});
 
-/// Links a case that stays as it is. `crate`: caseCrate() of its record, which replaces that of another version of lumen.
+/// Links a case that stays as it is. `crate`: caseCrate() of its record, which replaces the crate
+/// of another version of lumen.
 void keepCase(const std::filesystem::path& from, const std::filesystem::path& to,
               const std::string& crate);
 
-/// Writes the files of a revision except those of its cases: library.json and all that follows from it and the records.
+/// Writes the files of a revision except those of its cases: library.json and all that follows from
+/// it and the records.
 class RevisionWriter {
 public:
   /// `library` must outlive this object.

@@ -23,8 +23,8 @@ using Words = std::vector<std::string>;
 
 constexpr unsigned kSecondsToAsk = 600;    // somebody looks for a password, or touches a token
 constexpr unsigned kSecondsToVerify = 60;  // nobody is asked
-constexpr std::size_t kShownWords = 300;   // bytes of what a program says
-constexpr const char* kPublisher = "publisher";  // whoever has a key that is given without a name
+constexpr std::size_t kShownWords = 300;   // bytes of a program's message
+constexpr const char* kPublisher = "publisher";  // owner of a key that is given without a name
 
 bool isOfMinisign(KeyKind kind) {
   return kind == KeyKind::MinisignSecret || kind == KeyKind::MinisignPublic;
@@ -61,7 +61,7 @@ public:
       throw failed(m_name + " did not end as it should; nothing was verified");
     return result;
   }
-  /// What it said last, in one line.
+  /// The last line of the program's message.
   [[nodiscard]] std::string words(const ProgramResult& result) const {
     if (result.end == ProgramEnd::TookTooLong)
       return m_name + " was not done in " + std::to_string(kSecondsToAsk / 60) + " minutes";
@@ -170,7 +170,7 @@ TrustAnswer verifyWithMinisign(const std::string& text, const std::string& signa
           "one of this library.json"};
 }
 
-/// Whom of the allowed signers the signature is by, by ssh-keygen; nothing if by none.
+/// Identity of the allowed signer who made the signature, by ssh-keygen; nothing if none did.
 std::string findIdentity(const Program& program) {
   const ProgramResult result = program.run(
       {"-Y", "find-principals", "-f", "allowed", "-s", "signature", "-n", kSignatureNamespace});

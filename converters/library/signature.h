@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signatures of library.json by minisign or OpenSSH, which are programs of their own: spec/library.md, Trust. There is
-// no cryptography here.
+// Signatures of library.json by minisign or OpenSSH, which are programs of their own:
+// spec/library.md, Trust. There is no cryptography here.
 #pragma once
 
 #include <cstdint>
@@ -17,46 +17,47 @@ inline constexpr const char* kMinisignSignatureFile = "library.json.minisig";
 inline constexpr const char* kOpenSshSignatureFile = "library.json.sig";
 inline constexpr const char* kSignatureNamespace = "lumen-library";
 
-/// Who made a signature.
+/// Maker of a signature.
 struct Signer {
   std::string program;   ///< "minisign" or "OpenSSH"
   std::string key;       ///< minisign's id of the key, or OpenSSH's "SHA256:..."
-  std::string identity;  ///< of a list of allowed signers; may be empty
+  std::string identity;  ///< name in a list of allowed signers; may be empty
 };
 
 struct Signature {
   std::string file;  ///< its name in the folder
   std::string bytes;
   Signer signer;
-  bool isVerified =
-      false;  ///< with the public key beside the secret one, or by the key that it holds
+  /// Checked with the public key beside the secret one, or by the key that it holds.
+  bool isVerified = false;
 };
 
 /// Throws Error(InvalidInput) for a key that cannot sign.
 void requireSigningKey(const KeyFile& key);
 
-/// Signs with the secret key; the program may ask for its password on the terminal. Nothing is written. Throws
-/// Error(Unsupported) if the program is not installed, Error(InvalidInput) for another key, Error(Failed) with the
-/// program's words if it refuses.
+/// Signs with the secret key; the program may ask for its password on the terminal. Nothing is
+/// written. Throws Error(Unsupported) if the program is not installed, Error(InvalidInput) for
+/// another key, Error(Failed) with the program's words if it refuses.
 Signature sign(const std::string& libraryText, const LibraryFile& library, const KeyFile& key,
                const Progress& progress);
 
 enum class Trust : std::uint8_t {
   Trusted,
   Unsigned,   ///< there is no signature of the key's kind
-  Untrusted,  ///< by a key that is not trusted
+  Untrusted,  ///< the key is not trusted
   Broken,     ///< no signature, or one of other bytes
 };
 
 struct TrustAnswer {
   Trust trust = Trust::Broken;
   Signer signer;      ///< as far as it is known
-  std::string found;  ///< why it is not trusted, and what would be
+  std::string found;  ///< reason why it is not trusted; `expected`: the trusted state
   std::string expected;
 };
 
-/// Whether the signature that `signature` holds, nothing if there is none, is of `libraryText` and by a trusted key;
-/// `identity` names whom of a list of allowed signers, by default anybody on it. Throws as sign().
+/// Whether the signature that `signature` holds, nothing if there is none, is of `libraryText` and
+/// by a trusted key; `identity` names one of a list of allowed signers, by default any of them.
+/// Throws as sign().
 TrustAnswer verifySignature(const std::string& libraryText,
                             const std::optional<std::string>& signature, const KeyFile& trusted,
                             const std::string& identity, const Progress& progress);

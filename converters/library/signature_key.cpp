@@ -18,9 +18,10 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 1U << 20U;  // of a file of keys: thousands of signers
+constexpr std::size_t kMostBytes = 1U << 20U;  // size of a file of keys: thousands of signers
 
-// minisign(1): the sizes of what its files hold, in bytes; each begins with two that name the algorithm
+// minisign(1): sizes of the contents of its files, in bytes; each begins with two that name the
+// algorithm
 constexpr std::size_t kMinisignSecret = 158, kMinisignPublic = 42, kMinisignSignature = 74;
 constexpr std::size_t kKeyId = 8;
 
@@ -49,7 +50,8 @@ std::string keyId(std::span<const std::byte> bytes) {
   return text;
 }
 
-/// Names of algorithms in OpenSSH's files: "ssh-ed25519", "ecdsa-sha2-nistp256", "sk-ssh-ed25519@openssh.com".
+/// Names of algorithms in OpenSSH's files: "ssh-ed25519", "ecdsa-sha2-nistp256",
+/// "sk-ssh-ed25519@openssh.com".
 bool isKeyType(std::string_view word) {
   constexpr std::array<std::string_view, 4> kBegins = {"ssh-", "ecdsa-sha2-", "sk-ssh-",
                                                        "sk-ecdsa-sha2-"};
@@ -67,7 +69,8 @@ bool isKey(const std::vector<std::string>& words, std::size_t at) {
          formats::fromBase64(words[at + 1]).has_value();
 }
 
-/// Lines that each hold a public key, some with who may sign with it before; false for anything else.
+/// Lines that each hold a public key, some with the signers who may use it before; false for
+/// anything else.
 bool readOpenSsh(const std::vector<std::string>& lines, KeyFile& key) {
   bool hasSigners = false, hasAny = false;
   for (const std::string& line : lines) {

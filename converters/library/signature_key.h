@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of keys of minisign and OpenSSH, known by their content. What is in a key is the programs' business.
+// Files of keys of minisign and OpenSSH, known by their content. The content of a key is the
+// programs' business.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +16,23 @@ enum class KeyKind : std::uint8_t {
   MinisignPublic,
   OpenSshPrivate,
   OpenSshPublic,   ///< lines as in NAME.pub
-  AllowedSigners,  ///< lines as ssh-keygen(1) has them: who, and a key
+  AllowedSigners,  ///< lines as ssh-keygen(1) has them: a signer, and a key
 };
 
 struct KeyFile {
   std::filesystem::path file;  ///< as it was named
   KeyKind kind = KeyKind::MinisignPublic;
-  std::string id;  ///< of a public key of minisign: 16 hexadecimal digits, as it prints them
-  std::vector<std::string> keys;  ///< of OpenSshPublic: "ssh-ed25519 AAAA..."
+  std::string id;  ///< id of a public key of minisign: 16 hexadecimal digits, as it prints them
+  std::vector<std::string> keys;  ///< keys of OpenSshPublic: "ssh-ed25519 AAAA..."
 };
 
-/// Throws Error(InvalidInput) for what is none of these.
+/// Throws Error(InvalidInput) for a file of another kind.
 KeyFile readKeyFile(const std::filesystem::path& file);
 
 /// "a secret key of minisign"
 std::string keyKindText(KeyKind kind);
 
-/// The id of the key that made a signature of minisign; nothing for what is none.
+/// The id of the key that made a signature of minisign; nothing for another text.
 std::optional<std::string> minisignSigner(const std::string& signature);
 
 }  // namespace lumen::convert

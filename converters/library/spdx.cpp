@@ -64,7 +64,8 @@ std::vector<std::string> tokensOf(const std::string& text) {
   return tokens;
 }
 
-/// The listed identifier that is `word`, a hyphen and the greatest version number: CC-BY-4.0 for CC-BY; or nothing.
+/// The listed identifier that is `word`, a hyphen and the greatest version number: CC-BY-4.0 for
+/// CC-BY; or nothing.
 std::string_view newestVersion(const std::string& word) {
   std::string_view newest;
   const std::string prefix = lowerCase(word) + "-";
@@ -90,7 +91,7 @@ class Reader {
 public:
   explicit Reader(const std::string& text) : m_tokens(tokensOf(text)) {}
 
-  /// Of the whole text.
+  /// Fault of the whole text.
   std::string fault() {
     std::size_t open = 0;
     for (;;) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which revision of each library was seen signed before, so that an older one is not taken for news.
+// The revision of each library that was seen signed before, so that an older one is not taken for
+// news.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +12,21 @@
 
 namespace lumen::convert {
 
-/// $XDG_STATE_HOME/lumen/libraries.json, by default below ~/.local/state. Throws Error(Failed) where neither is known.
+/// $XDG_STATE_HOME/lumen/libraries.json, by default below ~/.local/state. Throws Error(Failed)
+/// where neither is known.
 std::filesystem::path defaultStateFile();
 
 struct VerifiedRevision {
   std::uint64_t revision = 0;
-  std::string sha256;  ///< of library.json
+  std::string sha256;  ///< digest of library.json
 };
 
-/// The state file, which nobody else changes while this lives: two verifications at once take turns.
+/// The state file, which nobody else changes while this lives: two verifications at once take
+/// turns.
 class VerifiedRevisions {
 public:
-  /// Makes the file's folder where there is none. Throws Error(InvalidInput) for a file that is damaged, which stays as it is,
-  /// and Error(Failed).
+  /// Makes the file's folder where there is none. Throws Error(InvalidInput) for a file that is
+  /// damaged, which stays as it is, and Error(Failed).
   explicit VerifiedRevisions(const std::filesystem::path& file);
   ~VerifiedRevisions();
   VerifiedRevisions(const VerifiedRevisions&) = delete;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kMostSignature = 1U << 16U;  // bytes: one of a long RSA key has 2,000
 
-/// The signature's file, or a fault that tells why it is none; nothing if there is none.
+/// The signature's file, or a fault with the reason why it is none; nothing if there is none.
 std::optional<std::string> readSignature(const PlainFolder& folder, const std::string& file,
                                          FaultList& faults, const Progress& progress) {
   PlainRead read = folder.read(file, {0, false}, progress);
@@ -45,7 +45,8 @@ void checkSignature(const PlainFolder& folder, const std::string& text,
   verdict.check.faults.add({code, "", file, answer.found, answer.expected});
 }
 
-/// Refuses what is older than what was seen, or another of the same number or history; remembers it otherwise.
+/// Refuses a revision that is older than one seen, or another of its number or history; remembers
+/// it otherwise.
 void checkRevision(const LibraryFile& library, const std::string& digest,
                    const std::filesystem::path& state, LibraryVerdict& verdict) {
   VerifiedRevisions known(state);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a library is what somebody who is trusted signed, whole, and not older than what was seen before.
+// Verification that a library is the one that a trusted signer signed, whole, and not older than
+// one seen before.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +16,23 @@ namespace lumen::convert {
 
 struct VerifyOptions {
   KeyFile trusted;
-  std::string identity;         ///< whom of a list of allowed signers; nothing: anybody on it
+  std::string identity;         ///< one of a list of allowed signers; empty: any of them
   std::filesystem::path state;  ///< VerifiedRevisions' file; none: nothing is remembered
   std::size_t mostFaults = 1000;
 };
 
 struct LibraryVerdict {
-  /// With the faults of signature and revision. The cases were only looked at if there are none of these.
+  /// Includes the faults of signature and revision. The cases are checked only if there are none of
+  /// these.
   LibraryCheck check;
   Signer signer;                    ///< as far as it is known
-  std::uint64_t knownRevision = 0;  ///< that was verified before; 0 for none
+  std::uint64_t knownRevision = 0;  ///< the revision verified before; 0 for none
   [[nodiscard]] bool isTrusted() const { return check.faults.counts().errors == 0; }
 };
 
-/// A revision is remembered as soon as its signature is trusted, whatever its files are like: from then on it is known that
-/// there is one. Throws as verifySignature(), VerifiedRevisions and checkLibrary().
+/// Verifies a library. A revision is remembered as soon as its signature is trusted, whatever its
+/// files are like: from then on it is known that there is one. Throws as verifySignature(),
+/// VerifiedRevisions and checkLibrary().
 LibraryVerdict verifyLibrary(const PlainFolder& folder, const VerifyOptions& options,
                              Progress& progress);
 

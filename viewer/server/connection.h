@@ -9,7 +9,7 @@
 namespace lumen::viewer {
 
 /// Calls `work` with a progress that is cancelled when the client at that port of this machine
-/// closes the connection, because nobody waits for the answer. Throws what `work` throws.
+/// closes the connection, because nobody waits for the answer. Throws as `work`.
 void whileConnected(int remotePort, const std::function<void(Progress&)>& work);
 
 }  // namespace lumen::viewer

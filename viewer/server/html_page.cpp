@@ -113,9 +113,8 @@ private:
   Json m_parts = Json::object();
 };
 
-/// The members of the state that concern a page without a server. Revisions count what has happened
-/// in this program, which depends on timing; here each is 1, and 0 for the library, which is
-/// absent.
+/// The members of the state that concern a page without a server. Revisions count the changes in
+/// this program, which depends on timing; here each is 1, and 0 for the library, which is absent.
 Json lookOnly(Json state) {
   state["revision"] = 1;
   for (Json& revision : state["revisions"]) revision = 1;

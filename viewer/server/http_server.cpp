@@ -20,7 +20,7 @@ namespace {
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr milliseconds kHead{2000};  // on the loopback interface a head arrives at once
+constexpr milliseconds kHead{2000};  // a head arrives at once on the loopback interface
 constexpr milliseconds kEachMiB{1000};
 constexpr milliseconds kWrite{5000};  // between two writes to a page that does not read
 
@@ -91,7 +91,7 @@ private:
   const socket_t m_socket;
   const Clock::time_point m_start = Clock::now();
   std::array<char, 1 << 14> m_buffer{};
-  std::size_t m_begin = 0, m_end = 0;  ///< of the buffer: bytes that nobody has read yet
+  std::size_t m_begin = 0, m_end = 0;  ///< bytes of the buffer that nobody has read yet
   std::uint64_t m_arrived = 0;
 };
 

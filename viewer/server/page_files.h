@@ -13,7 +13,7 @@ struct PageFile {
   std::string bytes;
 };
 
-/// By the name that the page asks for; "" is the page itself.
+/// Files by the name that the page asks for; "" is the page itself.
 using PageFiles = std::map<std::string, PageFile>;
 
 /// Reads them from share/lumen/viewer of the installation that the running program is in, or from

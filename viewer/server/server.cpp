@@ -132,7 +132,7 @@ private:
     });
   }
 
-  /// A part whose making takes long and ends when the page does not wait any more.
+  /// A part that takes long to make, and ends when the page does not wait any more.
   void getSlowly(const std::string& name,
                  const std::function<Tagged(const Request&, Progress&)>& part) {
     get(name, [part](const Request& request, Response& response) {

@@ -20,7 +20,7 @@ namespace lumen::viewer {
 
 namespace {
 
-constexpr std::uint32_t kPositionSteps = 65535;  // of a head's 240 mm: under 4 um
+constexpr std::uint32_t kPositionSteps = 65535;  // steps in a head's 240 mm: under 4 um
 constexpr std::uint32_t kRadiusSteps = 4095;     // only colours show it
 constexpr std::uint32_t kNone = 0xffffffff;
 

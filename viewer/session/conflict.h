@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A request that does not fit what has happened since the page looked.
+// A request that does not fit the changes since the page looked.
 #pragma once
 
 #include <string>

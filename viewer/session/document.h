@@ -24,7 +24,7 @@ std::string roleName(FileRole role);
 
 /// The version of a file that was read: a file with another stamp was written since.
 struct FileStamp {
-  std::int64_t time = 0;  ///< of its last change, ns
+  std::int64_t time = 0;  ///< time of its last change, ns
   std::uintmax_t size = 0;
   std::uintmax_t serial = 0;  ///< inode
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
@@ -42,7 +42,7 @@ struct OpenFile {
 };
 
 struct OpenMesh {
-  int id = 0;  ///< of its file
+  int id = 0;  ///< id of its file
   std::string label;
   std::shared_ptr<const convert::MeshFile> mesh;  ///< in mm
 };

@@ -18,7 +18,7 @@ using SavingOptions = std::vector<std::pair<std::string, std::string>>;
 
 /// The case, its mesh, its centerline or the seeds in that format, as `lumen convert` with these
 /// options writes it; a case without models is fitted for a mesh. `places` has the temporary file.
-/// Throws Error(Usage) for an unknown format or option, and what writers throw.
+/// Throws Error(Usage) for an unknown format or option, and as the writers.
 std::string encoded(const Document& document, const std::string& format,
                     const SavingOptions& options, const SessionOptions& settings,
                     DroppedFiles& places, Progress& progress);

@@ -51,7 +51,7 @@ public:
 
 private:
   struct Entry {
-    std::string name;  ///< of the change
+    std::string name;  ///< name of the change
     Document other;    ///< the document before the change, or after it if it is undone
   };
   void replace(Document document);

@@ -25,7 +25,7 @@ struct RunningJob {
 /// All calls are thread-safe.
 class JobRunner {
 public:
-  /// Throws what a stage throws; returns the sentence that reports what was done.
+  /// Throws as a stage; returns the sentence that reports the outcome.
   using Work = std::function<std::string(Progress&)>;
 
   /// `changed` is called, without any lock, when a job has begun or ended. `text` makes every
@@ -59,7 +59,7 @@ private:
   mutable std::mutex m_mutex;  ///< guards all that follow
   std::condition_variable m_ended;
   std::optional<RunningJob> m_running;
-  std::unique_ptr<Progress> m_progress;  ///< of the job that runs, or of the last
+  std::unique_ptr<Progress> m_progress;  ///< progress of the job that runs, or of the last
   std::thread m_thread;
   int m_last = 0;
 };

@@ -93,7 +93,7 @@ public:
 
   /// Null if none is open.
   [[nodiscard]] const Library* library() const { return m_library.get(); }
-  /// Its JSON.
+  /// The list of cases as JSON.
   [[nodiscard]] Tagged pack() const;
   /// Counts up as cases are read; 0 without a library.
   [[nodiscard]] std::uint64_t revision() const;

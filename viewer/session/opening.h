@@ -23,8 +23,8 @@ struct Opening {
 FileRole roleOf(const Opening& opening);
 
 /// The document with one more file, as number `id`. A volume, a case, a truth or seeds replace
-/// those that were open; meshes are added. A centerline becomes a case, and is fitted. Throws what
-/// its reader throws.
+/// those that were open; meshes are added. A centerline becomes a case, and is fitted. Throws as
+/// its reader.
 Document withFile(const Document& document, const Opening& opening, int id,
                   const engine::VolumeArguments& volume, Progress& progress);
 

@@ -19,8 +19,8 @@ public:
   explicit Operations(Workspace& workspace)
       : m_workspace(workspace), m_files(workspace), m_stages(workspace) {}
 
-  /// Does what a request asks for (viewer/README.md): {"revision"} or {"job"}. Throws Conflict,
-  /// Error(Usage) for a request that does not fit the document, and what a stage throws.
+  /// Runs the operation of a request (viewer/README.md): {"revision"} or {"job"}. Throws Conflict,
+  /// Error(Usage) for a request that does not fit the document, and as the stages.
   Json run(formats::JsonValue request);
   /// Opens a dropped file as a job: {"job"}.
   Json openDropped(std::shared_ptr<const DroppedFile> file, const std::string& label, bool asTruth);

@@ -56,7 +56,7 @@ void PackWriter::addStored(const std::string& name, std::string_view bytes, Json
 }
 
 std::string PackWriter::withHeader(const Json& members) const {
-  // what is no UTF-8 has been refused by the readers of files; names of dropped files have not
+  // the readers of files refuse text that is not UTF-8; names of dropped files have not passed them
   std::string json = members.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.append((kAlignment - (4 + json.size()) % kAlignment) % kAlignment, ' ');
   const auto size = static_cast<std::uint32_t>(json.size());

@@ -29,7 +29,7 @@ constexpr NumberType numberType() {
   return NumberType::I32;
 }
 
-/// Gathers what a pack holds. Arrays are copied.
+/// Gathers the members of a pack. Arrays are copied.
 class PackWriter {
 public:
   /// A member of the JSON beside the arrays.
@@ -55,7 +55,7 @@ public:
   /// The whole pack.
   [[nodiscard]] std::string bytes() const;
 
-  /// What comes before an array that is sent by itself, whose bytes follow; its values are the last
+  /// The bytes before an array that is sent by itself, whose bytes follow; its values are the last
   /// of the pack.
   [[nodiscard]] std::string bytesBefore(const std::string& name, NumberType type,
                                         const std::vector<std::size_t>& shape) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the document is saved, and which of its parts the files on disk hold.
+// Place where the document is saved, and the parts of it that the files on disk hold.
 #pragma once
 
 #include <filesystem>
@@ -50,7 +50,7 @@ private:
 
   mutable std::mutex m_mutex;  ///< guards all that follow
   std::filesystem::path m_target;
-  FileStamp m_stamp;               ///< of the target
+  FileStamp m_stamp;               ///< stamp of the target
   std::filesystem::path m_keepAt;  ///< counts where there is no target
   std::shared_ptr<const formats::Case> m_case;
   std::shared_ptr<const Seeds> m_seeds;

@@ -11,8 +11,8 @@
 namespace lumen::viewer {
 
 struct SeedChange {
-  std::string label;  ///< of the seed
-  std::string title;  ///< for undo, such as "move seed ica"
+  std::string label;  ///< label of the seed
+  std::string title;  ///< title for undo, such as "move seed ica"
   Document document;  ///< after the change
 };
 

@@ -19,7 +19,7 @@ namespace lumen::viewer {
 class Session {
 public:
   explicit Session(SessionOptions options) : m_workspace(std::move(options)) {}
-  /// Cancels what runs and waits for its end.
+  /// Cancels the running work and waits for its end.
   ~Session() { m_workspace.end(); }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -66,7 +66,7 @@ public:
   /// The document as a file (encoded_document.h).
   std::string encoded(const std::string& format, const SavingOptions& options, Progress& progress);
 
-  /// Does what a page asks for: {"revision"} or {"job"}.
+  /// Runs the operation that a page asks for: {"revision"} or {"job"}.
   Json run(formats::JsonValue request) { return m_operations.run(request); }
   /// The vessel near a click.
   Json snap(formats::JsonValue request);

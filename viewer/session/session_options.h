@@ -6,7 +6,8 @@
 
 namespace lumen::viewer {
 
-/// How the session reads, tracks and fits; the same settings as on the command line.
+/// Settings for reading, tracking and fitting in the session; the same settings as on the command
+/// line.
 struct SessionOptions {
   engine::VolumeArguments volume;
   engine::TrackArguments track;

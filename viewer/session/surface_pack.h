@@ -15,7 +15,7 @@ namespace lumen::viewer {
 struct SurfaceLevel {
   std::string_view kind;  ///< "quick" or "closed"
   int level = 0;          ///< 0: the finest
-  int levels = 1;         ///< that there will be
+  int levels = 1;         ///< number of levels in the end
 };
 
 /// The pack `surface` of a case's surface, its triangles sorted by group and branch.

@@ -70,7 +70,7 @@ private:
   std::shared_ptr<const formats::Case> m_quickTried;
   std::array<std::shared_ptr<const ReadySurface>, kLevels> m_levels;
   std::array<bool, kLevels> m_failed{};
-  std::shared_ptr<Progress> m_progress;  ///< of the surface that the background makes
+  std::shared_ptr<Progress> m_progress;  ///< progress of the surface that the background makes
   std::uint64_t m_revision = 1, m_number = 0;
   bool m_allowed = true, m_ended = false;
   bool m_isAsked = false;  ///< a page has asked for this case; finer surfaces wait for that

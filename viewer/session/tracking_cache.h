@@ -26,7 +26,7 @@ private:
   std::mutex m_mutex;  ///< guards all that follow
   std::shared_ptr<const convert::TrackingVolume> m_tracking;
   std::shared_ptr<const convert::Volume> m_volume;
-  formats::Step m_step;  ///< by which the case was tracked
+  formats::Step m_step;  ///< step that tracked the case
 };
 
 }  // namespace lumen::viewer

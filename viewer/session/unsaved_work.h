@@ -24,14 +24,14 @@ class UnsavedWork {
 public:
   /// Writes changed parts, each atomically, beside `place`; null for a part that is saved, whose
   /// copy is removed. Copies beside another place stay there. Returns the copies that there are.
-  /// Throws what writers throw.
+  /// Throws as the writers.
   std::vector<std::filesystem::path> keep(const std::filesystem::path& place,
                                           const std::shared_ptr<const formats::Case>& value,
                                           const std::shared_ptr<const Seeds>& seeds);
 
   /// Looks for copies of an earlier program beside `place`, and returns them.
   std::vector<std::filesystem::path> find(const std::filesystem::path& place);
-  /// Those that were found and not removed since.
+  /// The copies that were found and not removed since.
   [[nodiscard]] std::vector<std::filesystem::path> found() const;
   /// Removes a copy that was found. Throws Error(Failed) if it cannot be removed.
   void remove(const std::filesystem::path& file);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From seeds to vessels, and the vessel under the pointer.
+// Tracking of vessels from seeds, and the vessel under the pointer.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct TrackedCase {
 };
 
 /// The case of the document with the vessels of these seeds, or a new case. The document has a
-/// volume. Throws what the stages throw.
+/// volume. Throws as the stages.
 TrackedCase trackedFrom(const Document& document, const Seeds& seeds, TrackingCache& cache,
                         const SessionOptions& options, Progress& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The open document and what a session keeps about it.
+// The open document and the parts that a session keeps about it.
 #pragma once
 
 #include <atomic>
@@ -27,8 +27,8 @@
 
 namespace lumen::viewer {
 
-/// Parts that know nothing of one another, each of which guards itself; the functions are what
-/// several operations share. All calls are thread-safe.
+/// Parts that know nothing of one another, each of which guards itself; several operations share
+/// the functions. All calls are thread-safe.
 struct Workspace {
   explicit Workspace(SessionOptions options);
   ~Workspace() { end(); }

@@ -31,7 +31,7 @@ struct Shade {
   std::string_view meaning;
 };
 
-/// In the order in which they are drawn: what disagrees hides what does not.
+/// Shades in the order in which they are drawn: disagreement hides agreement.
 constexpr std::array<Shade, 4> kShades{{
     {Agreement::NotJudged, {110, 140, 255}, "not judged"},
     {Agreement::Good, {60, 220, 90}, "wall within half a voxel"},
@@ -49,7 +49,7 @@ public:
            int scale) {
     const int width = textWidth(text, scale) + 2 * scale;
     const PixelBox box{static_cast<int>(x), static_cast<int>(y), static_cast<int>(x) + width,
-                  static_cast<int>(y) + 9 * scale};
+                       static_cast<int>(y) + 9 * scale};
     if (box.left < panel.x || box.top < panel.y || box.right > panel.x + panel.width ||
         box.bottom > panel.y + panel.height)
       return false;

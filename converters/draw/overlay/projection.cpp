@@ -15,8 +15,8 @@ constexpr double kWanted = 1600;  // pixels, of both views of the longer side
 constexpr double kMostScale = 8;  // pixels for the finest voxel: small volumes are enlarged
 constexpr char kNames[] = "xyz";
 
-/// For each patient axis the axis of the grid that goes most along it, each once, and whether it
-/// runs against it.
+/// Grid axis for each patient axis: the one that goes most along it, each once, and whether it runs
+/// against it.
 struct Axes {
   std::array<int, 3> grid{};
   std::array<bool, 3> against{};

@@ -19,7 +19,7 @@ struct Panel {
   bool flipAcross = false, flipDown = false;
   double right = 1, below = 1;              ///< pixels for a voxel
   int x = 0, y = 0, width = 0, height = 0;  ///< pixels
-  std::array<int, 3> size{};                ///< of the volume, voxels
+  std::array<int, 3> size{};                ///< the volume's, voxels
   std::string title{};                      ///< "x right, z up"
 
   [[nodiscard]] std::array<double, 2> pixel(const Eigen::Vector3d& index) const;
@@ -27,13 +27,14 @@ struct Panel {
 
 struct Layout {
   std::array<Panel, 3> panels;
-  int width = 0, height = 0;     ///< of the picture
-  int legendX = 0, legendY = 0;  ///< where the legend has its place
+  int width = 0, height = 0;     ///< the picture's
+  int legendX = 0, legendY = 0;  ///< place of the legend
 };
 
 /// Front view (x to the right, z up), beside it the side view (y to the right, z up), below it the
-/// view from the feet (x to the right, y down), all of one scale, as far as the axes of the grid go
-/// along those of the patient; the legend in the fourth quarter, of at least that size, pixels.
+/// view from the feet (x to the right, y down), all of one scale; these directions hold as far as
+/// the axes of the grid follow those of the patient. The legend is in the fourth quarter, of at
+/// least that size, pixels.
 Layout layOut(const VolumeGeometry& geometry, int gap, int legendWidth, int legendHeight);
 
 struct Projection {

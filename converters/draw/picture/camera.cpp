@@ -16,8 +16,8 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kMargin = 0.06;    // of the picture, on each side
-constexpr double kLeast = 1e-6;     // mm: of what is to be in a picture
+constexpr double kMargin = 0.06;    // share of the picture, on each side
+constexpr double kLeast = 1e-6;     // mm: least size of a picture's content
 constexpr int kStepsOfCircle = 64;  // after n steps the radius is some 1/n too wide
 
 /// Directions in which the extent is no more than this times the least one count as of least

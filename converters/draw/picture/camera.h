@@ -10,7 +10,7 @@
 
 namespace lumen::convert {
 
-/// From which side of the patient; Best: along the direction in which the vessels extend least.
+/// Side of the patient; Best: along the direction in which the vessels extend least.
 enum class View : std::uint8_t { Best, Anterior, Posterior, Left, Right, Superior, Inferior };
 
 /// A parallel projection. Rows of `axes` are unit vectors in LPS: to the right of the picture, up,
@@ -36,8 +36,8 @@ struct Framing {
   /// Radians about the upright axis of the unturned picture, which from the sides is that from foot
   /// to head: from in front to the patient's left.
   double turn = 0;
-  bool allTurns =
-      false;  ///< centre and scale are those at which the vessels are in the picture at any turn
+  /// Centre and scale are those at which the vessels are in the picture at any turn.
+  bool allTurns = false;
   int width = 0, height = 0;
   double margin = 0;  ///< pixels that at least stay free above and below
 };

@@ -21,11 +21,11 @@ namespace {
 
 constexpr int kSamples = 2;            // across a pixel, and down
 constexpr std::size_t kOfLegend = 64;  // colours
-constexpr double kCoarse = 0.125;      // of the pixels, each way: enough for the levels of grey
+constexpr double kCoarse = 0.125;  // share of the pixels, each way: enough for the levels of grey
 constexpr Rgb kPaper = {250, 250, 250}, kInk = {60, 60, 60}, kInkOnVolume = {230, 230, 230};
 constexpr std::array<float, 3> kVessel = {0.62F, 0.07F, 0.06F};
 
-/// Linear light of each node, and what it means.
+/// Linear light of each node, and its meaning.
 struct Colours {
   std::vector<Light> ofNode;
   Legend legend;  ///< without colours: none is needed
@@ -66,7 +66,7 @@ Legend legendOf(const ColorScale& scale) {
   return legend;
 }
 
-/// As colours of a mesh with a vertex at each node.
+/// Colours of a mesh with a vertex at each node.
 Colours coloursOf(const formats::CenterlineTree& tree, ColorBy by) {
   if (by == ColorBy::None)
     return {{tree.nodeCount(), Light(kVessel[0], kVessel[1], kVessel[2])}, {}};

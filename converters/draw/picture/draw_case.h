@@ -22,8 +22,8 @@ struct PictureOptions {
   int width = 1000, height = 800;  ///< pixels, each 16 or more
   double turn = 0;        ///< radians about the picture's upright axis: from in front to the left
   bool allTurns = false;  ///< scale and centre are those that hold the vessels at any turn
-  /// The bar of the scale, the sides of the patient at the edges, and what colours mean, where the
-  /// picture is at least 160 pixels wide and high.
+  /// The bar of the scale, the sides of the patient at the edges, and the legend of the colours,
+  /// where the picture is at least 160 pixels wide and high.
   bool marks = true;
 };
 
@@ -38,8 +38,8 @@ public:
   /// lies in it; Error(Cancelled).
   void setVolume(const Volume& volume, Progress& progress);
 
-  /// The blended surface, shaded. The same bytes on any number of threads. Throws
-  /// Error(InvalidInput) for a case that does not have what is to be the colour; Error(Cancelled).
+  /// The blended surface, shaded; its bytes do not depend on the number of threads. Throws
+  /// Error(InvalidInput) for a case that lacks the values to be shown as colours; Error(Cancelled).
   [[nodiscard]] Picture draw(const PictureOptions& options, Progress& progress) const;
 
 private:
@@ -51,8 +51,8 @@ private:
   std::optional<Projector> m_projector;
 };
 
-/// One picture of a case, with a volume behind it if there is one, as CasePainter makes it, and
-/// throwing what it throws.
+/// One picture of a case, with a volume behind it if there is one, as CasePainter makes it; throws
+/// as CasePainter.
 Picture drawCase(const formats::Case& source, const PictureOptions& options, const Volume* volume,
                  Progress& progress);
 

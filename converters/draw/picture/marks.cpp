@@ -15,7 +15,7 @@ constexpr int kLeastPicture = 160;  // pixels
 constexpr double kSideways = 0.38;  // sin(22.5 degrees)
 constexpr int kLetterWidth = 6, kLetterHeight = 7;
 
-/// How large a letter's pixels are drawn, and the width of lines.
+/// Size of a letter's pixels, and width of lines.
 int letterScale(int width, int height) {
   return std::max(1, std::min(width, height) / 400);
 }
@@ -84,7 +84,7 @@ void drawSides(Picture& picture, const Camera& camera, const Rgb& ink) {
 
 void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink) {
   const int scale = letterScale(picture), margin = 8 * scale;
-  int least = -kLetterWidth * scale;  // of the values, with a letter's room between two
+  int least = -kLetterWidth * scale;  // width of the values, with a letter's room between two
   for (const std::string& value : legend.values)
     least += textWidth(value, scale) + kLetterWidth * scale;
   const int length = std::max({picture.width / 4, textWidth(legend.title, scale), least});

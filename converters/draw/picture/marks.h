@@ -34,13 +34,14 @@ std::string sideOf(const Eigen::Vector3d& direction);
 /// The sides in the middle of the picture's four edges.
 void drawSides(Picture& picture, const Camera& camera, const Rgb& ink);
 
-/// What colours mean.
+/// Meaning of the colours of a picture.
 struct Legend {
-  std::string title;                ///< with the unit
-  std::vector<Rgb> colours;         ///< from left to right
-  std::vector<std::string> values;  ///< at even distances, the first at the left end; three at most
+  std::string title;         ///< title, with the unit
+  std::vector<Rgb> colours;  ///< colours from left to right
+  /// Numbers at even distances, the first at the left end; three at most.
+  std::vector<std::string> values;
 };
-/// In the lower right corner.
+/// Draws the legend in the lower right corner.
 void drawLegend(Picture& picture, const Legend& legend, const Rgb& ink);
 
 }  // namespace lumen::convert

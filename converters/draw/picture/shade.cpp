@@ -14,7 +14,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr int kDirections = 8, kSteps = 4;  // of occlusion
+constexpr int kDirections = 8, kSteps = 4;  // numbers for occlusion
 constexpr float kAmbient = 0.55F, kDiffuse = 0.6F, kSpecular = 0.12F, kShininess = 32;
 
 /// sRGB, IEC 61966-2-1.
@@ -23,7 +23,7 @@ float linearOf(std::uint8_t value) {
   return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F);
 }
 
-/// The greatest sine above the surface's plane of what stands in one direction.
+/// The greatest sine above the surface's plane of the surfaces in one direction.
 float horizonOf(const TracedSurface& surface, double pixelsPerMm, int x, int y, double angle,
                 double reach) {
   const std::size_t pixel = surface.at(x, y);
@@ -41,7 +41,7 @@ float horizonOf(const TracedSurface& surface, double pixelsPerMm, int x, int y, 
                              surface.depth[other] - surface.depth[pixel]);
     const float distance = to.norm();
     if (distance <= 0) continue;
-    // what is far in front shades little
+    // points far in front shade little
     const auto range = static_cast<float>(2 * reach / pixelsPerMm);
     const float weight = std::max(0.0F, 1 - distance / (2 * range));
     highest = std::max(highest, weight * (normal.dot(to) / distance - 0.1F));

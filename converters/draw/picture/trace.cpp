@@ -18,15 +18,15 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kBall = 2;  // radii: a model's wall in its own cell does not reach beyond
-constexpr double kInset =
-    1e-4;  // radii: rays stay off the sides of cells, where a cursor would step across
-constexpr int kMostSteps = 64;   // of a ray in one cell
-constexpr double kShare = 0.9;   // of the distance: it is right to first order only
+// Inset in radii: rays stay off the sides of cells, where a cursor would step across.
+constexpr double kInset = 1e-4;
+constexpr int kMostSteps = 64;   // steps of a ray in one cell
+constexpr double kShare = 0.9;   // share of the distance: it is right to first order only
 constexpr double kNear = 0.002;  // radii: on the surface
 constexpr int kRowsOfTile = 16;
 
-/// Where the power of a node is at most that of a neighbour: across . X <= level, X from the node's
-/// centre in the camera's axes, mm.
+/// Half-space in which the power of a node is at most that of a neighbour: across . X <= level, X
+/// from the node's centre in the camera's axes, mm.
 struct Side {
   Eigen::Vector3d across;
   double level;
@@ -58,7 +58,7 @@ public:
         m_balls(balls),
         m_surface(surface) {}
 
-  /// Those of rows `first` to `last` - 1 that meet a ball.
+  /// Sends the rays of rows `first` to `last` - 1 that may meet a ball.
   void meet(const Ball& ball, int first, int last) const {
     const double reach = m_camera.scale * ball.radius;
     const int y0 = std::max(first, static_cast<int>(std::ceil(ball.y - reach - 0.5)));

@@ -23,7 +23,7 @@ struct TracedSurface {
   int width = 0, height = 0;
   std::vector<float> depth;             ///< mm towards the viewer; kNothing where no vessel is
   std::vector<Eigen::Vector3f> normal;  ///< unit, out of the lumen, in the camera's axes
-  std::vector<std::uint32_t> node;      ///< at which a cursor on the surface is
+  std::vector<std::uint32_t> node;      ///< node of a cursor on the surface
 
   [[nodiscard]] std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -32,16 +32,15 @@ struct TracedSurface {
   [[nodiscard]] bool isHit(std::size_t pixel) const { return depth[pixel] > kNothing; }
 };
 
-/// Where rays meet the wall, as section 4.6 of docs/method.md says: sphere tracing (J. C. Hart,
+/// Points where rays meet the wall, by section 4.6 of docs/method.md: sphere tracing (J. C. Hart,
 /// 1996) of libblob's distance, of each node in its own power cell, so vessels that touch stay
 /// apart.
 class SurfaceTracer {
 public:
-  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob does not take
-  /// it.
+  /// `source` has models and a node, and must stay. Throws Error(Failed) if libblob refuses it.
   explicit SurfaceTracer(const formats::Case& source);
 
-  /// On all cores; the same bits on any number of them. Throws Error(Cancelled).
+  /// Traces on all cores; the bits do not depend on their number. Throws Error(Cancelled).
   [[nodiscard]] TracedSurface trace(const Camera& camera, Progress& progress) const;
 
 private:

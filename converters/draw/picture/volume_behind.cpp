@@ -16,11 +16,11 @@ namespace lumen::convert {
 namespace {
 
 constexpr int kBrick = 8;          // voxels
-constexpr float kBrightest = 190;  // of 255: vessels stand out before it
+constexpr float kBrightest = 190;  // brightness, at most 255: vessels stand out before it
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a ray in index space lies in the box of the voxels: from `first` to `last` steps; empty if
-/// first > last.
+/// Range of a ray in index space that lies in the box of the voxels: from `first` to `last` steps;
+/// empty if first > last.
 struct Stretch {
   double first = -kInfinity, last = kInfinity;
 };
@@ -108,7 +108,7 @@ public:
         const double inside = std::min(std::max(place, 0.0), m_size[a] - 1.0);
         const int b = static_cast<int>(inside) / kBrick;
         brick = brick * static_cast<std::size_t>(m_count[a]) + static_cast<std::size_t>(b);
-        // what lies beyond the outermost centres is of the outermost bricks
+        // points beyond the outermost centres are of the outermost bricks
         const double side = step[axis] > 0 ? (b + 1 < m_count[a] ? kBrick * (b + 1.0) : kInfinity)
                                            : (b > 0 ? 1.0 * kBrick * b : -kInfinity);
         if (std::abs(step[axis]) > 1e-12)

@@ -19,15 +19,15 @@ public:
   /// Reads the volume once. Throws Error(Cancelled).
   Projector(const Volume& volume, Progress& progress);
 
-  /// For each pixel; rows from the top; minus infinity beside the volume. The same bits on any
-  /// number of threads, and those of taking every sample: whole bricks are passed over that hold
-  /// nothing greater than what was met. Throws Error(Cancelled).
+  /// One value for each pixel; rows from the top; minus infinity beside the volume. The bits do not
+  /// depend on the number of threads, and are those of taking every sample: bricks that hold no
+  /// value above the greatest so far are passed over. Throws Error(Cancelled).
   [[nodiscard]] std::vector<float> greatest(const Camera& camera, Progress& progress) const;
 
 private:
   const Volume& m_volume;
   std::array<int, 3> m_bricks{};
-  std::vector<float> m_most;  ///< of what lies in a brick or is interpolated with it
+  std::vector<float> m_most;  ///< the greatest value in a brick or interpolated with it
 };
 
 /// Values that are black and white.
@@ -35,7 +35,7 @@ struct GreyWindow {
   float black = 0, white = 1;
 };
 
-/// From the median of a projection to its highest thousandth.
+/// Window from the median of a projection to its highest thousandth.
 GreyWindow windowOf(std::vector<float> projection);
 
 /// A projection as a picture; black beside the volume.

@@ -70,7 +70,7 @@ void Picture::set(int x, int y, const Rgb& colour) {
 
 void Picture::line(double x0, double y0, double x1, double y1, const Rgb& colour) {
   const double longest = std::max(std::abs(x1 - x0), std::abs(y1 - y0));
-  // what lies far outside of the picture would take for ever
+  // a line far outside of the picture would take for ever
   if (!(longest <= 4.0 * (width + height))) return;
   const int steps = std::max(1, static_cast<int>(std::ceil(longest)));
   for (int i = 0; i <= steps; ++i) {

@@ -28,7 +28,7 @@ struct Picture {
   void line(double x0, double y0, double x1, double y1, const Rgb& colour);
   /// Three pixels wide.
   void thickLine(double x0, double y0, double x1, double y1, const Rgb& colour);
-  /// From (x0, y0) to before (x1, y1).
+  /// Fills the pixels from (x0, y0) to before (x1, y1).
   void fill(int x0, int y0, int x1, int y1, const Rgb& colour);
   /// Letters of 5 by 7 pixels, `scale` times as large, with the upper left corner at (x, y): ASCII
   /// letters, digits and the signs , . : ( ) - _ + /; others are left blank.
@@ -36,7 +36,8 @@ struct Picture {
   int text(int x, int y, int scale, std::string_view letters, const Rgb& colour);
 };
 
-/// Pixels from the left side of the first letter to the right side of the last, as Picture::text() draws them.
+/// Pixels from the left side of the first letter to the right side of the last, as Picture::text()
+/// draws them.
 int textWidth(std::string_view letters, int scale);
 
 /// The bytes of a PNG file. Throws Error(Failed).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces of a page: what a text says cannot become markup, as a type of its own keeps them apart.
+// Pieces of a page: the words of a text cannot become markup, as a type of its own keeps them
+// apart.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,8 @@
 
 namespace lumen::convert {
 
-/// HTML that is whole: every element that it opens it closes. Texts come in through text() and name(), which escape.
+/// HTML that is whole: every element that it opens it closes. Texts come in through text() and
+/// name(), which escape.
 struct Markup {
   std::string html;
 
@@ -24,19 +26,20 @@ struct Markup {
 Markup text(std::string_view text);
 /// A text of a case, or a file's name.
 Markup name(std::string_view text);
-/// The same, but no more than about so many bytes of it, and then how many it has.
+/// A text of a case, or a file's name, escaped: its first `bytes` or so, and then how many it has.
 Markup shortened(std::string_view text, std::size_t bytes);
 
 /// <tag attributes>content</tag>. `tag` and `attributes` are ours: they are not escaped.
 Markup element(std::string_view tag, const Markup& content, std::string_view attributes = {});
 Markup paragraph(std::string_view ours);
-/// A figure of a picture in the PNG format. `alt` is for who does not see it; `attributes` are those of the figure.
+/// A figure of a picture in the PNG format. `alt` is for readers who do not see it; `attributes`
+/// are those of the figure.
 Markup pngFigure(std::string_view png, const Markup& caption, std::string_view alt,
                  std::string_view attributes = {});
 /// <section id="id"><h2>title</h2>content</section>.
 Markup section(std::string_view id, std::string_view title, const Markup& content);
 
-/// Names and what they stand for.
+/// Names and their values.
 using Facts = std::vector<std::pair<std::string, Markup>>;
 Markup factList(const Facts& facts);
 

@@ -18,7 +18,7 @@ namespace {
 constexpr int kWidth = 580, kHeight = 360;
 constexpr int kLeft = 92, kRight = 520, kTop = 14, kBottom = 262;
 constexpr int kStrip = 12;       // height of the strip below
-constexpr int kMarksBelow = 40;  // from the axis down to the feet of its numbers
+constexpr int kMarksBelow = 40;  // height from the axis down to the feet of its numbers
 constexpr std::size_t kSteps = 440;
 constexpr int kMarksAcross = 5, kMarksUp = 4;
 constexpr double kHeadroom = 1.08;  // above the greatest radius

@@ -11,15 +11,17 @@
 
 namespace lumen::convert {
 
-/// A plot of 58 by 36 mm: mm along the vessel to the right, radius in mm upwards, both from 0; confidence, if there is
-/// one, as an area behind it from 0 to 1; where branches leave, as marks on the axis below; `agreement` of its nodes with a
-/// volume, unless empty, as a strip below that. It has classes in place of colours: plotStyle() has these.
+/// A plot of 58 by 36 mm: mm along the vessel to the right, radius in mm upwards, both from 0;
+/// confidence, if there is one, as an area behind it from 0 to 1; places where branches leave, as
+/// marks on the axis below; `agreement` of its nodes with a volume, unless empty, as a strip below
+/// that. The plot has classes in place of colours: plotStyle() has these.
 Markup profilePlot(const TreeProfile& profile, std::span<const Agreement> agreement);
 
-/// How much of the length has which confidence, as bars.
+/// Share of the length for each confidence, as bars.
 Markup confidenceBars(const ConfidenceShares& shares);
 
-/// CSS for these plots, and for keys to the colours of agreement: .key.good and so on, .key.missing.
+/// CSS for these plots, and for keys to the colours of agreement: .key.good and so on,
+/// .key.missing.
 std::string plotStyle();
 
 }  // namespace lumen::convert

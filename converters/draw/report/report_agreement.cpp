@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the case agrees with its volume, in a report: what `lumen check` finds.
+// Agreement of the case with its volume in a report: the findings of `lumen check`.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -18,7 +18,7 @@ namespace {
 
 using convert::CheckReport, convert::Markup, convert::Offsets, convert::paragraph, convert::text;
 
-constexpr std::size_t kPlacesListed = 25;  // of each kind
+constexpr std::size_t kPlacesListed = 25;  // places of each kind
 
 /// A place in the case: the branch's label and coordinates.
 std::vector<Markup> placeCells(const formats::CenterlineTree& tree, std::uint32_t node,
@@ -26,7 +26,7 @@ std::vector<Markup> placeCells(const formats::CenterlineTree& tree, std::uint32_
   return {convert::name(labelOf(tree, node)), text(placeText(place))};
 }
 
-/// What is missing of a list that is too long for paper.
+/// A sentence for the rest of a list that is too long for paper.
 Markup moreOf(std::size_t count) {
   if (count <= kPlacesListed) return {};
   return paragraph("And " + std::to_string(count - kPlacesListed) +

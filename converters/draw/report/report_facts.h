@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page of `lumen report` shows.
+// Facts on the page of `lumen report`.
 #pragma once
 
 #include <cstddef>
@@ -24,28 +24,28 @@ struct DrawnView {
 
 /// The volume that the case is held against.
 struct ReportVolume {
-  std::string name;  ///< of its file
+  std::string name;  ///< the file's
   formats::SourceVolume geometry;
   SourceRelation source;
   std::optional<convert::CheckReport> check;  ///< none of a case without models
-  std::vector<DrawnView> projections;         ///< with the tree, all of one scale
+  std::vector<DrawnView> projections;         ///< one scale for all; they show the tree, too
 };
 
 struct ReportFacts {
   std::string title;
-  std::string caseName;   ///< of its file
-  std::size_t bytes = 0;  ///< of the file
-  std::string sha256;     ///< of the file
+  std::string caseName;   ///< the file's
+  std::size_t bytes = 0;  ///< size of the file
+  std::string sha256;     ///< digest of the file
   formats::Case value;
   CaseInfo info;
   FileReport examination;
-  std::vector<std::string>
-      otherWarnings;             ///< of reading the volume, how the case lies in it, names of files
-  std::vector<DrawnView> sides;  ///< none of a case without models
+  /// Warnings about reading the volume, how the case lies in it, and names of files.
+  std::vector<std::string> otherWarnings;
+  std::vector<DrawnView> sides;         ///< none of a case without models
   std::optional<DrawnView> confidence;  ///< none if a case without models or inlier rates
   std::optional<ReportVolume> volume;   ///< none without --volume
 
-  /// Without what is only worth a note.
+  /// Number of warnings, without notes.
   [[nodiscard]] std::size_t warnings() const {
     return examination.counts.warnings + otherWarnings.size();
   }

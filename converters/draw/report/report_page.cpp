@@ -22,7 +22,7 @@ using convert::Facts, convert::Markup, convert::element, convert::paragraph, con
 constexpr const char* kPolicy =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; form-action "
     "'none'";
-constexpr std::size_t kDigitsInFoot = 16;  // of the digest: enough to tell cases apart
+constexpr std::size_t kDigitsInFoot = 16;  // digits of the digest, enough to distinguish cases
 
 constexpr const char* kStyle = R"(
 @page { size: A4; margin: 15mm 14mm 17mm; }
@@ -192,7 +192,8 @@ Markup sides(const ReportFacts& facts) {
   return convert::section("sides", kTitle, element("div", figures));
 }
 
-/// mm on paper for a pixel of the projections: they fill the width, stacked or the first two side by side, and stay on a page.
+/// mm on paper for a pixel of the projections: they fill the width, stacked or the first two side
+/// by side, and stay on a page.
 double projectionScale(const std::vector<DrawnView>& views) {
   constexpr double kWide = 180, kHigh = 205, kCaption = 7;  // mm
   double widest = 0, stacked = 0;

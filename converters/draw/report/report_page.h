@@ -9,16 +9,17 @@
 
 namespace lumen::convert {
 
-/// One HTML file to read and to print on A4: it holds its pictures and style, has no script, and a policy that lets it
-/// load nothing. The same facts give the same bytes. What the case or the volume lacks is told in a sentence.
+/// One HTML file to read and to print on A4: it holds its pictures and style, has no script, and a
+/// policy that lets it load nothing. Equal facts give equal bytes. One sentence reports each thing
+/// that the case or the volume lacks.
 std::string reportPage(const ReportFacts& facts);
 
-// Its sections, each with its heading.
+// Sections of the page, each with its heading.
 convert::Markup branchSection(const ReportFacts& facts);      ///< report_vessels.cpp
 convert::Markup profileSection(const ReportFacts& facts);     ///< report_vessels.cpp
 convert::Markup confidenceSection(const ReportFacts& facts);  ///< report_vessels.cpp
 convert::Markup agreementSection(const ReportFacts& facts);   ///< report_agreement.cpp
-/// What the colours of agreement mean; `withMissing`: that of missing vessels, too. report_agreement.cpp
+/// Legend of the colours of agreement; `withMissing`: of missing vessels, too. report_agreement.cpp
 convert::Markup agreementLegend(bool withMissing);
 convert::Markup parameterSection(const ReportFacts& facts);   ///< report_provenance.cpp
 convert::Markup provenanceSection(const ReportFacts& facts);  ///< report_provenance.cpp

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a case comes from, in a report: steps with their parameters, source, digests.
+// Provenance of a case in a report: steps with their parameters, source, digests.
 #include <array>
 #include <cstddef>
 #include <sstream>
@@ -22,7 +22,7 @@ constexpr std::size_t kMostOfAText = 400;   // bytes of a parameter on paper
 constexpr std::size_t kMostOfANote = 4000;  // bytes
 constexpr const char* kTool = "lumen " LUMEN_VERSION;
 
-/// As many digits as a stream writes, or a text of a case.
+/// A number with the digits that a stream writes, or a text of a case.
 Markup valueText(const formats::ParameterValue& value) {
   if (const auto* words = std::get_if<std::string>(&value))
     return convert::shortened(*words, kMostOfAText);

@@ -18,7 +18,7 @@ namespace {
 
 using convert::Markup, convert::element, convert::paragraph, convert::text;
 
-/// Why tracking stopped, for people.
+/// Reason why tracking stopped, for people.
 std::string stopText(const std::string& reason) {
   static const std::map<std::string, std::string> kTexts = {
       {"unknown", "not recorded"},          {"no-valid-cylinder", "no cylinder fits"},
@@ -51,14 +51,14 @@ Markup plotCaption(std::size_t number, const BranchInfo& branch) {
   return element("figcaption", caption);
 }
 
-/// Of the nodes of a profile; empty without a volume.
+/// Agreement at the nodes of a profile; empty without a volume.
 std::span<const convert::Agreement> agreementOf(const ReportFacts& facts,
                                                 const convert::TreeProfile& profile) {
   if (!facts.volume || !facts.volume->check) return {};
   return std::span(facts.volume->check->nodes).subspan(profile.firstNode, profile.along.size());
 }
 
-/// The inlier rate that tracking asked for, from the newest step that has one.
+/// The inlier rate that tracking required, from the newest step that has one.
 std::optional<double> acceptedRate(const formats::Metadata& metadata) {
   for (auto step = metadata.steps.rbegin(); step != metadata.steps.rend(); ++step)
     if (const auto found = step->parameters.find("inlier-rate"); found != step->parameters.end())

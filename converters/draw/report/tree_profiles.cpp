@@ -11,7 +11,7 @@ namespace {
 
 using formats::Branch, formats::CenterlineTree;
 
-/// For each branch those that leave it, where they leave it first.
+/// Branches that leave each branch, by the place where they leave it.
 std::vector<std::vector<std::uint32_t>> branchesOfEach(const CenterlineTree& tree) {
   std::vector<std::vector<std::uint32_t>> children(tree.branches.size());
   for (std::uint32_t b = 0; b < tree.branches.size(); ++b)

@@ -11,11 +11,12 @@
 
 namespace lumen::convert {
 
-/// Every branch once: each before those that leave it, these in the order in which they leave it. The tree is valid.
+/// Every branch once: each before those that leave it, these in the order in which they leave it.
+/// The tree is valid.
 std::vector<std::uint32_t> inTreeOrder(const formats::CenterlineTree& tree);
 
-/// One branch, node by node. Places along it are in mm from where it leaves the lumen of its parent, so the last node
-/// is at formats::branchLength().
+/// One branch, node by node. Places along it are in mm from where it leaves the lumen of its
+/// parent, so the last node is at formats::branchLength().
 struct TreeProfile {
   std::uint32_t branch = 0;       ///< index
   std::uint32_t firstNode = 0;    ///< index of the node of the first entries
@@ -25,22 +26,22 @@ struct TreeProfile {
   std::vector<double> forks;      ///< mm: where branches leave it, ascending
 };
 
-/// In tree order.
+/// One profile for each branch, in tree order.
 std::vector<TreeProfile> treeProfiles(const formats::CenterlineTree& tree);
 
-/// Which values to draw so that a line through them looks like one through all, in steps of 1 / `steps` of the width:
-/// of each step the first, the least, the greatest and the last. All if there are few. `along` ascends, and is as long
-/// as `values`.
+/// Indices of the values to draw so that a line through them looks like one through all, in steps
+/// of 1 / `steps` of the width: of each step the first, the least, the greatest and the last. All
+/// if there are few. `along` ascends, and is as long as `values`.
 std::vector<std::size_t> drawnValues(std::span<const double> along, std::span<const float> values,
                                      std::size_t steps);
 
-/// How much of the vessels' length has which confidence.
+/// Share of the vessels' length for each confidence.
 struct ConfidenceShares {
   std::vector<double> length;  ///< mm with a rate below 0.1, 0.2, ... and up to 1
   double total = 0;            ///< mm
-  double mean = 0;             ///< by length
+  double mean = 0;             ///< weighted by length
 };
-/// Of a tree that has inlier rates; a node counts with its edge.
+/// Shares of a tree that has inlier rates; a node counts with its edge.
 ConfidenceShares confidenceShares(const formats::CenterlineTree& tree);
 
 }  // namespace lumen::convert

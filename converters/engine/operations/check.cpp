@@ -22,7 +22,7 @@ namespace {
 
 using formats::printable;
 
-constexpr std::size_t kPlacesShown = 10;  // of each kind; --json has all
+constexpr std::size_t kPlacesShown = 10;  // places of each kind; --json has all
 
 std::vector<std::string> offsetsRow(const std::string& label, const convert::Offsets& o,
                                     double voxel) {
@@ -182,7 +182,7 @@ public:
   }
 
 private:
-  /// Refuses what could not be written in the end, and what would be lost.
+  /// Refuses outputs that could not be written in the end, or would be lost.
   void checkOutputs(Surroundings& around) const {
     if (!m_mask.empty() && m_mask == m_overlay)
       throw Error(ErrorKind::Usage, m_mask + ": this name is given to two outputs");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen convert: a volume, tracked and fitted, a centerline, fitted, or a case, as a case, a mesh or a
-// centerline.
+// lumen convert: a volume, tracked and fitted, a centerline, fitted, or a case, as a case, a mesh
+// or a centerline.
 #include "converters/base/error.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/centerline_input.h"
@@ -109,8 +109,8 @@ private:
     return arguments;
   }
 
-  /// A tracked volume gets its models, and so does a mesh; so does a case that has none when they are needed for a
-  /// mesh.
+  /// A tracked volume gets its models, and so does a mesh; so does a case that has none when they
+  /// are needed for a mesh.
   void complete(formats::Case& value, const FileFormat& from, const FileFormat& to,
                 Surroundings& around) {
     const bool meshNeedsModels = to.kind == FormatKind::Mesh && !value.models;

@@ -104,7 +104,7 @@ public:
   }
 
 private:
-  /// What a target says against a case names the file.
+  /// Adds the file's name to the error of a target about a case.
   [[nodiscard]] ExportResult made(const ExportTarget& target, const formats::Case& value,
                                   Surroundings& around) const {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen info: what is in a case, a volume, a mesh or a centerline.
+// lumen info: the facts of a case, a volume, a mesh or a centerline.
 #include "converters/engine/answer_text.h"
 #include "converters/engine/case_info_answer.h"
 #include "converters/engine/centerline_input.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen library add: a case, with what is made from it, into a library.
+// lumen library add: a case, with the files made from it, into a library.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -109,7 +109,8 @@ private:
         });
   }
 
-  /// Adds to the wishes what stays of a replaced case, and gives the statements about it.
+  /// Adds to the wishes the parts that stay of a replaced case, and returns the statements about
+  /// it.
   convert::CaseAbout completeWishes(const std::filesystem::path& library,
                                     const OptionTable& table) {
     m_wishes.surface = !m_noSurface;

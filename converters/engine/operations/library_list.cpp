@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen library list: what is in a library.
+// lumen library list: the cases of a library.
 #include "converters/engine/library_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/change.h"

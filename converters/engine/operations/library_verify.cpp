@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen library verify: whether a library is what its publisher signed.
+// lumen library verify: whether a library is the one that its publisher signed.
 #include "converters/engine/about_options.h"
 #include "converters/engine/library_check_answer.h"
 #include "converters/engine/operations/operations.h"

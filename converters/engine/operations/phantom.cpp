@@ -31,7 +31,7 @@ public:
   }
 
   void addRows(OptionTable& table) override {
-    // with --tree the first name is that of the output: sortArguments() says which is which
+    // with --tree the first name is that of the output: sortArguments() decides which is which
     table
         .argument("NAME", &m_options.name,
                   alternatives(convert::phantomNames()) + "; left out with --tree")
@@ -83,7 +83,7 @@ private:
     if (m_output.empty()) throw Error(ErrorKind::Usage, std::string("OUT is missing") + usage);
   }
 
-  /// Refuses what could not be written in the end.
+  /// Refuses outputs that could not be written in the end.
   Outputs checkOutputs(Surroundings& around) const {
     const Outputs outputs{volumeOutputFormat(m_output, "a phantom"),
                           m_truth.empty() ? nullptr : &caseOutputFormat(m_truth, "", "the truth")};

@@ -147,7 +147,7 @@ private:
     naming(m_input, [&] { drawFrames(*painter, pictures, progress); });
   }
 
-  /// What is said against a file begins with its name.
+  /// Adds the file's name to the start of an error about it.
   template <class Work>
   static void naming(const std::string& file, const Work& work) {
     try {

@@ -56,7 +56,7 @@ DrawnView drawn(const formats::Case& value, View view, convert::ColorBy colour, 
   return viewOf(title, convert::drawCase(value, options, nullptr, progress));
 }
 
-/// For the projections of a case that has no wall to judge.
+/// An empty check, for the projections of a case that has no wall to judge.
 convert::CheckReport nothingJudged(const formats::CenterlineTree& tree) {
   convert::CheckReport report;
   report.nodes.assign(tree.nodeCount(), convert::Agreement::NotJudged);
@@ -105,7 +105,7 @@ public:
   }
 
 private:
-  /// Refuses what could not be written in the end, and what would be lost.
+  /// Refuses outputs that could not be written in the end, or would be lost.
   void checkNames(Surroundings& around) const {
     if (!m_output.ends_with(".html") && !m_output.ends_with(".htm"))
       throw Error(ErrorKind::Usage,
@@ -146,7 +146,7 @@ private:
     return facts;
   }
 
-  /// The page tells names of files, too.
+  /// The page shows names of files, too.
   void addNames(ReportFacts& facts) const {
     std::vector<std::string> names = {facts.caseName};
     if (!m_title.empty()) names.push_back(m_title);

@@ -60,7 +60,7 @@ std::vector<float> sampleNodes(const GridSource& source, const Lattice& lattice,
 struct Cells {
   std::vector<double> nodes;
   std::vector<std::array<std::uint32_t, kNodesOfCell>> cells;
-  std::vector<std::uint32_t> map;  ///< of each cell of the lattice, or kNone
+  std::vector<std::uint32_t> map;  ///< number of each cell of the lattice, or kNone
 };
 
 /// The cells that have a node within `band`, and the nodes that they have.

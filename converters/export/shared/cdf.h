@@ -24,7 +24,7 @@ public:
     std::size_t rows = 0, length = 0;
   };
   [[nodiscard]] Family family(std::size_t which) const;
-  /// In cells from the first corner.
+  /// Place of a node, in cells from the first corner.
   [[nodiscard]] Place place(std::size_t which, std::size_t row, std::size_t index) const;
   /// The 32 nodes of a cell, in the order of Discregrid's shape functions.
   [[nodiscard]] std::array<std::uint32_t, 32> ofCell(std::size_t i, std::size_t j,

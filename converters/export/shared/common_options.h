@@ -10,8 +10,8 @@
 
 namespace lumen::convert {
 
-/// A simulator asks a wall of triangles many times a step, and edges of half the radius are what
-/// its curvature needs.
+/// Edges of exported walls, in radii: a simulator asks a wall of triangles many times a step, and
+/// its curvature needs edges of half the radius.
 inline constexpr double kExportedEdge = 0.5;
 
 inline ClosedSurfaceOptions exportedSurfaceOptions() {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kUsualSamples = 8e6;
 /// Samples of a row that are asked together: enough to fill the query's lanes, few enough that the
-/// box around them tells which nodes are near.
+/// box around them shows which nodes are near.
 constexpr std::size_t kChunk = 32;
 
 void sampleChunk(const GridSource& source, std::span<const Place> points,

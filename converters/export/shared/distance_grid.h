@@ -15,10 +15,10 @@
 
 namespace lumen::convert {
 
-/// Where the samples of a grid are, mm, LPS; axes are x, y, z.
+/// Places of the samples of a grid, mm, LPS; axes are x, y, z.
 struct Lattice {
   std::array<int, 3> size{};  ///< samples along x, y, z
-  Place first{};              ///< of the first sample
+  Place first{};              ///< place of the first sample
   double spacing = 0;         ///< along each axis
 
   [[nodiscard]] Place last() const;
@@ -26,7 +26,7 @@ struct Lattice {
   [[nodiscard]] std::size_t count() const;
 };
 
-/// A grid that is held whole has at most as many samples: 256 MB.
+/// Maximum number of samples of a grid that is held whole: 256 MB.
 inline constexpr std::size_t kMostGridSamples = std::size_t{1} << 25;
 
 /// A box, mm.
@@ -34,8 +34,8 @@ struct PlaceBox {
   Place low{}, high{};
 };
 
-/// The spacing that is asked for, mm; for 0 a quarter of the tree's least radius, but at most eight
-/// million samples over the box and `margin`.
+/// The spacing `asked`, mm; for 0 a quarter of the tree's least radius, but at most eight million
+/// samples over the box and `margin`.
 double gridSpacing(double asked, const PlaceBox& box, double margin,
                    const formats::CenterlineTree& tree);
 
@@ -46,10 +46,10 @@ std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTre
 /// axis.
 Lattice latticeOver(const PlaceBox& box, double margin, double spacing);
 
-/// Those of `whole` that lie in the box with its margin; at least two along each axis.
+/// The samples of `whole` that lie in the box with its margin; at least two along each axis.
 Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin);
 
-/// The source of the answers on a grid, and how far from the wall it is asked.
+/// The source of the answers on a grid, and the greatest distance from the wall that is asked for.
 struct GridSource {
   const VesselDistance& vessels;
   const TreeRegion* region = nullptr;  ///< none: all vessels
@@ -80,7 +80,7 @@ using TakeLayers = std::function<void(const DistanceGrid& part, int firstLayer)>
 void sampleLayers(const GridSource& source, const Lattice& lattice, int layers,
                   const TakeLayers& take, Progress& progress);
 
-/// Throws Error(Usage) that names the option and what it would make too large.
+/// Throws Error(Usage) that names the option and the grid that it would make too large.
 [[noreturn]] void refuseSpacing(double spacing, const std::string& what);
 
 }  // namespace lumen::convert

@@ -15,7 +15,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kMetres = 1e-3;   // of a millimetre
+constexpr double kMetres = 1e-3;   // metres in a millimetre
 constexpr double kMmHg = 133.322;  // Pa
 /// mmHg: mean pressures of arteries are 70 to 105; above 180 in the systole is a hypertensive
 /// emergency (Williams et al., 2018 ESC/ESH guidelines for the management of arterial

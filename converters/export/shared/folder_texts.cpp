@@ -19,8 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kManifestVersion = 1;  // of spec/export.md
-constexpr int kDigits = 5;           // of numbers in README.md
+constexpr int kManifestVersion = 1;  // version of spec/export.md
+constexpr int kDigits = 5;           // digits of numbers in README.md
 
 std::string tuple(const Eigen::Vector3d& v) {
   std::string text = "(";

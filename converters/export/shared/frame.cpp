@@ -8,7 +8,7 @@ namespace lumen::convert {
 
 namespace {
 
-/// As float, without the sign of zero.
+/// A float, without the sign of zero.
 float single(double value) {
   return static_cast<float>(value == 0 ? 0.0 : value);
 }

@@ -13,7 +13,7 @@ namespace lumen::convert {
 
 enum class LengthUnit : std::uint8_t { Millimetre, Centimetre, Metre };
 
-/// Which way the axes of a right-handed frame look.
+/// Directions of the axes of a right-handed frame.
 enum class Axes : std::uint8_t {
   Lps,  ///< x left, y posterior, z superior: that of a case, with z up
   Ras,  ///< x right, y anterior, z superior: that of 3D Slicer and NIfTI, with z up
@@ -44,8 +44,7 @@ struct ExportFrame {
   [[nodiscard]] SurfaceMesh of(SurfaceMesh mesh) const;
 };
 
-/// A surface turned over: its normals look the other way, and its triangles run the other way
-/// round.
+/// A surface turned over: its normals look the other way, and its triangles run in the other sense.
 SurfaceMesh turnedOver(SurfaceMesh mesh);
 
 }  // namespace lumen::convert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an instrument enters a case, and how far it can be pushed.
+// Place where an instrument enters a case, and the length that it can be pushed.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 namespace lumen::convert {
 
 struct Insertion {
-  std::uint32_t branch = 0, node = 0;                    ///< of the tree
+  std::uint32_t branch = 0, node = 0;                    ///< indices in the tree
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< mm, LPS
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, into the vessels
-  double radius = 0;                                     ///< of the vessel there, mm
+  double radius = 0;                                     ///< radius of the vessel there, mm
   double way = 0;  ///< mm, along the widest branches, to a radius before the last one's end
 };
 
@@ -26,7 +26,7 @@ struct Insertion {
 Insertion insertionOf(const formats::CenterlineTree& tree, const std::string& label,
                       double clearance);
 
-/// Turns the x axis to `direction`, in the shortest way.
+/// Turns the x axis to `direction`, by the least angle.
 Eigen::Quaterniond turnTo(const Eigen::Vector3d& direction);
 
 }  // namespace lumen::convert

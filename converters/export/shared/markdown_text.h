@@ -8,7 +8,7 @@
 namespace lumen::convert {
 
 /// `text` as one line that shows as itself, also in the cell of a table and at the beginning of a
-/// paragraph: no character of it is markup, and what does not show is written out
+/// paragraph: no character of it is markup, and characters that do not show are written out
 /// (formats::printable()).
 std::string markdownText(std::string_view text);
 

@@ -24,7 +24,7 @@ std::vector<NamedEnd> plainlyNamed(std::vector<NamedEnd> ends);
 /// plainlyNamed().
 std::string endSite(const ExportFrame& frame, const NamedEnd& end);
 
-/// Binary STL of a surface that is in metres, LPS, and says so in its head.
+/// Binary STL of a surface that is in metres, LPS, as its header states.
 std::string stlInMetres(const SurfaceMesh& metres);
 
 }  // namespace lumen::convert

@@ -31,7 +31,8 @@ struct Rim {
     }
     return length > 0 ? Eigen::Vector3d(sum / length) : sum;
   }
-  /// The normal of what is within, times its area; by Stokes, so for rims that are not flat too.
+  /// The normal of the area within the rim, times the area; by Stokes, so for rims that are not
+  /// flat too.
   [[nodiscard]] Eigen::Vector3d vectorArea() const {
     const Eigen::Vector3d m = middle();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();

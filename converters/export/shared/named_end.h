@@ -12,9 +12,9 @@
 
 namespace lumen::convert {
 
-/// Where a vessel begins or ends.
+/// Beginning or end of a vessel.
 struct NamedEnd {
-  std::string name;  ///< of its group of faces: "inlet", "inlet-LABEL", "outlet-LABEL", "cap-LABEL"
+  std::string name;  ///< its group of faces: "inlet", "inlet-LABEL", "outlet-LABEL", "cap-LABEL"
   FaceKind kind = FaceKind::Outlet;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< mm, LPS: the middle of the opening
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit, LPS, out of the vessel
@@ -27,8 +27,8 @@ struct NamedEnd {
 std::vector<NamedEnd> endsOf(const SurfaceMesh& mesh);
 
 /// The ends that the tree alone states: an inlet at the first node of each root that is a vessel,
-/// an outlet at the last node of each vessel on which nothing hangs and that no link holds; named
-/// as on the surface. Directions are the nodes', radii too.
+/// an outlet at the last node of each vessel to which no other is connected and that no link holds;
+/// named as on the surface. Directions are the nodes', radii too.
 std::vector<NamedEnd> endsOf(const formats::CenterlineTree& tree);
 
 }  // namespace lumen::convert

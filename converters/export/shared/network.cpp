@@ -22,7 +22,7 @@ using formats::Branch;
 using formats::BranchKind;
 using formats::CenterlineTree;
 
-constexpr double kMetres = 1e-3;  // of a millimetre
+constexpr double kMetres = 1e-3;  // metres in a millimetre
 
 /// Makes a network of the graph of nodes and edges.
 class Builder {
@@ -68,7 +68,7 @@ private:
     m_next[b].push_back(a);
   }
 
-  /// Nothing flows through the part of an aneurysm on which no vessel hangs.
+  /// Leaves out the part of an aneurysm to which no vessel is connected: nothing flows through it.
   void leaveOutDomes() {
     std::vector<std::uint32_t> blind;
     const auto look = [&](std::uint32_t n) {
@@ -123,7 +123,7 @@ private:
     m_nodeOf.push_back(n);
   }
 
-  /// True if `n` hangs on `joint`, or a link joins it to it, and is of another vessel.
+  /// True if `n` starts at `joint`, or a link joins it to it, and is of another vessel.
   [[nodiscard]] bool isGuest(std::uint32_t n, std::uint32_t joint) const {
     return m_tree.branch[n] != m_tree.branch[joint] &&
            m_tree.parent[joint] != static_cast<std::int32_t>(n);
@@ -134,8 +134,8 @@ private:
     return n + 1 != branch.firstNode + branch.nodeCount && !isRoot(n);
   }
 
-  /// At a joint in another vessel, a segment has its own radius, and begins at the wall if that
-  /// vessel goes on.
+  /// Sets the segment's end at a joint in another vessel: it has its own radius there, and begins
+  /// at the wall if that vessel goes on.
   void beginAtWall(FlowSegment& segment, const std::vector<std::uint32_t>& nodes, bool last) const {
     const std::size_t at = last ? nodes.size() - 1 : 0, beside = last ? at - 1 : 1;
     if (!isGuest(nodes[beside], nodes[at])) return;
@@ -262,10 +262,10 @@ private:
   }
 
   const CenterlineTree& m_tree;
-  std::vector<std::vector<std::uint32_t>> m_next;  // of each node, ascending
-  std::vector<std::vector<bool>> m_done;           // of the lesser node of each edge, as m_next
+  std::vector<std::vector<std::uint32_t>> m_next;  // neighbours of each node, ascending
+  std::vector<std::vector<bool>> m_done;           // edges of the lesser node of each, as m_next
   std::vector<std::uint32_t> m_jointOf, m_nodeOf;
-  std::map<std::uint32_t, int> m_parts;  // of a branch
+  std::map<std::uint32_t, int> m_parts;  // parts of a branch
   FlowNetwork m_made;
 };
 

@@ -15,8 +15,8 @@
 namespace lumen::convert {
 
 enum class JointKind : std::uint8_t {
-  Inlet,    ///< where a root begins; one segment leaves it
-  Outlet,   ///< where a vessel ends; one segment reaches it
+  Inlet,    ///< start of a root; one segment leaves it
+  Outlet,   ///< end of a vessel; one segment reaches it
   Junction  ///< two segments or more
 };
 
@@ -31,10 +31,10 @@ struct FlowJoint {
 /// A vessel without forks. Its radius changes linearly between points.
 struct FlowSegment {
   std::string name;          ///< unique: the branch's label; from its second part on LABEL_2, ...
-  std::uint32_t branch = 0;  ///< of the case's tree: that of its last point
+  std::uint32_t branch = 0;  ///< index in the case's tree: the branch of its last point
   std::uint32_t from = 0, to = 0;       ///< joints
   std::vector<Eigen::Vector3d> points;  ///< two at least, mm, LPS
-  std::vector<double> radii;            ///< at them, mm
+  std::vector<double> radii;            ///< radii at them, mm
 
   [[nodiscard]] double length() const;  ///< mm; 0 if its points lie on each other
 };
@@ -49,23 +49,23 @@ struct FlowNetwork {
   std::vector<FlowJoint> joints;
   std::vector<FlowSegment> segments;
   std::vector<FlowTree> trees;
-  std::vector<std::string>
-      messages;  ///< sentences on what was left out or added; labels as they are
+  /// Sentences on vessels that were left out or added; labels as they are.
+  std::vector<std::string> messages;
 };
 
 /// The vessels of a valid case. Ends are named as on its surface. A branch that leaves its parent
-/// on the way splits it, and begins at its wall with its own first radius; one at the parent's end
-/// begins at the parent's last node. A segment leads away from its root; one that a link closes a
-/// loop with leads from the joint of the lesser node. Aneurysms are left out unless a vessel hangs
-/// on them. Where several vessels leave a root's first node, an inlet of one radius is put before
-/// it. Throws Error(InvalidInput) if no vessel has a length, or a tree has no end that blood could
-/// leave through.
+/// between the parent's ends splits it, and begins at its wall with its own first radius; one at
+/// the parent's end begins at the parent's last node. A segment leads away from its root; one that
+/// a link closes a loop with leads from the joint of the lesser node. Aneurysms are left out unless
+/// a vessel is connected to them. Where several vessels leave a root's first node, an inlet of one
+/// radius is put before it. Throws Error(InvalidInput) if no vessel has a length, or a tree has no
+/// end that blood could leave through.
 FlowNetwork flowNetwork(const formats::CenterlineTree& tree);
 
 /// Inlets and outlets, under their names; positions are those of the first and last nodes.
 std::vector<NamedEnd> endsOf(const FlowNetwork& network);
 
-/// How many segments, junctions, inlets, outlets and trees there are: a sentence for the answer.
+/// Numbers of segments, junctions, inlets, outlets and trees: a sentence for the answer.
 std::string summaryOf(const FlowNetwork& network);
 
 /// Integrals along a segment, in SI units, by blood.h.
@@ -78,8 +78,8 @@ struct Lumped {
 };
 Lumped lumped(const FlowSegment& segment);
 
-/// The resistance that lets each outlet of a tree take its share of what all inlets of the tree
-/// bring in, by murrayShare(), at blood::kMeanPressure: Pa s/m^3, in the order of `outlets`.
+/// The resistance that lets each outlet of a tree take its share of the flow from all inlets of the
+/// tree, by murrayShare(), at blood::kMeanPressure: Pa s/m^3, in the order of `outlets`.
 std::vector<double> outletResistances(const FlowNetwork& network, const FlowTree& tree);
 
 /// mm: of the segment's end at an inlet or outlet.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of vdb.cpp where lumen is built without OpenVDB.
+// Replacement of vdb.cpp where lumen is built without OpenVDB.
 #include "converters/base/error.h"
 #include "converters/export/shared/vdb.h"
 

@@ -9,7 +9,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file has the machine's numbers");
 
-/// The header's bytes, as many as a multiple of 64, which aligns the values.
+/// The header, padded to a multiple of 64 bytes, which aligns the values.
 std::string npyHeader(const std::string& type, const std::vector<std::size_t>& shape) {
   std::string text = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (";
   for (const std::size_t n : shape) text += std::to_string(n) + ", ";

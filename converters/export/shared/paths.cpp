@@ -19,7 +19,7 @@ namespace {
 
 using formats::CenterlineTree;
 
-constexpr double kCentimetres = 0.1;  // of a millimetre
+constexpr double kCentimetres = 0.1;  // centimetres in a millimetre
 
 BranchPath pathOf(const CenterlineTree& tree, std::uint32_t index, std::string name) {
   const formats::Branch& branch = tree.branches[index];

@@ -13,8 +13,8 @@ namespace lumen::convert {
 
 /// A branch: its first point lies on its parent's axis, since other programs find branchings there.
 struct BranchPath {
-  std::uint32_t branch = 0;  ///< of the tree
-  std::string name;          ///< of a file: small letters, digits, "_", "." and "-", unique
+  std::uint32_t branch = 0;  ///< index in the tree
+  std::string name;          ///< a file's name: small letters, digits, "_", "." and "-", unique
   std::vector<Eigen::Vector3d> points;  ///< mm, LPS, two or more
   std::vector<double> radii;            ///< mm; the first is that of the branch's own first node
 

@@ -30,9 +30,8 @@ struct WallAttempt {
   std::string whyNot;  ///< a sentence, if there is none
 };
 
-/// wallSurface(), unless it cannot be made: where vessels overlap, as the report on the lumen's
-/// surface says, their walls meet. With a thickness in the options it throws as wallSurface()
-/// instead.
+/// wallSurface(), unless it cannot be made: where vessels overlap, by the report on the lumen's
+/// surface, their walls meet. With a thickness in the options it throws as wallSurface() instead.
 WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen);
 
 }  // namespace lumen::convert

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A target of `lumen export`: a simulator, or another program, that gets a folder of files. To add
-// one: a folder below targets with its row and its function, and a line in targets.cpp.
+// A target of `lumen export`: a simulator, or another program, that gets a folder of files. A new
+// target needs a folder below targets with its row and its function, and a line in targets.cpp.
 #pragma once
 
 #include <array>
@@ -34,13 +34,13 @@ struct ExportFile {
 };
 
 struct ExportResult {
-  /// Without README.md and lumen-export.json, which every folder gets.
+  /// Files besides README.md and lumen-export.json, which every folder gets.
   std::vector<ExportFile> files;
   std::vector<NamedEnd> ends;            ///< under the names that the files use
-  std::optional<SurfaceReport> surface;  ///< of the surface among the files
+  std::optional<SurfaceReport> surface;  ///< report on the surface among the files
   std::vector<std::string> remarks;      ///< sentences for the answer
-  std::vector<std::string> losses;       ///< sentences: what is in the case and not in the folder
-  /// README.md: how to start, and what to know; Markdown, without headings of level 1.
+  std::vector<std::string> losses;       ///< sentences: parts of the case that the folder lacks
+  /// README.md: first steps and facts to know; Markdown, without headings of level 1.
   std::string start;
   /// README.md: rows of its table for files that are many, or made later.
   std::vector<std::array<std::string, 2>> others;
@@ -54,7 +54,7 @@ struct TargetRow {
   std::vector<std::string_view> files;
   std::vector<LengthUnit> units;  ///< units that may be chosen, the usual one first
   std::vector<Axes> axes;         ///< axes that may be chosen, the usual ones first
-  std::string_view holds;         ///< of a case
+  std::string_view holds;         ///< parts of a case
   std::string_view lacks;
   std::vector<std::string_view> options;  ///< options that it takes, besides --unit and --up
   bool needsModels = true;

@@ -66,7 +66,7 @@ struct VdbGrids {
   openvdb::Int32Grid::Ptr labels;
 };
 
-/// In place of the random name that the library gives each file, one that its content gives.
+/// Replaces the random name that the library gives each file by one that follows from its content.
 void nameByContent(std::string& bytes) {
   // magic number, versions of file and library, and whether there are offsets, stand before it
   constexpr std::size_t kAt = 8 + 4 + 4 + 4 + 1, kLength = 36;
@@ -83,7 +83,7 @@ void requireVdb() {}
 
 std::string encodeVdb(const GridSource& source, const Lattice& lattice, const VdbOptions& options,
                       Progress& progress) {
-  constexpr int kLayers = 8;  // of a leaf of the tree, so that no leaf is opened again
+  constexpr int kLayers = 8;  // layers of a leaf of the tree, so that no leaf is opened again
   openvdb::initialize();
   VdbGrids grids(source, lattice, options);
   sampleLayers(

@@ -17,9 +17,9 @@ struct VdbOptions {
 };
 
 /// A level set "distance", negative in the lumen, of the class "level set", whose background is the
-/// band, which must be finite; and a grid of integers "branch": of a sample in the lumen the index
-/// of its branch and 1, elsewhere 0. Both have a linear transform to positions in LPS. The same
-/// samples give the same bytes. Throws as requireVdb(), and Error(Cancelled).
+/// band, which must be finite; and a grid of integers "branch": for a sample in the lumen the index
+/// of its branch and 1, elsewhere 0. Both have a linear transform to positions in LPS. Equal
+/// samples give equal bytes. Throws as requireVdb(), and Error(Cancelled).
 std::string encodeVdb(const GridSource& source, const Lattice& lattice, const VdbOptions& options,
                       Progress& progress);
 

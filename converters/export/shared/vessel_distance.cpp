@@ -20,7 +20,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// A wall lies within the doubled ball of its node: beyond it, a branch is left to the nearest
 /// node's answer.
 constexpr double kReach = 2;
-/// As far, in radii, as libblob lets nodes blend along the tree.
+/// Radii along the tree within which libblob lets nodes blend.
 constexpr double kNeighbourhood = 4;
 
 Place centreOf(const formats::CenterlineTree& tree, std::uint32_t node) {
@@ -67,7 +67,7 @@ std::vector<std::vector<std::uint32_t>> edgesOf(const formats::CenterlineTree& t
 
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch) {
   const auto edges = edgesOf(tree);
-  std::vector<double> left(tree.nodeCount(), -1);  // of the way that a node may go on, mm
+  std::vector<double> left(tree.nodeCount(), -1);  // path that a node may still go on, mm
   std::deque<std::uint32_t> next;
   const formats::Branch& own = tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {

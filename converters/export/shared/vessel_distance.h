@@ -26,27 +26,27 @@ struct WallDistance {
 /// Nodes of a tree that a query may begin at, ascending.
 using TreeRegion = std::vector<std::uint32_t>;
 
-/// The branch's nodes, and those that are at most four radii from them along the tree, which is as
-/// far as nodes may blend (blob_model_neighbours()).
+/// The branch's nodes, and those that are at most four radii from them along the tree, the greatest
+/// distance over which nodes may blend (blob_model_neighbours()).
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch);
 
 /// Answers of libblob. Any number of threads may ask.
 class VesselDistance {
 public:
-  /// Outside of the lumen distances are those to the nearest point of the wall: libblob's
-  /// one-evaluation form may be many millimetres short there. In the lumen they are of that form
+  /// The distance outside of the lumen is to the nearest point of the wall: libblob's
+  /// one-evaluation form may be many millimetres short there. In the lumen it is that of this form
   /// (blob.h), which has no kink at the axis, or with `exact` to the nearest point as well. Throws
   /// Error(InvalidInput) for a case whose models libblob refuses.
   explicit VesselDistance(const formats::Case& source, bool exact = false);
 
   /// The distance to all vessels together, which one grid can hold: the nearest node answers, and
   /// every branch within whose doubled radius a point lies; the least counts. `points` are near
-  /// each other, such as a part of a grid's row; `answers` has as many entries. What lies beyond
-  /// `band`, mm, may be answered by the band.
+  /// each other, such as a part of a grid's row; `answers` has one entry for each. A distance
+  /// beyond `band`, mm, may be answered by the band.
   void ofAll(std::span<const Place> points, double band, std::span<WallDistance> answers) const;
 
   /// The distance to one part of the tree: from its node of least power a cursor follows the tree,
-  /// so vessels that merely touch have no say.
+  /// so vessels that merely touch do not count.
   void ofRegion(const TreeRegion& region, std::span<const Place> points, double band,
                 std::span<WallDistance> answers) const;
 
@@ -67,7 +67,7 @@ private:
   const formats::CenterlineTree& m_tree;
   std::unique_ptr<blob_model, void (*)(blob_model*)> m_model;
   std::uint32_t m_flags;
-  std::vector<Box> m_reach;  ///< of each branch: the box of its nodes' balls of twice the radius
+  std::vector<Box> m_reach;  ///< each branch's box of its nodes' balls of twice the radius
 };
 
 }  // namespace lumen::convert

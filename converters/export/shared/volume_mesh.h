@@ -16,9 +16,9 @@ namespace lumen::convert {
 struct VolumeMesh {
   std::vector<std::array<double, 3>> position;  ///< those of the surface first, as they were
   std::vector<std::array<std::uint32_t, 4>>
-      tetrahedron;                       ///< of positive volume, as VTK orders them
-  std::vector<std::uint32_t> region;     ///< of each tetrahedron: 1, 2, ... by connected part
-  std::vector<std::uint32_t> elementOf;  ///< of each triangle of the surface: its tetrahedron
+      tetrahedron;                       ///< corners, of positive volume, as VTK orders them
+  std::vector<std::uint32_t> region;     ///< one for each tetrahedron: 1, 2, ... by connected part
+  std::vector<std::uint32_t> elementOf;  ///< one for each triangle of the surface: its tetrahedron
 };
 
 /// The mesh, or nothing and the reason in `why`. The surface is closed and keeps its triangles; its

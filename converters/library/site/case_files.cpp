@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a case consists of and where it comes from: files, commands that fetch them, citation, provenance.
+// Contents and origin of a case: files, commands that fetch them, citation, provenance.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -28,7 +28,7 @@ std::string fileRow(const CaseRecord& record, const RecordedFile& file) {
          "</td><td><code class=\"digest\">" + htmlText(file.sha256) + "</code></td></tr>\n";
 }
 
-/// What people come for, first; of equals, by path.
+/// Files by role, the most wanted first; those of one role by path.
 std::vector<const RecordedFile*> inOrder(const CaseRecord& record) {
   constexpr std::array<const char*, 6> kRoles = {"case",   "surface", "export",
                                                  "report", "other",   "picture"};

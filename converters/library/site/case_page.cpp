@@ -10,7 +10,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr const char* kRoot = "../../";  // from site/case/
+constexpr const char* kRoot = "../../";  // path from site/case/
 
 std::string heading(const LibraryFile& library, const CaseRecord& record) {
   const CaseAbout& about = record.about;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a case is: pictures, figures, statements, places.
+// Sections that describe a case: pictures, figures, statements, places.
 #include <array>
 #include <cstddef>
 #include <vector>

@@ -26,7 +26,7 @@ std::string galleryFigures(const CaseFigures& figures) {
 }
 
 double rounded(double value) {
-  constexpr double kSteps = 100;  // in one mm
+  constexpr double kSteps = 100;  // steps in one mm
   return std::isfinite(value) ? std::round(value * kSteps) / kSteps : 0;
 }
 

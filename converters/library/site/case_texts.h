@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words for what a record states in codes, and places of a case in the library's folder.
+// Words for codes in a record, and places of a case in the library's folder.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ std::string sentence(std::string text) {
   return text + " ";
 }
 
-/// Of the revision that brought this version of the case.
+/// Year of the revision that brought this version of the case.
 std::string yearOf(const CaseRecord& record) {
   return record.date.substr(0, 4);
 }

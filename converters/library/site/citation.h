@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How to cite a case of a library.
+// Citations of a case of a library.
 #pragma once
 
 #include <string>
@@ -10,14 +10,15 @@
 
 namespace lumen::convert {
 
-/// One sentence after another: whom to name, title, version, library, revision, publisher, year, licence, address.
+/// One sentence after another: credit, title, version, library, revision, publisher, year, licence,
+/// address.
 std::string citationText(const LibraryFile& library, const CaseRecord& record);
 
-/// The same as an entry for BibTeX and biber, in UTF-8, ending in a newline.
+/// The citation as an entry for BibTeX and biber, in UTF-8, ending in a newline.
 std::string citationBibTex(const LibraryFile& library, const CaseRecord& record);
 
-/// Any text as the value of a field in braces: what TeX and BibTeX would read as more than a letter is spelt as a
-/// command, and braces stay in pairs.
+/// Any text as the value of a field in braces: characters that TeX and BibTeX would read as more
+/// than a letter are spelt as commands, and braces stay in pairs.
 std::string bibTexText(std::string_view text);
 
 }  // namespace lumen::convert

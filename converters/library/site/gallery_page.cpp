@@ -29,7 +29,8 @@ std::string_view takeNumber(const std::string& text, std::size_t& at) {
   return std::string_view(text).substr(begin, at - begin);
 }
 
-/// Less than, equal to or greater than zero, as a comes before, with or after b. Both in lower case.
+/// Less than, equal to or greater than zero, as a comes before, with or after b. Both in lower
+/// case.
 int compareNaturally(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
@@ -58,7 +59,7 @@ std::string pageLink(const std::string& address, const std::string& text, const 
   return link;
 }
 
-/// To the pages before, after, at both ends, and around this one.
+/// Links to the pages before, after, at both ends, and around this one.
 std::string pageLinks(std::size_t page, std::size_t pages, const std::string& root) {
   constexpr std::size_t kAround = 2;
   std::string links = "<nav id=\"pages\" class=\"pages\" aria-label=\"Pages of the gallery\">\n";

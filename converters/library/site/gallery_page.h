@@ -11,27 +11,29 @@
 
 namespace lumen::convert {
 
-/// Cases on one page: what a phone loads in a second, and 10,000 cases take 209 pages.
+/// Cases on one page, which a phone loads in a second; 10,000 cases take 209 pages.
 inline constexpr std::size_t kCasesPerPage = 48;
 
-/// Indices of the library's cases as the gallery lists them: by title, in which numbers count as numbers and small
-/// letters as capitals, then by id.
+/// Indices of the library's cases as the gallery lists them: by title, in which numbers count as
+/// numbers and small letters as capitals, then by id.
 std::vector<std::size_t> galleryOrder(const LibraryFile& library);
 
 /// One case as an item of the list. `root`: as in PageFrame.
 std::string galleryCard(const CaseRecord& record, const std::string& root);
 
-/// How many pages a gallery of that many cases has; at least one.
+/// Number of pages of a gallery of that many cases; at least one.
 std::size_t galleryPages(std::size_t cases);
 
-/// Where page 1, 2, ... lies in the folder of the library: index.html is the first.
+/// Path of page 1, 2, ... in the folder of the library: index.html is the first.
 std::string galleryPath(std::size_t page);
 
-/// A page of the gallery. `cards`: the items of its list. `signature`: the file's name, empty if there is none.
+/// A page of the gallery. `cards`: the items of its list. `signature`: the file's name, empty if
+/// there is none.
 std::string galleryPage(const LibraryFile& library, std::size_t page, const std::string& cards,
                         const std::string& signature);
 
-/// A case as an item of the array in site/cases.js: what gallery.js searches, counts and draws.
+/// A case as an item of the array in site/cases.js: the values that gallery.js searches, counts and
+/// draws.
 std::string searchRow(const CaseRecord& record);
 
 }  // namespace lumen::convert

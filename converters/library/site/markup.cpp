@@ -13,8 +13,8 @@ namespace lumen::convert {
 
 namespace {
 
-// From disk the pages of some browsers have no origin that 'self' could mean, so the files there are named by their
-// scheme; a page that came from a server cannot ask for any of those.
+// From disk the pages of some browsers have no origin that 'self' could mean, so the files there
+// are named by their scheme; a page that came from a server cannot ask for any of those.
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: "
     "data:; "

@@ -8,7 +8,7 @@ namespace lumen::convert {
 
 namespace {
 
-/// What verifies this signature without lumen.
+/// Command that verifies this signature without lumen.
 std::string plainCommand(const std::string& signature) {
   if (signature.ends_with(".minisig")) return "minisign -V -p PUBLISHER.pub -m library.json\n";
   if (signature.ends_with(".sig"))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands below every page: how to verify the library, and what it is not.
+// Notes below every page: steps to verify the library, and its limits.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace lumen::convert {
 
-/// How to verify the library, on any system. A page cannot do it: who changes a file can change the page.
+/// Steps to verify the library, on any system. A page cannot do it: whoever changes a file can
+/// change the page.
 std::string howToVerify(const LibraryFile& library, const std::string& root,
                         const std::string& signature);
 

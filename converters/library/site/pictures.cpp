@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kFewestFrames = 3;  // fewer are no turn
 constexpr const char* kThumbnail = "thumbnail.png";
 
-/// What is left of "turn-007.png" or "turn/007.png" without its number: "turn-.png", "turn/.png"; empty for others.
+/// Rest of "turn-007.png" or "turn/007.png" without its number: "turn-.png", "turn/.png"; empty for
+/// others.
 std::string turnOf(const std::string& path) {
   constexpr std::size_t kDigits = 3;
   const std::size_t dot = path.rfind('.');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pictures of a case its pages show.
+// Pictures of a case on its pages.
 #pragma once
 
 #include <string>
@@ -12,13 +12,14 @@ namespace lumen::convert {
 struct CasePictures {
   std::string first;                ///< path in the folder of the case; empty without pictures
   std::string thumbnail;            ///< thumbnail.png, or the first
-  std::vector<std::string> frames;  ///< of a turntable, in order; empty without one
+  std::vector<std::string> frames;  ///< pictures of a turntable, in order; empty without one
   std::vector<std::string> others;  ///< all that are neither
 };
 
-/// From files of the role picture that a browser draws (PNG, JPEG, WebP). The first is picture.png, or by path the
-/// first that is no frame. A turntable is three or more files that differ in three digits at the end, as
-/// `lumen picture --turntable` and `lumen library add --turntable` name them.
+/// Pictures from files of the role picture that a browser draws (PNG, JPEG, WebP). The first is
+/// picture.png, or by path the first that is no frame. A turntable is three or more files that
+/// differ in three digits at the end, as `lumen picture --turntable` and `lumen library add
+/// --turntable` name them.
 CasePictures picturesOf(const CaseRecord& record);
 
 }  // namespace lumen::convert

@@ -29,7 +29,7 @@ std::string shown(const fs::path& path) {
   return formats::printable(path.string());
 }
 
-/// A record that is what library.json states.
+/// A record that matches library.json.
 CaseRecord statedRecord(const fs::path& folder, const LibraryEntry& entry) {
   const fs::path file = folder / kPayload / entry.id / kRecordFile;
   const std::string text = readWholeFile(file, "record");
@@ -50,8 +50,8 @@ Error notOurs(const fs::path& place) {
                                 "its own or nothing; move it away first"};
 }
 
-/// What is to be replaced must be of an earlier run: nobody's own page is lost, and nothing is written to where a link
-/// leads.
+/// Refuses to replace a folder that is not of an earlier run: nobody's own page is lost, and
+/// nothing is written to where a link leads.
 void requireOwnFolder(const fs::path& place) {
   std::error_code error;
   const fs::file_status there = fs::symlink_status(place, error);
@@ -75,8 +75,8 @@ std::string signatureIn(const fs::path& folder) {
   return {};
 }
 
-/// What puts site/ in its place. Its files are flushed to disk together, by flushFolder(): one at a time 10,000 of them take a
-/// minute, most of it waiting.
+/// Calls that put site/ in its place. Its files are flushed to disk together, by flushFolder(): one
+/// at a time 10,000 of them take a minute, most of it waiting.
 const formats::FileCalls& placingCalls() {
   static const formats::FileCalls calls = [] {
     formats::FileCalls all = formats::systemCalls();

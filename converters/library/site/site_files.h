@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The style sheet and the scripts of the site, which are built into the program: the files of those names beside this.
+// The style sheet and the scripts of the site, which are built into the program: the files of those
+// names beside this.
 #pragma once
 
 #include <span>

@@ -32,7 +32,7 @@ struct ContactScene {
     placeSamples(*contact->l_interpolation, state->readPositions().ref(), false, samples, points);
     return points;
   }
-  /// Of the frames from the axis of the tube at y, mm.
+  /// Greatest distance of the frames from the axis of the tube at y, mm.
   double farthest(double y) {
     double most = 0;
     for (const auto& frame : state->readPositions())
@@ -44,7 +44,7 @@ struct ContactScene {
   State* state;
 };
 
-// The rows of a force on a sample are what BeamAdapter itself maps it to.
+// The rows of a force on a sample are those that BeamAdapter itself maps it to.
 TEST_F(BeamBlobContact, ForcesOnSamplesAreMappedAsByBeamAdapter) {
   ContactScene s(field("tube.lumen") + wire("0 0 0 1", kContact));
   s.run(100);
@@ -89,7 +89,7 @@ TEST_F(BeamBlobContact, SamplesLieAtTheEndOfEachBeamAndEvenlyBeforeIt) {
   EXPECT_EQ(samples.back().radius, 0.2);
 }
 
-// At 20 degrees to the axis, so that it meets the wall.
+// A direction at 20 degrees to the axis, so that it meets the wall.
 constexpr const char* kOblique = "0 0 0.17365 0.98481";
 
 TEST_F(BeamBlobContact, HoldsAWireInATube) {
@@ -152,7 +152,7 @@ TEST_F(BeamBlobContact, TheNearestSamplesAlongTheInstrumentAreFound) {
   EXPECT_EQ(nearest, (std::vector<std::size_t>{0, 0, 0, 2, 3, 3}));
 }
 
-/// A straight beam of 10 mm that rests on the bottom of the tube, y the way up; nothing holds it.
+/// A straight beam of 10 mm that rests on the bottom of the tube, with y upwards; nothing holds it.
 std::string freeBeam(double friction) {
   return field("tube.lumen") + R"(
   <Node name="instrument">
@@ -172,9 +172,10 @@ std::string freeBeam(double friction) {
   </Node>)";
 }
 
-// Coulomb on an incline: with gravity g at an angle to the normal the beam sticks if its tangent is below mu, and else
-// slides with the acceleration g (sin - mu cos). Measured between the steps 5, 25 and 45, so that how it began does not
-// count. The fitted wall is not quite straight: a hundredth of a millimetre.
+// Coulomb on an incline: with gravity g at an angle to the normal the beam sticks if its tangent is
+// below mu, and else slides with the acceleration g (sin - mu cos). The test measures between the
+// steps 5, 25 and 45, so that the start does not count. The fitted wall is not quite straight: a
+// hundredth of a millimetre.
 constexpr double kGravity = 100, kDt = 0.01;
 
 double acceleration(double friction, double angle) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What SOFA says of scenes that cannot run, and that such scenes stop.
+// Messages of SOFA about scenes that cannot run; such scenes stop.
 #include <gtest/gtest.h>
 #include <sofa/helper/logging/MessageDispatcher.h>
 #include <sofa/helper/logging/MessageHandler.h>
@@ -20,7 +20,7 @@ struct Errors : sofa::helper::logging::MessageHandler {
 };
 
 struct Messages : sofa::testing::BaseSimulationTest {
-  /// Loads a scene and runs some steps. The errors that were told.
+  /// Loads a scene and runs some steps. Returns the errors that were reported.
   std::string run(const std::string& content) {
     EXPECT_MSG_EMIT(Error);
     Errors errors;

@@ -38,7 +38,8 @@ inline std::string field(const std::string& file, const std::string& attributes 
          attributes + "/></Node>";
 }
 
-/// A wire of radius 0.2 whose tip wants to bend, pushed in at 20 mm/s at (5, 0, 0) in the direction of the quaternion.
+/// A wire of radius 0.2 whose tip wants to bend, pushed in at 20 mm/s at (5, 0, 0) in the direction
+/// of the quaternion.
 inline std::string wire(const std::string& quaternion, const std::string& contact) {
   return R"(
   <Node name="rest">

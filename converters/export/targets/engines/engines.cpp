@@ -16,12 +16,12 @@ namespace lumen::convert {
 
 namespace {
 
-// twice what an artery has: the thinner a wall, the finer its triangles must be
+// twice an artery's wall: the thinner a wall, the finer its triangles must be
 constexpr Length kWall = {0, 0.4};  // radii
-constexpr int kLevels = 3;          // of detail, each with a quarter of the triangles
+constexpr int kLevels = 3;          // levels of detail, each with a quarter of the triangles
 
 struct Convention {
-  std::vector<std::string> nodes;  ///< of the levels of detail
+  std::vector<std::string> nodes;  ///< nodes of the levels of detail
   bool lod = false;                ///< by MSFT_lod
   std::string start;               ///< README.md: how to load it
 };

@@ -29,17 +29,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kBorder = 1,
-                 kBorderSamples = 3;  // mm, and samples, that a grid goes on behind the wall
-constexpr double kVdbBand = 3;        // samples, as OpenVDB's own level sets have
-constexpr std::size_t kMostBranches = 65535;  // that numbers of 16 bits tell apart
+// Border of a grid behind the wall, in mm and in samples.
+constexpr double kBorder = 1, kBorderSamples = 3;
+constexpr double kVdbBand = 3;                // samples, as OpenVDB's own level sets have
+constexpr std::size_t kMostBranches = 65535;  // numbers of 16 bits, without 0
 
 const char* const kDistances = "distances to the wall, negative in the lumen";
 const char* const kBranches = "in which branch's lumen a sample is: the numbers of branches.json";
 
 /// One of the grids of a folder.
 struct GridPlan {
-  std::string stem;   ///< of its files: empty, or "NAME."
+  std::string stem;   ///< stem of its files: empty, or "NAME."
   TreeRegion region;  ///< empty: all vessels
   Lattice lattice;
 };
@@ -113,7 +113,7 @@ std::vector<GridPlan> plansOf(const ExportInput& input, const GridOptions& optio
   return plans;
 }
 
-/// Which number of a branch grid is which branch.
+/// Branches by their numbers in a branch grid.
 VolumeNotes notesOf(const formats::CenterlineTree& tree) {
   VolumeNotes notes = {{"lumen.distance", "mm, negative in the lumen"}};
   for (std::size_t b = 0; b < tree.branches.size(); ++b)

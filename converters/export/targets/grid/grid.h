@@ -12,7 +12,7 @@ namespace lumen::convert {
 /// With GridOptions::perBranch such files for each branch, as NAME.distance.*: they answer for that
 /// branch and its neighbourhood along the tree, whatever touches it; their samples are some of the
 /// one grid's. Throws Error(Usage) for too many samples and for options that do not go together,
-/// Error(Unsupported) for what a format cannot hold, Error(Cancelled).
+/// Error(Unsupported) for a case that a format cannot hold, Error(Cancelled).
 ExportResult exportGrid(const ExportInput& input, const GridOptions& options);
 
 TargetRow gridRow();

@@ -68,7 +68,7 @@ std::string extentOf(const SurfaceMesh& mesh) {
   return text;
 }
 
-/// Nodes of each branch, from the one that it hangs on.
+/// Nodes of each branch, from the one that it starts at in its parent.
 std::vector<std::vector<std::size_t>> curvesOf(const formats::CenterlineTree& tree) {
   std::vector<std::vector<std::size_t>> curves;
   for (const formats::Branch& branch : tree.branches) {
@@ -93,7 +93,7 @@ Curves centerline(const formats::CenterlineTree& tree, const ExportFrame& frame)
     made.counts.push_back(curve.size());
     for (const std::size_t place : curve) {
       made.points.push_back(frame.position(toEigen(tree.centre[place])));
-      // where it hangs on another, a branch is as wide as at its own first node
+      // a branch is as wide at its parent's node as at its own first node
       const bool isOthers = tree.branch[place] != tree.branch[curve[1]];
       const std::size_t node = isOthers ? curve[1] : place;
       made.widths.push_back(2 * frame.length(static_cast<double>(tree.radius[node])));

@@ -13,7 +13,7 @@
 namespace lumen::convert {
 
 /// /vessel, the default prim, with
-///   wall        the mesh, to collide with as it is (UsdPhysics) or as a signed distance field (PhysX),
+///   wall        the mesh, a collider as it is (UsdPhysics) or as a signed distance field (PhysX),
 ///   centerline  linear BasisCurves, one for each branch, whose widths are the vessels' diameters,
 ///   ends        an Xform for each end: in its middle, its z axis out of the vessel.
 /// `mesh` is in `frame`, which the stage's metersPerUnit and upAxis state; tree and ends are mm,

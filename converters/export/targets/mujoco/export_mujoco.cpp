@@ -30,9 +30,9 @@ constexpr std::size_t kCells = 64;
 constexpr double kCellRadii = 0.4;
 
 // MuJoCo finds contacts of distance fields by a search that misses shallow ones, so contacts are
-// soft, as many steps: a wire that is pressed to the wall rests some hundredths of a millimetre in
-// it. Harder, it flickers, and snaps through the wall. Damping is within the contact solver
-// (eulerdamp), where it does not make contacts soft.
+// soft, over kContactSteps steps: a wire that is pressed to the wall rests some hundredths of a
+// millimetre in it. Harder, it flickers, and snaps through the wall. Damping is within the contact
+// solver (eulerdamp), where it does not make contacts soft.
 constexpr double kContactSteps = 20;
 
 struct Solid {
@@ -53,8 +53,8 @@ void openEnds(SurfaceMesh& mesh) {
 }
 
 /// All that is not lumen: the lumen's surface without its flat ends, turned over. It always exists,
-/// also where vessels touch, and a wire that is pressed into it is pushed back the right way
-/// however deep it is; in a wall, no farther than its middle.
+/// also where vessels touch, and a wire that is pressed into it is pushed back in the right
+/// direction however deep it is; in a wall, no farther than its middle.
 Solid carvedOut(const ExportInput& input) {
   Solid solid{lumenSurface(input), false};
   openEnds(solid.surface.mesh);
@@ -69,7 +69,8 @@ Solid solidOf(const ExportInput& input) {
 
 constexpr double kLeast = 0.03, kMost = 0.08;  // m, of a wire
 
-/// As long as its way, up to where a chain gets slow: its cost grows with the square of its links.
+/// A wire as long as its path, up to where a chain gets slow: its cost grows with the square of its
+/// links.
 Wire wireFor(const Insertion& insertion) {
   constexpr double kMetres = 1e-3;
   Wire wire;
@@ -78,8 +79,8 @@ Wire wireFor(const Insertion& insertion) {
   return wire;
 }
 
-/// The wire lies straight behind its tip before it is pushed: as much of it as no wall is in the
-/// way of. Throws Error(InvalidInput) where that is less than a wire has.
+/// Shortens the wire to the length that lies straight behind its tip before the push, free of
+/// walls. Throws Error(InvalidInput) where that is less than a wire has.
 void shorten(Wire& wire, const std::vector<SurfaceMesh>& pieces, const ExportInput& input,
              const Insertion& insertion) {
   const double free =
@@ -151,7 +152,7 @@ ExportResult exportMujoco(const ExportInput& input) {
   Solid solid = solidOf(input);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
   Wire wire = wireFor(insertion);
-  // what the wire cannot touch costs memory and time, most of them in a large tree
+  // walls out of the wire's reach cost memory and time, and are most of a large tree
   solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree,
                                     insertion.node, wire.length() * 1e3);
   const std::vector<SurfaceMesh> pieces = piecesOf(solid.surface.mesh, kCells, kCellRadii);

@@ -7,9 +7,9 @@
 
 namespace lumen::convert {
 
-/// scene.xml, whose wire bends by the plugin mujoco.elasticity.cable; scene-joints.xml, the same
-/// for engines without plugins; meshes/wall_K.stl. Metres. Solid is all that is not lumen, or with
-/// a thickness in the options a wall of it, as far as the wire reaches. Throws as lumenSurface()
+/// scene.xml, whose wire bends by the plugin mujoco.elasticity.cable; scene-joints.xml, that scene
+/// for engines without plugins; meshes/wall_K.stl. Metres. The solid is all that is not lumen, or
+/// with a thickness in the options a wall of it, within reach of the wire. Throws as lumenSurface()
 /// and insertionOf().
 ExportResult exportMujoco(const ExportInput& input);
 

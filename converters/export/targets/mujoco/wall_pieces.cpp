@@ -36,7 +36,7 @@ Facets facetsOf(const SurfaceMesh& mesh) {
   return facets;
 }
 
-/// Where the plane x[axis] = at cuts the edge; the same for both orders of its ends.
+/// Point where the plane x[axis] = at cuts the edge; it does not depend on the order of its ends.
 Corner cut(const Corner& a, const Corner& b, int axis, double at) {
   const bool ordered = a.position[axis] < b.position[axis];
   const Corner& low = ordered ? a : b;
@@ -65,13 +65,13 @@ void keepSide(const Facet& facet, int axis, double at, double sign, Facets& kept
   }
 }
 
-/// How much wall runs along a plane beside it: area, times the share of its normal that is across,
-/// squared twice.
+/// Amount of wall that runs along a plane beside it: area, times the share of its normal that is
+/// across, squared twice.
 double wallAlong(const Facets& facets, int axis, double at) {
   double sum = 0;
   for (const Facet& facet : facets) {
     const Eigen::Vector3d& o = facet[0].position;
-    constexpr double kBeside = 0.5;  // of a radius
+    constexpr double kBeside = 0.5;  // share of a radius
     if (std::abs(o[axis] - at) > kBeside * facet[0].radius) continue;
     const Eigen::Vector3d area = (facet[1].position - o).cross(facet[2].position - o);
     if (area.norm() > 0) sum += area.norm() * std::pow(area[axis] / area.norm(), 4);

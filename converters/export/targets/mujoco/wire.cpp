@@ -14,12 +14,12 @@ namespace lumen::convert {
 
 namespace {
 
-// In squares of the time step; the least that is stable is a quarter. A link swings once in 40 pi
-// steps, 0.13 s, which is fast beside an insertion of millimetres a second. With less, a wire that
-// leans on a wall snaps when the engine misses its contact for a step.
+// Armature in squares of the time step; the least that is stable is a quarter. A link swings once
+// in 40 pi steps, 0.13 s, which is fast beside an insertion of millimetres a second. With less, a
+// wire that leans on a wall snaps when the engine misses its contact for a step.
 constexpr double kArmature = 400;
-// N/m, of the servo that holds the hub at what was asked: soft, as a hand is; a stop costs it 0.2
-// mm for each mN.
+// N/m, of the servo that holds the hub at its target: soft, as a hand is; a stop costs it 0.2 mm
+// for each mN.
 constexpr double kServo = 5;
 
 double secondMoment(double radius) {

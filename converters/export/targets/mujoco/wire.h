@@ -9,7 +9,7 @@
 
 namespace lumen::convert {
 
-/// A rod of one material and what its chain needs to be integrated. Sources of the material:
+/// A rod of one material, with the values that integrate its chain. Sources of the material:
 /// docs/sofa.md.
 struct Wire {
   double radius = 0.18e-3;  ///< m: 0.014 inches
@@ -25,7 +25,8 @@ struct Wire {
   /// N m / rad, of the joint between two links: E I / link.
   [[nodiscard]] double jointStiffness() const;
   /// kg m^2. A link of a millimetre swings in microseconds. Inertia against bending, not against
-  /// motion, slows that down to what a time step can follow, and leaves what is slower as it is.
+  /// motion, slows that down to a rate that a time step can follow, and leaves slower motions as
+  /// they are.
   [[nodiscard]] double armature() const;
   /// N m s / rad: damps that swing almost critically.
   [[nodiscard]] double damping() const;
@@ -34,15 +35,15 @@ struct Wire {
 /// s
 constexpr double kMujocoStep = 1e-3;
 
-/// How a wire bends in a scene.
+/// Model of a wire's bending in a scene.
 enum class WireSprings { Plugin, Joints };
 
-/// The wire and what holds it, as elements of <worldbody>: a straight channel that ends at `tip`
-/// and looks along `direction`, and in it the wire, which ends there. m, in the scene's frame.
+/// The wire and its holder, as elements of <worldbody>: a straight channel that ends at `tip` and
+/// looks along `direction`, and in it the wire, which ends there. m, in the scene's frame.
 std::string wireBodies(const Wire& wire, const Eigen::Vector3d& tip,
                        const Eigen::Vector3d& direction, WireSprings springs);
 
-/// Its <actuator> and <keyframe>.
+/// The wire's <actuator> and <keyframe>.
 std::string wireControls(const Wire& wire);
 
 }  // namespace lumen::convert

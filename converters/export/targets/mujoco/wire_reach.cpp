@@ -32,7 +32,7 @@ std::vector<std::vector<std::uint32_t>> neighboursOf(const CenterlineTree& tree)
   return neighbours;
 }
 
-/// mm from `node` to each node; infinity where there is no way.
+/// mm from `node` to each node; infinity where there is no path.
 std::vector<double> distancesFrom(const CenterlineTree& tree, std::uint32_t node) {
   const auto neighbours = neighboursOf(tree);
   std::vector<double> distance(tree.nodeCount(), std::numeric_limits<double>::infinity());
@@ -55,7 +55,7 @@ std::vector<double> distancesFrom(const CenterlineTree& tree, std::uint32_t node
   return distance;
 }
 
-/// A piece as MuJoCo sees it: a box, in which the nearest triangle tells the side.
+/// A piece as MuJoCo sees it: a box, in which the nearest triangle decides the side.
 class PieceSolid {
 public:
   explicit PieceSolid(const SurfaceMesh& piece) : m_mesh(meshOf(piece)), m_tree(m_mesh) {

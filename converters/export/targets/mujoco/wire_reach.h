@@ -18,9 +18,9 @@ namespace lumen::convert {
 SurfaceMesh wallsInReach(SurfaceMesh mesh, const formats::CenterlineTree& tree, std::uint32_t node,
                          double length);
 
-/// How far, m, a straight wire lies free behind its tip, at most `length`: none of it in a box
-/// around a piece, where it would be in what is solid there, or nearer than `radius` to it. All in
-/// metres; triangles look out of what is solid.
+/// Length, m, of a straight wire that lies free behind its tip, at most `length`: none of it in a
+/// box around a piece, where it would be in the solid, or nearer than `radius` to it. All in
+/// metres; triangles look out of the solid.
 double freeBehind(const std::vector<SurfaceMesh>& pieces, const Eigen::Vector3d& tip,
                   const Eigen::Vector3d& direction, double length, double radius);
 

@@ -20,7 +20,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kCm = 100, kCm2 = 1e4, kCm3 = 1e6;  // of SI
+constexpr double kCm = 100, kCm2 = 1e4, kCm3 = 1e6;  // cgs units in one of SI
 constexpr double kDyn = 10;                          // dyn/cm^2 of Pa
 constexpr double kCgsResistance = 1e-5;              // dyn s/cm^5 of Pa s/m^3
 
@@ -67,7 +67,7 @@ std::string segmentCards(const OneDNetwork& network) {
   return text + "\n" + tables;
 }
 
-/// For svOneDSolver, cgs.
+/// Input of svOneDSolver, cgs.
 std::string inputCards(const OneDNetwork& network, const std::string& name) {
   std::string nodes;
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
@@ -92,19 +92,20 @@ std::string inputCards(const OneDNetwork& network, const std::string& name) {
              numberText(kDyn * blood::kStiffness3))}});
 }
 
-/// The end of a vessel of openBF: what a wave meets, the rest of the resistance, and a compliance.
+/// The end of a vessel of openBF: the impedance that a wave meets, the rest of the resistance, and
+/// a compliance.
 std::string windkessel(const OneDVessel& vessel, double stiffness) {
   const double r = vessel.outRadius, area = kPi * r * r;
   // c^2 = (A / rho) dp/dA at the mean pressure, of the wall that blood.h states
   const double speed = std::sqrt(stiffness / (1.5 * blood::kDensity));
-  constexpr double kMostShare = 0.5;  // of the whole, should a wave meet more than that
+  constexpr double kMostShare = 0.5;  // share of the whole, should a wave meet more than that
   const double first = std::min(blood::kDensity * speed / area, kMostShare * vessel.resistance);
   const double second = vessel.resistance - first;
   return "    R1: " + numberText(first) + "\n    R2: " + numberText(second) +
          "\n    Cc: " + numberText(blood::kDecay / second) + "\n";
 }
 
-/// For openBF v2, SI.
+/// Input of openBF v2, SI.
 std::string yaml(const OneDNetwork& network, const std::string& name) {
   std::string text;
   for (const OneDVessel& vessel : network.vessels) {

@@ -7,9 +7,9 @@
 
 namespace lumen::convert {
 
-/// For each tree TREE.in for svOneDSolver, in cgs, and TREE.yml with TREE_inlet.dat for openBF v2,
-/// in SI, of one oneDNetwork(): `vessels`, `vessels2`, .... Throws as flowNetwork() and
-/// oneDNetwork().
+/// Two descriptions of each tree, of one oneDNetwork(): TREE.in for svOneDSolver, in cgs, and
+/// TREE.yml with TREE_inlet.dat for openBF v2, in SI. Trees are `vessels`, `vessels2`, .... Throws
+/// as flowNetwork() and oneDNetwork().
 ExportResult exportOneD(const ExportInput& input);
 
 TargetRow oneDRow();

@@ -15,7 +15,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kMetres = 1e-3;  // of a millimetre
+constexpr double kMetres = 1e-3;  // metres in a millimetre
 
 /// The cone with the segment's resistance.
 OneDVessel coneOf(const FlowSegment& segment) {
@@ -121,7 +121,7 @@ private:
     }
   }
 
-  /// Two at a time, what flows into a node joins before it, until one vessel reaches it.
+  /// Joins the flows into a node before it, two at a time, until one vessel reaches it.
   void mergeIn(std::uint32_t node, std::vector<std::size_t> in, double radius) {
     while (in.size() > 1) {
       const std::uint32_t before = addNode(m_made.nodes[node]);

@@ -19,7 +19,7 @@ struct OneDVessel {
   std::uint32_t from = 0, to = 0;      ///< nodes
   double length = 0;                   ///< m
   double inRadius = 0, outRadius = 0;  ///< m
-  double resistance = 0;  ///< of the outlet that it ends at, Pa s/m^3; 0: it ends at a junction
+  double resistance = 0;               ///< its outlet's, Pa s/m^3; 0: it ends at a junction
 
   [[nodiscard]] double meanRadius() const { return 0.5 * (inRadius + outRadius); }
   /// Cells or elements: of a millimetre, and five at least.
@@ -31,10 +31,10 @@ struct OneDNetwork {
   std::vector<Eigen::Vector3d> nodes;  ///< mm, LPS
   std::vector<OneDVessel>
       vessels;            ///< the inlet's first; no two between the same nodes in one direction
-  double flow = 0;        ///< at the inlet, m^3/s
+  double flow = 0;        ///< flow at the inlet, m^3/s
   std::size_t stubs = 0;  ///< vessels that were put between others, of one radius
-  std::size_t lengthened =
-      0;  ///< vessels that were shorter than their radius, and are as long here
+  /// Vessels that were shorter than their radius, and are as long here.
+  std::size_t lengthened = 0;
 };
 
 /// Tree number `tree` of a network. A vessel is the cone with its ends' ratio of radii and its

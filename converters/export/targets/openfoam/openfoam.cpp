@@ -79,8 +79,8 @@ std::string blockMeshDict(const FoamCells& cells) {
   return exportText("openfoam/blockMeshDict", {{"vertices", vertices}, {"cells", counts}});
 }
 
-/// How often cells are halved at a patch: at an end so often that six lie across, or the end of a
-/// thin vessel were lost.
+/// Number of times that cells are halved at a patch: at an end until six lie across, or the end of
+/// a thin vessel were lost.
 int levelAt(const Patch& patch, const FoamCells& cells) {
   constexpr double kAcrossEnd = 6;
   constexpr int kMostBeyond = 3;  // halvings more than at the wall

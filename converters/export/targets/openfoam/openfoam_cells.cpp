@@ -83,7 +83,7 @@ std::vector<Eigen::Vector3d> deepestPoints(const formats::CenterlineTree& tree,
     double depth = 0;
     Eigen::Vector3d point;
   };
-  std::map<std::uint32_t, Deepest> deepest;  // by the tree's least node
+  std::map<std::uint32_t, Deepest> deepest;  // keys: the tree's least node
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n) {
     progress.check();
     const Eigen::Vector3d centre = frame.position(toEigen(tree.centre[n]));

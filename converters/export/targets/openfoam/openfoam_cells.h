@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How finely the inside of vessels is cut into cells, and from which points it is found.
+// Size of the cells inside vessels, and the points from which the inside is found.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ struct FoamCells {
   double atWall = 0;                              ///< edge of the cells at the wall
   int level = 0;                                  ///< halvings
   Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< least corner of the block
-  std::array<int, 3> count{};                     ///< of its cells, before they are halved
+  std::array<int, 3> count{};                     ///< number of its cells, before they are halved
   double acrossThinnest = 0;                      ///< cells across the thinnest vessel
 
-  [[nodiscard]] double edge() const { return atWall * (1 << level); }  ///< of the block's cells
+  [[nodiscard]] double edge() const { return atWall * (1 << level); }  ///< the block's cells'
 };
 
 /// Ten cells across the thinnest vessel, of the radius `least`; fewer where more than about a

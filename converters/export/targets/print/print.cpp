@@ -20,9 +20,10 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr Length kWall = {1, 0};  // mm: what printers of resin and powder hold without support
-constexpr double kLeastPrintable =
-    .6;  // mm: below it walls of resin tear (makers' guides say 0.4 to 0.8)
+// mm: walls that printers of resin and powder hold without support
+constexpr Length kWall = {1, 0};
+// mm: thinner walls of resin tear (makers' guides: 0.4 to 0.8)
+constexpr double kLeastPrintable = .6;
 
 struct Thinnest {
   double thickness = 0;  ///< mm

@@ -28,7 +28,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kCentimetres = 0.1;  // of a millimetre
+constexpr double kCentimetres = 0.1;  // centimetres in a millimetre
 
 std::string point(std::size_t id, const Eigen::Vector3d& mm) {
   return pointElement("point id=\"" + std::to_string(id) + "\"", kCentimetres * mm);
@@ -142,7 +142,7 @@ private:
 };
 
 std::string encodeVtu(const VolumeMesh& mesh) {
-  constexpr std::uint8_t kTetrahedron = 10;  // of VTK
+  constexpr std::uint8_t kTetrahedron = 10;  // VTK's number
   std::vector<std::int32_t> node(mesh.position.size()), elementOf(mesh.tetrahedron.size()),
       region(mesh.region.begin(), mesh.region.end());
   for (std::size_t k = 0; k < node.size(); ++k) node[k] = static_cast<std::int32_t>(k + 1);

@@ -92,8 +92,8 @@ std::string markupsOf(const std::string& name, Json points) {
 }
 
 /// A control point for the beginning of each branch, with the description that spec/seeds.md has
-/// for what Slicer has no place for. A label with what ends a word there is left out as a parent:
-/// tracking finds it by place.
+/// for facts that Slicer has no place for. A label with characters that end a word there is left
+/// out as a parent: tracking finds it by place.
 std::string seedsOf(const formats::CenterlineTree& tree) {
   Json points = Json::array();
   for (const formats::Branch& branch : tree.branches) {

@@ -84,8 +84,8 @@ double numberOf(const SceneItem& item, const std::string& name) {
   return value.empty() ? 0 : std::stod(value);
 }
 
-/// The material and shape of a straight shaft and a curved tip, at the WireRestShape itself. A wire
-/// without a straight part, or a tip without a curl, has lengths that say so.
+/// The material and shape of a straight shaft and a curved tip, at the WireRestShape itself. The
+/// lengths of a wire without a straight part, or of a tip without a curl, state that.
 void stateAtRestShape(SceneItem& node) {
   std::vector<SceneItem> sections;
   for (const SceneItem& item : node.children)

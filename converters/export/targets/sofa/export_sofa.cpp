@@ -33,7 +33,7 @@ double insertedRadius(InstrumentKind kind) {
 }
 
 SceneInput inputOf(const ExportInput& asked, const SofaOptions& options) {
-  // a coil is as long as it is; others are pushed to the end of the way, and end behind it
+  // a coil has its own length; others are pushed to the end of the path, and end behind it
   constexpr double kBehind = 20, kLeast = 80, kCurlShare = 1.6;
   const formats::CenterlineTree& tree = asked.source.tree;
   SceneInput input;
@@ -84,8 +84,8 @@ std::string startOf(const SceneInput& input, const SofaOptions& options) {
 }
 
 void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
-  constexpr double kBorder = 1,
-                   kBorderSamples = 3;  // mm: contacts look for the wall so far from it
+  // mm, and samples: distance from the wall within which contacts look for it
+  constexpr double kBorder = 1, kBorderSamples = 3;
   const PlaceBox box{scene.low, scene.high};
   const double spacing = gridSpacing(input.options.spacing, box, kBorder, input.source.tree);
   const Lattice lattice = latticeOver(box, kBorder + kBorderSamples * spacing, spacing);

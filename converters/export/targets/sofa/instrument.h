@@ -22,9 +22,10 @@ struct RodSection {
 };
 
 struct Instrument {
-  std::string name;                  ///< a word
-  double poissonRatio = 0;           ///< of all sections
-  std::vector<RodSection> sections;  ///< from handle to tip; only the first may be straight
+  std::string name;         ///< a word
+  double poissonRatio = 0;  ///< one for all sections
+  /// Sections from handle to tip; only the first may be straight.
+  std::vector<RodSection> sections;
   double color[3] = {1, 1, 1};
   [[nodiscard]] double length() const;  ///< mm
   [[nodiscard]] double radius() const;  ///< mm, the greatest
@@ -34,7 +35,8 @@ struct Instrument {
 enum class InstrumentKind { Guidewire, Catheter, Coil };
 
 /// The instruments of a scene, the outermost first: a guidewire comes within a catheter. `length`,
-/// mm, is what can be pushed in; a coil has its own length and rests in circles of `curl`, mm.
+/// mm, is the length that can be pushed in; a coil has its own length and rests in circles of
+/// `curl`, mm.
 std::vector<Instrument> instrumentsOf(InstrumentKind kind, double length, double curl);
 
 }  // namespace lumen::convert

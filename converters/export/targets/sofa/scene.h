@@ -25,13 +25,13 @@ struct SceneInput {
   std::string branch;  ///< its label
   std::vector<Instrument> instruments;
   std::array<double, 3> low{}, high{};  ///< corners of a box around the vessels, mm, LPS
-  SceneGrid grid;                       ///< of WallKind::Grid
+  SceneGrid grid;                       ///< grid of WallKind::Grid
 };
 
 /// Distance from the wall, mm, that the insertion of instruments of such a radius needs.
 double clearanceFor(double radius);
 
-/// How many time steps the insertion takes.
+/// Number of time steps of the insertion.
 int stepsOf(const SceneInput& input, const SofaOptions& options);
 
 SceneItem makeScene(const SceneInput& input, const SofaOptions& options);

@@ -7,7 +7,7 @@ namespace lumen::convert {
 
 namespace {
 
-constexpr double kFriction = 0.1;  // of hydrophilic coatings on vessels: docs/sofa.md
+constexpr double kFriction = 0.1;  // friction of hydrophilic coatings on vessels: docs/sofa.md
 constexpr double kFixation = 1e8;  // mN / mm and mN mm / rad: a hand that holds the instrument
 constexpr int kViewEdgesPerMm = 1;
 

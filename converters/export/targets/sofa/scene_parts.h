@@ -18,7 +18,7 @@ void addLoop(SceneItem& root, WallKind wall, double radius, double alarm);
 void addView(SceneItem& root, const std::array<double, 3>& low, const std::array<double, 3>& high);
 void addVessel(SceneItem& root, WallKind wall, const SceneInput& input);
 
-/// A node with what an instrument is made of.
+/// A node with the sections of an instrument.
 void addRestShape(SceneItem& root, const Instrument& instrument);
 /// Time integration and the frames of all instruments.
 void addBeamSolver(SceneItem& node, int frames);

@@ -17,14 +17,14 @@ struct SceneDatum {
 /// A node, or a component of one.
 struct SceneItem {
   std::string type;     ///< a component's class; "Node" for a node
-  std::string comment;  ///< what it does, with units; may be empty
+  std::string comment;  ///< its purpose, with units; may be empty
   std::vector<SceneDatum> data{};
-  std::vector<SceneItem> children{};  ///< of a node, in the order of their creation
+  std::vector<SceneItem> children{};  ///< children of a node, in the order of their creation
 
   [[nodiscard]] bool isNode() const { return type == "Node"; }
   /// The value of a datum; empty if it is not there.
   [[nodiscard]] std::string value(const std::string& name) const;
-  /// Adds a datum; gives the item itself.
+  /// Adds a datum; returns the item itself.
   SceneItem& set(const std::string& name, const std::string& value);
   SceneItem& set(const std::string& name, double value);
   SceneItem& set(const std::string& name, int value);
@@ -37,7 +37,7 @@ struct SceneItem {
 /// Numbers with spaces between them.
 std::string sceneNumbers(const std::vector<double>& values);
 
-/// As XML, which runSofa reads. `about`: lines of the comment at its head.
+/// The scene as XML, which runSofa reads. `about`: lines of the comment at its head.
 std::string printXml(const SceneItem& root, const std::vector<std::string>& about);
 
 /// The scene in Python, for SofaPython3: a module with createScene(root).

@@ -22,16 +22,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMetres = 1e-3, kCentimetres = 0.1;  // of a millimetre
+constexpr double kMetres = 1e-3, kCentimetres = 0.1;  // metres and centimetres in a millimetre
 constexpr double kCgsFlow = 1e6;                      // cm^3/s of m^3/s
 constexpr double kCgsResistance = 1e-5;               // dyn s/cm^5 of Pa s/m^3
 constexpr double kCgsInertance = 1e-5;                // dyn s^2/cm^5 of Pa s^2/m^3
 constexpr double kCgsCompliance = 1e5;                // cm^5/dyn of m^3/Pa
 
-// Seconds until what walls take up is settled; the last one is answered.
+// Seconds until the flow that walls take up is settled; the last one is answered.
 constexpr int kCycles = 10;
 
-/// Where an end lies, cm, LPS: the solver passes over names that begin with "_".
+/// Place of an end, cm, LPS: the solver passes over names that begin with "_".
 Json placeJson(const FlowNetwork& network, std::uint32_t joint) {
   const Eigen::Vector3d p = kCentimetres * network.joints[joint].place;
   return Json::array({p.x() + 0.0, p.y() + 0.0, p.z() + 0.0});

@@ -26,7 +26,8 @@ Vec3 inwards(const blob_sample& wall) {
   return Vec3(-wall.normal[0], -wall.normal[1], -wall.normal[2]);
 }
 
-// Two tangents that change little when the normal does: from the coordinate axis that it is least along.
+// Two tangents that change little when the normal does: from the coordinate axis that it is least
+// along.
 void setTangents(Vec3 axis[3]) {
   const Vec3& n = axis[0];
   sofa::Size least = 0;
@@ -94,7 +95,7 @@ void BeamBlobContact::init() {
   d_componentState.setValue(sofa::core::objectmodel::ComponentState::Valid);
 }
 
-// Without a state there is nothing to constrain, which SOFA itself says.
+// Without a state there is nothing to constrain, which SOFA itself reports.
 void BeamBlobContact::bwdInit() {
   if (getMState() == nullptr && isComponentStateValid()) stopScene(*this);
 }
@@ -139,9 +140,10 @@ void BeamBlobContact::findSamples() {
   for (std::size_t i = 0; i < m_samples.size(); ++i) m_abscissae[i] = m_samples[i].abscissa;
 }
 
-// The wall is linearised where each sample comes to if the instrument slides on along itself as in the last step: where the
-// sample is, a bump would be met too high. How it moves sideways is not known before: its free position is far away, as the
-// instrument springs towards its rest shape without contact, and a tip flicks to and fro.
+// The wall is linearised where each sample comes to if the instrument slides on along itself as in
+// the last step: at the sample itself, a bump would be met too high. Its sideways motion is not
+// known before: its free position is far away, as the instrument springs towards its rest shape
+// without contact, and a tip flicks to and fro.
 void BeamBlobContact::findContacts() {
   const std::size_t count = m_samples.size();
   const blob_model* model = l_field->model();
@@ -195,8 +197,8 @@ void BeamBlobContact::forgetOtherForces() {
       m_forces[i].clear();
 }
 
-// How much of the step's slide is in touch: all of it for a sample that rests on the wall, that after the first
-// touch for one that gets there, none for one that does not.
+// Share of the step's slide that is in touch: all of it for a sample that rests on the wall, the
+// part after the first touch for one that gets there, none for one that does not.
 double BeamBlobContact::shareOfSlide(double before, double after, double motion) const {
   constexpr double kResting = 0.01;
   if (before <= kResting * motion) return 1;

@@ -12,9 +12,9 @@
 
 namespace lumensofa {
 
-/// Contact with friction of an instrument's beams with the wall of a case. Samples along each beam are asked for
-/// their distance to the wall; those near it get one row (normal), or three with friction, of the Lagrangian
-/// constraints. Each sample has a cursor of its own, which follows the tree; when
+/// Contact with friction of an instrument's beams with the wall of a case. Samples along each beam
+/// measure their distance to the wall; those near it get one row (normal), or three with friction,
+/// of the Lagrangian constraints. Each sample has a cursor of its own, which follows the tree; when
 /// beams are added or nodes placed anew, cursors go on by the abscissa along the instrument.
 class LUMENSOFA_API BeamBlobContact : public sofa::core::behavior::Constraint<Rigid3> {
 public:
@@ -82,14 +82,14 @@ private:
 
   // Kept from step to step, so that a step allocates nothing once they have grown.
   std::vector<BeamSample> m_samples;
-  std::vector<double> m_abscissae;       ///< of the samples that m_cursors and m_forces belong to
-  std::vector<std::uint32_t> m_cursors;  ///< at the start of the step
+  std::vector<double> m_abscissae;       ///< one for each of m_cursors and m_forces
+  std::vector<std::uint32_t> m_cursors;  ///< cursors at the start of the step
   std::vector<Vec3> m_forces;  ///< last step's, in the world's frame: where the solver begins
   std::vector<std::size_t> m_nearest;
   std::vector<std::uint32_t> m_cursorBuffer;
   std::vector<Vec3> m_forceBuffer;
   std::vector<Vec3> m_start, m_next, m_free;  ///< mm; m_next: where a sample slides to
-  std::vector<blob_sample> m_walls;           ///< at m_start, then at m_next
+  std::vector<blob_sample> m_walls;           ///< wall at m_start, then at m_next
   std::vector<Contact> m_contacts;
   unsigned int m_firstRow = 0;
 };

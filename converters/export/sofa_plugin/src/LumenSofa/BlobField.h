@@ -11,10 +11,10 @@
 
 namespace lumensofa {
 
-/// The wall of a case as a scalar field: f - T in mm, positive in the lumen, negative in the wall, so its
-/// gradient points inwards. Lengths are millimetres in the frame of the case. `domain` is a point's cursor
-/// (see blob.h): the node it was in, from which it moves along the tree only; -1 for a point that is new.
-/// Without a case, values and gradients are zero.
+/// The wall of a case as a scalar field: f - T in mm, positive in the lumen, negative in the wall,
+/// so its gradient points inwards. Lengths are millimetres in the frame of the case. `domain` is a
+/// point's cursor (see blob.h): the node it was in, from which it moves along the tree only; -1 for
+/// a point that is new. Without a case, values and gradients are zero.
 class LUMENSOFA_API BlobField : public sofa::component::geometry::ScalarField {
 public:
   SOFA_CLASS(BlobField, sofa::component::geometry::ScalarField);
@@ -24,16 +24,18 @@ public:
   void init() override;
   void reinit() override;
 
-  /// Opens the case unless that was done. False, with a message and the scene stopped, if it cannot be used.
+  /// Opens the case unless that was done. False, with a message and the scene stopped, if it cannot
+  /// be used.
   bool load();
 
-  /// The cursor of a point: located in the branch if `domain` is -1, otherwise moved along the tree.
+  /// The cursor of a point: located in the branch if `domain` is -1, otherwise moved along the
+  /// tree.
   int getDomain(Vec3d& point, int domain) override;
   double getValue(Vec3d& point, int& domain) override;
   Vec3d getGradient(Vec3d& point, int& domain) override;
   void getHessian(Vec3d& point, Mat3x3& hessian) override;
   void getValueAndGradient(Vec3d& point, double& value, Vec3d& gradient, int& domain) override;
-  /// The first crossing of the wall on the way from one end to the other. False if there is none.
+  /// The first crossing of the wall on the path from one end to the other. False if there is none.
   bool computeSegIntersection(Vec3d& from, Vec3d& to, Vec3d& crossing, int domain = -1) override;
   /// Moves the point to the nearest one of the wall.
   void projectPointonSurface(Vec3d& point, int domain = -1) override;
@@ -46,9 +48,9 @@ public:
 
   /// Null if there is none.
   [[nodiscard]] const blob_model* model() const { return m_vessel.model.get(); }
-  /// Of libblob's queries: BLOB_BLENDED or BLOB_LOCAL.
+  /// Flags of libblob's queries: BLOB_BLENDED or BLOB_LOCAL.
   [[nodiscard]] std::uint32_t flags() const { return m_flags; }
-  /// Where a point that has no cursor begins; see load().
+  /// Node at which a point that has no cursor begins; see load().
   [[nodiscard]] std::uint32_t locatePoint(const double point[3]) const {
     return locate(m_vessel, point);
   }

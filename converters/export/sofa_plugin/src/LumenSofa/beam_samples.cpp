@@ -5,7 +5,7 @@
 namespace lumensofa {
 namespace {
 
-// Of a beam that its interpolation places along the instrument, or else after the beams before it.
+// Range of a beam along the instrument, by its interpolation, or else after the beams before it.
 struct Stretch {
   double begin, end;
 };
@@ -62,7 +62,7 @@ void layOutSamples(Beams& beams, unsigned perBeam, double radius,
       addSamples(beams, beam, perBeam, radius, samples);
     return;
   }
-  // the controller says which beams are outermost
+  // the controller knows which beams are outermost
   for (const auto beam : beams.d_beamCollision.getValue())
     if (beam < count) addSamples(beams, beam, perBeam, radius, samples);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What SOFA's plugin manager calls.
+// Functions that SOFA's plugin manager calls.
 #include <LumenSofa/config.h>
 #include <sofa/core/ObjectFactory.h>
 

@@ -45,7 +45,7 @@ std::string labelsOf(const lumen::formats::CaseView& view) {
   return list;
 }
 
-// Of bytes that libblob has verified.
+// Looks up a branch in bytes that libblob has verified.
 std::string findBranch(std::span<const std::byte> bytes, const std::string& path,
                        const std::string& label, NodeRange& range) {
   const auto view = lumen::formats::viewCase(bytes, lumen::formats::Verify::Structure);

@@ -29,11 +29,12 @@ struct VesselCase {
   std::string problem;  ///< one sentence without a full stop, if `model` is null
 };
 
-/// Reads a case. `branch` is a label, or empty for the whole tree. Memory is bounded by the size of the file.
+/// Reads a case. `branch` is a label, or empty for the whole tree. Memory is bounded by the size of
+/// the file.
 VesselCase openVesselCase(const std::string& path, const std::string& branch);
 
-/// The node of least power among those of the branch, the lowest index among equals; of the whole tree by
-/// libblob's own search.
+/// The node of least power among those of the branch, the lowest index among equals; of the whole
+/// tree by libblob's own search.
 std::uint32_t locate(const VesselCase& vessel, const double point[3]);
 
 }  // namespace lumensofa
