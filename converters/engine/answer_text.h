@@ -2,8 +2,6 @@
 // Answers for standard output: JSON with stable names, and aligned text.
 #pragma once
 
-#include "converters/engine/app_alias.h"
-
 #include <optional>
 #include <string>
 #include <string_view>

@@ -2,8 +2,6 @@
 // Files that a command reads and writes by name, and refusals before any work.
 #pragma once
 
-#include "converters/engine/app_alias.h"
-
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -19,11 +17,6 @@ namespace lumen::engine {
 /// A case in either encoding, by its content. Throws Error(InvalidInput) with the file's name and
 /// the fault.
 formats::Case readCase(const std::filesystem::path& file);
-/// A case in either encoding, by its content, with the bytes of the whole file. Throws as
-/// readCase().
-std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(
-    const std::filesystem::path& file);
-
 /// A case in either encoding, by its content, with the bytes of the whole file. Throws as
 /// readCase().
 std::pair<std::vector<std::byte>, formats::Case> readCaseAndBytes(

@@ -3,8 +3,6 @@
 // report and shell completion are made from the table.
 #pragma once
 
-#include "converters/engine/app_alias.h"
-
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -3,8 +3,6 @@
 // fitted and cases written.
 #pragma once
 
-#include "converters/engine/app_alias.h"
-
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -345,12 +345,6 @@ function fileSection(app: App): HTMLElement {
 }
 
 async function forget(app: App, name: string, index: number): Promise<void> {
-  if (
-    await askYes(
-      "Delete the file?",
-      `${name} holds the only copy of work that was not saved.`,
-      "Delete",
-    )
-  )
+  if (await askYes("Delete the file?", `${name} holds the only copy of work that was not saved.`, "Delete"))
     await app.perform({ op: "forget", index });
 }
