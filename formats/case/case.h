@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The canonical model: what a converter reads or writes, whatever the file format.
+// The canonical model that converters read and write, whatever the file format.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ constexpr std::int32_t kNoParent = -1;
 struct Branch {
   std::string label;  ///< unique in its case, UTF-8
   BranchKind kind = BranchKind::Vessel;
-  std::int32_t parentNode = kNoParent;  ///< node that the first node hangs on; kNoParent for a root
+  std::int32_t parentNode = kNoParent;  ///< parent of the first node; kNoParent for a root
   std::uint32_t firstNode = 0;
   std::uint32_t nodeCount = 0;
   StopReason stopReason = StopReason::Unknown;
@@ -117,11 +117,11 @@ struct PointQuantisation {
   friend bool operator==(const PointQuantisation&, const PointQuantisation&) = default;
 };
 
-/// There is deliberately no field for a person, a date or a path.
+/// Provenance of a case. It deliberately has no field for a person, a date or a path.
 struct Metadata {
   std::optional<double> voxelSize;  ///< mm: geometric mean of the spacing of the source volume
   std::optional<SourceVolume> source;
-  std::string parentSha256;  ///< of the case file that this one was made from; empty if none
+  std::string parentSha256;  ///< digest of the case file that this one was made from, or empty
   std::optional<PointQuantisation> pointQuantisation;  ///< absent if the points are as measured
   std::string note;                                    ///< for people, UTF-8
   std::vector<std::string> extensionsUsed;
@@ -130,7 +130,7 @@ struct Metadata {
   friend bool operator==(const Metadata&, const Metadata&) = default;
 };
 
-/// Values of an extension for every node: `components` after another for each node.
+/// Values of an extension: `components` consecutive numbers for each node.
 struct NodeArray {
   std::string name;  ///< EXTENSION.name
   std::uint32_t components = 1;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * libblob: signed distance, gradient and inside test of a vessel tree, for simulators. C99 and
- * C++11.
+ * libblob: signed distance, gradient and inside test of a vessel tree for simulators (C99, C++11).
  *
  * A vessel tree is a set of nodes along centerlines. Each node has a centre O, a radius r and its
  * own smooth implicit function, a sum of a few blobs (A. Yureidini, Robust blood vessel surface
