@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which points can be evaluated, and the answer at the others.
+// The test whether a point can be evaluated, and the answer where it cannot.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a .lumen file to a definition.
+// A definition from a .lumen file.
 #pragma once
 
 #include <cstddef>
