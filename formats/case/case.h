@@ -24,7 +24,7 @@ struct Vec3f {
 
 enum class BranchKind : std::uint8_t { Vessel = 0, Aneurysm = 1 };
 
-/// Why tracking of a branch ended. Values are stored in files: append only.
+/// Reason why tracking of a branch ended. Values are stored in files: append only.
 enum class StopReason : std::uint8_t {
   Unknown = 0,          ///< not recorded, or the branch was not tracked from a volume
   NoValidCylinder = 1,  ///< no cylinder reached half of the accepting inlier rate
@@ -110,7 +110,7 @@ struct Step {
   friend bool operator==(const Step&, const Step&) = default;
 };
 
-/// How wall points were rounded: to multiples of `step` from a corner of their bounding box.
+/// Rounding of wall points: to multiples of `step` from a corner of their bounding box.
 struct PointQuantisation {
   std::int32_t bits = 0;  ///< 1 to 30
   double step = 0;        ///< mm, > 0
@@ -125,7 +125,7 @@ struct Metadata {
   std::optional<PointQuantisation> pointQuantisation;  ///< absent if the points are as measured
   std::string note;                                    ///< for people, UTF-8
   std::vector<std::string> extensionsUsed;
-  std::vector<std::string> extensionsRequired;  ///< a part of those used
+  std::vector<std::string> extensionsRequired;  ///< a subset of extensionsUsed
   std::vector<Step> steps;                      ///< oldest first
   friend bool operator==(const Metadata&, const Metadata&) = default;
 };

@@ -46,7 +46,7 @@ struct ValidationReport {
 };
 
 /// All errors and warnings in bytes of either encoding. A part that cannot be understood hides the
-/// faults of those that depend on it: a text that is not JSON has its first fault listed only.
+/// faults of those that depend on it: a text that is not JSON gives only its first fault.
 ValidationReport validateBytes(std::span<const std::byte> bytes,
                                std::size_t maxIssues = kDefaultMaxIssues);
 

@@ -79,7 +79,7 @@ std::vector<std::byte> encodeDraco(std::span<const Vec3f> points, const Quantisa
   encoder.SetEncodingMethod(draco::POINT_CLOUD_SEQUENTIAL_ENCODING);
   encoder.SetSpeedOptions(3, 3);
   // the library counts symbols in a table of up to 2^(bits + 1) entries, however few points there
-  // are; beyond 24 bits, those of an f32's significand, the table gains nothing
+  // are; beyond 24 bits, the size of an f32's significand, the table gains nothing
   encoder.SetUseBuiltInAttributeCompression(bits <= 24);
   const std::array<float, 3> origin = {box.origin.x, box.origin.y, box.origin.z};
   encoder.SetAttributeExplicitQuantization(id, bits, 3, origin.data(), box.range);

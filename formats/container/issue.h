@@ -21,7 +21,8 @@ struct Argument {
   friend bool operator==(const Argument&, const Argument&) = default;
 };
 
-/// At least one of `offset` and `pointer` is known, except for a file that cannot be read at all.
+/// A broken rule and its place. At least one of `offset` and `pointer` is known, except for a file
+/// that cannot be read at all.
 struct Issue {
   ErrorCode code;
   std::optional<std::uint64_t> offset{};  ///< bytes from the start of the file
@@ -33,7 +34,7 @@ struct Issue {
   // members hold these as they are.
   /// "byte 128", a JSON pointer such as /tree/branches/2/label (empty: the whole), or "file".
   [[nodiscard]] std::string place() const;
-  /// For people: "RADIUS_RANGE at byte 128 (/tree/radius/0): found -1, expected more than 0 mm".
+  /// Message: "RADIUS_RANGE at byte 128 (/tree/radius/0): found -1, expected more than 0 mm".
   [[nodiscard]] std::string text() const;
 };
 

@@ -168,7 +168,7 @@ typedef struct blob_blobs {
    * everywhere. */
   const uint32_t* offset;
   const float (*centre)[3]; /* mm, offset[node_count] entries; within 1e6 of zero */
-  const float* width;       /* mm, as many; 1e-5 to 1e3 */
+  const float* width;       /* mm, offset[node_count] entries; 1e-5 to 1e3 */
 } blob_blobs;
 
 /* A model as arrays, which are read during blob_model_create() only. */

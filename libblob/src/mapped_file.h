@@ -10,7 +10,7 @@ namespace lumen::blob {
 /// A file mapped into memory where the system can, read into memory elsewhere.
 class MappedFile {
 public:
-  /// False as a bool if the file cannot be opened, is no regular file, or is empty.
+  /// Maps or reads a file; false as a bool if it cannot be opened, is no regular file, or is empty.
   explicit MappedFile(const char* path);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;

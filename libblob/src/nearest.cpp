@@ -58,11 +58,11 @@ private:
   static constexpr double kUsualTolerance = 1e-5;  // share of the node's radius
   static constexpr std::uint32_t kUsualSteps = 40;
   static constexpr int kMaxShortenings = 8;  // halvings of a step along the wall
-  static constexpr double kGainShare = 0.1;  // of the tolerance, below which a step is not worth it
+  static constexpr double kGainShare = 0.1;  // share of the tolerance: least gain of a step
   static constexpr double kStalledGain =
-      1e-3;                                    // of the square of the way, when no step shortens it
-  static constexpr double kLongestStep = 0.5;  // share of the node's radius
-  static constexpr double kFlat = 0.02;        // least eigenvalue that a step is divided by
+      1e-3;  // share of the squared distance: converged if stalled
+  static constexpr double kLongestStep = 0.5;   // share of the node's radius
+  static constexpr double kFlat = 0.02;         // least eigenvalue that a step is divided by
   static constexpr double kLeaveMaximum = 0.1;  // share of the radius: step off a farthest point
 
   struct Foot {
@@ -123,8 +123,9 @@ private:
     return false;
   }
 
-  // Solves (I + d S) step = tangential part of the way, S the shape operator of the wall and d the
-  // distance. Directions in which the foot is a farthest point are followed downhill.
+  // Solves (I + d S) step = tangential part of the vector to the query point, S the shape operator
+  // of the wall and d the distance. Directions in which the foot is a farthest point are followed
+  // downhill.
   [[nodiscard]] Vec stepAlong(const Vec& gradient, double slope, const double* h) const {
     const Vec normal = (-1.0 / slope) * gradient;
     const Vec way = m_query - m_best.at;

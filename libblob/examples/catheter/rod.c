@@ -192,8 +192,7 @@ static void add_bending(rod* r) {
 }
 
 /* Adds the energy k/2 (length - h)^2. Under compression the part of its Hessian across the element
- * is
- * negative and left out: the matrix stays positive definite. */
+ * is negative and left out: the matrix stays positive definite. */
 static void add_stretching(rod* r) {
   const rod_def* d = &r->def;
   const double h = d->element_length, k = d->young * kPi * d->radius * d->radius / h;

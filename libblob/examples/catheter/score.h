@@ -25,8 +25,7 @@ typedef struct score {
 
 /* Scores a path. `truth` is the surface that `positions` slid on, `touches[i]` states whether the
  * tip touched at i, and `radius` is the tool's, mm. Distances are exact. used is 0 if fewer than
- * three positions remain or
- * memory ran out. */
+ * three positions remain or memory ran out. */
 score score_path(const blob_model* truth, size_t count, const double (*positions)[3],
                  const unsigned char* touches, double radius);
 

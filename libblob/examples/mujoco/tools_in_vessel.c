@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Drops a ball into a vessel and pushes a chain of capsules along it, for ten simulated seconds,
  * with gravity towards each of six directions. Reports how far they entered the wall and whether
- * they
- * stayed in their vessel; exit code 1 if not. Units: mm, g, s. */
+ * they stayed in their vessel; exit code 1 if not. Units: mm, g, s. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

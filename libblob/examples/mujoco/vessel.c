@@ -25,7 +25,7 @@ static void to_vessel(const mjData* d, const mjtNum world[3], double point[3]) {
 static int fill_contact(const mjData* d, mjContact* contact, const mjtNum centre[3], mjtNum radius,
                         const wall_answer* at_centre, mjtNum margin) {
   const mjtNum gap = at_centre->gap - radius;
-  if (!(gap <= margin)) return 0; /* also false for NaN: a tool at no place */
+  if (!(gap <= margin)) return 0; /* also for a NaN: a tool at no place */
   mju_rotVecMat(contact->frame, at_centre->normal, d->xmat + 9 * g_vessel.body);
   mju_zero3(contact->frame + 3);
   mju_addScl3(contact->pos, centre, contact->frame, radius + 0.5 * gap);

@@ -20,7 +20,7 @@ typedef struct wall {
 
 /* Answer at a point in the vessel's frame, in the simulator's unit. */
 typedef struct wall_answer {
-  double gap; /* distance to the wall, positive in the lumen; NaN for a point that is not finite */
+  double gap;       /* distance to the wall, positive in the lumen; NaN for a NaN coordinate */
   double normal[3]; /* unit vector out of the lumen, opposite to the gap's gradient */
 } wall_answer;
 

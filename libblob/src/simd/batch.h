@@ -86,8 +86,8 @@ inline void fillAnswer(const View& view, const Inputs& in, const Group& g, std::
     fillSample(g, i, in.node[i], sample);
 }
 
-// Number of groups that are processed together, so that the long chains of one hide in those of the
-// others.
+// Number of groups that are processed together, so that the long chains of operations of one
+// overlap with those of the others.
 constexpr std::size_t kGroups = 4;
 
 struct Batch {
@@ -191,8 +191,8 @@ LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned 
       keep(evaluateLocal<K>(view, in.node[i], load4(g.at[i])), g, i);
 }
 
-// Decides first which points need blending, then blends those: in one loop the processor would
-// often mispredict whether the next point needs that long work.
+// Blends a group: finds the points that need it first, then blends them. In one loop the processor
+// would often mispredict whether the next point needs that long work.
 template <class K>
 LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned outOfRange,
                                const Inputs& in, Group& g) {

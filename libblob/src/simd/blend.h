@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blended field in floats. Include after field.h.
 //
-// This is formats/field/blend.h once more, for floats and rows of four: a weight's psi over eight
-// neighbours is one product of lanes, sums keep f and its gradient in one row, and an exponential
-// kernel's f comes with a shift. The choice of the nodes that blend and the polynomial of psi are
-// shared. tests/unit/field compares the two.
+// This is the counterpart of formats/field/blend.h for floats and rows of four: a weight's psi over
+// eight neighbours is one product of lanes, sums keep f and its gradient in one row, and an
+// exponential kernel's f comes with a shift. The choice of the nodes that blend and the polynomial
+// of psi are shared. tests/unit/field compares the two.
 
 // Neighbours in a block that a node does not beat by tau: all others have no weight.
 inline unsigned rivalsIn(const NeighbourBlock& block, F8 difference) {
