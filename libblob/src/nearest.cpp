@@ -57,10 +57,9 @@ public:
 private:
   static constexpr double kUsualTolerance = 1e-5;  // share of the node's radius
   static constexpr std::uint32_t kUsualSteps = 40;
-  static constexpr int kMaxShortenings = 8;  // halvings of a step along the wall
-  static constexpr double kGainShare = 0.1;  // share of the tolerance: least gain of a step
-  static constexpr double kStalledGain =
-      1e-3;  // share of the squared distance: converged if stalled
+  static constexpr int kMaxShortenings = 8;     // halvings of a step along the wall
+  static constexpr double kGainShare = 0.1;     // share of the tolerance: least gain of a step
+  static constexpr double kStalledGain = 1e-3;  // share of squared distance: converged if stalled
   static constexpr double kLongestStep = 0.5;   // share of the node's radius
   static constexpr double kFlat = 0.02;         // least eigenvalue that a step is divided by
   static constexpr double kLeaveMaximum = 0.1;  // share of the radius: step off a farthest point
