@@ -32,8 +32,8 @@ protected:
   ~JsonFaults() = default;
 };
 
-/// A value and its place. `expected` completes "expected ..." of a fault. The document and
-/// the receiver must outlive the place.
+/// A value and its place. `expected` completes "expected ..." of a fault. The document and the
+/// receiver must outlive the place.
 class JsonPlace {
 public:
   JsonPlace(JsonValue value, JsonFaults& faults, std::string pointer = {})

@@ -232,7 +232,7 @@ BLOB_API blob_node blob_model_node(const blob_model* model, uint32_t node) BLOB_
  * power cells meet this node's, or nearly meet, past the nodes between: in tight bends, in the
  * crotch of a bifurcation, beside nodes too thin to have cells of their own. The balls of such
  * nodes overlap, or the path along the tree is less than twice the straight distance. A node has at
- * most 32 of them. The relation is symmetric.
+ * most 32 neighbours besides its edges. The relation is symmetric.
  * The caller provides an index and room for `capacity` indices; null if that is 0.
  * Returns the number of neighbours, and writes the first `capacity`, ascending; 0 for an index that
  * is no node.

@@ -54,8 +54,8 @@ inline void boundNode(const View& view, const FieldNode& node, F4 x, float radiu
   greatest = highSum > greatest ? highSum : greatest;
 }
 
-// Widens bounds by neighbours: one may take part somewhere in the ball unless it stays beaten, by
-// tau if blended.
+// Bounds on f in a ball: a neighbour may take part somewhere in it unless it stays beaten, by tau
+// if blended.
 template <class K>
 inline void boundField(const blob_model& model, std::uint32_t flags, const double* point,
                        std::uint32_t node, float radius, float* least, float* greatest) {

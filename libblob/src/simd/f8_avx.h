@@ -109,7 +109,7 @@ inline D4 load3(const double* p) {
 inline F4 differenceOf(D4 a, D4 b) {
   return {_mm256_cvtpd_ps(_mm256_sub_pd(a.v, b.v))};
 }
-/// Spreads one of the four numbers to all lanes.
+/// Copy of one of the four numbers in all lanes.
 template <int lane>
 inline F8 splat(F4 a) {
   return {_mm256_permutevar8x32_ps(_mm256_castps128_ps256(a.v), _mm256_set1_epi32(lane))};
@@ -118,7 +118,7 @@ inline F8 splat(F4 a) {
 inline F4 rowOf(float a, float b, float c, float d) {
   return {_mm_setr_ps(a, b, c, d)};
 }
-/// Replaces the first number of a.
+/// Copy of a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return {_mm_blend_ps(a.v, _mm_set_ss(first), 1)};
 }

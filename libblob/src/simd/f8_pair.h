@@ -161,7 +161,7 @@ inline F4 differenceOf(const D4& a, const D4& b) {
   return F4{static_cast<float>(a.v[0] - b.v[0]), static_cast<float>(a.v[1] - b.v[1]),
             static_cast<float>(a.v[2] - b.v[2]), static_cast<float>(a.v[3] - b.v[3])};
 }
-/// Spreads one of the four numbers to all lanes.
+/// Copy of one of the four numbers in all lanes.
 template <int lane>
 inline F8 splat(F4 a) {
   return set1(a[lane]);
@@ -170,7 +170,7 @@ inline F8 splat(F4 a) {
 inline F4 rowOf(float a, float b, float c, float d) {
   return F4{a, b, c, d};
 }
-/// Replaces the first number of a.
+/// Copy of a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return select4(I4{-1, 0, 0, 0}, set4(first), a);
 }

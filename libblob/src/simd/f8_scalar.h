@@ -131,7 +131,7 @@ inline F4 differenceOf(const D4& a, const D4& b) {
   for (int i = 0; i < 4; ++i) r.v[i] = static_cast<float>(a.v[i] - b.v[i]);
   return r;
 }
-/// Spreads one of the four numbers to all lanes.
+/// Copy of one of the four numbers in all lanes.
 template <int lane>
 inline F8 splat(F4 a) {
   return set1(a.v[lane]);
@@ -140,7 +140,7 @@ inline F8 splat(F4 a) {
 inline F4 rowOf(float a, float b, float c, float d) {
   return {{a, b, c, d}};
 }
-/// Replaces the first number of a.
+/// Copy of a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return {{first, a.v[1], a.v[2], a.v[3]}};
 }
