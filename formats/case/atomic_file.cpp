@@ -23,7 +23,7 @@ constexpr int kMaxLinks = 40;
 constexpr int kMaxNameTrials = 100;
 constexpr std::size_t kMaxEnding = 16;
 constexpr mode_t kPermissionBits = 07777;
-constexpr mode_t kNewFileMode = 0666;  // the process' umask takes its share
+constexpr mode_t kNewFileMode = 0666;  // less the bits of the process's umask
 constexpr mode_t kNewFolderMode = 0777;
 
 Issue writeError(const fs::path& file, const std::string& what, int code) {
@@ -63,7 +63,7 @@ fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// ".nii.gz" of "head.nii.gz": writers choose their format by it.
+// The ending of a name, such as ".nii.gz" of "head.nii.gz": writers choose their format by it.
 std::string endingOf(const fs::path& file) {
   const std::string last = file.extension().string();
   const std::string both = file.stem().extension().string() + last;
@@ -78,19 +78,20 @@ bool tryLock(int descriptor) {
   return uninterrupted([&] { return ::flock(descriptor, LOCK_EX | LOCK_NB); }) == 0;
 }
 
-// Nobody has a lock on it, which its writer would.
+// Whether no process holds a lock on the file or folder; its writer would.
 bool isAbandoned(const fs::path& path) {
   const FileDescriptor open = openForReading(path, O_NOFOLLOW);
   return open.isOpen() && tryLock(open.get());
 }
 
-// A lock taken an instant after the name appeared may have come too late.
+// Whether the new file is still there: its lock may have come too late, after its removal.
 bool stillExists(int descriptor) {
   struct stat info {};
   return ::fstat(descriptor, &info) == 0 && info.st_nlink > 0;
 }
 
-// `make` opens a path that nobody has, or gives -1 and errno.
+// A new file or folder beside `target`. `make` opens it at an unused path, or returns -1 with errno
+// set.
 template <class Make>
 Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string& ending,
                                       Make make) {
@@ -113,12 +114,12 @@ Expected<HiddenSibling> hiddenSibling(const fs::path& target, const std::string&
                     error);
 }
 
-// The file system does not have what was asked for, which is no failure of the disk.
+// Whether the file system lacks the operation, which is no failure of the disk.
 bool isUnsupported(int code) {
   return code == EINVAL || code == ENOSYS || code == ENOTSUP || code == EOPNOTSUPP;
 }
 
-// The open file has `mode`, or permissions that grant nothing beyond it where they cannot be set.
+// Sets the mode of an open file. Where none can be set, succeeds if its mode grants nothing more.
 bool setMode(int descriptor, mode_t mode, const FileCalls& calls) {
   if (calls.permit(descriptor, mode) == 0) return true;
   const int error = errno;
@@ -133,7 +134,7 @@ bool flushOpen(int descriptor, const FileCalls& calls) {
   return uninterrupted([&] { return calls.flush(descriptor); }) == 0 || isUnsupported(errno);
 }
 
-// The file or folder at `path` is on the disk then, with the permissions `mode` if that is given.
+// Flushes the file or folder at `path` to disk, with the permissions `mode` if that is given.
 bool flushPath(const fs::path& path, int flags, const FileCalls& calls,
                std::optional<mode_t> mode = {}) {
   const FileDescriptor open = openForReading(path, flags);
@@ -142,14 +143,14 @@ bool flushPath(const fs::path& path, int flags, const FileCalls& calls,
 }
 
 // Makes a rename survive a power cut. A folder that cannot be opened or flushed (some network file
-// systems) leaves that to the system: what was written is already in place.
+// systems) leaves that to the system: the new file or folder is already in place.
 void finish(const fs::path& target, const FileCalls& calls) {
   const fs::path folder = folderOf(target);
   flushPath(folder, O_DIRECTORY, calls);
   removeTemporaries(folder, Temporaries::Abandoned);
 }
 
-// Everything in `folder`, then the folder.
+// Flushes everything in `folder`, then the folder.
 bool flushFolder(const fs::path& folder, const FileCalls& calls) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -161,7 +162,7 @@ bool flushFolder(const fs::path& folder, const FileCalls& calls) {
   return !error && flushPath(folder, O_DIRECTORY, calls);
 }
 
-// The same by one call, where there is one.
+// Flushes the file system of `folder` by one call, or else the folder file by file.
 bool flushSystemOf(const fs::path& folder, const FileCalls& calls) {
   if (!calls.flushSystem) return flushFolder(folder, calls);
   const FileDescriptor open = openForReading(folder, O_DIRECTORY);
@@ -199,7 +200,7 @@ HiddenSibling::~HiddenSibling() {
 }
 
 Status writeFileAtomically(std::span<const std::byte> bytes, const fs::path& file,
-                                   const FileCalls& calls) {
+                           const FileCalls& calls) {
   auto pending = PendingFile::beside(file, calls);
   if (!pending) return pending.error();
   if (!writeAll(bytes, pending->descriptor())) return writeError(file, "cannot write", errno);
@@ -280,7 +281,8 @@ Status PendingFolder::replace() {
 }
 
 bool isTemporaryName(std::string_view name) {
-  // a prefix, digits and a hyphen, or a probe of a folder: a user's own file of a similar name is no temporary one
+  // a prefix, digits and a hyphen, or a probe of a folder: a user's own file of a similar name is
+  // not temporary
   constexpr std::string_view kProbe = ".lumen-probe-XXXXXX";
   if (name.size() == kProbe.size() && name.starts_with(kProbe.substr(0, kProbe.size() - 6)))
     return true;

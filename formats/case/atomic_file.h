@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files and folders that appear whole under their name, or not at all: what is written lies hidden
-// beside its place, is flushed to disk, and is renamed.
+// Files and folders that appear whole under their name, or not at all: a writer fills a hidden
+// sibling, flushes it to disk, and renames it.
 //
 // A writer that ends or throws removes what it began. One that is killed cannot, so every hidden
 // name begins with kTemporaryPrefix and the writer's process id, and the writer holds a lock
-// (flock) on it for as long as it lives. The next write into that folder removes what nobody has
-// locked; an interrupted process, which still holds its own locks, removes what bears its id. A
-// lock rather than the id tells the dead from the living, because a folder may be shared by
-// machines and containers that do not see each other's processes. Files without a name (O_TMPFILE)
-// would leave nothing either, but neither libraries that write by name nor folders can use them, and
-// some file systems refuse to name them (linkat).
+// (flock) on it for as long as it lives. The next write into that folder removes hidden siblings
+// without a lock; an interrupted process, which still holds its own locks, removes those that bear
+// its id. A lock, not the id, distinguishes dead writers from live ones, because a folder may be
+// shared by machines and containers that do not see each other's processes. Files without a name
+// (O_TMPFILE) would leave nothing either, but neither libraries that write by name nor folders can
+// use them, and some file systems refuse to name them (linkat).
 //
-// Of a file system no more is asked than to create, write and rename. Where it has no locks, what a
-// killed writer left stays; where it cannot flush (fsync: EINVAL, ENOSYS, ENOTSUP), that is left to
-// the system; where it has no permissions to set, a file that replaces another takes what it is
-// given, unless that would let more people at it.
+// A file system needs only to create, write and rename. Without locks, leftovers of a killed writer
+// stay; without flushing (fsync: EINVAL, ENOSYS, ENOTSUP), the system decides when to write;
+// without permissions to set, a file that replaces another takes those that it is given, unless
+// they would let more people at it.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,8 @@
 
 namespace lumen::formats {
 
-/// What follows is the process id, a hyphen, a number, and for a file the ending of its target.
+/// Prefix of hidden names. The process id, a hyphen, a number, and the ending of a target file
+/// follow.
 inline constexpr std::string_view kTemporaryPrefix = ".lumen-";
 
 /// The system calls that make a file appear, as their manual pages have them. Tests pass others, to
@@ -48,12 +49,11 @@ struct FileCalls {
 const FileCalls& systemCalls();
 
 /// Writes `bytes` to a new file beside `file`, flushes it to disk and renames it over `file`. The
-/// old file is untouched unless all of that succeeds; its permissions are kept, and a new file gets
+/// old file is untouched unless every step succeeds; its permissions are kept, and a new file gets
 /// those of any newly created one. A symbolic link is followed, so the file that it leads to is
 /// replaced. A directory or device is refused: IO_NOT_A_FILE; anything else that fails: IO_WRITE.
-Status writeFileAtomically(std::span<const std::byte> bytes,
-                                   const std::filesystem::path& file,
-                                   const FileCalls& calls = systemCalls());
+Status writeFileAtomically(std::span<const std::byte> bytes, const std::filesystem::path& file,
+                           const FileCalls& calls = systemCalls());
 
 /// A hidden, empty file or folder that this process holds a lock on and removes at its end.
 class HiddenSibling {
@@ -65,7 +65,7 @@ public:
   ~HiddenSibling();
   [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
   [[nodiscard]] int descriptor() const { return m_descriptor.get(); }
-  /// It has another name now, under which it stays.
+  /// Keeps the file or folder, which has another name now.
   void release() { m_path.clear(); }
 
 private:
@@ -76,14 +76,14 @@ private:
 /// A file for a library that writes by name. It replaces its target as writeFileAtomically() does.
 class PendingFile {
 public:
-  /// Refuses what writeFileAtomically() refuses.
+  /// Refuses the same targets as writeFileAtomically().
   static Expected<PendingFile> beside(const std::filesystem::path& file,
                                       const FileCalls& calls = systemCalls());
-  /// Where to write: an empty file, whose name ends like that of its target (".nii.gz").
+  /// Path to write to: an empty file, whose name ends like that of its target (".nii.gz").
   [[nodiscard]] const std::filesystem::path& path() const { return m_sibling.path(); }
-  /// Of the empty file, for writing.
+  /// Descriptor of the empty file, for writing.
   [[nodiscard]] int descriptor() const { return m_sibling.descriptor(); }
-  /// The file is complete: flushes it and puts it in its place. Once only.
+  /// Flushes the complete file and puts it in its place. Called once only.
   Status commit();
 
 private:
@@ -100,19 +100,20 @@ private:
 /// A folder of files that belong together.
 class PendingFolder {
 public:
-  /// What to do about a folder of that name that is not empty.
+  /// Treatment of a target folder that is not empty.
   enum class Existing : std::uint8_t { Refuse, Replace };
 
-  /// Refuses a target that exists and is no folder, and any full one with Existing::Refuse.
+  /// Refuses a target that is no folder, and with Existing::Refuse one that is not empty.
   static Expected<PendingFolder> beside(const std::filesystem::path& folder, Existing existing,
                                         const FileCalls& calls = systemCalls());
-  /// Where to write: an empty folder.
+  /// Path to write to: an empty folder.
   [[nodiscard]] const std::filesystem::path& path() const { return m_sibling.path(); }
-  /// How a folder gets to the disk: each file and folder by itself, or by one call for its whole file system, which also
-  /// waits for what others write, but not longer for a hundred thousand files than for one.
+  /// Method of flushing a folder to disk: each file and folder by itself, or one call for its whole
+  /// file system, which also waits for other programs' data, but not longer for a hundred thousand
+  /// files than for one.
   enum class Flush : std::uint8_t { Each, System };
-  /// The folder is complete: flushes all in it and puts it in its place. Once only. A folder that
-  /// it replaces changes places with it in one step and is removed then; where the kernel or the
+  /// Flushes the complete folder and puts it in its place. Called once only. A folder that it
+  /// replaces changes places with it in one step and is removed then; where the kernel or the
   /// file system cannot do that (RENAME_EXCHANGE), the old folder first becomes NAME.lumen-old, so
   /// for an instant, or after a power cut in it, NAME does not exist.
   Status commit(Flush how = Flush::Each);
@@ -132,13 +133,13 @@ private:
   std::reference_wrapper<const FileCalls> m_calls;
 };
 
-/// Whether a file or folder of this name is one that a writer has not put in its place.
+/// Whether this is the name of a file or folder that a writer has not put in its place.
 bool isTemporaryName(std::string_view name);
 
 enum class Temporaries : std::uint8_t { Abandoned, AbandonedAndOwn };
 
-/// Removes from `folder` what killed writers left there; with AbandonedAndOwn also what this
-/// process is writing. Failures are ignored: the next write tries again.
+/// Removes leftovers of killed writers from `folder`; with AbandonedAndOwn also the unfinished
+/// files and folders of this process. Failures are ignored: the next write tries again.
 void removeTemporaries(const std::filesystem::path& folder, Temporaries which);
 
 }  // namespace lumen::formats

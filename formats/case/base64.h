@@ -13,7 +13,8 @@ namespace lumen::formats {
 
 std::string base64(std::span<const std::byte> bytes);
 
-/// Nothing for any other text. Unused bits must be zero, so that bytes have exactly one text.
+/// The bytes of a text; nothing if it is not base64. Unused bits must be zero, so that bytes have
+/// exactly one text.
 std::optional<std::vector<std::byte>> fromBase64(std::string_view text);
 
 }  // namespace lumen::formats

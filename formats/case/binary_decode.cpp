@@ -27,7 +27,7 @@ std::vector<Vec3f> copied(std::span<const ViewVector> values) {
   return result;
 }
 
-// The chunks' bytes once decoded; it owns what is not in the file itself.
+// The decoded bytes of chunks; owns those that are not in the file itself.
 class DecodedChunks {
 public:
   DecodedChunks(CaseChunks& chunks, IssueList& issues) : m_issues(issues) {
@@ -131,7 +131,7 @@ Case caseOf(const CaseView& view, const CaseChunks& chunks, MetadataDocument&& d
   return value;
 }
 
-// The byte at which the value of a node array is.
+// The byte offset of a value of a node array.
 std::optional<std::uint64_t> nodeArrayOffset(const std::string& pointer, const Case& value,
                                              const CaseChunks& chunks) {
   for (std::size_t i = 0; i < value.nodeArrays.size() && i < chunks.nodeArrays.size(); ++i) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary encoding, `.lumen`: from bytes to a case. See spec/lumen.md, "Container" and what
-// follows.
+// The binary encoding, `.lumen`: from bytes to a case. See spec/lumen.md, from "Container" on.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@ namespace lumen::formats {
 /// that start with "x-" are dropped.
 Expected<Case> decodeBinary(std::span<const std::byte> bytes);
 
-/// The same with all that is wrong; nothing is returned after an error.
+/// Decodes a case and adds every issue to `issues`; nothing is returned after an error.
 std::optional<Case> decodeBinary(std::span<const std::byte> bytes, IssueList& issues);
 
 }  // namespace lumen::formats

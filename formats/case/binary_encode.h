@@ -19,7 +19,7 @@ struct EncodeOptions {
 /// must pass validate(). With options the bytes depend on the versions of zstd and Draco too.
 std::vector<std::byte> encodeBinary(const Case& value, const EncodeOptions& options = {});
 
-/// Rounds the wall points as encodeBinary() with these bits does, and says so in the metadata.
+/// Rounds the wall points as encodeBinary() with these bits does, and records it in the metadata.
 /// Nothing happens to a case without points. Throws std::invalid_argument unless bits are 1 to 30.
 void quantisePoints(Case& value, int bits);
 

@@ -17,7 +17,7 @@ using field::repeatableLog;
 /// phi and its first three derivatives with respect to x = r^2 (r in units of the width), x >= 0.
 using KernelValue = field::KernelChain<double>;
 
-/// At the edge of a compact kernel (x = 1) the outer value, zero, is given.
+/// phi and its derivatives at x; at the edge of a compact kernel (x = 1) the outer value, zero.
 KernelValue evaluateKernel(Kernel kernel, double parameter, double x);
 
 /// The kernel's usual parameter; 0 for the kernels without one.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The canonical model: what a converter reads or writes, whatever the file format.
+// The canonical model that converters read and write, whatever the file format.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct Vec3f {
 
 enum class BranchKind : std::uint8_t { Vessel = 0, Aneurysm = 1 };
 
-/// Why tracking of a branch ended. Values are stored in files: append only.
+/// Reason why tracking of a branch ended. Values are stored in files: append only.
 enum class StopReason : std::uint8_t {
   Unknown = 0,          ///< not recorded, or the branch was not tracked from a volume
   NoValidCylinder = 1,  ///< no cylinder reached half of the accepting inlier rate
@@ -42,7 +42,7 @@ constexpr std::int32_t kNoParent = -1;
 struct Branch {
   std::string label;  ///< unique in its case, UTF-8
   BranchKind kind = BranchKind::Vessel;
-  std::int32_t parentNode = kNoParent;  ///< node that the first node hangs on; kNoParent for a root
+  std::int32_t parentNode = kNoParent;  ///< parent of the first node; kNoParent for a root
   std::uint32_t firstNode = 0;
   std::uint32_t nodeCount = 0;
   StopReason stopReason = StopReason::Unknown;
@@ -110,27 +110,27 @@ struct Step {
   friend bool operator==(const Step&, const Step&) = default;
 };
 
-/// How wall points were rounded: to multiples of `step` from a corner of their bounding box.
+/// Rounding of wall points: to multiples of `step` from a corner of their bounding box.
 struct PointQuantisation {
   std::int32_t bits = 0;  ///< 1 to 30
   double step = 0;        ///< mm, > 0
   friend bool operator==(const PointQuantisation&, const PointQuantisation&) = default;
 };
 
-/// There is deliberately no field for a person, a date or a path.
+/// Provenance of a case. It deliberately has no field for a person, a date or a path.
 struct Metadata {
   std::optional<double> voxelSize;  ///< mm: geometric mean of the spacing of the source volume
   std::optional<SourceVolume> source;
-  std::string parentSha256;  ///< of the case file that this one was made from; empty if none
+  std::string parentSha256;  ///< digest of the case file that this one was made from, or empty
   std::optional<PointQuantisation> pointQuantisation;  ///< absent if the points are as measured
   std::string note;                                    ///< for people, UTF-8
   std::vector<std::string> extensionsUsed;
-  std::vector<std::string> extensionsRequired;  ///< a part of those used
+  std::vector<std::string> extensionsRequired;  ///< a subset of extensionsUsed
   std::vector<Step> steps;                      ///< oldest first
   friend bool operator==(const Metadata&, const Metadata&) = default;
 };
 
-/// Values of an extension for every node: `components` after another for each node.
+/// Values of an extension: `components` consecutive numbers for each node.
 struct NodeArray {
   std::string name;  ///< EXTENSION.name
   std::uint32_t components = 1;

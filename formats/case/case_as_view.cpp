@@ -16,8 +16,8 @@ std::span<const ViewVector> vectors(const std::vector<Vec3f>& values) {
   return {reinterpret_cast<const ViewVector*>(values.data()), values.size()};
 }
 
-// A rate of exactly -1 is illegal, but in a record it means that there is none. It is moved to the
-// float below, which is illegal too, so that the check finds it.
+// A rate of exactly -1 is illegal, but in a record it means "no rate". It is moved to the next
+// lower float, which is illegal too, so that the check finds it.
 float storedRate(const Branch& branch) {
   const float rate = branch.meanInlierRate.value_or(kNoRate) + 0.0f;
   return branch.meanInlierRate && rate == kNoRate ? std::nextafter(rate, -2.0f) : rate;

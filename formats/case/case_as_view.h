@@ -11,8 +11,8 @@
 
 namespace lumen::formats {
 
-/// A view of a case, with the branch records that the view points to. The case must outlive it. Not
-/// to be copied or moved.
+/// A view of a case, with the branch records that the view points to. The case must outlive it. A
+/// view cannot be copied or moved.
 class CaseAsView {
 public:
   explicit CaseAsView(const Case& value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case's nodes and models as formats/field takes them. The views hold nothing; the case must
-// stay.
+// A case's nodes and models as formats/field takes them. The views own nothing; the case must
+// outlive them.
 #pragma once
 
 #include "formats/case/case.h"

@@ -29,7 +29,7 @@ bool startsLikeJson(std::string_view text) {
          (text[first] == '{' || text.starts_with("\xef\xbb\xbf"));
 }
 
-// Damaged signatures too: the decoder says what is wrong with them.
+// Includes damaged signatures, whose faults the decoder reports.
 bool startsLikeContainer(std::string_view text) {
   return text.starts_with("\x8c") || text.substr(0, 8).find("LUMEN") != std::string_view::npos;
 }
@@ -83,7 +83,7 @@ Expected<Case> readCaseFile(const fs::path& file) {
 }
 
 Status writeCaseFile(const Case& value, const fs::path& file, CaseEncoding encoding,
-                             const EncodeOptions& options) {
+                     const EncodeOptions& options) {
   if (const auto valid = validate(value); !valid) {
     Issue error = valid.error();
     error.message = "the case is not valid and is not written: " + error.message;

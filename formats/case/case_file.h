@@ -19,7 +19,7 @@
 
 namespace lumen::formats {
 
-/// The case in bytes of either encoding, chosen by the first of them.
+/// Decodes a case of either encoding, which the first bytes determine.
 Expected<Case> decodeCase(std::span<const std::byte> bytes);
 
 /// The whole of a regular file that is not empty.
@@ -30,23 +30,23 @@ Expected<Case> readCaseFile(const std::filesystem::path& file);
 
 enum class CaseEncoding : std::uint8_t { Binary, Json };
 
-/// Validates, then writes atomically; JSON takes of the options only the points' rounding.
-Status writeCaseFile(const Case& value, const std::filesystem::path& file,
-                             CaseEncoding encoding, const EncodeOptions& options = {});
-/// The same: JSON if the name ends in ".json", binary otherwise.
+/// Validates, then writes atomically; JSON uses only the points' rounding among the options.
+Status writeCaseFile(const Case& value, const std::filesystem::path& file, CaseEncoding encoding,
+                     const EncodeOptions& options = {});
+/// Validates, then writes atomically: JSON if the name ends in ".json", binary otherwise.
 Status writeCaseFile(const Case& value, const std::filesystem::path& file);
 
 constexpr std::size_t kDefaultMaxIssues = 100;
 
 struct ValidationReport {
-  std::vector<Issue> issues;  ///< at most as many as were asked for, errors first
-  IssueCounts counts;         ///< of all, listed or not
+  std::vector<Issue> issues;  ///< at most `maxIssues`, errors first
+  IssueCounts counts;         ///< all issues, listed or not
   [[nodiscard]] bool valid() const { return counts.errors == 0; }
   [[nodiscard]] std::size_t unlisted() const { return counts.total() - issues.size(); }
 };
 
-/// All that is wrong, or worth a warning, in bytes of either encoding. What cannot be understood
-/// hides what depends on it: of a text that is not JSON, only the first fault is known.
+/// All errors and warnings in bytes of either encoding. A part that cannot be understood hides the
+/// faults of those that depend on it: a text that is not JSON gives only its first fault.
 ValidationReport validateBytes(std::span<const std::byte> bytes,
                                std::size_t maxIssues = kDefaultMaxIssues);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int kLevel = 9;
 constexpr std::uint32_t kFrameMagic = 0xfd2fb528u;
 
-// One frame that fills the bytes: the library alone would take several, and those of old formats.
+// Whether one frame fills the bytes: the library itself accepts several, and frames of old formats.
 bool isOneFrame(std::span<const std::byte> bytes) {
   return bytes.size() >= 4 && loadLittle<std::uint32_t>(bytes.data()) == kFrameMagic &&
          ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) == bytes.size();

@@ -26,8 +26,8 @@ struct QuantisedPoints {
 /// if the box is too large for a float.
 std::optional<QuantisedPoints> quantise(std::span<const Vec3f> points, int bits);
 
-/// The bytes that an encoded chunk stands for, or nothing, with an issue. Asks for memory in
-/// proportion to the chunk's raw size, which readContainer() has bounded by the stored one.
+/// The decoded bytes of a chunk, or nothing, with an issue. Allocates memory in proportion to the
+/// chunk's raw size, which readContainer() has bounded by the stored one.
 std::optional<std::vector<std::byte>> decodeChunk(const Chunk& chunk, IssueList& issues);
 
 }  // namespace lumen::formats

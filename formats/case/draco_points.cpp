@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kPointSize = 12;
 
-// The head of the bitstream, which says how much the library will ask for. Only one attribute of
-// three floats passes, so that is what the stated raw size allows.
+// Checks the head of the bitstream, which determines how much memory the library allocates. Only
+// one attribute of three floats passes, so the memory is what the stated raw size allows.
 bool hasLegalHead(std::span<const std::byte> bytes, std::uint64_t points) {
   constexpr std::array<char, 5> kName = {'D', 'R', 'A', 'C', 'O'};
   ByteCursor cursor(bytes);
@@ -79,7 +79,7 @@ std::vector<std::byte> encodeDraco(std::span<const Vec3f> points, const Quantisa
   encoder.SetEncodingMethod(draco::POINT_CLOUD_SEQUENTIAL_ENCODING);
   encoder.SetSpeedOptions(3, 3);
   // the library counts symbols in a table of up to 2^(bits + 1) entries, however few points there
-  // are; beyond 24 bits, those of an f32's significand, there is nothing to gain from that
+  // are; beyond 24 bits, the size of an f32's significand, the table gains nothing
   encoder.SetUseBuiltInAttributeCompression(bits <= 24);
   const std::array<float, 3> origin = {box.origin.x, box.origin.y, box.origin.z};
   encoder.SetAttributeExplicitQuantization(id, bits, 3, origin.data(), box.range);

@@ -11,13 +11,13 @@
 
 namespace lumen::formats {
 
-/// Where quantised coordinates start and what the greatest of them stands for, mm.
+/// Origin of quantised coordinates, and length that the greatest of them stands for, mm.
 struct QuantisationBox {
   Vec3f origin;
   float range = 1;  ///< the longest edge of the points' bounding box; > 0
 };
 
-/// Of finite points; nothing if they are too far apart for a float.
+/// The box of finite points; nothing if they are too far apart for a float.
 std::optional<QuantisationBox> quantisationBox(std::span<const Vec3f> points);
 
 /// A point cloud in the points' order; 1 to 30 bits per coordinate.

@@ -20,7 +20,7 @@ inline constexpr std::array<std::string_view, 7> kStopReasonNames = {
 static_assert(kBranchKindNames.size() == kBranchKindCount);
 static_assert(kStopReasonNames.size() == kStopReasonCount);
 using field::kKernelNames;
-/// In the order of the variant in NodeArray.
+/// Names of the value types of node arrays, in the order of the variant in NodeArray.
 inline constexpr std::array<std::string_view, 3> kArrayTypeNames = {"f32", "i32", "u32"};
 
 /// The value whose name is `name`.

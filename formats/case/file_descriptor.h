@@ -39,17 +39,19 @@ private:
   int m_descriptor;
 };
 
-/// Opens a file or folder for reading, without waiting for the writer of a pipe; `flags` of open(2) are added. Not open,
-/// with errno set, where that fails.
+/// Opens a file or folder for reading, without waiting for the writer of a pipe; `flags` of open(2)
+/// are added. On failure the result is not open, and errno is set.
 FileDescriptor openForReading(const std::filesystem::path& file, int flags = 0);
 
-/// Fills `bytes` from an open file and gives the number of bytes: fewer at its end, -1 with errno set for a failure.
+/// Fills `bytes` from an open file and returns the number of bytes: fewer at the end of the file,
+/// -1 with errno set on failure.
 std::ptrdiff_t readInto(std::span<std::byte> bytes, int descriptor);
 
-/// Writes all of `bytes` to an open file; false, with errno set, for a failure.
+/// Writes all of `bytes` to an open file; false, with errno set, on failure.
 bool writeAll(std::span<const std::byte> bytes, int descriptor);
 
-/// Flushes the file system of a folder to the disk; false, with errno set, for a failure or where no such call exists.
+/// Flushes the file system of a folder to disk; false, with errno set, on failure or where no such
+/// call exists.
 bool flushFileSystem(int folder);
 
 }  // namespace lumen::formats

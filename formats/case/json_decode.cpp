@@ -15,7 +15,7 @@
 namespace lumen::formats {
 namespace {
 
-// The parts that a text may have or not, while it is read.
+// The parts of a case while its text is read; some may be absent.
 struct Parts {
   Case value;
   PointSets points;
@@ -76,7 +76,7 @@ void readTree(JsonValue value, const ArraySlots& slots, CenterlineTree& tree,
                 {"/tree/centre", "/tree/direction", "/tree/radius", "/tree/height", "/tree/parent",
                  "/tree/branch"},
                 state);
-  // an empty array would be taken for none
+  // an empty array would count as absent
   if (slots.byPointer.find("/tree/inlierRate")->second.seen && tree.inlierRate.empty())
     state.fail(ErrorCode::ArrayLength, "/tree/inlierRate", "found 0 entries, expected one per node",
                {{"found", "0"}});
@@ -110,7 +110,7 @@ std::optional<FormatVersion> parseVersion(std::string_view text) {
   return version;
 }
 
-// False if the rest of the text cannot be understood.
+// Reads the version; false if the rest of the text cannot be understood.
 bool readVersion(JsonFields& fields, JsonReadState& state) {
   const std::string stated = fields.text("version");
   const std::string readerText = fields.text("minimumReader");

@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 using PairArray = std::vector<std::array<std::uint32_t, 2>>*;
 
-// Builds the values; where it returns false, m_error says why.
+// Builds the values; m_error holds the reason where a function returns false.
 class DocumentBuilder final : public JsonEvents {
 public:
   DocumentBuilder(std::size_t byteOffset, const std::string& root, ArraySlots& slots)
@@ -85,8 +85,8 @@ private:
   // An open object or array.
   struct Level {
     json* value;
-    std::string key;             // of the member being read, in an object
-    std::set<std::string> keys;  // so far, in an object
+    std::string key;             // key of the member being read, in an object
+    std::set<std::string> keys;  // keys so far, in an object
   };
 
   // The pointer to the value being read. The innermost array does not hold it yet, so its index is
@@ -123,7 +123,7 @@ private:
     return found == m_slots.byPointer.end() ? nullptr : &found->second;
   }
 
-  // How many numbers an element of the long array has; 0 if they are not in arrays of their own.
+  // Numbers per element of the long array; 0 if elements are no arrays of their own.
   [[nodiscard]] int vectorSize() const {
     if (std::holds_alternative<std::vector<Vec3f>*>(*m_array)) return 3;
     return std::holds_alternative<PairArray>(*m_array) ? 2 : 0;
@@ -172,7 +172,7 @@ private:
     return true;
   }
 
-  // A number may come next in an array of arrays.
+  // Whether a number may come next in an array of arrays.
   bool checkComponent() {
     if (m_component >= 0 && m_component < vectorSize()) return true;
     return wrongType("a number", "arrays of " + std::to_string(vectorSize()));
@@ -264,8 +264,8 @@ private:
   std::vector<Level> m_levels;
   ArraySlot m_nodeArray{};             // the slot of the node array being read
   std::optional<NumberArray> m_array;  // the long array being read
-  std::size_t m_index = 0;             // of the element being read in it
-  int m_component = -1;                // of the vector being read in it; -1 outside of one
+  std::size_t m_index = 0;             // index of the element being read in it
+  int m_component = -1;                // component of the vector being read; -1 outside of one
   std::optional<Issue> m_error;
 };
 
@@ -275,7 +275,7 @@ void NumberTexts::add(std::string_view text, bool whole) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto single = floatFromText(text);
   double value = doubleFromText(text).value_or(text.starts_with('-') ? -kInfinity : kInfinity);
-  // rounded to a double first, it would become another f32
+  // rounding to a double first would give another f32
   if (floatFromDouble(value) != single)
     value = single ? static_cast<double>(*single) : std::copysign(kInfinity, value);
   if (!whole && !firstReal) firstReal = values.size();

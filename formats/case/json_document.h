@@ -19,10 +19,10 @@
 namespace lumen::formats {
 
 /// Numbers whose type is not known yet. They are kept as doubles, from which an f32 and an integer
-/// of 32 bits are had exactly.
+/// of 32 bits follow exactly.
 struct NumberTexts {
   std::vector<double> values;
-  std::optional<std::size_t> firstReal;  ///< of those with a point or an exponent
+  std::optional<std::size_t> firstReal;  ///< index of the first value with a point or an exponent
   void add(std::string_view text, bool whole);
 };
 
@@ -43,14 +43,14 @@ struct ArraySlots {
   std::map<std::string, NumberTexts, std::less<>> nodeArrays;
 };
 
-/// Parses strict JSON (json_text.h) without duplicate keys in an object, at most kMaxJsonDepth levels
-/// deep. Arrays named in `slots` are filled and left out of the returned value; all other numbers
-/// are legal whatever their size. Nothing is returned after an error. Errors of syntax are placed
-/// from `byteOffset` on, others by JSON pointer after `root`.
+/// Parses strict JSON (json_text.h) without duplicate keys in an object, at most kMaxJsonDepth
+/// levels deep. Arrays named in `slots` are filled and left out of the returned value; all other
+/// numbers are legal whatever their size. Nothing is returned after an error. Errors of syntax are
+/// placed from `byteOffset` on, others by JSON pointer after `root`.
 std::optional<JsonDocument> parseJson(std::string_view text, std::size_t byteOffset,
                                       const std::string& root, ArraySlots& slots,
                                       IssueList& issues);
-/// Parses a text without long arrays as the function above does.
+/// Parses strict JSON without long arrays; all else is as in the overload with slots.
 std::optional<JsonDocument> parseJson(std::string_view text, std::size_t byteOffset,
                                       const std::string& root, IssueList& issues);
 

@@ -51,9 +51,9 @@ class JsonFields {
 public:
   JsonFields(JsonValue value, std::string place, JsonReadState& state);
 
-  /// The member; the key is known from then on.
+  /// The member at `key`, which is known from then on.
   std::optional<JsonValue> find(std::string_view key);
-  /// The member; JSON_KEY_MISSING without it.
+  /// The member at `key`; JSON_KEY_MISSING without it.
   std::optional<JsonValue> require(std::string_view key);
 
   double real(std::string_view key);

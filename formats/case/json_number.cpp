@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// Halfway between the largest float and what would follow it; from here on, numbers round beyond.
+// Halfway between the largest float and the next power of two; from here on, numbers round beyond.
 constexpr double kBeyondFloat = 0x1.ffffffp127;
 
 // Whether a number that is out of range is too large rather than too small: the power of ten of its
@@ -28,7 +28,7 @@ bool isTooLarge(std::string_view text) {
   const bool isNegative = text.substr(exponentAt + 1).starts_with('-');
   std::string_view rest = text.substr(exponentAt + 1);
   if (rest.starts_with('-') || rest.starts_with('+')) rest.remove_prefix(1);
-  // beyond this, digits in front cannot make up for it: a text is shorter
+  // beyond this, digits in front cannot compensate: a text is shorter
   constexpr std::int64_t kHuge = std::int64_t{1} << 60;
   std::int64_t exponent = 0;
   if (std::from_chars(rest.data(), rest.data() + rest.size(), exponent).ec != std::errc{})

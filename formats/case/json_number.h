@@ -44,7 +44,7 @@ public:
   /// The nearest real, rounded once; nothing beyond the largest.
   [[nodiscard]] std::optional<double> asDouble() const;
   [[nodiscard]] std::optional<float> asFloat() const;
-  /// Nothing for a number with a point or an exponent, and for one that the type does not hold.
+  /// The integer; nothing for a number with a point or an exponent, or one outside of the type.
   template <class Integer>
   [[nodiscard]] std::optional<Integer> asInteger() const {
     if (const auto* text = std::get_if<std::string_view>(&m_value))

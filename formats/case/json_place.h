@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one way to read the values of JSON texts that somebody else wrote.
+// The only interface to values of JSON texts that other programs or people wrote.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ protected:
   ~JsonFaults() = default;
 };
 
-/// A value and where it stands. `expected` completes "expected ..." of a fault. The document and
-/// the receiver must outlive the place.
+/// A value and its place. `expected` completes "expected ..." of a fault. The document and the
+/// receiver must outlive the place.
 class JsonPlace {
 public:
   JsonPlace(JsonValue value, JsonFaults& faults, std::string pointer = {})
@@ -61,9 +61,9 @@ public:
   [[nodiscard]] double real(const std::string& expected = "a number") const;
   [[nodiscard]] float single() const;
   [[nodiscard]] bool boolean(const std::string& expected = "a boolean") const;
-  /// Null after a fault.
+  /// The string; null after a fault.
   [[nodiscard]] const std::string* text(const std::string& expected = "a string") const;
-  /// An array of exactly these numbers; `expected` is for an array of another size.
+  /// Fills `to` from an array of the same size; `expected` describes it in the fault of another.
   void reals(std::span<double> to, const std::string& expected) const;
 
   /// An integer of this type. Without `expected`, faults state its range.

@@ -142,7 +142,7 @@ private:
     return m_events.number(m_text.substr(start, m_at - start), whole);
   }
 
-  // A text in quotes, to m_string.
+  // Reads a text in quotes to m_string.
   bool text() {
     m_string.clear();
     ++m_at;
@@ -188,7 +188,7 @@ private:
     return true;
   }
 
-  // The four digits after \u, or kNoEscape.
+  // Reads the four digits after \u; kNoEscape without them.
   std::uint32_t unicodeEscape() {
     if (!take('u') || m_text.size() - m_at < 4) return kNoEscape;
     std::uint32_t point = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON text (RFC 8259) as a sequence of events. Numbers come as they are written, because what they
-// are depends on their field; places are those of the first byte that cannot be right.
+// JSON text (RFC 8259) as a sequence of events. Numbers are passed as text, because their type
+// depends on their field; the place of a fault is the first byte that cannot be right.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace lumen::formats {
 
-/// Receives what a text has, in its order. Reading ends when a function returns false.
+/// Receives the values, keys and brackets of a text in their order. Reading ends when a function
+/// returns false.
 class JsonEvents {
 public:
   JsonEvents() = default;
@@ -31,14 +32,14 @@ protected:
   ~JsonEvents() = default;
 };
 
-/// Why a text is not JSON, and the byte from which on it cannot be.
+/// The reason why a text is not JSON, and the first byte that no JSON text could have there.
 struct JsonFault {
   std::size_t at = 0;
   std::string message;  ///< "line 2, column 7: found "}", expected a value"; not yet printable
 };
 
-/// Nothing if the whole text was read, or if `events` ended it. Strict: UTF-8, no byte order mark,
-/// no comment. The depth of nesting is for `events` to limit.
+/// The fault of a text; nothing if the whole text was read, or if `events` ended it. Strict: UTF-8,
+/// no byte order mark, no comment. The depth of nesting is limited by `events`.
 std::optional<JsonFault> readJsonText(std::string_view text, JsonEvents& events);
 
 }  // namespace lumen::formats

@@ -29,7 +29,7 @@ public:
   [[nodiscard]] bool isArray() const;
   [[nodiscard]] bool isObject() const;
 
-  /// Nothing, or null, for a value of another kind.
+  /// The value as a type of C++; nothing, or null, for a value of another kind.
   [[nodiscard]] std::optional<bool> boolean() const;
   [[nodiscard]] std::optional<JsonNumber> number() const;
   [[nodiscard]] const std::string* text() const;

@@ -70,7 +70,7 @@ void JsonWriter::breakLine() {
   m_text.append(2 * m_levels.size(), ' ');
 }
 
-// Writes what separates this value or key from the one before.
+// Writes the separator between this value or key and the previous one.
 void JsonWriter::separate() {
   if (m_afterKey || m_levels.empty()) {
     m_afterKey = false;

@@ -18,8 +18,8 @@ namespace lumen::formats {
 enum class JsonStyle { Compact, Readable };
 
 /// Numbers are the shortest text that reads back the same. A double always has a '.' or an
-/// exponent, which tells it from an integer; a float in an array need not. Negative zero is written
-/// as zero.
+/// exponent, which distinguishes it from an integer; a float in an array need not. Negative zero is
+/// written as zero.
 /// The caller keeps to JSON's grammar; texts must be UTF-8 and numbers finite.
 class JsonWriter {
 public:

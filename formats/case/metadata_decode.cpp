@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From JSON to metadata; declared in metadata_json.h.
+// Metadata from JSON; declared in metadata_json.h.
 #include "formats/case/json_document.h"
 #include "formats/case/metadata_json.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the nodes of a tree come from: the node array LUMEN_node.origin (spec/lumen.md, extensions).
+// Origins of the nodes of a tree: the node array LUMEN_node.origin (spec/lumen.md, extensions).
 #pragma once
 
 #include <cstddef>
@@ -24,15 +24,15 @@ constexpr std::size_t kNodeOriginCount = 3;
 constexpr const char* kOriginExtension = "LUMEN_node";
 constexpr const char* kOriginArray = "LUMEN_node.origin";
 
-/// The first fault of a node array of that name: its components, its type, or a value. `place` is that
-/// of its description. Empty if there is none, and for any other array.
+/// The first fault of a node array LUMEN_node.origin: its components, its type, or a value. `place`
+/// is the place of its description. Empty if there is none, and for any other array.
 std::optional<Issue> originFault(const NodeArray& array, const std::string& place);
 
-/// One value for each node of a valid case; all measured if it does not say.
+/// One value for each node of a valid case; all are measured if the case has no such array.
 std::vector<NodeOrigin> nodeOriginsOf(const Case& value);
 
-/// Replaces the array of a case and lists its extension; removes both if all nodes are measured. One
-/// value for each node.
+/// Replaces the node array of a case by `origins`, one value for each node, and lists its
+/// extension; removes both if all nodes are measured.
 void setNodeOrigins(Case& value, const std::vector<NodeOrigin>& origins);
 
 }  // namespace lumen::formats

@@ -10,10 +10,10 @@
 namespace lumen::formats {
 namespace {
 
-/// Of the lesser radius: the length of a step. A wall is as thick as a blob is wide, so none fits
-/// between two steps.
+/// Length of a step, as a share of the lesser radius. A wall is as thick as a blob is wide, so none
+/// fits between two steps.
 constexpr double kStep = 0.125;
-/// Along one edge: bounds the work where an edge is long and thin beyond reason.
+/// Steps along one edge: bounds the work where an edge is long and thin beyond reason.
 constexpr double kMostSteps = 512;
 
 field::Vec centreOf(const CenterlineTree& tree, std::uint32_t node) {
@@ -21,20 +21,20 @@ field::Vec centreOf(const CenterlineTree& tree, std::uint32_t node) {
   return {double{c.x}, double{c.y}, double{c.z}};
 }
 
-/// A point that is pushed, and its cursor.
+/// A pushed point and its cursor.
 class Pushed {
 public:
   Pushed(const CenterlineTree& tree, const field::BlendedField& field, const TellClosedPlace& tell)
       : m_tree(tree), m_field(field), m_tell(tell) {}
 
-  /// Starts at a node's own centre.
+  /// Puts the point at a node's own centre.
   void put(std::uint32_t node) {
     m_cursor = node;
     moveTo(centreOf(m_tree, node));
   }
 
-  /// Along the edge that leads to a node, the cursor being that of the node's parent. True if the
-  /// point was inside all the way.
+  /// Pushes the point along the edge that leads to a node, with the cursor of the node's parent.
+  /// True if the point stayed inside.
   bool along(std::uint32_t node, std::uint32_t cursor) {
     const auto parent = static_cast<std::uint32_t>(m_tree.parent[node]);
     const field::Vec from = centreOf(m_tree, parent), to = centreOf(m_tree, node);
@@ -95,7 +95,7 @@ Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedFiel
                             const std::function<void()>& check) {
   Reachability result;
   std::vector<std::optional<std::size_t>> barrier(
-      tree.nodeCount());            // what keeps a node from a root
+      tree.nodeCount());            // the barrier between a node and its root
   std::vector<ClosedPlace> closed;  // in node order
   findClosedPlaces(
       tree, field,

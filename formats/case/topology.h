@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walking a centerline tree. Edges as the format has them: field::edgesOf() drops what is stated twice.
+// Walks on a centerline tree. Edges are those of the format; field::edgesOf() drops duplicates.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,11 @@ private:
   std::vector<std::uint32_t> m_offset, m_node;
 };
 
-/// Length of the edge from a node's parent, mm: of a branch's first node, what lies outside of the
+/// Length of the edge from a node's parent, mm; for a branch's first node, the part outside of the
 /// parent's ball; zero without a parent.
 double edgeLength(const CenterlineTree& tree, std::uint32_t node);
 
-/// Length of a branch, mm: of all its nodes' edges.
+/// Length of a branch, mm: the sum over the edges of all its nodes.
 double branchLength(const CenterlineTree& tree, const Branch& branch);
 
 }  // namespace lumen::formats

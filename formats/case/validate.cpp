@@ -39,7 +39,7 @@ void checkOtherChunks(const std::vector<OtherChunk>& chunks, IssueList& issues) 
                               {{"chunk", chunks[i].type.substr(0, 4)}}));
 }
 
-// A record holds sizes up to 65535; a label beyond has no record, and its true size is told here.
+// Reports the true size of labels beyond 65535 bytes, the greatest size that a record holds.
 bool checkLabelSizes(const std::vector<Branch>& branches, IssueList& issues) {
   bool right = true;
   for (std::size_t b = 0; b < branches.size() && !issues.done(); ++b)

@@ -7,14 +7,14 @@
 
 namespace lumen::formats {
 
-/// True, or the first rule of the format that `value` breaks (sizes, ranges, references,
+/// Success, or the first rule of the format that `value` breaks (sizes, ranges, references,
 /// finiteness, labels).
 Status validate(const Case& value);
 
-/// The rules of the model, the metadata, the node arrays and the chunks of others.
+/// Checks the rules of the model, the metadata, the node arrays and the other chunks.
 void checkCase(const Case& value, IssueList& issues);
 
-/// Drops the chunks of others that are wrong once nodes, points or models have changed.
+/// Drops the other chunks that are wrong once nodes, points or models have changed.
 void dropDependentChunks(Case& value);
 
 }  // namespace lumen::formats

@@ -204,7 +204,7 @@ Status checkEntry(const Entry& entry, std::uint64_t entryAt, bool strict) {
   return {};
 }
 
-// Gives the chunk of a checked entry its bytes. `end` is where the chunk before ends, padding
+// The chunk of a checked entry, with its bytes. `end` is the end of the previous chunk, padding
 // included; it moves to the end of this one.
 Expected<Chunk> locateChunk(Bytes bytes, const Entry& entry, std::uint64_t entryAt,
                             std::uint64_t& end) {
@@ -244,7 +244,7 @@ Expected<Chunk> locateChunk(Bytes bytes, const Entry& entry, std::uint64_t entry
   return chunk;
 }
 
-// Moves `end` over the zeros that fill the last line of 64 bytes.
+// Moves `end` over the zeros that fill the last 64-byte unit.
 Status skipPadding(Bytes bytes, Padding check, std::uint64_t& end) {
   const std::uint64_t next = alignUp(end);
   if (next > bytes.size())

@@ -20,13 +20,13 @@ struct FormatVersion {
   friend auto operator<=>(const FormatVersion&, const FormatVersion&) = default;
 };
 
-/// What this code writes, and the newest that it reads in full.
+/// Version that this code writes, and the newest that it reads in full.
 constexpr FormatVersion kFormatVersion{1, 1};
 
-/// The oldest reader that understands all that this code writes.
+/// Oldest reader that understands every file that this code writes.
 constexpr FormatVersion kMinimumReader{1, 0};
 
-/// Such as "1.1".
+/// Text of a version, such as "1.1".
 std::string versionText(FormatVersion version);
 
 /// Every chunk starts at a multiple of this, in bytes, and so may be used in place in a mapped
@@ -36,7 +36,7 @@ constexpr std::size_t kHeaderSize = 64;
 constexpr std::size_t kTableEntrySize = 64;
 constexpr std::size_t kMaxChunks = 4096;
 
-/// Four ASCII letters or digits, the first in the lowest byte.
+/// Type of a chunk: four ASCII letters or digits, the first in the lowest byte.
 using ChunkType = std::uint32_t;
 
 constexpr ChunkType chunkType(const char (&name)[5]) {
@@ -59,11 +59,11 @@ struct Chunk {
   std::uint16_t version = 0;
   bool critical = false;          ///< a reader that does not know the type must refuse the file
   bool independent = false;       ///< stays right when the nodes, points or models change
-  std::uint8_t encoding = 0;      ///< of `stored`; may be one that this code does not know
+  std::uint8_t encoding = 0;      ///< encoding of `stored`; possibly an unknown one
   std::uint32_t checksum = 0;     ///< CRC-32C of `stored`, not yet verified
-  std::uint64_t offset = 0;       ///< of `stored` in the file, bytes
+  std::uint64_t offset = 0;       ///< position of `stored` in the file, bytes
   std::uint64_t rawSize = 0;      ///< bytes once decoded
-  std::uint64_t entryOffset = 0;  ///< of its entry in the chunk table
+  std::uint64_t entryOffset = 0;  ///< position of its entry in the chunk table
   std::span<const std::byte> stored;
 };
 
@@ -79,17 +79,16 @@ struct Container {
 /// True if `bytes` start with the signature, whatever follows.
 bool hasContainerMagic(std::span<const std::byte> bytes);
 
-/// Whether the zeros behind each chunk are looked at; that touches a page of a mapped file per
+/// Whether the zeros behind each chunk are checked, which touches a page of a mapped file per
 /// chunk.
 enum class Padding : std::uint8_t { Check, Skip };
 
-/// Checks all that lies between the chunks: header, table, order, alignment and padding. The chunks
-/// themselves are verified by verifyChunk(). The number of chunks is the only thing that is
-/// allocated for.
+/// Checks everything but the bytes of chunks: header, table, order, alignment and padding. The
+/// chunks themselves are verified by verifyChunk(). Allocates only the list of chunks.
 Expected<Container> readContainer(std::span<const std::byte> bytes,
                                   Padding padding = Padding::Check);
 
-/// True, or CHUNK_CHECKSUM. Reads the whole chunk.
+/// Success, or CHUNK_CHECKSUM. Reads the whole chunk.
 Status verifyChunk(const Chunk& chunk);
 
 /// A chunk to be written.
@@ -100,7 +99,7 @@ struct ChunkSource {
   std::vector<std::byte> bytes{};  ///< as they are stored
   bool independent = false;
   std::uint8_t encoding = 0;
-  std::uint64_t rawSize = 0;  ///< of an encoded chunk
+  std::uint64_t rawSize = 0;  ///< decoded bytes of an encoded chunk
 };
 
 /// The file that holds `chunks` in that order. At most kMaxChunks.

@@ -14,7 +14,7 @@ namespace lumen::formats {
 /// piece, pass the result for the pieces before it.
 std::uint32_t crc32c(std::span<const std::byte> bytes, std::uint32_t previous = 0);
 
-/// The same by tables alone: what crc32c() uses on processors without an instruction for it.
+/// CRC-32C by tables alone, for processors without an instruction for it; crc32c() chooses.
 std::uint32_t crc32cByTables(std::span<const std::byte> bytes, std::uint32_t previous = 0);
 
 /// A checksum as it is shown: eight lower-case hexadecimal digits.

@@ -113,8 +113,8 @@ enum class Severity : std::uint8_t {
 struct ErrorRule {
   ErrorCode code;
   Severity severity;
-  const char* name;       ///< upper case: what messages, tests and other programs use
-  const char* arguments;  ///< their names, with a space between; not all need be given
+  const char* name;       ///< upper case; used by messages, tests and other programs
+  const char* arguments;  ///< names of arguments, separated by spaces; some may be absent
   const char* meaning;    ///< one phrase
 };
 

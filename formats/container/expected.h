@@ -30,8 +30,8 @@ private:
   std::variant<T, Issue> m_state;
 };
 
-/// Success, or why there was none. Test it as a bool before reading `error()`, which throws
-/// std::bad_optional_access after success.
+/// Success, or the issue that is the reason why there was none. Test it as a bool before reading
+/// `error()`, which throws std::bad_optional_access after success.
 class [[nodiscard]] Status {
 public:
   Status() = default;

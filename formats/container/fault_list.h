@@ -37,7 +37,7 @@ public:
   void add(Fault fault) {
     if (count(severityOf(fault.code))) insert(std::move(fault));
   }
-  /// For checks of many values: `make` gives the fault, and is called only for one that is kept.
+  /// Adds the fault that `make` returns, which is called only for one that is kept: for hot checks.
   template <class Make>
   void add(Code code, Make make) {
     if (count(severityOf(code))) insert(make());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A broken rule: which, where, and what was found. All of the format library answers with it: a
-// file that cannot be read, bytes that are no container, a value that breaks a rule of the model.
+// A broken rule: its code, its place, and the value found. The whole format library reports it, for
+// a file that cannot be read, bytes that are no container, or a value that breaks a rule of the
+// model.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,8 @@ struct Argument {
   friend bool operator==(const Argument&, const Argument&) = default;
 };
 
-/// At least one of `offset` and `pointer` is known, except for a file that cannot be read at all.
+/// A broken rule and its place. At least one of `offset` and `pointer` is known, except for a file
+/// that cannot be read at all.
 struct Issue {
   ErrorCode code;
   std::optional<std::uint64_t> offset{};  ///< bytes from the start of the file
@@ -28,11 +30,11 @@ struct Issue {
   std::vector<Argument> arguments{};
   std::optional<std::string> pointer{};  ///< JSON pointer (RFC 6901) into the JSON encoding
 
-  // Both are one line, fit to print, whatever the file has in its texts and keys; the members hold
-  // them as they are.
+  // place() and text() are one line, fit to print, whatever texts and keys the file has; the
+  // members hold these as they are.
   /// "byte 128", a JSON pointer such as /tree/branches/2/label (empty: the whole), or "file".
   [[nodiscard]] std::string place() const;
-  /// For people: "RADIUS_RANGE at byte 128 (/tree/radius/0): found -1, expected more than 0 mm".
+  /// Message: "RADIUS_RANGE at byte 128 (/tree/radius/0): found -1, expected more than 0 mm".
   [[nodiscard]] std::string text() const;
 };
 

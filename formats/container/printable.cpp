@@ -14,8 +14,9 @@ struct Range {
   std::uint32_t first, last;
 };
 
-// What does not show as itself: Default_Ignorable_Code_Point of the Unicode Character Database
-// without the variation selectors (which only choose a glyph), and the separators of lines.
+// Characters that do not show as themselves: Default_Ignorable_Code_Point of the Unicode Character
+// Database without the variation selectors (which only choose a glyph), and the separators of
+// lines.
 constexpr auto kHidden = std::to_array<Range>({
     {0x00ad, 0x00ad},    // soft hyphen
     {0x034f, 0x034f},    // combining grapheme joiner

@@ -11,7 +11,7 @@ namespace lumen::formats {
 /// byte that is not UTF-8 becomes \xNN; control characters, line and paragraph separators, marks
 /// of direction and characters without width become \uNNNN (beyond U+FFFF \UNNNNNNNN). All else
 /// stays, a backslash too, so escaping twice changes nothing. The result is one line of UTF-8.
-/// Whatever comes out of a file, a file's name included, is printed through this.
+/// Every text from a file, and every name of a file, is printed through this function.
 std::string printable(std::string_view text);
 
 }  // namespace lumen::formats

@@ -8,7 +8,7 @@
 
 namespace lumen::formats {
 
-/// What nextCodePoint() gives for bytes that are not UTF-8.
+/// Result of nextCodePoint() for bytes that are not UTF-8.
 constexpr std::uint32_t kIllFormed = 0xffffffffu;
 
 /// The code point that starts at text[at], or kIllFormed. `at` moves past it; past what is
@@ -37,7 +37,7 @@ constexpr std::uint32_t nextCodePoint(std::string_view text, std::size_t& at) {
   return point < smallest || surrogate || point > 0x10ffff ? kIllFormed : point;
 }
 
-/// True of U+0000 to U+001F and U+007F to U+009F, which no text of a case may have.
+/// True for U+0000 to U+001F and U+007F to U+009F, which no text of a case may have.
 constexpr bool isControl(std::uint32_t point) {
   return point < 0x20 || (point >= 0x7f && point < 0xa0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blended field in doubles, with its derivatives: f = sum u_k f_k / sum u_k over the nodes that
-// blend. Templates, for whatever holds the nodes.
+// blend. Templates for any container of nodes.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Jet<2> {
   double value = 0, gradient[3]{}, hessian[6]{};
 };
 
-/// Where the six entries of a Hessian stand in the matrix.
+/// Rows and columns of the six entries of a Hessian in the matrix.
 inline constexpr int kRow[6] = {0, 1, 2, 0, 0, 1}, kColumn[6] = {0, 1, 2, 1, 2, 2};
 
 /// A neighbour k of a node i: p_k - p_i = n . (X - O_i) + c, mm^2.
@@ -71,7 +71,7 @@ inline void multiplyByStep(const Rival& rival, double s, double& u, Jet<order>& 
 template <int order, class Nodes>
 Jet<order> weightOf(const Nodes& nodes, std::uint32_t node, const double* point,
                     ActiveNodes& active) {
-  constexpr double kLeast = 1e-7;  // of s: u, u' and u'' fall like s^3, s^2 and s
+  constexpr double kLeast = 1e-7;  // least s: u, u' and u'' fall like s^3, s^2 and s
   double x[3];
   for (int i = 0; i < 3; ++i) x[i] = point[i] - nodes.centre(node)[i];
   Jet<order> logarithm, weight;

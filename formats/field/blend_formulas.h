@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes blend, and the polynomial that weighs them. Text to be included inside a namespace,
+// The nodes that blend, and the polynomial that weighs them. Text to be included inside a
+// namespace,
 // as kernel_formulas.h is.
 
 /// S(s) / s^3 of the smooth step S(s) = s^3 (6 s^2 - 15 s + 10), which rises from 0 to 1 between
@@ -16,8 +17,8 @@ template <class T>
   return s * s * s * smoothStepOverCube(s);
 }
 
-/// Nodes that blend at a point, in the order in which they were found. What comes after the first
-/// kMost is left out.
+/// Nodes that blend at a point, in the order in which they were found. Nodes after the first kMost
+/// are left out.
 struct ActiveNodes {
   static constexpr unsigned kMost = 24;
   std::uint32_t node[kMost];
@@ -30,10 +31,10 @@ struct ActiveNodes {
   }
 };
 
-/// Visits the nodes that blend: `start`, and what nodes of non-zero weight lead to. visit(k,
-/// active) adds the neighbours that k does not beat by tau, all others having no weight beside it,
-/// and returns whether k itself has a weight; if not, what it added is forgotten. So it does not
-/// matter from which of the nodes that blend the search starts, which makes seams disappear.
+/// Visits the nodes that blend: `start`, and the nodes that others of non-zero weight lead to.
+/// visit(k, active) adds the neighbours that k does not beat by tau, all others having no weight
+/// beside it, and returns whether k itself has a weight; if not, its neighbours are dropped again.
+/// So the result is the same from each of the nodes that blend, which makes seams disappear.
 template <class Visit>
 inline void visitActiveNodes(std::uint32_t start, Visit&& visit) {
   ActiveNodes active;

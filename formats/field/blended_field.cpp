@@ -67,7 +67,8 @@ std::uint32_t BlendedField::locate(const Vec& point) const {
   return best;
 }
 
-// Rounding could let two nodes each see less power in the other: never straight back.
+// The walk never steps straight back: by rounding, two nodes could each see less power in the
+// other.
 std::uint32_t BlendedField::follow(const Vec& point, std::uint32_t node) const {
   constexpr int kMaxSteps = 256;
   std::uint32_t before = node;

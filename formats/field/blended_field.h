@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The field of a case as spec/lumen.md defines it, in doubles: the reference for libblob, which
-// computes the same in floats, and what meshes and measurements are made from.
+// The field of a case as spec/lumen.md defines it, in doubles: the source of meshes and
+// measurements, and the reference for libblob, which computes it in floats.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace lumen::field {
 
-/// The local field of every node and their blend. Points are in mm, LPS; f is in mm. Never changed
-/// after construction: any number of threads may ask. Gives the same bits on every machine.
+/// The local field of every node and their blend. Points are in mm, LPS; f is in mm. Immutable
+/// after construction: any number of threads may query it. Gives the same bits on every machine.
 class BlendedField {
 public:
-  /// Copies what it needs. O(n) for n nodes.
+  /// Copies the nodes and models. O(n) for n nodes.
   BlendedField(const TreeView& tree, const ModelsView& models);
 
   [[nodiscard]] std::size_t nodeCount() const { return m_nodes.size(); }
@@ -37,8 +37,8 @@ public:
   /// The node of least power in the whole tree, the lowest index among equals. O(n).
   [[nodiscard]] std::uint32_t locate(const Vec& point) const;
 
-  /// Where a cursor at `node` goes: to the neighbour of least power while that is less, at most 256
-  /// steps.
+  /// The node that a cursor at `node` ends at: steps to the neighbour of least power while that is
+  /// less, at most 256 times.
   [[nodiscard]] std::uint32_t follow(const Vec& point, std::uint32_t node) const;
 
   /// f and its derivatives to the given order, 1 or 2, of the node's own model.
@@ -48,14 +48,15 @@ public:
     return model<order>(node, p);
   }
 
-  /// The same of the blended field for the cursor at `node`, which has followed the point.
+  /// The blended f and its derivatives to the given order, 1 or 2, for the cursor at `node`, which
+  /// has followed the point.
   template <int order = 1>
   [[nodiscard]] Jet<order> blended(const Vec& point, std::uint32_t node) const {
     const double p[3] = {point.x, point.y, point.z};
     return blend<order>(*this, node, p);
   }
 
-  // What blend() asks for.
+  // The interface that blend() requires.
   [[nodiscard]] const double* centre(std::uint32_t node) const { return m_nodes[node].centre; }
   template <class Visit>
   bool eachRival(std::uint32_t node, Visit&& visit) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels on doubles, and which there are; the standard library only.
+// The list of kernels, and the kernels on doubles; standard library only.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace lumen::field {
 /// Stored in files and in the interface of libblob: values are only appended.
 enum class Kernel : std::uint8_t { Cauchy = 0, Gaussian = 1, Quartic = 2, SoftObject = 3 };
 
-// What kernel_formulas.h asks of its number type, for doubles.
+// Functions that kernel_formulas.h requires of its number type, for doubles.
 [[gnu::always_inline]] inline double constant(double, double value) {
   return value;
 }
@@ -42,7 +42,7 @@ inline constexpr auto kKernelNames = [] {
   return names;
 }();
 
-/// How the kernel ends far out.
+/// Behaviour of a kernel far out.
 inline KernelTail tailOf(Kernel kernel) {
   return withKernel(kernel, [](auto k) { return k.kTail; });
 }
@@ -52,7 +52,7 @@ inline bool isCompact(Kernel kernel) {
   return tailOf(kernel) == KernelTail::Compact;
 }
 
-/// The parameter p that is used unless another is asked for; 0 for a kernel without one.
+/// The default of the parameter p; 0 for a kernel without one.
 inline double usualParameter(Kernel kernel) {
   return withKernel(kernel, [](auto k) { return k.kUsualParameter; });
 }
@@ -82,8 +82,8 @@ inline double inversePhi(Kernel kernel, double parameter, double value) {
   return withKernel(kernel, [value, s](auto k) { return k.inverse(value, s); });
 }
 
-/// The level transform: a falling function h of f > 0 that grows nearly with the square of the
-/// distance from the axis of a tube. And |grad h|, from |grad f|.
+/// The level transform h, a falling function of f > 0 that grows nearly with the square of the
+/// distance from the axis of a tube, and |grad h|, from |grad f|.
 struct LevelTransform {
   double h, slope;
 };

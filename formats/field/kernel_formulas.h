@@ -24,24 +24,25 @@ struct KernelChain {
   T phi, d1, d2, d3;
 };
 
-/// What one blob adds to f, and what times (X - C) it adds to grad f.
+/// One blob's part of f, and the factor of (X - C) in its part of grad f.
 template <class T>
 struct BlobTerm {
   T value, slope;
 };
 
-// What each kernel has:
+// Members of each kernel:
 //   phi(u), first(u), second(u)   phi and its derivatives by u
 //   chain(s x, s)                 phi(s x) and three derivatives by x
-//   term(u, a, w)                 what a blob adds to f and grad f
+//   term(u, a, w)                 a blob's part of f and grad f
 //   inverse(value, s)             the x >= 0 at which phi(s x) is a value between 0 and 1
-//   reach(ratio)                  a u from which on phi <= 1 / ratio; not more than 0 if that is all
-//   level(f, 1 / f, shift)        the level transform h, a falling function of f that grows nearly with
-//                                 the square of the distance from the axis of a tube; f is given times
-//                                 exp(shift), which only the Gaussian needs
+//   reach(ratio)                  a u from which on phi <= 1 / ratio; at most 0 if for all u
+//   level(f, 1 / f, shift)        the level transform h, a falling function of f that grows nearly
+//                                 with the square of the distance from the axis of a tube; f is
+//                                 given times exp(shift), which only the Gaussian needs
 //   levelSlope(h, |grad f| / f)   |grad h|
 
-/// How a kernel ends far out: like a power of the distance, faster than any, or at u = 1.
+/// Behaviour of a kernel far out: falls like a power of the distance, faster than any power, or is
+/// zero from u = 1 on.
 enum class KernelTail { Power, Exponential, Compact };
 
 /// phi = 1 / (1 + u)^2
@@ -56,7 +57,8 @@ struct Cauchy {
   template <class T> LUMEN_FORMULA T first(T u) { return constant(u, -2.0) * phi(u) * root(u); }
   template <class T> LUMEN_FORMULA T second(T u) { return constant(u, 6.0) * phi(u) * phi(u); }
 
-  /// Each derivative from the one before: other roundings than above, and what fits rest on.
+  /// Computes each derivative from the previous one, with other roundings than phi(), first() and
+  /// second(); fits rest on them.
   template <class T> LUMEN_FORMULA KernelChain<T> chain(T u, T s) {
     const T q = root(u), phi = q * q;
     const T d1 = constant(u, -2.0) * s * phi * q, d2 = constant(u, -3.0) * s * d1 * q;

@@ -14,8 +14,8 @@ namespace {
 // Bounds on the work and memory of one node, whatever the tree.
 constexpr std::size_t kMaxVisited = 192;
 constexpr std::uint32_t kMaxDistant = 32;  // neighbours that are not edges
-constexpr double kMaxPath = 4.0;           // along the tree, of the sum of both radii
-constexpr double kMaxDetour = 2.0;         // along the tree, of the distance
+constexpr double kMaxPath = 4.0;           // path along the tree over the sum of both radii
+constexpr double kMaxDetour = 2.0;         // path along the tree over the distance
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -76,9 +76,9 @@ std::vector<Pair> edgePairs(const TreeView& tree) {
 // One node that the breadth-first search has reached.
 struct Reached {
   std::uint32_t node;
-  int edges;         // from the start
+  int edges;         // edges from the start
   double path;       // length along the tree, mm
-  std::size_t from;  // place of the node before in the list
+  std::size_t from;  // place of the previous node in the list
 };
 
 class DistantPairSearch {
@@ -89,7 +89,7 @@ public:
         m_spacing(spacingsOf(tree, edges)),
         m_reachedFrom(tree.nodeCount, kNowhere) {}
 
-  // Nearest along the tree first, as long as both nodes have room.
+  // Adds the nearest along the tree first, while both nodes have room.
   std::vector<Pair> distantPairs() {
     std::vector<std::pair<double, Pair>> found;
     for (std::uint32_t i = 0; i < m_tree.nodeCount; ++i) {
@@ -131,9 +131,9 @@ private:
     return (distance < sum || there.path < kMaxDetour * distance) && meet(start, there);
   }
 
-  // Do the cells of two nodes meet, within reach of a tool, on the plane where their powers are
-  // equal? The nodes on the path between cut away where their own power is less by more than the
-  // width in which they blend with the two.
+  // Whether the cells of two nodes meet, within reach of a tool, on the plane where their powers
+  // are equal. The nodes on the path between cut away where their own power is less by more than
+  // the width in which they blend with the two.
   [[nodiscard]] bool meet(std::uint32_t start, const Reached& there) {
     RadicalDisc disc(m_tree, start, there.node);
     for (std::size_t at = there.from; at != 0 && !disc.isEmpty(); at = m_reached[at].from) {
@@ -187,7 +187,7 @@ std::vector<double> spacingsOf(const TreeView& tree, const Neighbourhood& edges)
 double blendingWidth(const TreeView& tree, std::uint32_t i, std::uint32_t k, bool isEdge,
                      double spacing) {
   constexpr double kShare = 0.6;
-  constexpr double kLeast = 1e-3;  // of a radius squared: nodes in one place share evenly
+  constexpr double kLeast = 1e-3;  // share of a radius squared: nodes in one place share evenly
   const double radius = std::min(tree.radius[i], tree.radius[k]), square = squareOf(tree, i, k);
   const double width = isEdge ? kShare * square : std::min(0.5 * square, kShare * spacing);
   return std::max(width, kLeast * radius * radius);

@@ -18,12 +18,12 @@ RadicalDisc::RadicalDisc(const TreeView& tree, std::uint32_t a, std::uint32_t b)
   const Vec axis = centreOf(tree, b) - m_origin;
   const double square = dot(axis, axis), ra = tree.radius[a], rb = tree.radius[b];
   if (!(square > 0)) {
-    // one place: with one radius they tie everywhere, with two nowhere
+    // both nodes in one place: equal radii tie everywhere, unequal ones nowhere
     if (ra == rb) m_count = kEverywhere;
     return;
   }
   const double share = 0.5 * (1.0 + (ra * ra - rb * rb) / square), length = std::sqrt(square);
-  // the plane's distance from either centre, and what a reach leaves on the plane
+  // the plane's distance from either centre, and the radius that a reach leaves on the plane
   const auto left = [](double reach, double height) { return reach * reach - height * height; };
   const double rest =
       std::max(left(kReach * ra, share * length), left(kReach * rb, (1.0 - share) * length));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the field of a case is made of, as arrays that somebody else owns.
+// Nodes and models that define the field of a case, as arrays of another owner.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three-vectors of doubles, and what is computed with them; the standard library only.
+// Vectors of three doubles and their operations; standard library only.
 #pragma once
 
 #include <cmath>

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint16_t kChunkVersion = 1;
 
-// At a byte of the chunk's entry in the table.
+// An issue at a byte of the chunk's entry in the table.
 Issue chunkIssue(ErrorCode code, const Chunk& chunk, const std::string& message,
                  std::uint64_t at = 0) {
   const std::string name = chunkName(chunk.type);
@@ -54,7 +54,7 @@ void addChunk(const Chunk& chunk, CaseChunks& sorted, IssueList& issues) {
   sorted.byRule[index] = chunk;
 }
 
-// Reports the members of a group that are absent while another is there, or all that must be.
+// Reports the members of a group that are absent although required, or although another is there.
 void checkPresence(const CaseChunks& sorted, ChunkNeed group, IssueList& issues) {
   bool wanted = group == ChunkNeed::Always;
   for (std::size_t i = 0; i < kChunkRules.size(); ++i)
@@ -69,7 +69,7 @@ void checkPresence(const CaseChunks& sorted, ChunkNeed group, IssueList& issues)
   }
 }
 
-// Equal cases have equal bytes only if all writers keep one order.
+// Reports chunks out of order: equal cases have equal bytes only if all writers keep one order.
 void checkOrder(const Container& container, IssueList& issues) {
   std::size_t last = 0;
   for (const Chunk& chunk : container.chunks) {

@@ -12,7 +12,8 @@
 
 namespace lumen::formats {
 
-/// In canonical order. Arrays are little-endian and packed, so a mapped file is used in place.
+/// Chunk types in canonical order. Arrays are little-endian and packed, so a mapped file is used in
+/// place.
 namespace chunk {
 inline constexpr ChunkType kMetadata = chunkType("META");        ///< JSON, UTF-8
 inline constexpr ChunkType kNodeCentre = chunkType("NCEN");      ///< f32[3] per node
@@ -71,26 +72,26 @@ inline constexpr std::array<ChunkRule, 18> kChunkRules = {{
     {chunk::kNodeArray, false, ChunkNeed::Repeated, 4},
 }};
 
-/// The place of `type` in kChunkRules; their number if this version does not know it.
+/// The place of `type` in kChunkRules; the number of rules if this version does not know it.
 std::size_t chunkRuleIndex(ChunkType type);
 
-/// The chunks of a file by what they are for.
+/// The chunks of a file by their role.
 struct CaseChunks {
-  std::array<std::optional<Chunk>, kChunkRules.size()> byRule;  ///< but for the repeated one
+  std::array<std::optional<Chunk>, kChunkRules.size()> byRule;  ///< all but the repeated ones
   std::vector<Chunk> nodeArrays;                                ///< in file order
-  std::vector<Chunk> others;  ///< of unknown types, not critical, in file order
+  std::vector<Chunk> others;  ///< unknown types, not critical, in file order
 
   /// The chunk of a known type, or nullptr.
   [[nodiscard]] const Chunk* find(ChunkType type) const {
     const auto& found = byRule[chunkRuleIndex(type)];
     return found ? &*found : nullptr;
   }
-  /// The same; it must be there.
+  /// The chunk of a known type, which must be there.
   [[nodiscard]] const Chunk& at(ChunkType type) const { return *byRule[chunkRuleIndex(type)]; }
 };
 
-/// Checks type, version, flags and presence, but reads no chunk. Reports to `issues`; what it
-/// returns is complete if that has no error.
+/// Checks type, version, flags and presence, but reads no chunk. Reports to `issues`; the result is
+/// complete if they have no error.
 CaseChunks sortChunks(const Container& container, IssueList& issues);
 
 }  // namespace lumen::formats

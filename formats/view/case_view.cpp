@@ -49,8 +49,8 @@ public:
   SpanReader(const CaseChunks& chunks, std::uint64_t nodeCount, IssueList& issues)
       : m_chunks(chunks), m_nodeCount(nodeCount), m_issues(issues) {}
 
-  /// An array of a whole number of elements; empty if the file does not have it. False with an
-  /// issue.
+  /// Reads an array of a whole number of elements; empty if the file does not have it. False with
+  /// an issue.
   template <class T>
   bool any(ChunkType type, std::span<const T>& to) {
     const Chunk* chunk = m_chunks.find(type);
@@ -60,7 +60,7 @@ public:
     return require(*chunk, chunk->stored.size(), count * sizeof(T));
   }
 
-  /// An array of one element per node and `more`.
+  /// Reads an array of one element per node and `more`.
   template <class T>
   void each(ChunkType type, std::span<const T>& to, std::uint64_t more = 0) {
     const Chunk* chunk = m_chunks.find(type);
@@ -116,8 +116,9 @@ Issue labelIssue(ErrorCode code, const Chunk& records, std::size_t branch, std::
   return {code, at, std::move(message), {}, "/tree/branches/" + std::to_string(branch) + "/label"};
 }
 
-// The labels must follow each other from the chunk's first byte to its last. Where one does not
-// start at the end of the one before, the size of that one is at fault if what follows agrees.
+// Checks that labels follow each other from the chunk's first byte to its last. Where one does not
+// start at the end of the previous one, the size of the previous one is at fault if the rest
+// agrees.
 void checkLabels(const CaseView& view, const CaseChunks& chunks, IssueList& issues) {
   const Chunk& records = chunks.at(chunk::kBranchRecords);
   const std::uint64_t count = view.branchCount(), size = view.branchLabels.size();

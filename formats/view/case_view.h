@@ -28,7 +28,7 @@ struct ModelView {
   std::span<const float> width;           ///< mm
 };
 
-/// What a file says of one branch.
+/// The record of one branch in a file.
 struct BranchView {
   std::uint32_t firstNode = 0, nodeCount = 0;
   std::int32_t parentNode = -1;
@@ -38,8 +38,8 @@ struct BranchView {
   float meanInlierRate = kNoRate;
 };
 
-/// All but the metadata is ready to use; nothing is owned but the list of node arrays. Spans are
-/// empty for what the file does not have.
+/// A case in the bytes of a file. All but the metadata is ready to use; only the list of node
+/// arrays is owned. Spans of parts that the file lacks are empty.
 struct CaseView {
   FormatVersion version;
   std::string_view metadata;  ///< JSON
@@ -59,11 +59,12 @@ struct CaseView {
   [[nodiscard]] std::size_t nodeCount() const { return nodeCentre.size(); }
   [[nodiscard]] std::size_t branchCount() const { return branchRecords.size() / kBranchRecordSize; }
   [[nodiscard]] BranchView branch(std::size_t index) const;
-  /// Empty if the branch names bytes that are not there.
+  /// The label of a branch; empty if its record names bytes that are not there.
   [[nodiscard]] std::string_view label(const BranchView& branch) const;
 };
 
-/// Structure: header, table and sizes; no chunk's body is read but the 24 bytes of a kernel record,
+/// Extent of verification. Structure: header, table and sizes; no chunk's body is read but the 24
+/// bytes of a kernel record,
 /// so offsets, parents and all other values may be anything. All: checksums, padding and every rule
 /// of the model too; only the metadata is not looked into (that needs a JSON reader).
 enum class Verify : std::uint8_t { Structure, All };

@@ -16,7 +16,8 @@ namespace {
 constexpr std::uint32_t kExponentBits = 0x7f800000u;
 constexpr std::uint32_t kNegativeZero = 0x80000000u;
 
-// Two passes are faster than one that may stop: this one has no branch.
+// Whether all values are finite. This pass has no branch: with the one that finds the place, it is
+// faster than one pass that may stop.
 bool allFinite(std::span<const float> values) {
   std::uint32_t greatest = 0;
   for (const float value : values)
@@ -28,7 +29,7 @@ std::span<const float> flat(std::span<const ViewVector> vectors) {
   return {vectors.empty() ? nullptr : vectors.front().data(), 3 * vectors.size()};
 }
 
-// One warning for an array: the first place says enough.
+// Warns once for an array, at the first negative zero.
 void warnNegativeZero(std::span<const float> values, std::size_t components,
                       const std::string& pointer, IssueList& issues) {
   if (!issues.keepsWarnings()) return;

@@ -16,17 +16,17 @@ namespace lumen::formats {
 inline constexpr std::uint8_t kBranchKindCount = 2;
 inline constexpr std::uint8_t kStopReasonCount = 7;
 
-/// Sizes, ranges, references, finiteness and labels: everything but the metadata, the node arrays
-/// and the kernel records. A check that needs the result of a failed one is left out.
+/// Checks sizes, ranges, references, finiteness and labels: everything but the metadata, the node
+/// arrays and the kernel records. A check that needs the result of a failed one is left out.
 void checkModelRules(const CaseView& view, IssueList& issues);
 
-/// Kernels, their parameters and iso-levels.
+/// Checks kernels, their parameters and iso-levels.
 void checkKernels(const CaseView& view, IssueList& issues);
 
 /// Fills the first three fields from a record of kKernelRecordSize.
 void readKernelRecord(std::span<const std::byte> record, ModelView& model);
 
-/// Where the value that a pointer names is in the file: its first byte, or that of its chunk if the
+/// Place in the file of the value that a pointer names: its first byte, or that of its chunk if the
 /// chunk is encoded or the value is inside of the metadata. Nothing if the pointer names no chunk.
 std::optional<std::uint64_t> byteOffsetOf(const std::string& pointer, const CaseChunks& chunks);
 
@@ -37,7 +37,7 @@ void checkLinkRules(const CaseView& view, IssueList& issues);
 void checkOffsets(std::span<const std::uint32_t> offset, std::size_t nodeCount,
                   std::size_t elements, const std::string& pointer, IssueList& issues);
 
-/// What the values of an array must be, beside finite.
+/// Condition on the values of an array, besides being finite.
 struct ValueRule {
   bool (*legal)(float);
   ErrorCode code;
@@ -50,7 +50,7 @@ void checkFinite(double value, const std::string& pointer, IssueList& issues);
 void checkPositive(double value, const std::string& pointer, ErrorCode code, IssueList& issues);
 void checkFinite(std::span<const ViewVector> vectors, const std::string& pointer,
                  IssueList& issues);
-/// False, with an issue, if they differ.
+/// Whether both lengths are equal; adds an issue if not.
 bool checkLength(std::size_t found, std::size_t expected, const std::string& pointer,
                  IssueList& issues);
 bool checkLimit(std::size_t found, std::size_t limit, const std::string& pointer,

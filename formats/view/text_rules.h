@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every text in a case must be, and how pointers and numbers are spelt.
+// Rules of every text in a case, and the spelling of pointers and numbers.
 #pragma once
 
 #include <charconv>
@@ -15,11 +15,11 @@ namespace lumen::formats {
 /// True for well-formed UTF-8 (RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF).
 bool isUtf8(std::string_view text);
 
-/// TEXT_LENGTH, TEXT_UTF8 or TEXT_CONTROL (U+0000 to U+001F, U+007F to U+009F), the first that
-/// applies, or nothing.
+/// The fault of a text: TEXT_LENGTH, TEXT_UTF8 or TEXT_CONTROL (U+0000 to U+001F, U+007F to
+/// U+009F), the first that applies, or nothing.
 std::optional<Issue> checkText(std::string_view text, std::size_t maxBytes,
                                const std::string& pointer);
-/// The same, reported.
+/// Adds the first fault of a text, if it has one, to `issues`.
 void checkText(std::string_view text, std::size_t maxBytes, const std::string& pointer,
                IssueList& issues);
 

@@ -100,7 +100,7 @@ void checkBranchRules(const CaseView& view, IssueList& issues) {
                   pointer + "/label"});
     if (branch.firstNode != next || branch.nodeCount == 0 ||
         branch.nodeCount > view.nodeCount() - next)
-      // what follows depends on it
+      // later branches depend on it
       return issues.add(foundIssue(
           ErrorCode::BranchRange,
           pointer + (branch.firstNode != next ? "/firstNode" : "/nodeCount"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the JSON pointer of a value to its place in a binary file.
+// The place of a value in a binary file, from its JSON pointer.
 #include <algorithm>
 #include <charconv>
 #include <string_view>
@@ -13,10 +13,10 @@ namespace {
 struct PlacedArray {
   std::string_view pointer;
   ChunkType type;
-  std::uint32_t offset;  ///< of a field in a record
+  std::uint32_t offset;  ///< position of a field in a record
 };
 
-// Longer pointers before those that they start with.
+// Places of arrays; longer pointers come before their own prefixes.
 constexpr auto kPlaces = std::to_array<PlacedArray>({
     {"/metadata", chunk::kMetadata, 0},
     {"/tree/centre", chunk::kNodeCentre, 0},
@@ -49,8 +49,7 @@ constexpr auto kBranchFields = std::to_array<PlacedField>({{"firstNode", 0},
                                                            {"stopReason", 19},
                                                            {"meanInlierRate", 20}});
 
-// The index that `rest` starts with (12 of "/12/1"), which is removed from it; nothing if there is
-// none.
+// Removes the first index from `rest` (12 from "/12/1") and returns it; nothing if there is none.
 std::optional<std::uint64_t> takeIndex(std::string_view& rest) {
   if (rest.size() < 2 || rest.front() != '/') return std::nullopt;
   std::uint64_t index = 0;
@@ -60,7 +59,7 @@ std::optional<std::uint64_t> takeIndex(std::string_view& rest) {
   return index;
 }
 
-// A field of a branch; its label is in a chunk of its own.
+// The offset of a field of a branch's record; its label is in a chunk of its own.
 std::uint64_t branchFieldOffset(const Chunk& records, std::uint64_t recordAt, std::string_view rest,
                                 const CaseChunks& chunks) {
   if (rest == "/label" && records.stored.size() >= recordAt + kBranchRecordSize) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes and models of a case used in place, as formats/field takes them. The views hold
-// nothing; the file's bytes must stay.
+// The nodes and models of a case used in place, as formats/field takes them. The views own nothing;
+// the file's bytes must outlive them.
 #pragma once
 
 #include "formats/field/tree_view.h"
@@ -14,7 +14,7 @@ inline field::TreeView treeViewOf(const CaseView& view) {
           view.links.size(),      reinterpret_cast<const std::uint32_t(*)[2]>(view.links.data())};
 }
 
-/// Of models whose values have been verified.
+/// View of models whose values have been verified.
 inline field::ModelsView modelsViewOf(const ModelView& models) {
   return {static_cast<field::Kernel>(models.kernel),
           models.kernelParameter,

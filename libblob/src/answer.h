@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which points can be evaluated, and the answer at the others.
+// The test whether a point can be evaluated, and the answer where it cannot.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ inline bool isFinitePoint(const double* p) noexcept {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
-/// Whether a point is within kFar of a node, so that no float overflows on the way to f.
+/// Whether a point is within kFar of a node, so that no float overflows in the computation of f.
 inline bool isInRange(const NodeRecord& node, const double* p) noexcept {
   double sum = 0;
   for (int i = 0; i < 3; ++i) sum += std::abs(p[i] - node.centre[i]);

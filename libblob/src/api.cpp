@@ -54,11 +54,11 @@ blob_status construct(blob_model** model, Construct run) noexcept {
     return BLOB_ERROR_MEMORY;
   }
 #else
-  return run();  // in WebAssembly, which traps when memory ends
+  return run();  // WebAssembly traps when memory runs out
 #endif
 }
 
-// The node of a query at a point that can be evaluated; false for the others.
+// Finds the node of a query; false for a point that cannot be evaluated.
 bool enter(const blob_model& model, std::uint32_t flags, const double* point, std::uint32_t* cursor,
            std::uint32_t& node) noexcept {
   node = cursor != nullptr ? *cursor : BLOB_NOWHERE;

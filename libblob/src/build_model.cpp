@@ -18,7 +18,7 @@ TreeView treeOf(const blob_model_def& def) {
   return {def.node_count, def.centre, def.radius, def.parent, def.link_count, def.link};
 }
 
-// Where f > T, some blob of the model's `count` is nearer than this, as one of them exceeds T /
+// A radius: where f > T, one of the model's `count` blobs is nearer than this, as one exceeds T /
 // count.
 double reachOf(const blob_blobs& blobs, double width, double count) {
   const field::Kernel kernel = kernelOf(blobs.kernel);
@@ -66,7 +66,7 @@ FieldNode layOut(const blob_model_def& def, std::size_t node, std::vector<BlobBl
   return result;
 }
 
-// A node without blobs answers with those of its lender, which stay where they are.
+// Lends nodes without blobs those of their lenders, which stay where they are.
 void lendBlobs(const blob_model_def& def, const std::vector<std::uint32_t>& lender,
                std::vector<FieldNode>& nodes) {
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a checked definition to a model.
+// A model from a checked definition.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,10 @@
 
 namespace lumen::blob {
 
-/// Throws std::bad_alloc and nothing else. The definition has been checked.
+/// Builds a model from a checked definition. Throws std::bad_alloc and nothing else.
 std::unique_ptr<blob_model> buildModel(const blob_model_def& def);
 
-/// Bytes.
+/// Memory of a model in bytes.
 std::size_t memoryOf(const blob_model& model) noexcept;
 
 }  // namespace lumen::blob

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a definition has to fulfil.
+// Conditions that a definition has to fulfil.
 #pragma once
 
 #include "blob.h"
 
 namespace lumen::blob {
 
-/// Everything that queries rely on: counts, ranges, indices, finite numbers.
+/// Checks everything that queries rely on: counts, ranges, indices, finite numbers.
 blob_status checkDefinition(const blob_model_def& def) noexcept;
 
 }  // namespace lumen::blob

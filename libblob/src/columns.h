@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading and writing the strided columns of blob_columns.
+// Access to the strided columns of blob_columns.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,8 @@ inline void putSample(const blob_columns& c, std::size_t i, const blob_sample& s
   if (c.state != nullptr) put(c.state, i, c.state_stride, sample.state);
 }
 
-/// Whether points lie side by side, so that four doubles at a time can be copied; not for the last
-/// point, after which there may be nothing.
+/// Whether points are packed, so that four doubles at a time can be copied, except for the last
+/// point, after which the memory may end.
 inline bool arePacked(const blob_columns& c) {
   return c.point_stride == 3 * sizeof(double) && c.point[1] == c.point[0] + 1 &&
          c.point[2] == c.point[0] + 2;

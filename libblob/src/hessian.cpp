@@ -9,7 +9,7 @@
 namespace lumen::blob {
 namespace {
 
-// A model as field::blend() takes it: the floats of the blocks, in doubles.
+// Interface of a model for field::blend(): the floats of the blocks, in doubles.
 class NodesInDoubles {
 public:
   explicit NodesInDoubles(const blob_model& model) : m_model(model) {}
@@ -24,7 +24,7 @@ public:
     for (std::uint32_t b = 0; b < record.neighbourBlocks; ++b)
       for (int lane = 0; lane < kLanes; ++lane) {
         const NeighbourBlock& block = blocks[b];
-        if (isPadding(block, lane)) return true;  // and so is all that follows
+        if (isPadding(block, lane)) return true;  // the remaining lanes are padding, too
         const field::Rival rival{{block.nx[lane], block.ny[lane], block.nz[lane]},
                                  block.c[lane],
                                  block.inverseTau[lane],
@@ -45,7 +45,7 @@ public:
   }
 
 private:
-  // Kept out of line: each loop gets all registers.
+  // Not inlined, so that each loop gets all registers.
   template <class K, int order>
   [[nodiscard, gnu::noinline]] field::Jet<order> sumBlobs(const FieldNode& where,
                                                           const double* at) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// f, its gradient and its Hessian in doubles: what the SIMD back ends compute in floats.
+// f, its gradient and its Hessian in doubles; the SIMD back ends compute f in floats.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,7 @@ MappedFile::~MappedFile() {
 #elif defined(__wasm__)
 namespace lumen::blob {
 
-// there are no files, and streams would be most of the library
+// no files exist here, and streams would be most of the library
 MappedFile::MappedFile(const char*) {}
 MappedFile::~MappedFile() = default;
 

@@ -7,10 +7,10 @@
 
 namespace lumen::blob {
 
-/// Mapped into memory where the system can, read into memory elsewhere.
+/// A file mapped into memory where the system can, read into memory elsewhere.
 class MappedFile {
 public:
-  /// False as a bool if the file cannot be opened, is no regular file, or is empty.
+  /// Maps or reads a file; false as a bool if it cannot be opened, is no regular file, or is empty.
   explicit MappedFile(const char* path);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;
@@ -23,7 +23,7 @@ public:
 private:
   const void* m_data = nullptr;
   std::size_t m_size = 0;
-  std::vector<double> m_copy;  ///< where files cannot be mapped; doubles for their alignment
+  std::vector<double> m_copy;  ///< bytes where files cannot be mapped; doubles for alignment
 };
 
 }  // namespace lumen::blob

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a blob_model holds: arrays laid out for queries, never changed after construction.
+// The arrays of a blob_model, laid out for queries and never changed after construction.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ constexpr int kLanes = 8;
 constexpr double kFar = 1e9;         ///< mm from a node; beyond, f counts as zero
 constexpr float kVanished = 1e-20f;  ///< mm; below, the terms of grad f may underflow
 
-/// What a caller in C has stored in an enumeration, which may be none of its values.
+/// The number that a caller in C has stored in an enumeration, which may be none of its values.
 template <class Enumeration>
 int codeOf(const Enumeration& stored) noexcept {
   static_assert(sizeof stored == sizeof(int));
@@ -26,7 +26,7 @@ int codeOf(const Enumeration& stored) noexcept {
   return code;
 }
 
-/// A checked kernel.
+/// The field::Kernel of a checked kernel.
 inline field::Kernel kernelOf(blob_kernel kernel) noexcept {
   return static_cast<field::Kernel>(kernel);
 }
@@ -34,7 +34,7 @@ inline field::Kernel kernelOf(blob_kernel kernel) noexcept {
 /// Eight blobs relative to their node's centre. Padding has a = w = 0 and adds exactly nothing.
 struct alignas(32) BlobBlock {
   float x[kLanes], y[kLanes], z[kLanes];  ///< mm
-  float a[kLanes];                        ///< what |X - C|^2 is multiplied by: p / w^2, or 1 / w^2
+  float a[kLanes];                        ///< factor of |X - C|^2: p / w^2, or 1 / w^2
   float w[kLanes];                        ///< mm
 };
 
@@ -46,7 +46,7 @@ struct alignas(32) NeighbourBlock {
   std::uint32_t node[kLanes];
 };
 
-/// Where the blobs that answer for a node are.
+/// Location of the blobs that answer for a node.
 struct FieldNode {
   float place[4];  ///< the node's centre relative to the origin of the blocks, and its radius, mm
   std::uint32_t block;

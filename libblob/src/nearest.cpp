@@ -55,15 +55,14 @@ public:
   }
 
 private:
-  static constexpr double kUsualTolerance = 1e-5;  // of the node's radius
+  static constexpr double kUsualTolerance = 1e-5;  // share of the node's radius
   static constexpr std::uint32_t kUsualSteps = 40;
-  static constexpr int kMaxShortenings = 8;  // of a step along the wall, by half each
-  static constexpr double kGainShare = 0.1;  // of the tolerance, below which a step is not worth it
-  static constexpr double kStalledGain =
-      1e-3;                                    // of the square of the way, when no step shortens it
-  static constexpr double kLongestStep = 0.5;  // of the node's radius
-  static constexpr double kFlat = 0.02;        // least eigenvalue that a step is divided by
-  static constexpr double kLeaveMaximum = 0.1;  // of the radius: the step off a farthest point
+  static constexpr int kMaxShortenings = 8;     // halvings of a step along the wall
+  static constexpr double kGainShare = 0.1;     // share of the tolerance: least gain of a step
+  static constexpr double kStalledGain = 1e-3;  // share of squared distance: converged if stalled
+  static constexpr double kLongestStep = 0.5;   // share of the node's radius
+  static constexpr double kFlat = 0.02;         // least eigenvalue that a step is divided by
+  static constexpr double kLeaveMaximum = 0.1;  // share of the radius: step off a farthest point
 
   struct Foot {
     Vec at;
@@ -79,7 +78,7 @@ private:
     return here;
   }
 
-  // Newton's method to the wall along the normals.
+  // Projects a point to the wall by Newton's method along the normals.
   bool project(Foot& foot, blob_sample here) {
     for (;;) {
       if (!(here.value > kVanished) && !(std::abs(here.distance) > 0)) return false;
@@ -93,7 +92,7 @@ private:
     }
   }
 
-  // One step along the wall, shortened until the way is shorter; false when there is none.
+  // Makes one step along the wall, halved until the distance decreases; false if none does.
   bool improve() {
     ++m_steps;
     const double p[3] = {m_best.at.x, m_best.at.y, m_best.at.z};
@@ -103,7 +102,7 @@ private:
     const double slope = norm(gradient);
     if (!(slope > 0)) return false;
     Vec step = stepAlong(gradient, slope, local.hessian);
-    // what the step could still shorten the way by
+    // the decrease of the distance that the step could still give
     const Vec way = m_query - m_best.at;
     const double gain = 0.5 * dot(way, step);
     m_converged = norm(step) <= m_tolerance || gain <= kGainShare * m_tolerance * m_best.length;
@@ -118,13 +117,14 @@ private:
         return true;
       }
     }
-    // no shorter way in this direction: rounding, or a ring of equally near points
+    // the distance does not decrease in this direction: rounding, or a ring of equally near points
     m_converged = m_steps < m_maxSteps && gain <= kStalledGain * m_best.length * m_best.length;
     return false;
   }
 
-  // Solves (I + d S) step = tangential part of the way, S the shape operator of the wall and d the
-  // distance. Directions in which the foot is a farthest point are followed downhill.
+  // Solves (I + d S) step = tangential part of the vector to the query point, S the shape operator
+  // of the wall and d the distance. Directions in which the foot is a farthest point are followed
+  // downhill.
   [[nodiscard]] Vec stepAlong(const Vec& gradient, double slope, const double* h) const {
     const Vec normal = (-1.0 / slope) * gradient;
     const Vec way = m_query - m_best.at;

@@ -8,8 +8,8 @@
 
 namespace lumen::blob {
 
-/// blob_query(): the back end's answer, whose distance and normal are then refined if the flags ask
-/// for it. The cursor follows.
+/// blob_query(): the back end's answer, with distance and normal refined if the flags ask for it.
+/// The cursor follows.
 void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
               std::uint32_t& node, blob_sample& sample) noexcept;
 
@@ -18,7 +18,7 @@ void sampleAt(const blob_model& model, std::uint32_t flags, const double* point,
 void refineSample(const blob_model& model, std::uint32_t flags, const double* point,
                   blob_sample& sample) noexcept;
 
-/// As blob_nearest(), for a finite point in range of its node, which is not moved.
+/// blob_nearest() for a finite point in range of its node, which is not moved.
 void findNearest(const blob_model& model, std::uint32_t flags, const double* point,
                  std::uint32_t node, double tolerance, std::uint32_t maxSteps,
                  blob_nearest_point& nearest) noexcept;

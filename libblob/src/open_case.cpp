@@ -42,7 +42,7 @@ blob_status statusOf(ErrorCode code) {
   }
 }
 
-// The offsets of an unverified file may point beyond its arrays.
+// Fills `blobs`; false if offsets point beyond the arrays, as those of an unverified file may.
 bool blobsOf(const formats::ModelView& view, blob_blobs& blobs) {
   if (view.offset.empty() || view.offset.back() != view.centre.size() ||
       view.centre.size() != view.width.size())
@@ -80,7 +80,7 @@ blob_status build(const formats::CaseView& view, const blob_open_def& def, blob_
 blob_status openBytes(const void* bytes, std::size_t size, const blob_open_def& def,
                       blob_model** model) {
   std::span<const std::byte> view(static_cast<const std::byte*>(bytes), size);
-  // numbers are used in place, so bytes at an odd address have to move
+  // numbers are used in place, so unaligned bytes are copied
   std::vector<std::byte> aligned;
   if (reinterpret_cast<std::uintptr_t>(bytes) % alignof(double) != 0) {
     aligned.assign(view.begin(), view.end());

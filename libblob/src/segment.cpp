@@ -88,11 +88,11 @@ public:
   }
 
 private:
-  static constexpr double kUsualTolerance = 1e-3;  // of the node's radius
+  static constexpr double kUsualTolerance = 1e-3;  // share of the node's radius
   static constexpr std::uint32_t kUsualSteps = 16384;
-  static constexpr double kDistanceShare = 0.6;  // of the one-evaluation distance: the first try
-  static constexpr double kLongestStep = 0.5;    // of the node's radius, as Backend::bounds asks
-  static constexpr double kBisectTo = 0.1;       // of the tolerance
+  static constexpr double kDistanceShare = 0.6;  // share of the one-evaluation distance
+  static constexpr double kLongestStep = 0.5;    // share of the radius, see Backend::bounds
+  static constexpr double kBisectTo = 0.1;       // share of the tolerance
 
   blob_sample sample(double t) {
     ++m_steps;
@@ -120,7 +120,8 @@ private:
     return m_tolerance;
   }
 
-  // Between t, on the side of the start, and `beyond`; at most the tolerance before the crossing.
+  // The crossing between t, on the side of the start, and `beyond`: at most the tolerance before
+  // it.
   double crossing(double t, double beyond, std::uint32_t side) {
     constexpr int kMaxHalvings = 60;
     const std::uint32_t start = m_node;
@@ -166,8 +167,8 @@ public:
         m_node(node) {}
 
   void run(blob_approach& approach) {
-    constexpr double kLeastStep = 1.0 / 128;  // of the axis
-    constexpr double kStep = 0.25;            // of the local radius
+    constexpr double kLeastStep = 1.0 / 128;  // share of the axis
+    constexpr double kStep = 0.25;            // share of the local radius
     const double length = norm(m_way);
     double before = 0, low = 0, high = 1;
     visit(0);
@@ -208,7 +209,8 @@ private:
     return at.distance;
   }
 
-  // Golden sections; near its greatest value a distance hardly changes, so a few do.
+  // Refines by golden sections; near its greatest value a distance hardly changes, so a few
+  // suffice.
   void refine(double low, double high) {
     constexpr int kSections = 14;
     constexpr double kGolden = 0.6180339887498949;

@@ -13,8 +13,8 @@ extern "C" {
 enum { kBand = 9 };
 
 /* Solves A x = b for a symmetric positive definite A by Cholesky's factorisation. Row i of `lower`
- * holds A[i][i - 8] .. A[i][i] and is overwritten; `b` becomes x. 0 if A is not positive definite.
- */
+ * holds A[i][i - 8] .. A[i][i] and is overwritten; `b` becomes x. Returns 0 if A is not positive
+ * definite. */
 int banded_solve(size_t size, double (*lower)[kBand], double* b);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pushes a rod into a vessel and tells how its tip went and what the wall cost. */
+/* Pushes a rod into a vessel and reports the path of its tip and the cost of the wall. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,7 +83,7 @@ static blob_node child_of(const blob_model* model, uint32_t node) {
   return child;
 }
 
-/* The way in: from a node along the vessel, tilted and rolled. */
+/* Finds the entry: a node, and the direction along the vessel, tilted and rolled. */
 static int find_entry(const blob_model* model, const options* o, rod_def* def) {
   const uint32_t node = (uint32_t)o->node;
   const blob_node at = blob_model_node(model, node), child = child_of(model, node);
@@ -112,7 +112,7 @@ typedef struct record {
   size_t steps, contacts, most_contacts;
   double (*tip)[3];
   unsigned char* touches;
-  double *wall_seconds, *solver_seconds; /* of each step */
+  double *wall_seconds, *solver_seconds; /* seconds of each step */
   double deepest;                        /* mm beyond the wall at the end */
 } record;
 
@@ -135,7 +135,7 @@ static int push(const options* o, const rod_def* def, const wall* w, const blob_
       fprintf(csv, "%zu,%.9g,%.9g,%.9g,%d,%zu,%.3f,%.3f\n", k, tip[0], tip[1], tip[2],
               log->touches[k], r.contact_count, 1e6 * r.wall_seconds, 1e6 * r.solver_seconds);
   }
-  /* the rod's deepest node at the end: a rod that left the lumen is seen here */
+  /* the rod's deepest node at the end shows a rod that left the lumen */
   log->deepest = -INFINITY;
   for (size_t i = 0; i < r.free_count; ++i) {
     blob_sample s;
@@ -151,8 +151,8 @@ static int compare(const void* a, const void* b) {
   return (x > y) - (x < y);
 }
 
-/* Of the last tenth of the steps, when most of the rod is in; the system's interruptions drop out.
- */
+/* Median time, ms, of the last tenth of the steps, when most of the rod is in. The median ignores
+ * the system's interruptions. */
 static double median_ms(const record* log, double* seconds) {
   const size_t tail = log->steps / 10 + 1;
   double* last = seconds + log->steps - tail;

@@ -10,12 +10,12 @@
 
 static const double kPi = 3.14159265358979324;
 
-/* Reused by every step. */
+/* Memory that every step reuses. */
 typedef struct scratch {
   double (*lower)[kBand]; /* Hessian of the step's energy, see banded_solve() */
   double* gradient;       /* then the Newton step */
   double (*before)[3];    /* positions before the step */
-  double (*inertial)[3];  /* where nodes would go without forces */
+  double (*inertial)[3];  /* positions of nodes without forces */
   double* distances;
   double (*normals)[3];
 } scratch;
@@ -27,7 +27,7 @@ static double dot(const double a[3], const double b[3]) {
 static double now(void) {
   struct timespec t;
   timespec_get(&t, TIME_UTC);
-  /* a day's seconds leave a double room for nanoseconds */
+  /* seconds of a day leave a double enough digits for nanoseconds */
   return (double)(t.tv_sec % 86400) + 1e-9 * (double)t.tv_nsec;
 }
 
@@ -49,7 +49,7 @@ static double bending_stiffness(const rod_def* def) {
   return def->young * 0.25 * kPi * pow(def->radius, 4) / (h * h * h);
 }
 
-/* Stiff enough that a contact's multiplier settles within a few iterations, whatever the rod. */
+/* Stiffness at which a contact's multiplier settles within a few iterations, for any rod. */
 static double contact_stiffness(const rod_def* def) {
   return 10 * bending_stiffness(def);
 }
@@ -152,7 +152,7 @@ static void add_force(rod* r, size_t i, double scale, const double v[3]) {
   for (size_t a = 0; a < 3; ++a) s->gradient[3 * i + a] += scale * v[a];
 }
 
-/* scale * (I + share * n n^T) */
+/* Adds the block scale * (I + share * n n^T). */
 static void add_directed(rod* r, size_t i, size_t j, double scale, double share,
                          const double n[3]) {
   double block[3][3];
@@ -175,7 +175,7 @@ static void add_inertia(rod* r) {
   }
 }
 
-/* Energy k/2 |x[i-1] - 2 x[i] + x[i+1]|^2. */
+/* Adds the energy k/2 |x[i-1] - 2 x[i] + x[i+1]|^2. */
 static void add_bending(rod* r) {
   static const double weight[3] = {1, -2, 1};
   const double k = bending_stiffness(&r->def), zero[3] = {0, 0, 0};
@@ -191,8 +191,8 @@ static void add_bending(rod* r) {
   }
 }
 
-/* Energy k/2 (length - h)^2. Under compression the part of its Hessian across the element is
- * negative and left out: the matrix stays positive definite. */
+/* Adds the energy k/2 (length - h)^2. Under compression the part of its Hessian across the element
+ * is negative and left out: the matrix stays positive definite. */
 static void add_stretching(rod* r) {
   const rod_def* d = &r->def;
   const double h = d->element_length, k = d->young * kPi * d->radius * d->radius / h;
@@ -210,7 +210,7 @@ static void add_stretching(rod* r) {
   }
 }
 
-/* How far a node is in the wall's plane, mm. */
+/* Depth of a node beyond the wall's plane, mm. */
 static double depth(const rod* r, size_t i) {
   const rod_contact* c = &r->contact[i];
   double moved[3];
@@ -231,7 +231,7 @@ static void add_friction(rod* r, size_t i, double pressing) {
   add_directed(r, i, i, stiffness, -1, n);
 }
 
-/* A node in the wall is held on its plane until the force that this takes would pull. */
+/* Adds contacts: a node in the wall is held on its plane until the force for this would pull. */
 static void add_contacts(rod* r) {
   const double k = contact_stiffness(&r->def), none = 1e-12 * k;
   for (size_t i = 0; i < r->free_count; ++i) {
@@ -245,7 +245,7 @@ static void add_contacts(rod* r) {
   }
 }
 
-/* Contact forces after `share` of the step -g, which balances the forces if taken whole. */
+/* Updates contact forces after `share` of the step -g, which balances the forces if taken whole. */
 static void update_forces(rod* r, double share, const double* g) {
   const double k = contact_stiffness(&r->def);
   r->contact_count = 0;

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A thin elastic rod that is pushed into a vessel: what a catheter or guidewire does to first
- * order.
+/* A thin elastic rod that is pushed into a vessel: a catheter or guidewire to first order.
  *
  * Nodes at equal spacing carry mass; energies of bending (squared second differences) and
  * stretching hold them together. A step is implicit Euler by Newton's method: with the wall's
  * planes at hand, one banded system gives all nodes at once, however stiff the rod. Contact forces
  * are multipliers that carry over from step to step (augmented Lagrangian), so a rod at rest does
- * not sink into the wall. Friction is Coulomb's, regularised: what should stick creeps by friction
- * * force / stiffness of contact a step.
+ * not sink into the wall. Friction is Coulomb's, regularised: a sticking contact creeps by
+ * friction * force / contact stiffness per step.
  *
  * Units: mm, s, N, hence tonnes. */
 #ifndef CATHETER_ROD_H
@@ -22,11 +21,11 @@
 extern "C" {
 #endif
 
-/* Get one from rod_def_default(), then set entry and direction. */
+/* Parameters of a rod: from rod_def_default(), then with entry and direction set. */
 typedef struct rod_def {
   size_t elements;       /* default 200 */
   double element_length; /* mm; 0.5 */
-  double radius;         /* mm, of the rod's surface; 0.15 */
+  double radius;         /* radius of the rod's surface, mm; 0.15 */
   double young;          /* N/mm^2; 1e5, that is 100 GPa (thesis 5.5) */
   double density;        /* t/mm^3; 6.5e-9 */
   double friction;       /* Coulomb's coefficient; 0.1 */
@@ -34,17 +33,16 @@ typedef struct rod_def {
   int iterations;        /* Newton steps in a time step; 4 */
   int detect_once;       /* 1: the wall is asked once a step, and its planes are kept; 0: at each
                             iteration */
-  double
-      entry[3]; /* mm; what is not in the vessel yet lies behind this point on a straight guide */
-  double direction[3]; /* unit vector of that guide, into the vessel */
+  double entry[3];       /* mm; the rest of the rod lies behind this point on a straight guide */
+  double direction[3];   /* unit vector of that guide, into the vessel */
 } rod_def;
 
 rod_def rod_def_default(void);
 
 typedef struct rod_contact {
-  double distance;  /* of the node to the wall where it was asked, mm */
+  double distance;  /* from `anchor` to the wall, mm */
   double normal[3]; /* outward */
-  double anchor[3]; /* that node's position then, mm */
+  double anchor[3]; /* position of the node when the wall was asked, mm */
   double force;     /* N, along -normal; >= 0 */
   int active;       /* 1: it holds the node on the wall's plane, until the force would pull */
 } rod_contact;
@@ -59,16 +57,17 @@ typedef struct rod {
   uint32_t* cursor;
   rod_contact* contact;
   size_t contact_count; /* nodes that press on the wall after the last step */
-  double wall_seconds;  /* spent in wall.query() in the last step */
+  double wall_seconds;  /* seconds in wall.query() in the last step */
   double solver_seconds;
   void* scratch;
 } rod;
 
-/* A rod with `inserted` mm past the entry, straight and at rest. 0 if memory ran out. */
+/* Creates a rod with `inserted` mm past the entry, straight and at rest. Returns 0 if memory ran
+ * out. */
 int rod_create(rod* r, const rod_def* def, const wall* w, double inserted);
 void rod_destroy(rod* r);
 
-/* One time step, in which the rod is pushed at `speed` mm/s until no element is left outside. */
+/* Makes one time step: the rod is pushed at `speed` mm/s until no element is left outside. */
 void rod_step(rod* r, const wall* w, double speed);
 
 #ifdef __cplusplus

@@ -8,7 +8,7 @@ static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Two unit vectors across the unit vector n. */
+/* Two unit vectors perpendicular to the unit vector n. */
 static void plane_of(const double n[3], double u[3], double v[3]) {
   const int least = fabs(n[0]) < 0.6 ? 0 : 1;
   for (int a = 0; a < 3; ++a) u[a] = (a == least) - n[least] * n[a];

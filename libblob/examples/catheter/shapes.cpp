@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The capsule and the spiral of Yureidini's thesis, 5.5.2, synthetic: convolution surfaces of equal
-// Cauchy blobs along a skeleton. Writes NAME.lumen, the skeleton as a tracked case with wall points,
-// to be fitted, and NAME-truth.lumen, the exact surface, to make triangle meshes of and to measure
-// distances to. The thesis' formula 5.35 does not give its figure 5.6: this spiral is
+// Cauchy blobs along a skeleton. Writes NAME.lumen, the skeleton as a tracked case with wall
+// points, to be fitted, and NAME-truth.lumen, the exact surface, for triangle meshes and for
+// distances. The thesis' formula 5.35 does not give its figure 5.6: this spiral is
 // r = 8 + 1.85 angle, 1.5 turns, of about the same size.
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ constexpr double kPi = std::numbers::pi;
 struct Shape {
   std::vector<Vector3d> skeleton;  // equally spaced, mm
   double radius = 0;               // mm, halfway along
-  double width = 0;                // of each blob, mm
+  double width = 0;                // width of each blob, mm
 
   [[nodiscard]] double value(const Vector3d& p) const {
     double sum = 0;
@@ -51,7 +51,7 @@ Shape makeShape(const std::string& name) {
   if (name == "capsule") {
     for (int i = 0; i <= 20; ++i) shape.skeleton.emplace_back(spacing * i, 0, 0);
   } else {
-    // from the outer end inwards, the way a tool is pushed
+    // from the outer end inwards, in the direction of a pushed tool
     for (double angle = 3 * kPi; angle >= 0;) {
       const double r = 8 + 1.85 * angle;
       shape.skeleton.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
@@ -70,7 +70,7 @@ Shape makeShape(const std::string& name) {
   return shape;
 }
 
-/// Where the ray from a point within leaves the surface, to 1e-12 mm.
+/// The point where the ray from a point within leaves the surface, to 1e-12 mm.
 Vector3d leave(const Shape& shape, const Vector3d& from, const Vector3d& direction) {
   double inside = 0, outside = 2 * shape.radius;
   for (int i = 0; i < 60; ++i) {
@@ -168,7 +168,8 @@ void addNode(Case& value, const Vector3d& centre, const Vector3d& direction, dou
   tree.branch.push_back(0);
 }
 
-/// Wall points go to the skeleton point that they are nearest to, as the thesis does.
+/// The skeleton as a tracked case. Wall points belong to their nearest skeleton point, as in the
+/// thesis.
 Case trackedCase(const Shape& shape, const std::string& name) {
   Case value;
   value.metadata.voxelSize = 2 * kLevel;
@@ -194,7 +195,7 @@ Case trackedCase(const Shape& shape, const std::string& name) {
   return value;
 }
 
-/// Every node has all blobs, so the surface is the exact one wherever a cursor is.
+/// The exact surface as a case: every node has all blobs, so the surface is exact at any cursor.
 Case truthCase(const Shape& shape, Case value) {
   value.points.reset();
   auto& models = value.models.emplace();

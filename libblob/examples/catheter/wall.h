@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a rod asks of the wall around it, whatever represents the wall. */
+/* Interface between a rod and the wall around it, for any representation of the wall. */
 #ifndef CATHETER_WALL_H
 #define CATHETER_WALL_H
 
@@ -34,7 +34,8 @@ wall wall_of_model(const blob_model* model, uint32_t flags, uint32_t start);
 wall wall_of_mesh(size_t vertex_count, const float (*vertices)[3], size_t triangle_count,
                   const uint32_t (*triangles)[3], double reach);
 
-/* The same from a Wavefront OBJ file's v and f lines; self is null if it cannot be read. */
+/* The wall of a triangle mesh from the v and f lines of a Wavefront OBJ file, as by wall_of_mesh();
+ * self is null if the file cannot be read. */
 wall wall_of_obj(const char* path, double reach);
 
 #ifdef __cplusplus

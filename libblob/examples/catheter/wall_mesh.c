@@ -19,7 +19,7 @@ typedef struct mesh_wall {
 typedef struct nearest_triangle {
   const mesh_wall* mesh;
   uint32_t triangle;
-  double point[3]; /* of the triangle, nearest to the query point */
+  double point[3]; /* nearest to the query point in the triangle */
   double squared;  /* distance, mm^2 */
 } nearest_triangle;
 
@@ -70,7 +70,7 @@ static void nearest_on_triangle(const double p[3], double c[3][3], double neares
   }
 }
 
-/* Keeps the triangle if it is nearer than the one before. */
+/* Keeps the triangle if it is nearer than the best so far. */
 static int consider(nearest_triangle* best, uint32_t triangle, const double p[3]) {
   double corner[3][3], q[3];
   corners(best->mesh, triangle, corner);
@@ -97,9 +97,9 @@ static bool visit(struct RTCPointQueryFunctionArguments* args) {
   return true;
 }
 
-/* The side that the nearest triangle faces decides inside or outside, and the way to the nearest
- * point is the normal: at an edge it turns from one face's to the other's. On the surface it is the
- * face's. */
+/* The signed distance: the side that the nearest triangle faces decides inside or outside. The
+ * normal is the direction to the nearest point, which turns from one face's normal to the other's
+ * at an edge; on the surface it is the face's normal. */
 static double signed_answer(const nearest_triangle* best, const double p[3], double normal[3]) {
   double c[3][3], ab[3], ac[3], face[3], away[3];
   corners(best->mesh, best->triangle, c);

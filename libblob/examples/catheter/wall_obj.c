@@ -12,7 +12,7 @@ typedef struct mesh_arrays {
   size_t vertex_room, triangle_room;
 } mesh_arrays;
 
-/* Room for one more item of `size` bytes; 0 when memory has run out. */
+/* Makes room for one more item of `size` bytes; returns 0 if memory ran out. */
 static int grow(void** items, size_t count, size_t* room, size_t size) {
   if (count < *room) return 1;
   const size_t more = *room == 0 ? 1024 : 2 * *room;
@@ -31,7 +31,7 @@ static int read_vertex(const char* line, mesh_arrays* m) {
   return sscanf(line, "v %f %f %f", &v[0], &v[1], &v[2]) == 3;
 }
 
-/* Of "f 1/1/1 2/2/2 3/3/3" the position's index, which counts from one. */
+/* Reads the position indices of a line such as "f 1/1/1 2/2/2 3/3/3", which count from one. */
 static int read_face(const char* line, mesh_arrays* m) {
   void* items = m->triangles;
   if (!grow(&items, m->triangle_count, &m->triangle_room, sizeof m->triangles[0])) return 0;

@@ -7,9 +7,10 @@
 //   <asset><mesh name="v"><plugin instance="v"/></mesh></asset>
 //   <geom type="sdf" mesh="v"><plugin instance="v"/></geom>
 //
-// `unit` is the model's length of a millimetre, 0.001 by default. All that is not lumen is solid. A query of the engine
-// says a point and no tool, so it cannot carry a cursor: where vessels touch, the nearer one answers. The collision
-// functions for MuJoCo 2 (vessel.c) know the tool and keep its cursor.
+// `unit` is the model's length of a millimetre, 0.001 by default. Everything outside of the lumen
+// is solid. The engine queries a point without a tool, so no cursor is kept: where vessels touch,
+// the nearer one answers. The collision functions for MuJoCo 2 (vessel.c) know the tool and keep
+// its cursor.
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -32,11 +33,11 @@ struct CloseModel {
   void operator()(blob_model* model) const { blob_model_close(model); }
 };
 
-/// Vessels stay open from the first use on. The engine asks about a mesh before there is an instance, by numbers
-/// only: the place in this list is the number. Never shrinks.
+/// List of vessels, which stay open from the first use on. The engine refers to a mesh before there
+/// is an instance, by numbers only: the number is the place in this list, which never shrinks.
 class Vessels {
 public:
-  /// The place of the vessel, or -1 if it cannot be opened, which the engine warns of.
+  /// The place of the vessel, or -1 if it cannot be opened; the engine warns then.
   int find(const std::string& file, double unit) {
     const std::lock_guard lock(m_mutex);
     const auto key = std::make_pair(file, unit);
@@ -83,7 +84,7 @@ int init(const mjModel* m, mjData* d, int instance) {
   return place < 0 ? -1 : 0;
 }
 
-/// Positive in the lumen, where the engine's solids are not. Far away where there is no vessel.
+/// The gap: positive in the lumen, where the engine has no solid; mjMAXVAL without a vessel.
 mjtNum gapAt(const wall* w, const mjtNum point[3]) {
   std::uint32_t cursor = BLOB_NOWHERE;
   return w == nullptr ? mjMAXVAL : wall_at(w, point, &cursor).gap;
@@ -141,7 +142,7 @@ void registerVessel() {
   mjp_registerPlugin(&plugin);
 }
 
-// The engine's own macro for this took other arguments from version to version.
+// Registers the plugin without the engine's macro, whose arguments changed from version to version.
 __attribute__((constructor)) void onLoad() {
   registerVessel();
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Drops a ball into a vessel and pushes a chain of capsules along it, for ten simulated seconds,
- * with gravity towards each of six directions. Tells how far they entered the wall and whether they
- * stayed in their vessel; exit code 1 if not. Units: mm, g, s. */
+ * with gravity towards each of six directions. Reports how far they entered the wall and whether
+ * they stayed in their vessel; exit code 1 if not. Units: mm, g, s. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,8 +45,7 @@ static void put_head(scene* s, const blob_model* vessel, const double gravity[3]
     centre[a] = 0.5 * (info.low[a] + info.high[a]);
     half[a] = 0.5 * (info.high[a] - info.low[a]) + 5;
   }
-  /* contacts react within 1 ms: small things in full gravity would sink deep in the default 20 ms
-   */
+  /* contacts react within 1 ms: small tools in full gravity would sink deep in the default 20 */
   snprintf(line, sizeof line,
            "<mujoco><size nconmax='200' njmax='1000'/>"
            "<option timestep='0.0005' gravity='%g %g %g' density='0.00106' viscosity='0.0035'/>"
@@ -58,8 +57,7 @@ static void put_head(scene* s, const blob_model* vessel, const double gravity[3]
   put(s, line);
 }
 
-/* A free capsule for each step along the centerline, joined end to end, and the ball ahead of them.
- */
+/* Adds a free capsule for each step along the centerline, joined end to end, and the ball ahead. */
 static void put_tools(scene* s, const blob_model* vessel, uint32_t node) {
   char line[512];
   blob_node from = blob_model_node(vessel, node);
@@ -137,7 +135,7 @@ static void watch(const mjModel* m, const mjData* d, const blob_model* vessel, u
   }
 }
 
-/* The base is pushed along its own axis towards a speed of 20 mm/s, with at most four times the
+/* Pushes the base along its own axis towards a speed of 20 mm/s, with at most four times the
  * chain's weight. */
 static void push(const mjModel* m, mjData* d) {
   const int body = mj_name2id(m, mjOBJ_BODY, "c0");

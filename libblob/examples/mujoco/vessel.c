@@ -9,23 +9,23 @@ static struct {
   wall wall;
   int geom, body;
   int cursor_count;
-  uint32_t (*cursors)[2]; /* of each geom: a sphere's centre, or a capsule's ends */
+  uint32_t (*cursors)[2]; /* for each geom: a sphere's centre, or a capsule's ends */
   mjfCollision sphere_box, capsule_box;
 } g_vessel;
 
-/* A point of the world in the vessel's frame. */
+/* Converts a point of the world to the vessel's frame. */
 static void to_vessel(const mjData* d, const mjtNum world[3], double point[3]) {
   mjtNum away[3];
   mju_sub3(away, world, d->xpos + 3 * g_vessel.body);
   mju_rotVecMatT(point, away, d->xmat + 9 * g_vessel.body);
 }
 
-/* Fills a contact of a ball with the wall. MuJoCo's normal points from the first geom, the tool, to the second, the
- * wall. */
+/* Fills a contact of a ball with the wall. MuJoCo's normal points from the first geom, the tool, to
+ * the second, the wall. */
 static int fill_contact(const mjData* d, mjContact* contact, const mjtNum centre[3], mjtNum radius,
                         const wall_answer* at_centre, mjtNum margin) {
   const mjtNum gap = at_centre->gap - radius;
-  if (!(gap <= margin)) return 0; /* nor if the tool is at no place */
+  if (!(gap <= margin)) return 0; /* also for a NaN: a tool at no place */
   mju_rotVecMat(contact->frame, at_centre->normal, d->xmat + 9 * g_vessel.body);
   mju_zero3(contact->frame + 3);
   mju_addScl3(contact->pos, centre, contact->frame, radius + 0.5 * gap);
@@ -49,8 +49,8 @@ static int sphere_vessel(const mjModel* m, const mjData* d, mjContact* contact, 
                       &g_vessel.cursors[g1][0], margin);
 }
 
-/* Both ends keep a capsule from turning through the wall; its deepest point between them keeps a
- * bend of the wall from entering its side. */
+/* Fills the contacts of a capsule: both ends keep it from turning through the wall; the deepest
+ * point between them keeps a bend of the wall from entering its side. */
 static int capsule_vessel(const mjModel* m, const mjData* d, mjContact* contact, int g1, int g2,
                           mjtNum margin) {
   if (g2 != g_vessel.geom || g1 >= g_vessel.cursor_count)
@@ -70,7 +70,7 @@ static int capsule_vessel(const mjModel* m, const mjData* d, mjContact* contact,
   wall_answer deepest;
   const double t =
       wall_deepest(&g_vessel.wall, from, to, radius, g_vessel.cursors[g1][0], &deepest);
-  if (t < 0.05 || t > 0.95) return count; /* an end has it */
+  if (t < 0.05 || t > 0.95) return count; /* an end has this contact */
   mjtNum point[3];
   mju_addScl3(point, end[0], axis, 2 * half * t);
   return count + fill_contact(d, contact + count, point, radius, &deepest, margin);

@@ -12,10 +12,11 @@
 extern "C" {
 #endif
 
-/* From now on the box geom `name` of `m` is the vessel. Its body's frame is the case's frame,
+/* Makes the box geom `name` of `m` the vessel. Its body's frame is the case's frame,
  * scaled: one millimetre is `unit` of the model's lengths (1 for a model in mm, 0.001 in metres).
  * The box must enclose the vessel. Collision functions are MuJoCo's globals, so one vessel at a
- * time and one thread; both models must outlive it. 0 if there is no such box or memory ran out. */
+ * time and one thread; both models must outlive it. Returns 0 if there is no such box or memory ran
+ * out. */
 int vessel_attach(const mjModel* m, const char* name, const blob_model* blobs, double unit);
 
 /* Restores MuJoCo's own collision functions. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading points, finding their nodes, writing answers. Include after wall_distance.h.
+// Input of points, search for their nodes, and output of answers. Include after wall_distance.h.
 
 // The point relative to its node, which is located first if unknown; false for a point that is not
 // finite or too far away.
@@ -17,7 +17,7 @@ inline bool enterNode(const View& view, const D4& point, std::uint32_t& node, F4
   return isWithin(x, static_cast<float>(kFar));
 }
 
-// A lane without a point computes something harmless.
+// Fills a lane without a point with harmless numbers.
 inline void leaveEmpty(Group& g, std::size_t i) {
   store4(g.field[i], set4(1.0f));
   store4(g.at[i], set4(1.0f));
@@ -86,7 +86,8 @@ inline void fillAnswer(const View& view, const Inputs& in, const Group& g, std::
     fillSample(g, i, in.node[i], sample);
 }
 
-// Groups are worked on together, so that the long chains of one hide in those of the others.
+// Number of groups that are processed together, so that the long chains of operations of one
+// overlap with those of the others.
 constexpr std::size_t kGroups = 4;
 
 struct Batch {
@@ -95,7 +96,8 @@ struct Batch {
   unsigned outOfRange[kGroups];
 };
 
-// In two loops, as short ones overlap better in the processor.
+// Finds the nodes of a group. Separate from evaluation, as short loops overlap better in the
+// processor.
 LUMEN_NOINLINE unsigned placeGroup(const View& view, bool hold, std::size_t count, Inputs& in,
                                    Group& g) {
   unsigned outOfRange = 0;
@@ -104,12 +106,12 @@ LUMEN_NOINLINE unsigned placeGroup(const View& view, bool hold, std::size_t coun
   return outOfRange;
 }
 
-// A few points side by side, so that one's chain of operations fills the pauses of another's: the
-// processor does not look far enough ahead to find the next point by itself.
+// Number of points processed side by side, so that one's chain of operations fills the pauses of
+// another's: the processor does not look far enough ahead to find the next point by itself.
 constexpr std::size_t kTogether = 4;
 
-// Bits of those whose cursors may move, or all if a node does not have one block of
-// neighbours; the others are placed.
+// Bits of the points whose cursors may move, or all if a node does not have exactly one block of
+// neighbours; the other points are placed.
 inline unsigned stayTogether(const View& view, bool hold, const Inputs& in, Group& g,
                              std::size_t first) {
   constexpr unsigned kAll = (1U << kTogether) - 1U;
@@ -155,7 +157,7 @@ inline void evaluateTogether(const View& view, const Inputs& in, Group& g, std::
     store4(g.field[first + k], sums(terms[k].f, terms[k].x, terms[k].y, terms[k].z));
 }
 
-// Bits of the points that are out of range.
+// Finds the nodes of a group side by side; returns the bits of the points out of range.
 LUMEN_NOINLINE unsigned placeTogether(const View& view, bool hold, std::size_t count, Inputs& in,
                                       Group& g) {
   if (count != kLanes) return placeGroup(view, hold, count, in, g);
@@ -170,7 +172,7 @@ LUMEN_NOINLINE unsigned placeTogether(const View& view, bool hold, std::size_t c
   return outOfRange;
 }
 
-// What each point's node says by itself.
+// Evaluates the model of each point's node alone.
 template <class K>
 LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned outOfRange,
                                   const Inputs& in, Group& g) {
@@ -189,8 +191,8 @@ LUMEN_NOINLINE void evaluateGroup(const View& view, std::size_t count, unsigned 
       keep(evaluateLocal<K>(view, in.node[i], load4(g.at[i])), g, i);
 }
 
-// Decides first which points need blending, then blends those: in one loop the processor would
-// often mispredict whether the next point needs that long work.
+// Blends a group: finds the points that need it first, then blends them. In one loop the processor
+// would often mispredict whether the next point needs that long work.
 template <class K>
 LUMEN_NOINLINE void blendGroup(const View& view, std::size_t count, unsigned outOfRange,
                                const Inputs& in, Group& g) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blended field. Include after field.h.
+// The blended field in floats. Include after field.h.
 //
-// This is formats/field/blend.h once more, for floats and rows of four: a weight's psi over eight
-// neighbours is one product of lanes, sums keep f and its gradient in one row, and an exponential
-// kernel's f comes with a shift. Which nodes blend, and the polynomial of psi, are shared.
-// tests/unit/field holds the two to each other.
+// This is the counterpart of formats/field/blend.h for floats and rows of four: a weight's psi over
+// eight neighbours is one product of lanes, sums keep f and its gradient in one row, and an
+// exponential kernel's f comes with a shift. The choice of the nodes that blend and the polynomial
+// of psi are shared. tests/unit/field compares the two.
 
 // Neighbours in a block that a node does not beat by tau: all others have no weight.
 inline unsigned rivalsIn(const NeighbourBlock& block, F8 difference) {
@@ -48,8 +48,8 @@ inline F4 weigh(const View& view, std::uint32_t node, F4 x, ActiveNodes& active)
 }
 
 // The factors that bring two values of an exponential kernel, each with a shift, to one shift,
-// which is left in `first`. That is the first's own, unless the second, raised to it, could leave
-// the range of floats; then the first, beside the second as good as nothing, is lowered.
+// which is left in `first`: the first's own, unless the second, raised to it, could leave the range
+// of floats; then the first, which is negligible beside the second, is lowered.
 struct Factors {
   float first, second;
 };
@@ -101,7 +101,7 @@ inline Lane quotient(const Mixture& sum) {
   return {withFirst(sum.f0 + excess, row), sum.shift, sum.radius * inverse};
 }
 
-// Takes part in visitActiveNodes(): adds each node's model to the sum.
+// Visitor for visitActiveNodes(): adds each node's model to the sum.
 template <class K>
 struct AddActiveNode {
   const View& view;
@@ -116,7 +116,7 @@ struct AddActiveNode {
   }
 };
 
-// Any number of nodes that blend.
+// Blends any number of nodes.
 template <class K>
 LUMEN_NOINLINE Lane blendAll(const View& view, const D4& point, std::uint32_t node, F4 x) {
   Mixture sum;
@@ -124,13 +124,14 @@ LUMEN_NOINLINE Lane blendAll(const View& view, const D4& point, std::uint32_t no
   return sum.empty ? evaluateLocal<K>(view, node, x) : quotient(sum);
 }
 
-// Two nodes that have no rivals but each other, as along a tube: their weights are psi and 1 - psi,
+// Blends two nodes that have no rivals but each other, as along a tube: their weights are psi and 1
+// - psi,
 // with sum 1. False if there are more nodes, or if the first has hardly a weight.
 template <class K>
 inline bool blendPair(const View& view, const D4& point, std::uint32_t node,
                       const NeighbourBlock& block, const float* difference, unsigned rivals,
                       Lane& lane) {
-  constexpr float kLeastDifference = -0.999f;  // of powers, over tau
+  constexpr float kLeastDifference = -0.999f;  // difference of powers over tau
   const int rival = __builtin_ctz(rivals);
   const float inverseTau = block.inverseTau[rival], t = difference[rival] * inverseTau;
   const NodeRecord& other = view.nodes[block.node[rival]];
@@ -159,7 +160,8 @@ inline bool blendPair(const View& view, const D4& point, std::uint32_t node,
   return true;
 }
 
-// A node's differences of power where it has one block of neighbours; else all bits.
+// Bits of a node's rivals, and its differences of power, if it has one block of neighbours; else
+// all bits.
 inline unsigned rivalsOf(const View& view, std::uint32_t node, const Splats& x, float* difference) {
   const NodeRecord& record = view.nodes[node];
   if (record.neighbourBlocks != 1) return ~0U;
@@ -169,7 +171,7 @@ inline unsigned rivalsOf(const View& view, std::uint32_t node, const Splats& x, 
   return rivalsIn(block, differences);
 }
 
-// Adds to a node's own answer what its rivals say.
+// Blends the models of a node's rivals into the node's own answer.
 template <class K>
 inline void blendLane(const View& view, const D4& point, std::uint32_t node, F4 x,
                       const float* difference, unsigned rivals, Lane& lane) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that is compiled once for each set of SIMD instructions, on the vector types F4 and F8 that
-// the including file has declared in its namespace. Text, in this order; each part uses those
+// All code that is compiled once for each set of SIMD instructions, on the vector types F4 and F8
+// that the including file has declared in its namespace. Text, in this order; each part uses those
 // before it.
 
 // clang-format off

@@ -33,8 +33,8 @@ inline bool isInside(const blob_model& model, std::uint32_t flags, const double*
   return firstOf(lane.field) * scale > view.level;
 }
 
-// Every blob's part falls with the distance from its centre, so the ends of the ball along the line
-// through the centre bound it.
+// Bounds on a node's f in a ball: every blob's part falls with the distance from its centre, so the
+// ends of the ball along the line through the centre bound it.
 template <class K>
 inline void boundNode(const View& view, const FieldNode& node, F4 x, float radius, float& least,
                       float& greatest) {
@@ -54,7 +54,8 @@ inline void boundNode(const View& view, const FieldNode& node, F4 x, float radiu
   greatest = highSum > greatest ? highSum : greatest;
 }
 
-// A neighbour may take part somewhere in the ball unless it stays beaten, by tau if blended.
+// Bounds on f in a ball: a neighbour may take part somewhere in it unless it stays beaten, by tau
+// if blended.
 template <class K>
 inline void boundField(const blob_model& model, std::uint32_t flags, const double* point,
                        std::uint32_t node, float radius, float* least, float* greatest) {
@@ -80,7 +81,7 @@ inline void boundField(const blob_model& model, std::uint32_t flags, const doubl
   }
 }
 
-// One point, without the rows of a group: its numbers are in all lanes.
+// Answers at one point, without the rows of a group: its numbers are in all lanes.
 template <class K>
 inline bool queryPoint(const blob_model& model, std::uint32_t flags, const double* point,
                        std::uint32_t& node, blob_sample& sample) {

@@ -39,7 +39,7 @@ inline F8 select(M8 m, F8 a, F8 b) {
 inline unsigned maskBits(M8 m) {
   return static_cast<unsigned>(_mm256_movemask_ps(m.v));
 }
-/// The lesser; b where a lane is no number.
+/// The lesser of a and b; b where a lane is NaN.
 inline F8 min(F8 a, F8 b) {
   return {_mm256_min_ps(a.v, b.v)};
 }
@@ -101,7 +101,7 @@ struct D4 {
 inline D4 load4(const double* p) {
   return {_mm256_loadu_pd(p)};
 }
-/// Three, and zero.
+/// Loads three doubles; the fourth is zero.
 inline D4 load3(const double* p) {
   return {_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_load_sd(p + 2), 1)};
 }
@@ -109,20 +109,20 @@ inline D4 load3(const double* p) {
 inline F4 differenceOf(D4 a, D4 b) {
   return {_mm256_cvtpd_ps(_mm256_sub_pd(a.v, b.v))};
 }
-/// One of the four in all lanes.
+/// Copy of one of the four numbers in all lanes.
 template <int lane>
 inline F8 splat(F4 a) {
   return {_mm256_permutevar8x32_ps(_mm256_castps128_ps256(a.v), _mm256_set1_epi32(lane))};
 }
-/// Four numbers.
+/// A row of four numbers.
 inline F4 rowOf(float a, float b, float c, float d) {
   return {_mm_setr_ps(a, b, c, d)};
 }
-/// a with another first number.
+/// Copy of a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return {_mm_blend_ps(a.v, _mm_set_ss(first), 1)};
 }
-/// -limit <= a <= limit for the first three; not if one is no number.
+/// Whether -limit <= a <= limit for the first three numbers; false if one is NaN.
 inline bool isWithin(F4 a, float limit) {
   const __m128 size = _mm_andnot_ps(_mm_set1_ps(-0.0f), a.v);
   return (_mm_movemask_ps(_mm_cmp_ps(size, _mm_set1_ps(limit), _CMP_LE_OQ)) & 7) == 7;
@@ -138,7 +138,7 @@ inline F4 sums(F8 a, F8 b, F8 c, F8 d) {
   const __m256 r = _mm256_add_ps(_mm256_shuffle_ps(ab, cd, 0x44), _mm256_shuffle_ps(ab, cd, 0xEE));
   return {_mm_add_ps(_mm256_castps256_ps128(r), _mm256_extractf128_ps(r, 1))};
 }
-/// Four rows of four in each half, turned.
+/// Transposes four rows of four in each half.
 inline void turn(F8 m[4]) {
   const __m256 a = _mm256_unpacklo_ps(m[0].v, m[1].v), b = _mm256_unpackhi_ps(m[0].v, m[1].v);
   const __m256 c = _mm256_unpacklo_ps(m[2].v, m[3].v), d = _mm256_unpackhi_ps(m[2].v, m[3].v);

@@ -72,7 +72,7 @@ inline F4 sqrt4(F4 a) {
 #endif
 }
 #endif
-/// The lesser; b where a lane is no number.
+/// The lesser of a and b; b where a lane is NaN.
 inline F8 min(F8 a, F8 b) {
   return select(less(a, b), a, b);
 }
@@ -152,7 +152,7 @@ struct D4 {
 inline D4 load4(const double* p) {
   return {{p[0], p[1], p[2], p[3]}};
 }
-/// Three, and zero.
+/// Loads three doubles; the fourth is zero.
 inline D4 load3(const double* p) {
   return {{p[0], p[1], p[2], 0.0}};
 }
@@ -161,20 +161,20 @@ inline F4 differenceOf(const D4& a, const D4& b) {
   return F4{static_cast<float>(a.v[0] - b.v[0]), static_cast<float>(a.v[1] - b.v[1]),
             static_cast<float>(a.v[2] - b.v[2]), static_cast<float>(a.v[3] - b.v[3])};
 }
-/// One of the four in all lanes.
+/// Copy of one of the four numbers in all lanes.
 template <int lane>
 inline F8 splat(F4 a) {
   return set1(a[lane]);
 }
-/// Four numbers.
+/// A row of four numbers.
 inline F4 rowOf(float a, float b, float c, float d) {
   return F4{a, b, c, d};
 }
-/// a with another first number.
+/// Copy of a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return select4(I4{-1, 0, 0, 0}, set4(first), a);
 }
-/// -limit <= a <= limit for the first three; not if one is no number.
+/// Whether -limit <= a <= limit for the first three numbers; false if one is NaN.
 inline bool isWithin(F4 a, float limit) {
   const I4 within = (a <= set4(limit)) & (a >= set4(-limit));
   return (within[0] & within[1] & within[2]) != 0;

@@ -53,7 +53,7 @@ inline unsigned maskBits(M8 m) {
   LUMEN_EACH bits |= (m.v[i] ? 1U : 0U) << i;
   return bits;
 }
-/// The lesser; b where a lane is no number.
+/// The lesser of a and b; b where a lane is NaN.
 inline F8 min(F8 a, F8 b) {
   return select(less(a, b), a, b);
 }
@@ -121,7 +121,7 @@ struct D4 {
 inline D4 load4(const double* p) {
   return {{p[0], p[1], p[2], p[3]}};
 }
-/// Three, and zero.
+/// Loads three doubles; the fourth is zero.
 inline D4 load3(const double* p) {
   return {{p[0], p[1], p[2], 0.0}};
 }
@@ -131,20 +131,20 @@ inline F4 differenceOf(const D4& a, const D4& b) {
   for (int i = 0; i < 4; ++i) r.v[i] = static_cast<float>(a.v[i] - b.v[i]);
   return r;
 }
-/// One of the four in all lanes.
+/// Copy of one of the four numbers in all lanes.
 template <int lane>
 inline F8 splat(F4 a) {
   return set1(a.v[lane]);
 }
-/// Four numbers.
+/// A row of four numbers.
 inline F4 rowOf(float a, float b, float c, float d) {
   return {{a, b, c, d}};
 }
-/// a with another first number.
+/// Copy of a with another first number.
 inline F4 withFirst(float first, F4 a) {
   return {{first, a.v[1], a.v[2], a.v[3]}};
 }
-/// -limit <= a <= limit for the first three; not if one is no number.
+/// Whether -limit <= a <= limit for the first three numbers; false if one is NaN.
 inline bool isWithin(F4 a, float limit) {
   bool within = true;
   for (int i = 0; i < 3; ++i) within = within && a.v[i] <= limit && a.v[i] >= -limit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One node's model, and the cursor's step. Include after the formulas.
 
-// What a query reads.
+// The data that a query reads.
 struct View {
   explicit View(const blob_model& m)
       : nodes(m.nodes.data()),
@@ -34,7 +34,8 @@ struct Splats {
 
 // ---------------------------------------------------------------- one model
 
-// f of such a kernel underflows where a distance is still wanted: it is given times exp(shift).
+// Whether f of a kernel comes times exp(shift), since it underflows where a distance is still
+// wanted.
 template <class K>
 constexpr bool kIsShifted = K::kTail == KernelTail::Exponential;
 
@@ -61,13 +62,13 @@ inline float leastExponent(const BlobBlock* blocks, std::uint32_t count, const S
   return leastOf(least);
 }
 
-// What eight blobs add to f and grad f.
+// The parts of eight blobs in f and grad f.
 struct Terms {
   F8 f, x, y, z;
 };
 
-// Padding is no nearer than the nearest blob: else its exponential could be infinite, and times no
-// width no number.
+// Terms of a block. Padding is no nearer than the nearest blob: else its exponential could be
+// infinite, and NaN times a width of zero.
 template <class K>
 inline Terms termsOf(const BlobBlock& block, const Splats& at, float shift) {
   Offsets d = offsetsOf(block, at);
@@ -102,7 +103,7 @@ inline F4 evaluateNode(const View& view, const FieldNode& node, F4 x, float& shi
   return sumBlocks<K>(blocks, node.blockCount, at, shift);
 }
 
-// What a point has before its distance: f and grad f, both times exp(shift), and the radius.
+// A point before its distance: f and grad f, both times exp(shift), and the radius.
 struct Lane {
   F4 field = set4(0.0f);
   float shift = 0, radius = 0;
@@ -143,7 +144,8 @@ inline std::uint32_t lowerNeighbour(const View& view, std::uint32_t node, const 
   return best;
 }
 
-// Rounding could let two nodes each see less power in the other: never straight back.
+// The walk never steps straight back: by rounding, two nodes could each see less power in the
+// other.
 // x is the point relative to the node, before and after.
 inline std::uint32_t followFrom(const View& view, const D4& point, std::uint32_t node, F4& x) {
   constexpr int kMaxSteps = 256;

@@ -39,7 +39,7 @@ struct Pending {
   std::uint32_t level, block;  // level 0: a leaf
 };
 
-// The lowest index among equals. The point is finite.
+// The node of least power, the lowest index among equals. The point is finite.
 inline std::uint32_t locateLeast(const blob_model& model, const double* point) {
   // 2^24 nodes make 8 levels, each of which leaves at most 7 blocks pending.
   constexpr int kMaxPending = 80;

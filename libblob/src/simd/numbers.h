@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the formulas of kernels and weights ask of their number type, for eight floats. Include
-// after the vector types. No operation is contracted or reordered, so every set of instructions
-// gives the same bits.
+// Functions that the formulas of kernels and weights require of their number type, for eight
+// floats. Include after the vector types. No operation is contracted or reordered, so every set of
+// instructions gives the same bits.
 
-// Kept out of line: each loop gets all registers.
+// Functions that are not inlined, so that each loop gets all registers.
 #if defined(__GNUC__)
 #define LUMEN_NOINLINE __attribute__((noinline))
 #else

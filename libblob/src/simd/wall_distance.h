@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From f and its gradient to distance and normal, eight points at a time; see blob_sample in
+// Distance and normal from f and its gradient, eight points at a time; see blob_sample in
 // blob.h. Include after blend.h.
 
 // Up to eight points between evaluation and answer.
@@ -22,8 +22,8 @@ inline F8 wallDistance(F8 difference, F8 slope, F8 radius, M8 inside) {
   return select(less(zero, d), distance, zero);
 }
 
-// From f, grad f, the point relative to its node and the radius: distance and normal; f and grad f
-// without their shift; which lanes are inside.
+// Computes from f, grad f, the point relative to its node and the radius: distance and normal; f
+// and grad f without their shift; the bits of the lanes inside.
 template <class K>
 inline M8 finishLanes(const View& view, F8 field[4], const F8 at[4], F8 shift, F8 wall[4]) {
   const F8 zero = set1(0.0f), one = set1(1.0f);
