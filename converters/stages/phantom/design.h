@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a phantom is before it is drawn: a tree of tubes, its contrast, and the clicks on it.
+// The design of a phantom before it is drawn: a tree of tubes, its contrast, and the clicks on it.
 #pragma once
 
 #include <cstdint>

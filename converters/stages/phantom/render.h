@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a design to voxels.
+// Rendering of a design into voxels.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,9 @@ Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& 
 /// normalised; voxels beyond a face equal those on it.
 void blur(Image& image, double sigma, Progress& progress);
 
-/// Thick slices: each the mean over `thickness` voxels along z; those at its ends count by the share
-/// that it takes in. The first begins where the image does; the rest at the end is dropped.
+/// Averages an image over thick slices of `thickness` voxels along z; voxels at the ends of a slice
+/// count by the share that it takes in. The first slice begins where the image does; the rest at
+/// the end is dropped.
 Image averageSlices(const Image& image, double thickness);
 
 /// kBackground + kContrast * (occupancy + bias field + noise), rounded. The bias field is a mean of

@@ -8,7 +8,7 @@
 namespace lumen::convert {
 
 /// The voxels of a block of 2 x 2 x 2 with its lowest corner at (x, y, z), bit by bit, x first.
-/// `isIn(x, y, z)` says whether a voxel is of the labels.
+/// `isIn(x, y, z)`: true for a voxel of the labels.
 template <class IsIn>
 unsigned blockOf(int x, int y, int z, const IsIn& isIn) {
   unsigned bits = 0;
