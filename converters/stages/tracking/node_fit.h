@@ -47,8 +47,8 @@ struct NodeFit {
 /// True if `a` came nearer to success than `b`.
 bool isNearer(const NodeFit& a, const NodeFit& b);
 
-/// The reason why nothing was accepted, with the numbers that decided and advice; follows "at the
-/// seed ".
+/// The reason why nothing was accepted, with the numbers that decided and advice; continues a
+/// sentence after "at the seed ".
 std::string failureText(const TrackContext& context, const NodeFit& best);
 
 /// The least inlier rate of any node: half of the one that accepts a cylinder at once.

@@ -35,7 +35,7 @@ public:
 
   /// Rays of `length` mm from `centre` (LPS mm). On each, the place where the intensity falls
   /// fastest, refined between samples by a parabola, if its distance t holds length/12 <= t <= 0.8
-  /// length. What lies outside the volume is not seen.
+  /// length. Walls outside the volume are not found.
   void cast(const Eigen::Vector3d& centre, double length, Candidates& out);
 
   [[nodiscard]] std::size_t rayCount() const { return m_directions.size(); }

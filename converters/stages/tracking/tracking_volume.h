@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A volume in which vessels are tracked again and again, with the data that every track needs.
+// A volume in which vessels are tracked repeatedly, with the data that every track needs.
 #pragma once
 
 #include <optional>

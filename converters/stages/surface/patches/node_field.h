@@ -57,8 +57,7 @@ private:
   formats::Kernel m_kernel;
   double m_parameter, m_level;
   std::vector<double> m_x, m_y, m_z, m_width;
-  std::vector<double>
-      m_scale;  ///< what |X - C|^2 is multiplied by: 1/w^2, and the kernel's parameter
+  std::vector<double> m_scale;  ///< factor of |X - C|^2: 1/w^2 and the kernel's parameter
   std::vector<double> m_reach;  ///< where f > T, some blob is nearer than its reach, mm
   Eigen::Vector3d m_low, m_high;
 };
