@@ -18,7 +18,7 @@ namespace {
 using formats::Case;
 using formats::Vec3f;
 
-/// The values of an array that has `components` of them for each node, for the nodes that there are now.
+/// The values of an array with `components` values for each node, for the nodes of the draft.
 template <class Value>
 std::vector<Value> gathered(const std::vector<Value>& values, std::size_t components,
                             const std::vector<std::uint32_t>& before) {
@@ -35,7 +35,7 @@ Vec3f opposite(const Vec3f& v) {
 
 }  // namespace
 
-/// The nodes that there will be, in order.
+/// The nodes of the case to be, in order.
 struct Draft::Layout {
   std::vector<std::uint32_t> branches;  ///< of the draft
   std::vector<std::uint32_t> nodes;     ///< of the draft

@@ -27,8 +27,7 @@ FitOptions readOptions(const formats::Step& step) {
   return options;
 }
 
-/// Voxels; what a case that states neither a voxel nor options is taken to have: an iso-level of half
-/// of one.
+/// Voxels: the assumed iso-level of a case that states neither a voxel nor options.
 constexpr double kVoxelsOfLevel = 0.5;
 
 double voxelOf(const formats::Case& value, const FitOptions& options) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Phantoms of what patients have and small_designs.cpp has not. Positions are shares of the extent;
-// radii follow Frame::radiusScale. Ends lie inside the volume and are round, but for those on a
-// face.
+// Difficult phantoms, with features of patients that small_designs.cpp lacks. Positions are shares
+// of the extent; radii follow Frame::radiusScale. Ends lie inside the volume and are round, but for
+// those on a face.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

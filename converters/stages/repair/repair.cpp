@@ -12,7 +12,7 @@
 namespace lumen::convert {
 namespace {
 
-/// Triangles of edges that still have more than two, or two that run the same way.
+/// Triangles of edges that still have more than two, or two with the same direction.
 std::vector<bool> crowdedTriangles(const MeshInRepair& work, bool& any) {
   std::vector<bool> crowded(work.mesh.triangle.size(), false);
   any = false;

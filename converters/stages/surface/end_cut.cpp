@@ -94,7 +94,7 @@ private:
     return holds(m_part, v) ? Side::Beyond : Side::Inner;
   }
 
-  // Where an edge from beyond crosses the plane, as a share of it.
+  // The place where an edge from beyond crosses the plane, as a share of the edge.
   [[nodiscard]] double crossing(std::uint32_t beyond, std::uint32_t inner) const {
     const double a = distanceTo(m_plane, m_mesh.position[beyond]);
     const double b = distanceTo(m_plane, m_mesh.position[inner]);
@@ -106,8 +106,8 @@ private:
     return ontoPlane(m_plane, a + crossing(beyond, inner) * (b - a));
   }
 
-  // Vertices near the plane go to their nearest crossing: first those beyond, then those within that
-  // still have a neighbour beyond.
+  // Moves vertices near the plane to their nearest crossing: first those beyond, then those within
+  // that still have a neighbour beyond.
   void moveNear(double snap) {
     for (const bool isBeyond : {true, false}) {
       std::map<std::uint32_t, double> nearest;
@@ -253,7 +253,7 @@ private:
     return (placeOf(t[1]) - placeOf(t[0])).cross(placeOf(t[2]) - placeOf(t[0]));
   }
 
-  // True if no triangle that stays is turned over by where its vertices have gone.
+  // True if no remaining triangle is turned over by the moves of its vertices.
   [[nodiscard]] bool isUpright(const std::vector<std::uint32_t>& triangles) const {
     const auto before = [this](std::uint32_t t) -> Eigen::Vector3d {
       const Triangle& c = m_mesh.triangle[t];

@@ -110,7 +110,7 @@ private:
     return side(c[0], c[1], p) > 0 && side(c[1], c[2], p) > 0 && side(c[2], c[0], p) > 0;
   }
   // The triangle around a point: by a walk from the last one, through edges that the point is
-  // behind, or where that ends at the boundary, by looking at all. The number of triangles if none.
+  // behind, or, if it ends at the boundary, by examining all. The number of triangles if none.
   [[nodiscard]] std::uint32_t locate(const Point& p) const {
     const auto count = static_cast<std::uint32_t>(m_mesh.triangle.size());
     std::uint32_t t = count - 1;

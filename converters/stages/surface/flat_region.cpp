@@ -66,7 +66,7 @@ bool crossesRing(const std::vector<Point>& point, const Ring& ring, std::uint32_
   return false;
 }
 
-// True if the way from corner i of the ring to `p` begins within the region.
+// True if the line from corner i of the ring to `p` begins within the region.
 bool opensTo(const std::vector<Point>& point, const Ring& ring, std::size_t i, const Point& p) {
   const std::size_t n = ring.size();
   const Point &before = point[ring[(i + n - 1) % n]], &at = point[ring[i]],

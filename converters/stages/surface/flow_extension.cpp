@@ -101,7 +101,7 @@ std::vector<std::optional<Length>> lengthsOf(const CaseSurface& surface,
   return found;
 }
 
-// What tubes run into. Vertices from `firstNew` on are those of tubes; `owner` is the end of each.
+// Collisions of tubes. Vertices from `firstNew` on are those of tubes; `owner` is the end of each.
 class Collisions {
 public:
   Collisions(const CaseSurface& surface, const formats::Case& source, std::size_t firstNew,

@@ -14,7 +14,8 @@ constexpr std::size_t kDepths = 64;  // steps from the axis to the wall
 
 using Tetrahedron = SampledLattice::Tetrahedron;
 
-// What of a vertex' link is grown: the link is a sphere of triangles, one for each tetrahedron.
+// Topology of the grown part of a vertex' link: the link is a sphere of triangles, one for each
+// tetrahedron.
 struct LinkFacts {
   int parts = 0;
   int euler = 0;

@@ -33,7 +33,7 @@ std::optional<Eigen::Vector3d> planeOf(const Mesh& mesh, Mesh::VertexHandle v) {
   return here.end == 0 ? std::nullopt : mesh.rules().plane[here.end];
 }
 
-// Where relaxation would have a vertex of a rim: the middle of its two neighbours along it.
+// Target of the relaxation of a vertex on a rim: the middle of its two neighbours along it.
 Eigen::Vector3d rimTarget(const Mesh& mesh, Mesh::VertexHandle v) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
@@ -89,7 +89,8 @@ void stepOntoField(Mesh& mesh, Mesh::VertexHandle v) {
   mesh.data(v).drift = 0;
 }
 
-// How far the valence of a vertex will be from six; of the boundary nobody knows it.
+// Squared difference of the future valence of a vertex from six; 0 on the boundary, where it is
+// unknown.
 int valenceError(const Mesh& mesh, Mesh::VertexHandle v, int change) {
   const int error = mesh.data(v).valence + change - 6;
   return mesh.is_boundary(v) ? 0 : error * error;

@@ -15,7 +15,8 @@ constexpr double kFarthest = 0.5;     // of the radius: a surface beyond is anot
 constexpr double kCore = 0.25;        // of the radius: around its axis, where one sheet goes first
 constexpr double kLeastSlope = 0.05;  // of the way between two axes that run side by side
 constexpr double kVanished = 1e-12;   // of the level: below, f says nothing about the wall
-// How far apart, in sums of radii, nodes are whose walls may touch: a model reaches beyond its ball.
+// Largest distance, in sums of radii, of nodes whose walls may touch: a model reaches beyond its
+// ball.
 constexpr double kTouchingReach = 1.5;
 
 field::Vec toVec(const Eigen::Vector3d& p) {

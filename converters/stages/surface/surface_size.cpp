@@ -15,7 +15,7 @@
 namespace lumen::convert {
 namespace {
 
-// The step by which an edge that is enough is looked for.
+// The factor by which the search for an edge that is enough proceeds.
 constexpr double kCoarser = 1.1, kMostCoarse = 1e15;
 
 std::string shown(const char* format, double value) {

@@ -12,7 +12,7 @@
 namespace lumen::convert {
 namespace {
 
-// Longer ways than this many distances lead round a bend, or through a fork.
+// Paths longer than this many distances lead round a bend, or through a fork.
 constexpr double kDetour = 1.3;
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
@@ -55,7 +55,7 @@ private:
   std::map<Cell, std::vector<std::uint32_t>> m_cell;
 };
 
-// Ways along the tree from one node, as far as they matter.
+// Paths along the tree from one node, up to the lengths that matter.
 class Ways {
 public:
   Ways(const formats::CenterlineTree& tree, const formats::Neighbours& edges)
@@ -75,7 +75,7 @@ public:
       }
     }
   }
-  // Negative if farther than was asked for.
+  // Negative if the path is longer than the requested length.
   [[nodiscard]] double to(std::uint32_t node) const { return m_way[node]; }
 
 private:

@@ -18,8 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The most nodes that are measured, for the time it takes, and the fewest for which a median means
-/// anything.
+/// The most nodes that are measured, to bound the time, and the fewest for a meaningful median.
 constexpr std::size_t kMostNodes = 256, kFewestNodes = 8;
 /// Radii whose walls are measured, the second if there are too few of the first. Wider walls are
 /// flatter, and less of the far wall shows in their profiles.

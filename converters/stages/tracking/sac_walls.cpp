@@ -135,7 +135,7 @@ std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const
   return pieces;
 }
 
-/// Wall points of a region that are as strong as is asked, evenly spread.
+/// Wall points of a region whose strength is at least the required one, evenly spread.
 std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& region) {
   const SacWall wall = wallOf(context, region);
   std::vector<Vector3d> strong;

@@ -56,7 +56,7 @@ public:
       i = static_cast<std::size_t>(m_tree.branches[i].parentBranch);
     return i;
   }
-  /// Links to the root, without those from a tail to what it was taken from.
+  /// Links to the root, without those from a tail to the vessel it was taken from.
   [[nodiscard]] int levelOf(std::size_t i) const {
     int level = 0;
     for (; m_tree.branches[i].parentBranch >= 0;

@@ -89,7 +89,7 @@ private:
     return out;
   }
 
-  /// Where the widest vessel of a part comes in.
+  /// The place where the widest vessel of a part enters it.
   std::uint32_t rootOf(const std::vector<std::uint32_t>& atEnd,
                        const std::vector<std::uint32_t>& part) {
     std::vector<std::uint32_t> sorted = part;

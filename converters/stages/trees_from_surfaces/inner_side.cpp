@@ -19,20 +19,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the area: so much of a wall is its inner side, unless it is thicker than its lumen is wide.
+// Least share of a wall's area that is its inner side, unless it is thicker than its lumen is wide.
 constexpr double kLeastInner = 0.25;
-// The outer side is the greater one; more than this, and the surface is merely rough.
+// Largest share: the outer side is the greater one; beyond this the surface is merely rough.
 constexpr double kMostInner = 0.55;
-// Of the rays: a side from where so many meet the wall again is surely an inner one ...
+// Share of the rays: a side from which this many meet the wall again is surely an inner one ...
 constexpr double kEnclosed = 0.75;
-// ... and one from where most do is, if it belongs to a greater region of such ones.
+// ... and one from which most do is, if it belongs to a greater region of such ones.
 constexpr double kMostly = 0.5;
 // Rays of a triangle are those of an icosphere that leave it at more than 20 degrees to its plane.
 constexpr int kRayOrder = 2;
 constexpr double kSteep = 0.34;
 constexpr std::size_t kMostLooks = 4000;  // triangles, to tell whether there is a wall
 constexpr int kVotes = 3;                 // rounds in which a triangle follows those beside it
-// Of the greatest region's area: less is a fold of the outer side.
+// Share of the greatest region's area: less is a fold of the outer side.
 constexpr double kLeastRegion = 0.05;
 constexpr std::size_t kNestedLooks = 20;  // points of a part, to tell whether it is enclosed
 
@@ -114,7 +114,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> neighboursOf(const Triangle
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Lets triangles follow what those beside them are: rays miss through a gap here and there.
+/// Adapts triangles to their neighbours: rays miss through a gap here and there.
 void vote(std::vector<std::uint8_t>& isInner, const Pairs& pairs) {
   for (int round = 0; round < kVotes; ++round) {
     std::vector<std::uint8_t> votes(isInner.size(), 0);

@@ -73,7 +73,8 @@ private:
     return m_grid.indexFromWorld(m_mesh.position[i]);
   }
 
-  /// A side of a triangle, seen from the end of lower index, so that both triangles compute the same.
+  /// A side of a triangle, seen from the end of lower index, so that both triangles compute equal
+  /// values.
   [[nodiscard]] double sideOf(std::uint32_t i, std::uint32_t j, double pu, double pv) const {
     return i < j ? side(corner(i), corner(j), pu, pv, m_u, m_v)
                  : -side(corner(j), corner(i), pu, pv, m_u, m_v);

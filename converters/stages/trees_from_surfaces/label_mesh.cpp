@@ -31,9 +31,10 @@ constexpr double kSpread = 0.7;    // voxels: the standard deviation that takes 
 constexpr int kReach = 3;          // voxels: where its kernel ends
 constexpr int kHalo = 2 * kReach;  // of the kernel applied twice
 constexpr int kSlab = 32;          // slices that are smoothed at a time
-// From the half level: a voxel's centre stays on its side by so much, so that no triangle is nothing.
+// Least distance from the half level: a voxel's centre stays on its side, and no triangle vanishes.
 constexpr float kLeast = 0.05F;
-// The same for what is one voxel wide, so that its wall is about half a voxel away as it was drawn.
+// Least distance from the half level for lines one voxel wide, whose wall stays about half a voxel
+// away, as it was drawn.
 constexpr float kThin = 0.25F;
 
 std::string listOf(const std::set<std::int64_t>& values) {
@@ -240,8 +241,9 @@ private:
   int m_low = 0, m_slices = 0;  // of the slab
 };
 
-/// Drops the closed parts that go round what is not of the labels, and counts them. Parts that reach
-/// beyond half a voxel outside of the volume, where they are open, stay. Positions are indices.
+/// Drops the closed parts that surround voxels outside the labels, and counts them. Parts that
+/// reach beyond half a voxel outside of the volume, where they are open, stay. Positions are
+/// indices.
 std::size_t dropCavities(TriangleMesh& mesh, const Vector3d& low, const Vector3d& high) {
   DisjointSets parts(mesh.position.size());
   for (const Triangle& t : mesh.triangle) {
