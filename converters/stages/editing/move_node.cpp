@@ -35,7 +35,7 @@ struct Section {
 
 /// A node's place in its branch.
 struct Place {
-  std::uint32_t node, first, end;  ///< of the branch: [first, end)
+  std::uint32_t node, first, end;  ///< in the branch [first, end)
 
   [[nodiscard]] bool hasPrevious() const { return node > first; }
   [[nodiscard]] bool hasNext() const { return node + 1 < end; }

@@ -51,7 +51,7 @@ using Lane = double[kBlock];
 struct alignas(64) Sums {
   Lane f, gx, gy, gz, ax, ay, az, wx, wy, wz, c;
   Lane dataSlope;  ///< -du/df
-  Lane slopeTurn;  ///< what a change of f alone adds to the slope row, per row of the data
+  Lane slopeTurn;  ///< effect of a change of f alone on the slope row, per row of the data
 };
 
 LUMEN_INLINE void start(const Block& in, Sums& s) {

@@ -47,7 +47,7 @@ struct Block {
 
 struct BlockParameters {
   field::Kernel kernel;
-  double kernelScale;  ///< of field::chainScale
+  double kernelScale;  ///< scale by field::chainScale
   double isoLevel;
   double curvatureScale;     ///< sqrt(beta)
   double expectedCurvature;  ///< kappa_0

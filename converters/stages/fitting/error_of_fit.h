@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the fitted surfaces are from the points that they were fitted to.
+// Distances of the fitted surfaces from the points that they were fitted to.
 #pragma once
 
 #include <optional>

@@ -22,7 +22,7 @@ struct FitOptions {
   int maxSubdivisions = 100;              ///< N_s, at most 1000
   int neighbourhood = 2;   ///< topological distance of the nodes whose points count, at most 100
   int seamSweeps = 3;      ///< joint refinements of adjacent models, at most 100
-  double seamWeight = 64;  ///< of a node's seams in E_d, in the weight of all of its points
+  double seamWeight = 64;  ///< weight of a node's seams in E_d, in that of all of its points
   std::optional<double> isoLevel;     ///< T, mm *: half a voxel
   std::optional<double> accuracy;     ///< t_g, mm *: 1.5 voxels
   std::optional<double> maxDistance;  ///< farther blobs are dropped, mm from the node *: 100 voxels

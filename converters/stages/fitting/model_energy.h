@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a node's model is weighed and minimised (docs/method.md, sections 2.4 and 2.5).
+// The weights and the minimisation of a node's model (docs/method.md, sections 2.4 and 2.5).
 #pragma once
 
 #include <span>

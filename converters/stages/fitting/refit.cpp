@@ -12,7 +12,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr int kMostWhole = 1000;  ///< of an option that counts; a file may say anything
+constexpr int kMostWhole = 1000;  ///< bound for an option that counts; a file may have any value
 
 FitOptions readOptions(const formats::Step& step) {
   FitOptions options;

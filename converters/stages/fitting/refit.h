@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fitting what has changed in a case that is fitted already (docs/method.md, section 11).
+// Fit of the changed part of a case that is fitted already (docs/method.md, section 11).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the models of two adjacent nodes meet (docs/method.md, section 2.7): the radical plane, on
+// The seam of the models of two adjacent nodes (docs/method.md, section 2.7): the radical plane, on
 // which both have the same power |X - C|^2 - r^2.
 #pragma once
 

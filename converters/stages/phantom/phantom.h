@@ -79,7 +79,7 @@ struct PhantomOptions {
 struct Phantom {
   Volume volume;                  ///< int16
   formats::Case truth;            ///< the true tree, densely sampled; no points, no models
-  std::vector<SeedBranch> seeds;  ///< what a user would click
+  std::vector<SeedBranch> seeds;  ///< clicks as a user would set them
 };
 
 constexpr int kFewestSlices = 4;

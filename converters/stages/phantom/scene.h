@@ -11,7 +11,7 @@ namespace lumen::convert {
 
 struct Scene {
   Design design;           ///< with its seeds
-  VolumeGeometry grid;     ///< of cubic voxels, before slices are averaged
+  VolumeGeometry grid;     ///< cubic voxels, before slices are averaged
   double slice = 1;        ///< thickness of a slice, voxels
   std::string treeSha256;  ///< digest of the file with the tree; empty if the phantom has a name
 };

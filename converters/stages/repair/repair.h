@@ -23,7 +23,7 @@ struct RepairResult {
   /// Each connected part is an oriented manifold without degenerate triangles; closed but for
   /// `openings`. Normals point out of the enclosed volume. Unused points are dropped.
   TriangleMesh mesh;
-  std::vector<std::uint32_t> source;  ///< of each triangle that of the given mesh; kFilled if added
+  std::vector<std::uint32_t> source;   ///< for each triangle the given one; kFilled if added
   std::vector<BoundaryLoop> openings;  ///< where vessels end, left open
   std::size_t components = 0;
   std::vector<std::string> repairs;  ///< sentences with counts: "merged 12 duplicate points"

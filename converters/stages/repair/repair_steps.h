@@ -16,7 +16,7 @@ namespace lumen::convert {
 /// A mesh under repair.
 struct MeshInRepair {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> source;    ///< of each triangle, as in RepairResult
+  std::vector<std::uint32_t> source;    ///< for each triangle, as in RepairResult
   std::vector<std::uint32_t> opposite;  ///< as of oppositeSides(), once it is set
   std::vector<std::string> repairs;
 

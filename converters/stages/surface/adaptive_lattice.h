@@ -24,7 +24,7 @@ struct LatticeCube {
 /// Spreads keys that are packed coordinates.
 struct LatticeHash {
   std::size_t operator()(std::uint64_t key) const {
-    key *= 0x9E3779B97F4A7C15ULL;  // of the golden ratio: D. Knuth, *Sorting and searching*, 6.4
+    key *= 0x9E3779B97F4A7C15ULL;  // golden ratio: D. Knuth, *Sorting and searching*, 6.4
     return key ^ key >> 32;
   }
 };
@@ -67,7 +67,7 @@ private:
   double m_step = 1;  ///< mm
   std::vector<LatticeCube> m_cubes;
   tsl::robin_map<std::uint64_t, std::int32_t, LatticeHash>
-      m_index;  ///< of a leaf, or -1: has children
+      m_index;  ///< index of a leaf, or -1: has children
   std::int32_t m_largest = 2;
 };
 

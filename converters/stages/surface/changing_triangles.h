@@ -37,8 +37,8 @@ private:
   TriangleMesh m_mesh;
   std::vector<bool> m_isRemoved;
   Tree m_tree;
-  std::vector<std::uint32_t> m_parent;  // of each node of the tree
-  std::vector<std::uint32_t> m_leafOf;  // of each triangle
+  std::vector<std::uint32_t> m_parent;  // parent of each node of the tree
+  std::vector<std::uint32_t> m_leafOf;  // leaf of each triangle
 };
 
 }  // namespace lumen::convert

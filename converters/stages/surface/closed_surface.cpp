@@ -35,7 +35,8 @@ constexpr double kSharedWall = 0.5;
 constexpr double kBeyondEnds = 1;
 // Reduction of a wall's thickness that is allowed in the middle of a triangle, as a share of it.
 constexpr double kWallSag = 0.03;
-// Preview: twice this edge takes a quarter of the time, and a vessel still has six sides or more.
+// Edges of the preview's lattice in radii: twice the others, they take a quarter of the time, and a
+// vessel still has six sides or more.
 constexpr double kQuickShare = 2.0;
 
 double gapOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
@@ -150,7 +151,7 @@ private:
     m_result.report.sharpTriangles += found.sharp;
   }
 
-  // The surface with as few triangles as --max-error allows, and in as many levels as are asked for.
+  // The surface with as few triangles as --max-error allows, and in the requested number of levels.
   std::vector<DetailLevel> leveled(CaseSurface surface) {
     std::optional<CaseSurface> whole;
     std::vector<DetailLevel> levels{{std::move(surface), -1}};

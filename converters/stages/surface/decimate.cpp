@@ -14,9 +14,8 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kBoundShare =
-    0.98;                     // what lies between the points that are looked at has the rest
-constexpr int kAttempts = 3;  // where that was not enough
+constexpr double kBoundShare = 0.98;  // share for sampled points; the rest is for places between
+constexpr int kAttempts = 3;          // where that was not enough
 
 // The outward direction, and the length of edges, at each vertex.
 RemeshState stateOf(CaseSurface& surface) {

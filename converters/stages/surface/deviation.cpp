@@ -12,7 +12,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr int kDeepest = 16;    // halvings of an edge
-constexpr int kMostParts = 64;  // of an edge
+constexpr int kMostParts = 64;  // parts of an edge
 constexpr double kDenser = 3;   // points that measure, than those that decide
 
 // Calls visit(point) for the points of a triangle whose edges are divided into `parts`, and for its

@@ -39,7 +39,7 @@ private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
   struct Point {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    std::uint32_t group = 0, next = kNone;  ///< of the same face
+    std::uint32_t group = 0, next = kNone;  ///< next: the face's next point
   };
   void add(std::uint32_t face, std::uint32_t group, const Eigen::Vector3d& position);
   [[nodiscard]] double distance(const Eigen::Vector3d& p, std::uint32_t triangle) const;
@@ -53,8 +53,9 @@ private:
   std::vector<bool> m_isFree;
   const std::vector<double>& m_spacing;
   std::vector<Point> m_points;
-  std::vector<std::uint32_t> m_first;                              ///< point of each face
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> m_newFace;  ///< of points, as last asked
+  std::vector<std::uint32_t> m_first;  ///< point of each face
+  /// New faces of points, by the last isWithin().
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> m_newFace;
 };
 
 /// The greatest distance, mm, between two surfaces, in both directions: at points of each three

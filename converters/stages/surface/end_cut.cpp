@@ -20,8 +20,7 @@ namespace {
 // A vertex goes onto the plane if that is so near along one of its edges, as a share of the edge:
 // then no triangle of the rim is thinner. Less where that makes the rim touch itself.
 constexpr double kSnaps[] = {0.25, 0.1, 0};
-constexpr double kMostShift =
-    0.5;  // of the rim's mean edge: by how much a rim's vertex is projected
+constexpr double kMostShift = 0.5;  // mean edges of the rim: the longest projection of its vertices
 
 double distanceTo(const EndPlane& plane, const Eigen::Vector3d& point) {
   return plane.normal.dot(point - plane.centre);
@@ -155,7 +154,7 @@ private:
     const auto inner = std::count(side.begin(), side.end(), Side::Inner);
     if (inner > 0 && beyond == 0) return;
     m_cut.removed.push_back(t);
-    std::vector<std::uint32_t> rest;  // what is left, around
+    std::vector<std::uint32_t> rest;  // the remaining corners, around
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       if (side[i] != Side::Beyond) rest.push_back(corner[i]);

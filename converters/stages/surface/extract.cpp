@@ -14,7 +14,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kNearEnd = 0.03;  // of an edge: crossings keep off its ends
+constexpr double kNearEnd = 0.03;  // share of an edge: crossings keep off its ends
 
 class Extraction {
 public:

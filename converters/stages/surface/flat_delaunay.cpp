@@ -18,7 +18,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr int kSmoothings = 6;      // by then points hardly move
-constexpr double kRounding = 1e-9;  // of a sine: angles that add up to 180 degrees but for rounding
+constexpr double kRounding = 1e-9;  // a sine: angles that add up to 180 degrees but for rounding
 
 double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -57,7 +57,7 @@ public:
     for (std::uint32_t t = 0; t < m_mesh.triangle.size(); ++t)
       for (const std::uint32_t v : m_mesh.triangle[t]) fan[v].push_back(t);
     for (std::size_t v = m_firstNew; v < fan.size(); ++v) {
-      Point sum = Point::Zero();  // of all corners: each neighbour twice
+      Point sum = Point::Zero();  // sum of all corners: each neighbour twice
       for (const std::uint32_t t : fan[v])
         for (const std::uint32_t w : m_mesh.triangle[t])
           if (w != v) sum += m_mesh.point[w];

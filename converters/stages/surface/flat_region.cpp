@@ -16,8 +16,8 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double kRowHeight = 0.866;    // of a triangular lattice's edge
-constexpr double kLoopClearance = 0.6;  // of an edge: nearer to a loop triangles get flat
+constexpr double kRowHeight = 0.866;    // edges of a triangular lattice
+constexpr double kLoopClearance = 0.6;  // edges: nearer to a loop triangles get flat
 constexpr double kMostInner = 4000;     // points; beyond, the lattice is coarser
 
 bool isOn(const Point& a, const Point& b, const Point& p) {

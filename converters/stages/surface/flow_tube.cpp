@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kBlend = 1.5;     // radii until the section is round
 constexpr double kSteepest = 1.0;  // slope of the wall at the rim: beyond 45 degrees it is no tube
-constexpr int kSlopeSmoothings = 3;   // of the tangents around the rim, which triangles make rough
-constexpr double kRowHeight = 0.866;  // of an equilateral triangle's edge
+constexpr int kSlopeSmoothings = 3;   // passes over the tangents, which triangles roughen
+constexpr double kRowHeight = 0.866;  // edges of an equilateral triangle
 constexpr double kEvenAfter = 8;      // rows until the vertices of a ring are evenly spaced
 
 using Vector = Eigen::Vector3d;

@@ -60,7 +60,7 @@ private:
   void orient(Tetrahedron& t) const;
 
   const AdaptiveLattice& m_lattice;
-  std::vector<Own> m_own;  ///< of each cube
+  std::vector<Own> m_own;  ///< vertices of each cube
   std::vector<Position> m_position;
   std::vector<std::uint32_t> m_cube;
   std::vector<bool> m_isOutermost;

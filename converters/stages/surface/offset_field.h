@@ -43,7 +43,7 @@ private:
   struct Foot {
     double distance = 0;  ///< from the lumen's surface, mm; negative inside
     double thickness = 0;
-    std::uint32_t node = kNone;  ///< of the tree; none if nothing is within reach
+    std::uint32_t node = kNone;  ///< node of the tree; none if nothing is within reach
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, of the distance
   };
   [[nodiscard]] bool isOther(std::uint32_t a, std::uint32_t b) const;
@@ -57,9 +57,9 @@ private:
 
   const CaseSurface& m_inner;
   TriangleTree m_tree;
-  std::vector<double> m_thickness;        ///< of each vertex
-  std::vector<Eigen::Vector3d> m_normal;  ///< of each vertex, by the angles of its faces
-  std::vector<double> m_thickestBelow;    ///< of each node of m_tree's boxes
+  std::vector<double> m_thickness;        ///< thickness at each vertex
+  std::vector<Eigen::Vector3d> m_normal;  ///< normal of each vertex, weighted by its faces' angles
+  std::vector<double> m_thickestBelow;    ///< for each node of the boxes of m_tree
   double m_thickest = 0;
 };
 

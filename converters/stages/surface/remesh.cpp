@@ -15,13 +15,13 @@
 namespace lumen::convert {
 namespace {
 
-constexpr int kSeamRings = 5;  // what a boundary that could not move has left uneven
+constexpr int kSeamRings = 5;  // reach of the unevenness at a boundary that could not move
 constexpr int kMendRings = 4;
 constexpr int kStretchRings = 10;  // six may leave the field
 constexpr int kStretchRounds = 2;
 constexpr double kMendBelow = 1.2 * kSharpAngle;  // as in each piece
 constexpr std::size_t kBatch = 1024;              // vertices between two looks at the progress
-constexpr double kFieldStep = 0.5;  // of the radius: more is no distance from the wall
+constexpr double kFieldStep = 0.5;                // radii: more is no distance from the wall
 
 // Samples the field at every vertex, and moves those of the wall by one step onto it.
 void moveOntoField(RemeshState& state, const PieceRules& rules) {

@@ -10,7 +10,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kLargestTurn = 0.5;    // cosine: 60 degrees from where a face should look
-constexpr std::uint32_t kRimEdges = 8;  // of a rim, at least
+constexpr std::uint32_t kRimEdges = 8;  // least number of edges of a rim
 
 Eigen::Vector3d normalOf(const RemeshMesh::Corners& c) {
   return (c[1] - c[0]).cross(c[2] - c[0]);

@@ -19,7 +19,7 @@
 
 namespace lumen::convert {
 
-/// How a vertex may move.
+/// Freedom of a vertex to move.
 enum class VertexKind : std::uint8_t {
   Wall,   ///< along the field's surface
   Flat,   ///< within the plane of its end
@@ -120,7 +120,7 @@ private:
   static constexpr std::uint32_t kPulses = 4096;  // elements that take a few milliseconds
   const PieceRules& m_rules;
   std::uint32_t m_pulse = 0;
-  std::vector<std::uint32_t> m_rimEdges;  ///< of each group
+  std::vector<std::uint32_t> m_rimEdges;  ///< count for each group
 };
 
 }  // namespace lumen::convert

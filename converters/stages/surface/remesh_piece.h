@@ -20,7 +20,7 @@ struct PieceVertex {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, of the field; zero if unknown
   double target = 0;                                   ///< length that edges should have here, mm
-  std::uint32_t node = 0;                              ///< of its cursor
+  std::uint32_t node = 0;                              ///< node of its cursor
   std::uint32_t home = kNewVertex;                     ///< its index in the whole surface
   bool isSeparated = false;                            ///< see SheetSample::isSeparated
   bool isOffField = false;                             ///< the field had no surface near by
@@ -32,13 +32,13 @@ struct PieceVertex {
 struct Piece {
   std::vector<PieceVertex> vertex;
   std::vector<Triangle> triangle;    ///< indices into `vertex`
-  std::vector<std::uint32_t> group;  ///< of each triangle
+  std::vector<std::uint32_t> group;  ///< group of each triangle
 };
 
 /// Data that all pieces of a surface share.
 struct PieceRules {
   const SheetField& field;
-  const Progress& progress;  ///< asked by long loops whether they go on
+  const Progress& progress;  ///< checked by long loops for cancelling
   /// For each group, the unit normal of its plane if it is a flat end.
   std::vector<std::optional<Eigen::Vector3d>> plane;
 };

@@ -16,7 +16,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kGrowth = 0.25;  // of the way: neighbouring edges differ by a quarter at most
+constexpr double kGrowth = 0.25;  // per distance: neighbouring edges differ by a quarter at most
 constexpr double kEdgesAround = 8;
 
 Eigen::Vector3d centreOf(const formats::CenterlineTree& tree, std::uint32_t node) {

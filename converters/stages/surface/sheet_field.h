@@ -17,7 +17,7 @@
 
 namespace lumen::convert {
 
-/// Where the wall lies; lengths in mm.
+/// Position of the wall; lengths in mm.
 struct SheetOptions {
   /// Gap between two vessels where their walls touch or overlap.
   double gap = 0;

@@ -37,7 +37,7 @@ constexpr double kLevelReachVoxels = 2.5;
 constexpr double kLopsidedVoxels = 0.05;
 /// The largest move of a wall to the half level, in radii.
 constexpr double kLopsidedRadii = 0.1;
-constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // of the Gaussian exp(-x^2/2)
+constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // width of the Gaussian exp(-x^2/2)
 
 /// The last partial denominator of the continued fraction: it has converged to all digits for the
 /// arguments that occur, w < (q + 1)^2 with q <= kNearlyFlat.

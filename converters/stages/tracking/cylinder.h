@@ -25,7 +25,7 @@ struct Cylinder {
   double inlierRate = 0;                             ///< in [0, 1]
 };
 
-/// How cylinders are searched for. Only read: any number of threads may share one.
+/// Parameters of the search for cylinders. Only read: any number of threads may share one.
 struct CylinderSearch {
   explicit CylinderSearch(const TrackOptions& options);
 

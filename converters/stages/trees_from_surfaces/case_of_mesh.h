@@ -18,7 +18,7 @@ namespace lumen::convert {
 /// The centerline that a surface comes with.
 struct GivenCenterline {
   CenterlineFile file;  ///< mm, LPS
-  std::string name;     ///< of its file, printable, for messages
+  std::string name;     ///< name of its file, printable, for messages
 };
 
 struct MeshCase {

@@ -24,7 +24,7 @@ struct MeshEnd {
 struct ClosedMesh {
   static constexpr std::uint32_t kWall = std::numeric_limits<std::uint32_t>::max();
   TriangleMesh mesh;               ///< mm, LPS, normals outward
-  std::vector<std::uint32_t> end;  ///< of each triangle: index into `ends`, or kWall
+  std::vector<std::uint32_t> end;  ///< end of each triangle: index into `ends`, or kWall
   std::vector<MeshEnd> ends;
 };
 

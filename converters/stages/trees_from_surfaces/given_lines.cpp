@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastInside = 0.5;  // of the points: fewer, and it is another frame or surface
+constexpr double kLeastInside = 0.5;  // share of the points: below, another frame or surface
 constexpr double kReach = 2;          // depths from a line's last point to the vessel's end
 
 std::vector<std::uint8_t> insideOf(const CenterlineFile& file, const LumenGeometry& lumen,

@@ -30,13 +30,13 @@ constexpr double kMostly = 0.5;
 // Rays of a triangle are those of an icosphere that leave it at more than 20 degrees to its plane.
 constexpr int kRayOrder = 2;
 constexpr double kSteep = 0.34;
-constexpr std::size_t kMostLooks = 4000;  // triangles, to tell whether there is a wall
+constexpr std::size_t kMostLooks = 4000;  // triangles that show whether there is a wall
 constexpr int kVotes = 3;                 // rounds in which a triangle follows those beside it
 // Share of the greatest region's area: less is a fold of the outer side.
 constexpr double kLeastRegion = 0.05;
-constexpr std::size_t kNestedLooks = 20;  // points of a part, to tell whether it is enclosed
+constexpr std::size_t kNestedLooks = 20;  // points of a part that show whether it is enclosed
 
-/// How much each triangle of a surface faces that surface from outside.
+/// The degree to which each triangle of a surface faces that surface from outside.
 class Facing {
 public:
   Facing(const ClosedMesh& surface, const TriangleTree& tree)
@@ -144,7 +144,7 @@ void keepGreatRegions(std::vector<std::uint8_t>& isInner, const Pairs& pairs,
 /// A connected part of a mesh, with its openings closed.
 struct MeshPart {
   TriangleMesh mesh;
-  std::vector<std::size_t> source;  // of its triangles
+  std::vector<std::size_t> source;  // source of each of its triangles
   Vector3d low = Vector3d::Constant(1e300), high = -low;
   double area = 0;
   bool isDropped = false;
@@ -157,7 +157,7 @@ std::vector<MeshPart> partsOf(const TriangleMesh& mesh) {
     sets.join(t[0], t[2]);
   }
   std::vector<MeshPart> parts;
-  std::vector<std::size_t> index(mesh.position.size(), 0);  // of a set's part, plus one
+  std::vector<std::size_t> index(mesh.position.size(), 0);  // index in a set's part, plus one
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
     std::size_t& of = index[sets.find(mesh.triangle[t][0])];
     if (of == 0) {

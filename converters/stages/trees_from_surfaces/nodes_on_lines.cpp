@@ -27,8 +27,8 @@ constexpr int kNear = 12;         // edges along the tree within which nodes sha
 // Share of the squared distance of two nodes by which a node's power may exceed the other's.
 // Halfway between them it is 0, at the other's own section 1.
 constexpr double kShared = 0.5;
-constexpr double kBand = 0.1;            // of the radius, as tracking's inliers
-constexpr double kWidest = 1.5;          // of the depth: the radius of a section that is not round
+constexpr double kBand = 0.1;            // radii, as tracking's inliers
+constexpr double kWidest = 1.5;          // depths: the radius of a section that is not round
 constexpr std::size_t kLeastPoints = 8;  // for a radius
 
 /// A node before it is one of a case.
@@ -38,7 +38,7 @@ struct Station {
   bool isBridged = false;
 };
 
-/// Where a line has its nodes, in spacings from its first point, and how many of them.
+/// The places of a line's nodes, in spacings from its first point, and their number.
 struct Spread {
   double first = 0, step = 0;
   std::size_t count = 0;
