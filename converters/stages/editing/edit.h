@@ -23,7 +23,7 @@ enum class Hanging : std::uint8_t {
   Stay,  ///< its children become trees of their own: only the named branch goes
   Go     ///< they are deleted with it
 };
-/// At least one branch must stay.
+/// Deletes a branch, with or without its descendants. At least one branch must stay.
 Change deleteBranch(formats::Case& target, std::uint32_t branch, Hanging hanging = Hanging::Stay);
 
 /// Treatment of the part of a branch behind a cut.

@@ -112,8 +112,8 @@ public:
     return {m_gradient2.data(), m_count};
   }
 
-  /// After linearise(blobs): A = J^T J (row-major, only the upper triangle, 4n x 4n for n unknown
-  /// blobs) and b = J^T r, half the gradient of the energy.
+  /// The normal equations after linearise(blobs): A = J^T J (row-major, only the upper triangle, 4n
+  /// x 4n for n unknown blobs) and b = J^T r, half the gradient of the energy.
   void normalEquations(std::span<const Blob> blobs, std::span<double> a, std::span<double> b);
 
 private:

@@ -46,7 +46,7 @@ public:
         m_reach(recordedFitOptions(after).neighbourhood),
         m_aroundBefore(before.tree),
         m_aroundAfter(after.tree) {
-    // a ring around a node that is turned round is another, though the wall is the same
+    // a ring around a node that is reversed is another, though the wall is the same
     formats::Case aligned = withoutWalls(before);
     for (std::uint32_t node = 0; node < nodeBefore.size(); ++node)
       if (const std::uint32_t was = nodeBefore[node];

@@ -44,7 +44,7 @@ std::vector<Blob> placeAlongVessel(const EnergyParameters& parameters, const Nod
   const auto [low, high] = endsAlong(node);
   const double width = widthOfTwo(parameters, node.radius);
   std::vector<Blob> blobs;
-  // quarter and three quarters of the way from one end to the other
+  // quarter and three quarters of the distance from one end to the other
   for (const double along : {0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high})
     blobs.push_back({along * direction.x, along * direction.y, along * direction.z, width});
   return blobs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From few blobs to more: selection and subdivision (docs/method.md, section 2.6;
+// Refinement of few blobs to more: selection and subdivision (docs/method.md, section 2.6;
 // Yureidini's thesis, 4.5).
 #pragma once
 

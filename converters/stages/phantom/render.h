@@ -28,9 +28,9 @@ struct Image {
   float* row(int y, int z) { return value.data() + index(y, z); }
 };
 
-/// For each voxel the share of it that lies in the lumen, times the local contrast of the design,
-/// in [0, 1]. Voxels that the wall may cross are integrated over 27 subvoxels, each weighted by its
-/// own signed distance. The grid has cubic voxels and the axes of LPS.
+/// The share of each voxel that lies in the lumen, times the local contrast of the design, in [0,
+/// 1]. Voxels that the wall may cross are integrated over 27 subvoxels, each weighted by its own
+/// signed distance. The grid has cubic voxels and the axes of LPS.
 Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& progress);
 
 /// Convolves in place with a Gaussian of standard deviation `sigma` voxels, cut at 4 sigma and

@@ -22,7 +22,7 @@ using Mesh = RemeshMesh;
 using Quadric = OpenMesh::Geometry::Quadricd;
 
 constexpr double kNoSharper = 0.067;  // squared sine of 15 degrees
-constexpr int kCheckEvery = 256;      // collapses looked at, about 10 ms
+constexpr int kCheckEvery = 256;      // collapses tried, about 10 ms
 
 std::size_t indexOf(Mesh::VertexHandle v) {
   return static_cast<std::size_t>(v.idx());
@@ -201,7 +201,7 @@ private:
     return false;
   }
 
-  // Does the collapse that isAllowed() was called for last.
+  // Applies the collapse for which isAllowed() was called last.
   void collapse(Mesh::HalfedgeHandle h) {
     const Mesh::VertexHandle gone = m_mesh.from_vertex_handle(h), kept = m_mesh.to_vertex_handle(h);
     if (m_deviation) m_deviation->keep(m_before);

@@ -49,7 +49,7 @@ template <class IsInside>
 void marchTetrahedron(const std::array<std::uint32_t, 4>& t, const SplitEdges& split,
                       const IsInside& isInside, std::vector<CrossingTriangle>& out);
 
-// The rest is the implementation of the template.
+// Implementation of the template.
 namespace detail {
 
 inline void marchUnsplit(const std::array<std::uint32_t, 4>& t, unsigned inside,

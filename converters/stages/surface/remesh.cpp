@@ -63,7 +63,7 @@ double leastAngleOf(const TriangleMesh& mesh, const Triangle& t) {
   return leastAngle(mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]);
 }
 
-// The corners of triangles that are sharp, or look into the lumen.
+// The corners of triangles that are sharp, or face into the lumen.
 std::vector<std::uint8_t> sharpVertices(const RemeshState& state, const PieceRules& rules) {
   const TriangleMesh& mesh = state.surface.mesh;
   std::vector<std::uint8_t> sharp(mesh.position.size(), 0);

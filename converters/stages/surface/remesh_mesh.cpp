@@ -22,7 +22,7 @@ double cosine(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return lengths > 0 ? a.dot(b) / lengths : -1;
 }
 
-// True if a face of the normal looks away from `outward`, and further than `before` did.
+// True if a face of the normal is turned away from `outward`, and further than `before` was.
 bool isTurned(const Eigen::Vector3d& normal, const RemeshMesh::Corners& before,
               const Eigen::Vector3d& outward) {
   if (outward.isZero(0)) return cosine(normal, normalOf(before)) < kLargestTurn;

@@ -101,7 +101,7 @@ void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double
   for (std::uint32_t i = 0; i < count; ++i) {
     const double own = tree.radius[i], farthest = 2 * reach * own + margin;
     ways.from(i, std::max(kDetour * farthest, leastWay * (2 * own + margin)));
-    // wide nodes look for narrow ones, not the other way round
+    // wide nodes search for narrow ones, not the reverse
     grid.visitNear(i, farthest, [&](std::uint32_t j) {
       const double sum = own + tree.radius[j];
       if (tree.radius[j] > own || (tree.radius[j] == own && j >= i)) return;

@@ -201,8 +201,8 @@ std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch* const
   return even;
 }
 
-/// The largest shift of a centre, in radii. Vessels whose bends ask for more are bent too sharply
-/// for a circle to show by how much.
+/// The largest shift of a centre, in radii. Vessels whose bends require more are bent too sharply
+/// for a circle to determine the shift.
 constexpr double kLargestShiftRadii = 0.1;
 
 /// The curvature at node `n`, 1/mm, towards the middle of the bend; zero where the chain is too

@@ -31,7 +31,7 @@ constexpr int kFirstLook = 64;
 constexpr double kPromising = 0.75;
 /// Chance that three inliers of the best circle were never drawn together when trials end.
 constexpr double kMissed = 1e-4;
-/// The least chance of a draw that is reckoned with: below it, trials go on to their bound.
+/// The least chance of a draw that counts: below it, trials continue to their bound.
 constexpr double kLeastChance = 1e-6;
 
 /// Least squares: rounds that choose inliers anew, and Gauss-Newton steps in each; both converge

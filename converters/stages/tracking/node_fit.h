@@ -15,7 +15,7 @@
 
 namespace lumen::convert {
 
-/// Place and size at which a node is looked for.
+/// Place and size of the search for a node.
 struct NodeGuess {
   Eigen::Vector3d centre, direction;  ///< mm, LPS; unit
   double radius = 0;                  ///< mm

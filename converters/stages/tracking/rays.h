@@ -11,8 +11,8 @@
 
 namespace lumen::convert {
 
-/// Length of the rays that look for the wall of a vessel, in radii expected of it (thesis section
-/// 3.3): those that reach a wall twice as far as expected still see it whole.
+/// Length of the rays that find the wall of a vessel, in expected radii (thesis section 3.3): rays
+/// that reach a wall twice as far as expected still show it whole.
 constexpr double kRayRadii = 3.0;
 
 /// Wall candidates as a structure of arrays, in mm relative to `origin` (LPS mm).

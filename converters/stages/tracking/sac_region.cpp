@@ -27,7 +27,7 @@ constexpr auto kProfile = static_cast<std::size_t>((kInward + kOutward) / kProfi
 /// Samples before and behind a place whose difference is the fall there: half a voxel apart.
 constexpr std::size_t kHalfFall = 2;
 
-/// Voxels between two looks at whether the user has cancelled, less one.
+/// Voxels between two checks for cancelling, less one.
 constexpr std::size_t kOften = 4095;
 
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();

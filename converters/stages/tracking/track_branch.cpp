@@ -29,7 +29,7 @@ BranchStart startAtSeed(TrackRun& run, const SeedBranch& seed, const TrackedBran
                       direction.has_value());
 }
 
-/// The reason why a branch cannot go on from its start; empty if it can.
+/// The reason why a branch cannot continue from its start; empty if it can.
 std::string failureOf(const TrackContext& context, const BranchStart& start,
                       FinishedBranches finished) {
   if (start.nodes.empty())

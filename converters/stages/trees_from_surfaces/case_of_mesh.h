@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the surface of vessels to a case: its tree and its wall points (docs/method.md, section 10).
+// Conversion of the surface of vessels to a case: its tree and its wall points (docs/method.md,
+// section 10).
 #pragma once
 
 #include <map>

@@ -118,7 +118,7 @@ std::vector<double> widthsAlong(std::span<const Vector3d> line, const LumenGeome
                     [&](std::size_t i) { widths[i] = lumen.depth(line[i]); });
   const double least = std::max(kNarrowest * median(widths), 1e-4 * at.back());
   for (double& width : widths) width = std::max(width, least);
-  // from either end: a point is at least as wide as the one before less half the way from it
+  // from either end: a point is at least as wide as its neighbour less half the distance from it
   for (std::size_t i = 1; i < widths.size(); ++i)
     widths[i] = std::max(widths[i], widths[i - 1] - kTaper * (at[i] - at[i - 1]));
   for (std::size_t i = widths.size() - 1; i > 0; --i)

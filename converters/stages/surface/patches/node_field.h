@@ -33,8 +33,8 @@ public:
   /// The scalar reference for sampleRow: the same bits.
   void sampleRowReference(int first, double cell, double y, double z, std::span<double> out) const;
 
-  /// The share t in (0, 1) of the way from a to b at which f = T; f(a) = fa and f(b) = fb lie on
-  /// either side of T. Newton's method within the bracket, on the level transform of f, which is
+  /// The share t in (0, 1) of the distance from a to b at which f = T; f(a) = fa and f(b) = fb lie
+  /// on either side of T. Newton's method within the bracket, on the level transform of f, which is
   /// nearly straight across a wall.
   [[nodiscard]] double crossing(const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b,
                                 double fb) const;
