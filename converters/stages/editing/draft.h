@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case taken apart into branches of nodes, to be changed and put together again by the rules of the
-// format. Every edit is a change of such a draft.
+// A case taken apart into branches of nodes, to be changed and put together again by the rules of
+// the format. Every edit is a change of such a draft.
 #pragma once
 
 #include <array>

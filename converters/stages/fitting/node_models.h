@@ -73,7 +73,7 @@ private:
       m_seams;                       ///< nodes whose seam with their parent is theirs or next to it
   std::vector<bool> m_isKept;        ///< nodes that are not fitted
   std::vector<LocalModel> m_models;  ///< seam of a node and its parent
-  std::vector<std::vector<formats::Vec3d>> m_seam;   ///< of a node and its parent, in its frame
+  std::vector<std::vector<formats::Vec3d>> m_seam;   ///< seam of a node and its parent
   std::vector<std::vector<formats::Vec3f>> m_drawn;  ///< points of nodes without measured ones
   tbb::enumerable_thread_specific<Worker> m_workers;
 };

@@ -43,8 +43,8 @@ struct SurfaceReport {
   std::size_t offField = 0;           ///< vertices with no surface of the field near by
   std::size_t sharpTriangles = 0;     ///< with an angle under 15 degrees
   std::size_t crossings = 0;          ///< pairs of triangles that pass through each other
-  std::vector<double> errors;  ///< of each level: greatest distance from the surface with all
-                               ///< triangles, mm; below 0: it has all
+  std::vector<double> errors;         ///< by level: greatest distance from the surface with all
+                                      ///< triangles, mm; below 0: it has all
   std::vector<std::string> messages;  ///< sentences about ends and extensions
 };
 

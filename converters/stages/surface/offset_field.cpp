@@ -18,7 +18,7 @@ constexpr double kLeastWay = 6;
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 constexpr double kReach = 3;            // thicknesses: no wall reaches farther
 constexpr double kOnEdge = 1e-6;        // share of a triangle: a foot so near to an edge is on it
-constexpr double kRounding = 1 + 1e-9;  // share of a thickness that is interpolated
+constexpr double kRounding = 1 + 1e-9;  // factor of a thickness that is interpolated
 constexpr double kOnWall = 1e-9;        // mm: where the line to the foot has no direction
 
 // The corners' angles are the weights (J. Baerentzen and H. Aanaes, *Signed distance computation

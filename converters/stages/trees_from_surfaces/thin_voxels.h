@@ -41,8 +41,8 @@ bool isThinVoxel(const std::array<int, 3>& voxel, const IsIn& isIn) {
   return true;
 }
 
-/// Whether a voxel that is not of the labels lies between thin ones that meet at an edge or a corner
-/// alone, as lines do that are drawn one voxel wide.
+/// Whether a voxel that is not of the labels lies between thin ones that meet at an edge or a
+/// corner alone, as lines do that are drawn one voxel wide.
 template <class IsIn>
 bool joinsThinVoxels(const std::array<int, 3>& voxel, const IsIn& isIn) {
   for (int corner = 0; corner < 8; ++corner) {

@@ -17,8 +17,8 @@ struct VesselLines {
   std::vector<std::string> notes;  ///< remarks for the user, a sentence each
 };
 
-/// The vessels of each connected part of the inside (docs/method.md, section 10): from its widest flat
-/// end, or else from its widest tip. `grid` is that of insideGrid(). Throws Error(Cancelled).
+/// The vessels of each connected part of the inside (docs/method.md, section 10): from its widest
+/// flat end, or else from its widest tip. `grid` is that of insideGrid(). Throws Error(Cancelled).
 VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress);
 
 /// The chains of a centerline (mm, LPS), without their parts outside. Throws Error(InvalidInput),
