@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an edit has done to a case.
+// The result of an edit: the relation of the changed case to the case before.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@ namespace lumen::convert {
 constexpr std::uint32_t kNewNode = UINT32_MAX;
 
 struct Change {
-  /// For each node of the case as it is now, its index before; kNewNode for one that was put in.
+  /// The index before of each node of the case as it is now; kNewNode for a new node.
   std::vector<std::uint32_t> before;
-  /// Nodes as they are now, ascending, whose models are out of date, because walls around them or
-  /// their neighbours along the tree are others: what refit() is to be asked for. New nodes have no
-  /// blobs until then. Empty if the case has no models.
+  /// Nodes as they are now, ascending, whose models are out of date because walls around them or
+  /// their neighbours along the tree have changed: the nodes for refit(). New nodes have no blobs
+  /// until then. Empty if the case has no models.
   std::vector<std::uint32_t> stale;
-  /// Names of node arrays that were dropped, since nobody knows their values at new nodes.
+  /// Names of node arrays that were dropped, since their values at new nodes are unknown.
   std::vector<std::string> droppedArrays;
-  /// What was done, for people, as it stands in the case's "edit" step.
+  /// Sentence for people that describes the edit, as the case's "edit" step records it.
   std::string sentence;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What edits are asked for, checked, and how it is said to people.
+// Checks of the arguments of edits, and their wording in messages.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,12 @@
 
 namespace lumen::convert {
 
-/// Throw Error(InvalidInput) for an index that is none.
+/// Throw Error(InvalidInput) for an index out of range.
 void requireBranch(const formats::Case& value, std::uint32_t branch);
 void requireNode(const formats::Case& value, std::uint32_t node);
 
-/// Throws Error(InvalidInput) for a text that is no label, or another branch's than `branch`.
+/// Throws Error(InvalidInput) for a text that is no label, or is the label of a branch other than
+/// `branch`.
 void requireLabel(const formats::Case& value, const std::string& label, std::uint32_t branch);
 
 /// The label of a branch, in quotation marks, fit to print.

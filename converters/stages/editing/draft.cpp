@@ -18,7 +18,7 @@ namespace {
 using formats::Case;
 using formats::Vec3f;
 
-/// The values of an array that has `components` of them for each node, for the nodes that there are now.
+/// The values of an array with `components` values for each node, for the nodes of the draft.
 template <class Value>
 std::vector<Value> gathered(const std::vector<Value>& values, std::size_t components,
                             const std::vector<std::uint32_t>& before) {
@@ -35,12 +35,12 @@ Vec3f opposite(const Vec3f& v) {
 
 }  // namespace
 
-/// The nodes that there will be, in order.
+/// The nodes of the case to be, in order.
 struct Draft::Layout {
-  std::vector<std::uint32_t> branches;  ///< of the draft
-  std::vector<std::uint32_t> nodes;     ///< of the draft
-  std::vector<std::uint32_t> index;     ///< of the draft's nodes; kNoNode for those that go
-  std::vector<std::uint32_t> before;    ///< of `nodes`
+  std::vector<std::uint32_t> branches;  ///< branches of the draft, in the new order
+  std::vector<std::uint32_t> nodes;     ///< nodes of the draft, in the new order
+  std::vector<std::uint32_t> index;  ///< new indices of the draft's nodes; kNoNode for dropped ones
+  std::vector<std::uint32_t> before;  ///< the index before of each of `nodes`, or kNewNode
 };
 
 Draft::Draft(const Case& value) : links(value.tree.links), m_case(value) {
@@ -92,7 +92,7 @@ Draft::Layout Draft::layOut() const {
   layout.index.assign(nodes.size(), kNoNode);
   std::vector<bool> isPlaced(branches.size(), false);
   for (std::uint32_t b = 0; b < branches.size(); ++b) {
-    // what it hangs on, up to what is placed
+    // the parents of the branch, up to those that are placed
     std::vector<std::uint32_t> due;
     for (std::uint32_t at = b; at != kNoNode && !isPlaced[at];) {
       due.push_back(at);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case taken apart into branches of nodes, to be changed and put together again by the rules of the
-// format. Every edit is a change of such a draft.
+// A case taken apart into branches of nodes, to be changed and put together again by the rules of
+// the format. Every edit is a change of such a draft.
 #pragma once
 
 #include <array>
@@ -26,13 +26,14 @@ struct DraftNode {
 
 struct DraftBranch {
   formats::Branch record;            ///< without its range and its parent
-  std::uint32_t parent = kNoNode;    ///< what its first node hangs on
+  std::uint32_t parent = kNoNode;    ///< node to which its first node is joined
   std::vector<std::uint32_t> nodes;  ///< at least one
-  bool isOther = false;              ///< other nodes than before, so another mean
+  bool isOther = false;              ///< its nodes have changed, and so has its mean
 };
 
-/// Nodes are named by their place in `nodes`, where those of the case have their index. Nodes that are of
-/// no branch are not in the case that is made of it, and neither are their links.
+/// Nodes are identified by their place in `nodes`, which for those of the case is their index.
+/// Nodes without a branch are left out of the case that is made of the draft, and so are their
+/// links.
 class Draft {
 public:
   explicit Draft(const formats::Case& value);
@@ -46,16 +47,16 @@ public:
   [[nodiscard]] std::uint32_t branchOf(std::uint32_t node) const {
     return m_case.tree.branch[node];
   }
-  /// Turns some nodes to look the other way, and puts the last first.
+  /// Reverses the directions and the order of nodes.
   void reverse(std::vector<std::uint32_t>& chain);
-  /// mm along a chain.
+  /// Length along a chain, mm.
   [[nodiscard]] double lengthOf(const std::vector<std::uint32_t>& chain) const;
-  /// A label that no branch has: `base` with the first free number from 2 on behind it.
+  /// A label that no branch has: `base` followed by the first free number from 2 on.
   [[nodiscard]] std::string freeLabel(const std::string& base) const;
 
-  /// Puts the draft together in the place of the case that it was made of, and records `sentence`. Parents
-  /// come before what hangs on them, else the order stays. Throws Error(InvalidInput) if a rule of the
-  /// format is broken, and leaves the case as it was.
+  /// Replaces the case that the draft was made of by the draft, and records `sentence`. Parents
+  /// come before their children; the order of branches stays otherwise. Throws Error(InvalidInput)
+  /// if a rule of the format is broken, and leaves the case as it was.
   Change finish(formats::Case& target, const std::string& sentence) const;
 
 private:

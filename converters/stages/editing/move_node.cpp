@@ -19,7 +19,7 @@ using formats::Case;
 
 /// Nodes along the branch whose wall points may lie in a node's section: cylinders overlap by half.
 constexpr std::uint32_t kBeside = 4;
-/// mm: positions beyond are on no patient, and their squares still fit a float.
+/// mm: positions beyond are implausible in a patient, and their squares still fit a float.
 constexpr double kFarthest = 1e6;
 
 /// The part of a vessel that a node stands for: between the planes halfway to its neighbours.
@@ -35,7 +35,7 @@ struct Section {
 
 /// A node's place in its branch.
 struct Place {
-  std::uint32_t node, first, end;  ///< of the branch: [first, end)
+  std::uint32_t node, first, end;  ///< in the branch [first, end)
 
   [[nodiscard]] bool hasPrevious() const { return node > first; }
   [[nodiscard]] bool hasNext() const { return node + 1 < end; }

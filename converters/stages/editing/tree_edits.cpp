@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of edit.h that concern what hangs on what.
+// Edits of edit.h that concern the joins of branches.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,12 +18,12 @@ using formats::Case;
 using formats::NodeOrigin;
 using formats::StopReason;
 
-/// Of the lesser radius: from one node of a bridge to the next, as tracking puts them.
+/// Distance from one node of a bridge to the next, in lesser radii, as in tracking.
 constexpr double kSpacing = 0.5;
 /// Nodes of one bridge, as of one branch that is tracked: more means that a radius is wrong.
 constexpr double kLongestBridge = 20000;
 
-/// Nodes on the straight way from a node to a branch's first one, without both.
+/// Nodes on the straight line from a node to a branch's first one, without both.
 std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
   const Vector3d start = toEigen(from.centre), way = toEigen(to.centre) - start;
   const double first = std::min(from.radius, to.radius), last = to.radius;
@@ -45,7 +45,7 @@ std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
   return nodes;
 }
 
-/// Drops the bridge by which a branch was led to what it hung on; nodes that something else hangs on, or
+/// Drops the bridge from a branch to the node it was joined to. Nodes that carry something else, or
 /// that close a loop, stay, and so does the last.
 void dropBridge(const Draft& draft, DraftBranch& branch) {
   const auto isUsed = [&](std::uint32_t node) {

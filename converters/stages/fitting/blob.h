@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What local models are made of.
+// The terms of local models.
 #pragma once
 
 namespace lumen::convert::fitting {

@@ -34,7 +34,7 @@
 // kappa_0 is 0 in the thesis. A wall that is expected to be flat swells; one that is expected to be
 // evenly curved, as tubes and spheres are, only loses its bumps.
 //
-// E_w, not in the thesis either, says that the widths of a model's blobs hardly differ.
+// E_w, not in the thesis either, favours widths of a model's blobs that hardly differ.
 //
 // Everything is in the fit's own frame: origin at the node, and a unit of length in which the voxel
 // of the source volume measures kReferenceVoxel. The thesis' alpha, beta and s, tuned at 0.2 mm,
@@ -95,10 +95,11 @@ public:
 
   /// The energy of all of `blobs`; fills the residuals and the field at every point.
   double evaluate(std::span<const Blob> blobs);
-  /// The same, and the Jacobian with respect to (x, y, z, width) of every unknown blob.
+  /// The energy of all of `blobs`, as evaluate() has it; fills the residuals, the field at every
+  /// point, and the Jacobian with respect to (x, y, z, width) of every unknown blob.
   double linearise(std::span<const Blob> blobs);
 
-  // What the last call of evaluate() or linearise() found.
+  // Results of the last call of evaluate() or linearise().
 
   [[nodiscard]] EnergyTerms terms() const { return m_terms; }
   /// Mean |grad u|^2 over the points.
@@ -111,8 +112,8 @@ public:
     return {m_gradient2.data(), m_count};
   }
 
-  /// After linearise(blobs): A = J^T J (row-major, only the upper triangle, 4n x 4n for n unknown
-  /// blobs) and b = J^T r, half the gradient of the energy.
+  /// The normal equations after linearise(blobs): A = J^T J (row-major, only the upper triangle, 4n
+  /// x 4n for n unknown blobs) and b = J^T r, half the gradient of the energy.
   void normalEquations(std::span<const Blob> blobs, std::span<double> a, std::span<double> b);
 
 private:

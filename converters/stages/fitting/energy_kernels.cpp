@@ -13,21 +13,24 @@ namespace {
 // instruction set.
 #define LUMEN_INLINE [[gnu::always_inline]] inline
 
-// The arrays of a block never overlap; the compiler cannot see it, and gives up on so many of them.
+// The arrays of a block never overlap; the compiler cannot see this, and there are too many of them
+// for its checks at run time.
 #if defined(__clang__)
 #define LUMEN_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
 #else
 #define LUMEN_INDEPENDENT _Pragma("GCC ivdep")
 #endif
 
-/// What the data term measures instead of f, of first order T - f at the surface (energy.h).
+/// The value that the data term measures instead of f, to first order T - f at the surface
+/// (energy.h).
 struct Residual {
   double value;
   double slope;   ///< -du/df
   double second;  ///< d2u/df2
 };
 
-/// Of the level: smaller fields count as this, so that u stays finite where f vanishes.
+/// Least field, as a share of the level: smaller fields count as this, so that u stays finite where
+/// f vanishes.
 constexpr double kLeastField = 1e-12;
 
 template <class Phi>
@@ -43,12 +46,12 @@ LUMEN_INLINE Residual residualOf(double f, double level) {
 
 using Lane = double[kBlock];
 
-/// Sums over the blobs at every point of a block, and what the curvature's derivatives need of
-/// them.
+/// Sums over the blobs at every point of a block, and the terms that the curvature's derivatives
+/// need.
 struct alignas(64) Sums {
   Lane f, gx, gy, gz, ax, ay, az, wx, wy, wz, c;
   Lane dataSlope;  ///< -du/df
-  Lane slopeTurn;  ///< what a change of f alone adds to the slope row, per row of the data
+  Lane slopeTurn;  ///< effect of a change of f alone on the slope row, per row of the data
 };
 
 LUMEN_INLINE void start(const Block& in, Sums& s) {

@@ -19,7 +19,7 @@ constexpr double kFlatField = 1e-6;
 /// Partial sums run in this many independent lanes, whatever the machine's vectors are, so that
 /// every machine adds in the same order.
 constexpr std::size_t kLanes = 8;
-/// Points per block: what a block needs for ten blobs stays in the first-level cache.
+/// Points per block: the data of a block for ten blobs stay in the first-level cache.
 constexpr std::size_t kBlock = 64;
 /// Values of scratch memory per unknown blob in a block: delta (3), |delta|^2, phi', phi'', phi''',
 /// G . delta.
@@ -30,7 +30,7 @@ struct Block {
   std::size_t count = 0;  ///< a multiple of kLanes, at most kBlock
   const double *x = nullptr, *y = nullptr, *z = nullptr;
   const double* weight = nullptr;  ///< square root of a point's share of E_d; 0 for padding
-  const double* share = nullptr;   ///< the same of the curvature and of the mean slope
+  const double* share = nullptr;   ///< square root of its share of curvature and mean slope
   const double* frozen[10] = {};   ///< f, G (3), Gamma (6) of the blobs that are not unknowns
   double* field = nullptr;
   double* gradient2 = nullptr;
@@ -39,15 +39,15 @@ struct Block {
   double* curvatureResidual = nullptr;  ///< share sqrt(beta) (kappa - kappa_0)
   double* jacobian = nullptr;           ///< this block's rows of the first column
   std::size_t columnStride = 0;         ///< from one column to the next
-  /// From a column's data row of a point to its curvature row, and on to its slope row: the
-  /// derivative of share^2 |grad u|^2.
+  /// Offset from a point's data row of a column to its curvature row, and from there to its slope
+  /// row: the derivative of share^2 |grad u|^2.
   std::size_t rowStride = 0;
   double* scratch = nullptr;  ///< blobs x kScratchArrays x kBlock
 };
 
 struct BlockParameters {
   field::Kernel kernel;
-  double kernelScale;  ///< of field::chainScale
+  double kernelScale;  ///< scale by field::chainScale
   double isoLevel;
   double curvatureScale;     ///< sqrt(beta)
   double expectedCurvature;  ///< kappa_0

@@ -19,12 +19,12 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Of the level: fields below it say nothing about where the wall is.
+/// Least field, as a share of the level: smaller ones do not locate the wall.
 constexpr double kVanished = 1e-12;
-/// Of a node's points: those whose distances its error of fit bounds (Yureidini's thesis, 4.8.4).
+/// Share of a node's points whose distances its error of fit bounds (Yureidini's thesis, 4.8.4).
 constexpr double kShareOfPoints = 0.9;
 
-/// What there is to say about one point: f, |grad f|, and how far the node is.
+/// The values at one point: f, |grad f|, and its distance from the node.
 struct At {
   double f = 0, slope = 0, toNode = 0;
 };

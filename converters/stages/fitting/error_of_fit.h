@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the fitted surfaces are from the points that they were fitted to.
+// Distances of the fitted surfaces from the points that they were fitted to.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 namespace lumen::convert {
 
 enum class FitDistance {
-  /// The one-evaluation distance (docs/method.md, section 4.2), of the node's own model. The same
-  /// as Taubin's to first order at the wall, but bounded: by the node's radius inside, by the far
-  /// side of its ball outside, where a flat field lets Taubin's grow without limit.
+  /// The one-evaluation distance (docs/method.md, section 4.2) of the node's own model. It equals
+  /// Taubin's to first order at the wall, but is bounded: by the node's radius inside, and outside,
+  /// where a flat field lets Taubin's grow without limit, by the far side of its ball.
   Wall,
   /// |T - f| / |grad f|, as in Yureidini's thesis; infinity where the field is flat.
   Taubin

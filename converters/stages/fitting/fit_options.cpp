@@ -10,7 +10,7 @@
 namespace lumen::convert {
 namespace {
 
-/// Voxels: what Yureidini's thesis, table 4.5, gives in mm for voxels of 0.2 mm.
+/// Voxels: the lengths of Yureidini's thesis, table 4.5, which are in mm for voxels of 0.2 mm.
 constexpr double kIsoLevel = 0.5, kAccuracy = 1.5, kMaxDistance = 100, kMinWidth = 0.1;
 
 constexpr NumberRange kWeight{0, 1e6};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user may set of the fit.
+// Options of the fit.
 #pragma once
 
 #include <map>
@@ -22,15 +22,16 @@ struct FitOptions {
   int maxSubdivisions = 100;              ///< N_s, at most 1000
   int neighbourhood = 2;   ///< topological distance of the nodes whose points count, at most 100
   int seamSweeps = 3;      ///< joint refinements of adjacent models, at most 100
-  double seamWeight = 64;  ///< of a node's seams in E_d, in the weight of all of its points
+  double seamWeight = 64;  ///< weight of a node's seams in E_d, in that of all of its points
   std::optional<double> isoLevel;     ///< T, mm *: half a voxel
   std::optional<double> accuracy;     ///< t_g, mm *: 1.5 voxels
   std::optional<double> maxDistance;  ///< farther blobs are dropped, mm from the node *: 100 voxels
   std::optional<double> minWidth;     ///< narrower blobs are dropped, mm *: 0.1 voxel
 
-  /// Adds the rows of all values above, which are stored in this object.
+  /// Adds a row for each value above, stored in this object.
   void addRows(OptionTable& table);
-  /// These options with every optional value set. Throws Error(InvalidInput) for values out of range.
+  /// Copy of these options with every optional value set. Throws Error(InvalidInput) for values out
+  /// of range.
   [[nodiscard]] FitOptions resolved(double voxelSize) const;
   /// The values that are set, by option name, as a case stores them.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;

@@ -17,12 +17,12 @@ constexpr double kLargestMove = 1.0;
 constexpr double kLargestResize = 0.5;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kLargestDamping = 1e12;
-/// Of the tolerance: a step that promises less is not worth an evaluation.
+/// Share of the tolerance: a step that promises less is not worth an evaluation.
 constexpr double kWorthTrying = 0.1;
 /// Added to the diagonal, relative to its largest entry: an unknown without influence stays put.
 constexpr double kFloor = 1e-14;
 
-/// Moves a centre that is outside all balls to the surface of the one that it is least far from.
+/// Moves a centre that is outside all balls to the surface of the nearest one.
 void keepWithin(std::span<const Ball> balls, Blob& blob) {
   const Ball* nearest = nullptr;
   double away = 0, least = std::numeric_limits<double>::infinity();
@@ -43,7 +43,7 @@ void keepWithin(std::span<const Ball> balls, Blob& blob) {
   blob.z = nearest->centre.z + back * (blob.z - nearest->centre.z);
 }
 
-/// A x = -b for n unknowns, and its solution.
+/// The system A x = -b for n unknowns, and its solution.
 struct NormalEquations {
   std::span<double> a, b, factor, step;
 
@@ -59,7 +59,7 @@ NormalEquations makeRoom(std::size_t n, MinimiseWorkspace& workspace) {
           std::span(workspace.factor).first(n * n), std::span(workspace.step).first(n)};
 }
 
-/// The step of (A + damping) x = -b. False if that is not positive definite.
+/// The step of (A + damping) x = -b. False if this matrix is not positive definite.
 bool solveDamped(const NormalEquations& equations, double damping) {
   const std::size_t n = equations.unknowns();
   double largest = 0;
@@ -71,7 +71,7 @@ bool solveDamped(const NormalEquations& equations, double damping) {
   return solveSymmetric(equations.factor, equations.b, n, equations.step);
 }
 
-/// Shortens the step to what the bounds on moves and resizings allow.
+/// Shortens the step to the bounds on moves and resizings.
 void shortenStep(std::span<const Blob> unknown, std::span<double> step) {
   double excess = 1;
   for (std::size_t j = 0; j < unknown.size(); ++j) {
@@ -116,9 +116,9 @@ double predictDecrease(const NormalEquations& equations) {
   return predicted;
 }
 
-/// What the damping is multiplied by after a step that lowered the energy by so much of what was
-/// predicted (K. Madsen, H. B. Nielsen, O. Tingleff: Methods for non-linear least squares problems,
-/// 2004).
+/// The factor of the damping after a step, by the ratio of the decrease of the energy to the
+/// predicted one (K. Madsen, H. B. Nielsen, O. Tingleff: Methods for non-linear least squares
+/// problems, 2004).
 double dampingFactor(double gain) {
   const double surprise = 2.0 * gain - 1.0;
   return std::max(1.0 / 3.0, 1.0 - surprise * surprise * surprise);

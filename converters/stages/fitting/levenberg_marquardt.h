@@ -16,7 +16,7 @@
 
 namespace lumen::convert::fitting {
 
-/// In the fit's frame.
+/// A ball in the fit's frame.
 struct Ball {
   formats::Vec3d centre;
   double radius = 0;

@@ -10,8 +10,9 @@
 namespace lumen::convert::fitting {
 namespace {
 
-/// A fit whose points are farther, in the mean and in accuracies asked for or twentieths of the radius, is tried again
-/// from the inscribed balls: two blobs beside a much wider vessel may end in neither.
+/// Largest mean distance of the points, in accuracies asked for or twentieths of the radius. A fit
+/// beyond it is tried again from the inscribed balls: two blobs beside a much wider vessel may end
+/// in neither.
 constexpr double kPoorFit = 1.0 / 3.0;
 constexpr MinimiseOptions kRefine{10, 1e-4};
 

@@ -13,9 +13,9 @@ namespace lumen::convert::fitting {
 
 struct LocalModel {
   std::vector<Blob> blobs;   ///< at least one
-  EnergyParameters weights;  ///< that the fit ended with
-  double energy = 0;         ///< in these weights
-  int subdivisions = 0;      ///< tried
+  EnergyParameters weights;  ///< weights at the end of the fit
+  double energy = 0;         ///< energy in these weights
+  int subdivisions = 0;      ///< subdivisions tried
 };
 
 /// The model of a node. Two blobs as wide as the node if its points are too few to fit. Throws
@@ -26,7 +26,7 @@ LocalModel fitLocalModel(const LocalModelOptions& options, const NodeData& node,
 /// Points that a model shares with those of its neighbours.
 struct SharedPoints {
   std::span<const formats::Vec3d> points;
-  double weight = 0;  ///< of all together, in E_d, in that of all points of the node
+  double weight = 0;  ///< weight of all together in E_d, in that of all points of the node
 };
 
 /// The blobs of a model of `node`, moved and resized to bring its surface closer to the seams with

@@ -10,18 +10,19 @@ namespace {
 /// Radius of the artery that the weights of Yureidini's thesis were tuned on, a carotid, in the
 /// fit's frame.
 constexpr double kTunedRadius = 2.0;
-/// The thesis' beta, in whose place the prior's weight comes once the noise is known.
+/// The thesis' beta, which the prior's weight replaces once the noise is known.
 constexpr double kTunedCurvatureWeight = 1e-3;
 /// The kernel whose widths the thesis' cohesion scale counts.
 constexpr auto kTunedKernel = formats::Kernel::Cauchy;
-/// Standard deviation of the mean curvature of a wall about its mean, in units of the inverse
-/// radius of its finest bulges, and of the widths of a model's blobs, as a share of their mean: what the priors expect.
+/// Expectations of the priors: the standard deviation of the mean curvature of a wall about its
+/// mean, in units of the inverse radius of its finest bulges, and of the widths of a model's blobs,
+/// as a share of their mean.
 constexpr double kCurvatureSpread = 0.5;
 constexpr double kWidthSpread = 0.1;
 /// Blobs stay within this many times the distance of the farthest point from the node: those of a
 /// good model lie inside the vessel. Those that get there are dropped.
 constexpr double kReach = 1.5;
-/// Of the reach: where a blob counts as having got there, for rounding.
+/// Share of the reach from which a blob counts as having reached its end, for rounding.
 constexpr double kAtReach = 0.999;
 /// No blob is farther than this many radii of the node from all points, if nothing else is known
 /// of the inside.

@@ -10,19 +10,19 @@
 namespace lumen::convert::fitting {
 namespace {
 
-/// Nodes within so many edges cut a seam.
+/// Nodes within this many edges cut a seam.
 constexpr int kSeamNeighbourhood = 2;
-/// Of the radius of an aneurysm: the least lobe that tracking takes for a part of it.
+/// The least lobe that tracking takes for a part of an aneurysm, as a share of its radius.
 constexpr double kLobe = 0.25;
-/// Radii of a vessel: the farthest wall of a sac that a node of the vessel is fitted to, as on the
-/// rays of tracking.
+/// Distance of the farthest wall of a sac that a node of a vessel is fitted to, in radii of the
+/// vessel, as on the rays of tracking.
 constexpr double kSeen = 2.4;
 
 using formats::Vec3d;
 using formats::Vec3f;
 
-/// The unit in which the voxel measures kReferenceVoxel; without a voxel size, the
-/// iso-level stands for half a voxel.
+/// The unit in which the voxel measures kReferenceVoxel; without a voxel size, the iso-level counts
+/// as half a voxel.
 double frameScale(const formats::Case& value, const FitOptions& options) {
   const double voxel = value.metadata.voxelSize.value_or(0.0);
   return kReferenceVoxel / (voxel > 0 ? voxel : 2.0 * *options.isoLevel);
@@ -125,7 +125,7 @@ NodeData NodeModels::data(std::uint32_t node, const Worker& worker) const {
           isInSac(node) ? kLobe : 1.0};
 }
 
-/// What the nodes of the neighbourhood say about its wall and its inside.
+/// Collects the wall points and the inside from the nodes of the neighbourhood.
 void NodeModels::gatherPoints(std::uint32_t node, Worker& worker) const {
   const std::vector<std::uint32_t>& offset = m_case.points->offset;
   worker.points.clear();

@@ -17,16 +17,17 @@
 
 namespace lumen::convert::fitting {
 
-/// A node's frame is x' = (x - centre) * scale. What it is made from must outlive it.
+/// A node's frame is x' = (x - centre) * scale. The constructor's arguments must outlive the
+/// object.
 class NodeModels {
 public:
-  /// To fit all nodes of a case that has wall points, or `nodes`, ascending, of one that has models,
-  /// too: the others keep theirs. `options` are resolved.
+  /// Prepares the fit of all nodes of a case that has wall points; or of `nodes`, ascending, of a
+  /// case that also has models, where the others keep theirs. `options` are resolved.
   NodeModels(const formats::Case& value, const FitOptions& options);
   NodeModels(const formats::Case& value, const FitOptions& options,
              std::span<const std::uint32_t> nodes);
 
-  /// Fits every node for itself. Throws Error(Cancelled).
+  /// Fits every node independently. Throws Error(Cancelled).
   void fit(Progress& progress);
 
   /// Brings the surfaces of adjacent models together where they meet. Reads the models of the sweep
@@ -67,13 +68,13 @@ private:
   double m_scale;
   LocalModelOptions m_local;
   formats::Neighbours m_neighbours;
-  std::vector<std::uint32_t> m_nodes;  ///< that are fitted
+  std::vector<std::uint32_t> m_nodes;  ///< nodes that are fitted
   std::vector<std::uint32_t>
       m_seams;                       ///< nodes whose seam with their parent is theirs or next to it
   std::vector<bool> m_isKept;        ///< nodes that are not fitted
-  std::vector<LocalModel> m_models;  ///< in the frame of their node
-  std::vector<std::vector<formats::Vec3d>> m_seam;   ///< of a node and its parent, in its frame
-  std::vector<std::vector<formats::Vec3f>> m_drawn;  ///< of each node that has no measured points
+  std::vector<LocalModel> m_models;  ///< seam of a node and its parent
+  std::vector<std::vector<formats::Vec3d>> m_seam;   ///< seam of a node and its parent
+  std::vector<std::vector<formats::Vec3f>> m_drawn;  ///< points of nodes without measured ones
   tbb::enumerable_thread_specific<Worker> m_workers;
 };
 

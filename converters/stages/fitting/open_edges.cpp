@@ -16,11 +16,13 @@
 namespace lumen::convert {
 namespace {
 
-/// Of the edge's lesser radius: how wide the way is that an opening makes. A wider one moves the wall.
+/// Width of the passage that an opening makes, as a share of the edge's lesser radius. A wider one
+/// moves the wall.
 constexpr double kWay = 0.4;
-/// Of the iso-level: by how much the field exceeds it where it was too low.
+/// Excess of the field over the iso-level where it was too low, as a share of the level.
 constexpr double kExcess = 0.1;
-/// An opening may be incomplete where other nodes answer than at its middle; the next turn adds these.
+/// The most turns. An opening may be incomplete where other nodes answer than at its middle; the
+/// next turn adds these.
 constexpr int kMostTurns = 5;
 
 struct NewBlob {
@@ -29,13 +31,13 @@ struct NewBlob {
 };
 using NewBlobs = std::map<std::uint32_t, std::vector<NewBlob>>;  ///< by the node that gets them
 
-/// A place where an edge is closed, and what the field lacks there, mm.
+/// A place where an edge is closed, and the deficit of the field there, mm.
 struct Lack {
   formats::ClosedPlace at;
   double amount;
 };
 
-/// The nodes whose blobs have a say at a place.
+/// The nodes whose blobs contribute to the field at a place.
 std::vector<std::uint32_t> ownersAt(const field::BlendedField& field,
                                     const formats::ClosedPlace& closed) {
   const double p[3] = {closed.place.x, closed.place.y, closed.place.z};
@@ -57,8 +59,8 @@ double radiusAlong(const formats::CenterlineTree& tree, std::uint32_t node) {
       std::min(tree.radius[node], tree.radius[static_cast<std::size_t>(tree.parent[node])])};
 }
 
-/// Opens one edge: where it lacks most, a blob that adds as much all over a way of that radius, and so
-/// on with what that does not reach.
+/// Opens one edge: adds a blob where the field lacks most, which adds as much all over a passage of
+/// that radius, and repeats this for the places beyond its reach.
 void openEdge(const field::BlendedField& field, const formats::BlobbyModels& models,
               std::vector<Lack> lacks, double radius, NewBlobs& added) {
   std::stable_sort(lacks.begin(), lacks.end(),
@@ -81,7 +83,7 @@ void openEdge(const field::BlendedField& field, const formats::BlobbyModels& mod
 
 using MayOpen = std::function<bool(std::uint32_t)>;
 
-/// What opens the edges that are closed.
+/// The blobs that open the closed edges.
 NewBlobs openingsOf(const formats::Case& value, const MayOpen& mayOpen) {
   const field::BlendedField field = formats::blendedFieldOf(value);
   std::map<std::uint32_t, std::vector<Lack>> closed;  // by the edge's farther end

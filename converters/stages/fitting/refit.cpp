@@ -12,7 +12,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr int kMostWhole = 1000;  ///< of an option that counts; a file may say anything
+constexpr int kMostWhole = 1000;  ///< bound for an option that counts; a file may have any value
 
 FitOptions readOptions(const formats::Step& step) {
   FitOptions options;
@@ -27,8 +27,7 @@ FitOptions readOptions(const formats::Step& step) {
   return options;
 }
 
-/// Voxels; what a case that states neither a voxel nor options is taken to have: an iso-level of half
-/// of one.
+/// Voxels: the assumed iso-level of a case that states neither a voxel nor options.
 constexpr double kVoxelsOfLevel = 0.5;
 
 double voxelOf(const formats::Case& value, const FitOptions& options) {

@@ -14,12 +14,12 @@ namespace {
 using Eigen::Vector3d;
 using formats::Vec3d;
 
-/// Of the wider radius: the length of a ray, the step at which it looks for the surface, and how
-/// precisely it finds it.
+/// Length of a ray, step of its search for the surface, and precision of the result, in wider radii
+/// of the two.
 constexpr double kLongestRay = 3, kStep = 0.1, kPrecision = 1e-5;
 /// Bound on the steps of the root search, which needs far fewer.
 constexpr int kRefinements = 40;
-/// Of the narrower radius: surfaces that are farther apart have no common seam.
+/// Share of the narrower radius: surfaces that are farther apart have no common seam.
 constexpr double kFarthestApart = 0.5;
 
 /// A ray from a point that is inside.
@@ -29,7 +29,7 @@ public:
       double unit)
       : m_parameters(parameters), m_origin(origin), m_direction(direction), m_unit(unit) {}
 
-  /// Where it leaves the inside of a model first.
+  /// The first place where the ray leaves the inside of a model.
   [[nodiscard]] std::optional<double> leave(const SeamSide& side) const {
     double low = 0, atLow = excess(side, 0), high = 0, atHigh = atLow;
     if (!(atLow > 0)) return {};

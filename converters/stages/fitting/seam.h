@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the models of two adjacent nodes meet (docs/method.md, section 2.7): the radical plane, on
+// The seam of the models of two adjacent nodes (docs/method.md, section 2.7): the radical plane, on
 // which both have the same power |X - C|^2 - r^2.
 #pragma once
 
@@ -20,9 +20,11 @@ struct SeamSide {
 /// Rays per seam.
 constexpr std::size_t kSeamRays = kRingSize;
 
-/// Points between the two surfaces, along rays in the radical plane, in the frame of the centres: at
-/// most kSeamRays. `share`: of the way from the first surface to the second; halfway for two that move. None where a ray meets one of the surfaces only, where they are
-/// farther apart than half of the narrower radius, or where one of `others` has a smaller power.
+/// Points between the two surfaces, along rays in the radical plane, in the frame of the centres:
+/// at most kSeamRays. `share`: position of the points, as a share of the distance from the first
+/// surface to the second; halfway for two that move. None where a ray meets one of the surfaces
+/// only, where they are farther apart than half of the narrower radius, or where one of `others`
+/// has a smaller power.
 std::vector<formats::Vec3d> seamPoints(const EnergyParameters& parameters, const SeamSide& first,
                                        const SeamSide& second, std::span<const Ball> others,
                                        double share = 0.5);

@@ -25,7 +25,7 @@ std::span<const Vec3f> pointsAt(const formats::Case& value, std::uint32_t node) 
   return std::span(value.points->position).subspan(offset[node], offset[node + 1] - offset[node]);
 }
 
-/// What of a case decides about points that are drawn.
+/// The parts of a case that determine generated points.
 formats::Case withoutWalls(const formats::Case& value) {
   formats::Case bare;
   bare.tree = value.tree;
@@ -46,7 +46,7 @@ public:
         m_reach(recordedFitOptions(after).neighbourhood),
         m_aroundBefore(before.tree),
         m_aroundAfter(after.tree) {
-    // a ring around a node that is turned round is another, though the wall is the same
+    // a ring around a node that is reversed is another, though the wall is the same
     formats::Case aligned = withoutWalls(before);
     for (std::uint32_t node = 0; node < nodeBefore.size(); ++node)
       if (const std::uint32_t was = nodeBefore[node];
@@ -84,7 +84,7 @@ private:
     for (const std::uint32_t node : nodes) out.push_back(m_nodeBefore[node]);
     return sorted(out);
   }
-  /// The node itself has the wall that it had.
+  /// True if the node itself has the same wall as before.
   [[nodiscard]] bool isSame(std::uint32_t node) const {
     const std::uint32_t was = m_nodeBefore[node];
     if (was == kNone) return false;

@@ -9,20 +9,20 @@
 namespace lumen::convert::fitting {
 namespace {
 
-/// One point in so many, at either end of the vessel, is beyond what the first blobs cover:
-/// stragglers.
+/// Stragglers: one point in this many, at either end of the vessel, is beyond the cover of the
+/// first blobs.
 constexpr std::size_t kStragglers = 20;
-/// Of the radius: the least distance of an end from the middle. Points in one ring have no ends.
+/// Least distance of an end from the middle, in radii. Points in one ring have no ends.
 constexpr double kLeastHalf = 0.5;
-/// Balls that the second trial begins with are so many radii of the wider one apart.
+/// Least distance of the balls that the second trial begins with, in radii of the wider one.
 constexpr double kBallsApart = 0.8;
 
-/// The width of each of two blobs that would in one place have that radius.
+/// The width of two equal blobs that have that radius when both are in one place.
 double widthOfTwo(const EnergyParameters& e, double radius) {
   return formats::widthForRadius(e.kernel, e.kernelParameter, radius, e.isoLevel, 2);
 }
 
-/// Where the points end along the node's direction; a radius to either side if they are too few.
+/// The ends of the points along the node's direction; a radius to either side if they are too few.
 std::pair<double, double> endsAlong(const NodeData& node) {
   if (node.points.size() < kFewestPoints) return {-node.radius, node.radius};
   const formats::Vec3d& direction = node.direction;
@@ -44,7 +44,7 @@ std::vector<Blob> placeAlongVessel(const EnergyParameters& parameters, const Nod
   const auto [low, high] = endsAlong(node);
   const double width = widthOfTwo(parameters, node.radius);
   std::vector<Blob> blobs;
-  // quarter and three quarters of the way from one end to the other
+  // quarter and three quarters of the distance from one end to the other
   for (const double along : {0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high})
     blobs.push_back({along * direction.x, along * direction.y, along * direction.z, width});
   return blobs;

@@ -9,15 +9,14 @@
 namespace lumen::convert::fitting {
 namespace {
 
-/// Unknowns of a blob: what one more must pay for in the Bayesian information criterion.
+/// Unknowns of a blob, which the Bayesian information criterion charges for one more.
 constexpr double kUnknownsPerBlob = 4;
-/// The share of that cost which a blob must pay while a point is farther than the accuracy asked
+/// Share of the cost of a blob that it must gain while a point is farther than the accuracy asked
 /// for.
 constexpr double kShareWhenFar = 0.25;
 /// Subdivisions in vain, in one fit, before it stops.
 constexpr std::size_t kMostRefusals = 10;
-/// Of the old width: how far a new blob is moved towards the farthest point (Yureidini's thesis,
-/// 4.5).
+/// Displacement of a new blob towards the farthest point, in old widths (Yureidini's thesis, 4.5).
 constexpr double kDisplacement = 0.1;
 /// Trial positions of a new blob, and their spacing in displacements.
 constexpr int kTrialPlaces = 12;

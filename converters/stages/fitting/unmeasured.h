@@ -9,8 +9,9 @@
 
 namespace lumen::convert {
 
-/// For every node that was not measured and has no points: a ring around it at its radius, mm, LPS,
-/// without what lies in another branch's lumen near by along the tree. Empty for all others.
+/// A ring of points for every node that was not measured and has no points: around it at its
+/// radius, mm, LPS, without points in another branch's lumen near by along the tree. Empty for all
+/// other nodes.
 std::vector<std::vector<formats::Vec3f>> pointsOfUnmeasured(const formats::Case& value,
                                                             const formats::Neighbours& neighbours);
 

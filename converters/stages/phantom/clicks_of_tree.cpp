@@ -36,7 +36,7 @@ bool isLarge(const formats::CenterlineTree& tree, const formats::Branch& branch,
   return static_cast<double>(*middle) >= kNarrowest * voxel;
 }
 
-// The node of the nearest kept branch that the branch hangs on, directly or by others, or
+// The node of the nearest kept ancestor to which the branch is joined, directly or by others, or
 // kNoParent.
 std::int32_t keptParent(const formats::CenterlineTree& tree, const formats::Branch& branch,
                         const std::vector<bool>& kept) {

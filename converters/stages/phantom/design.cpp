@@ -17,7 +17,8 @@ formats::Vec3f asFloat(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-// Unit. Where a path turns back on itself, the way on; where it stands still, the z axis.
+// The unit direction. Where a path turns back on itself, the direction of its rest; where it stands
+// still, the z axis.
 Eigen::Vector3d directionAt(const Path& path, std::size_t i) {
   const Eigen::Vector3d& before = path[i == 0 ? 0 : i - 1].position;
   const Eigen::Vector3d& after = path[std::min(i + 1, path.size() - 1)].position;

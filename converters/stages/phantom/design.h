@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a phantom is before it is drawn: a tree of tubes, its contrast, and the clicks on it.
+// The design of a phantom before it is drawn: a tree of tubes, its contrast, and the clicks on it.
 #pragma once
 
 #include <cstdint>
@@ -97,13 +97,13 @@ std::vector<SeedBranch> clickSeeds(const formats::CenterlineTree& tree, Random& 
 /// than 5 mm and has a median radius of at least 1.5 voxels. Each lies a fifth of the radius off
 /// the axis: of a root half a radius past its start, of a child where its axis is 1.5 to 1.75
 /// parent radii away from its parent's, or four along the vessel. A child of a vessel that has no
-/// click hangs on the nearest one upstream that has one, or is a root. Radii and directions are
+/// click is joined to the nearest one upstream that has one, or is a root. Radii and directions are
 /// given where clickSeeds() gives them.
 std::vector<SeedBranch> clickLargeVessels(const formats::CenterlineTree& tree, double voxel,
                                           Random& random);
 
-/// Lowers the contrast in proportion to the way from the root, by `share` of it at the end that is
-/// farthest.
+/// Lowers the contrast in proportion to the distance along the tree from the root, by `share` of it
+/// at the farthest end.
 void fadeContrast(Design& design, double share);
 
 Design designTube(const Frame& frame);

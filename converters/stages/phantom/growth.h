@@ -30,7 +30,7 @@ public:
   };
   /// The ball nearest to that of `radius` at `point` among the branches other than `except`.
   [[nodiscard]] Nearest nearestBut(int except, const Eigen::Vector3d& point, double radius) const;
-  /// The same among the balls of `branch` only.
+  /// The ball nearest to that of `radius` at `point` among the balls of `branch` only.
   [[nodiscard]] Nearest nearestOf(int branch, const Eigen::Vector3d& point, double radius) const;
   /// How far the ball lies within the box, mm; negative if it sticks out.
   [[nodiscard]] double depthInBox(const Eigen::Vector3d& point, double radius) const;

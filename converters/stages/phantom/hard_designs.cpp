@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Phantoms of what patients have and small_designs.cpp has not. Positions are shares of the extent;
-// radii follow Frame::radiusScale. Ends lie inside the volume and are round, but for those on a
-// face.
+// Difficult phantoms, with features of patients that small_designs.cpp lacks. Positions are shares
+// of the extent; radii follow Frame::radiusScale. Ends lie inside the volume and are round, but for
+// those on a face.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -52,9 +52,9 @@ struct BentVessel {
   }
 };
 
-// A ball of `radius` around `centre`, seen from a point of the axis that it hangs on: each radius
-// that of the largest ball inside it, or inside the ball of `around` that it begins in, and never
-// below `neck`.
+// A ball of `radius` around `centre`, seen from a point of the axis to which it is joined: each
+// radius is that of the largest ball inside it, or inside the ball of `around` that it begins in,
+// and never below `neck`.
 Path sacPath(const Vector3d& from, const Vector3d& centre, double radius, double around,
              double neck) {
   const double length = (centre - from).norm();

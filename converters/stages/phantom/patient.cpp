@@ -46,7 +46,7 @@ bool growRoot(PatientTree& tree) {
   return true;
 }
 
-// Of some random points ahead, the one in the emptiest place.
+// The emptiest of some random points ahead.
 Vector3d pickTarget(PatientTree& tree, const Vector3d& from, const Vector3d& tangent,
                     double length) {
   Vector3d best = from + length * tangent;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is added to a grown patient; declared in patient.h.
+// Features that are added to a grown patient; declared in patient.h.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -54,7 +54,7 @@ double sharpestBend(const Path& path, std::size_t reach) {
   return sharpest;
 }
 
-// What a kissing branch is made of. Indices are into paths.
+// The elements of a kissing branch. Indices are into paths.
 struct Kiss {
   int parent, host;
   std::size_t origin;       // on the parent
@@ -174,7 +174,7 @@ bool fits(const PatientTree& tree, const Kiss& kiss, const Path& path) {
   return true;
 }
 
-// Goes on from the end of the contact, away from the host.
+// Continues from the end of the contact, away from the host.
 Path departurePath(PatientTree& tree, const Kiss& kiss, const Path& contact) {
   GrowthRequest request;
   const std::size_t n = contact.size();
@@ -244,7 +244,7 @@ bool addKissingBranch(PatientTree& tree, const std::string& label) {
       continue;
     const Path rest = departurePath(tree, kiss, contact);
     if (pathLength(rest) < 6 * kiss.radius + 3) continue;
-    // what follows the contact also keeps clear of the parent that the walk was not told about
+    // the part behind the contact also keeps clear of the parent, which the walk did not know
     path.insert(path.end(), rest.begin() + 1, rest.end());
     if (!leavesParent(tree, kiss, path)) continue;
     GrownBranch branch;

@@ -38,9 +38,9 @@
 // get shorter with the volume. Its step in the metadata names the two vessels that touch
 // ("kissing").
 //
-// A tree from a file is smoothed as smooth_chain.h says. Its branches are b000, b001 and so on, its
-// seeds those of the vessels that are longer than 5 mm and wide enough to be tracked (design.h),
-// and its step states the digest of the file.
+// A tree from a file is smoothed by the rule of smooth_chain.h. Its branches are b000, b001 and so
+// on, its seeds those of the vessels that are longer than 5 mm and wide enough to be tracked
+// (design.h), and its step states the digest of the file.
 #pragma once
 
 #include <cstdint>
@@ -70,7 +70,7 @@ struct PhantomOptions {
   double fade = 0;  ///< share of the contrast that is lost at the end farthest from the root
   std::uint64_t seed = 1;
 
-  /// Adds the rows of the values above but name and tree, which are stored in this object.
+  /// Adds a row for each value above except name and tree, stored in this object.
   void addRows(OptionTable& table);
   /// The values that are set, as a case states them.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;
@@ -79,16 +79,16 @@ struct PhantomOptions {
 struct Phantom {
   Volume volume;                  ///< int16
   formats::Case truth;            ///< the true tree, densely sampled; no points, no models
-  std::vector<SeedBranch> seeds;  ///< what a user would click
+  std::vector<SeedBranch> seeds;  ///< clicks as a user would set them
 };
 
 constexpr int kFewestSlices = 4;
 
-/// In the order of the table above.
+/// Names of the phantoms, in the order of the table above.
 const std::vector<std::string>& phantomNames();
 
-/// Throws Error(Usage) for an unknown name, options out of range and both or neither of name and
-/// tree, Error(InvalidInput) for the file of the tree, and Error(Cancelled).
+/// Makes a phantom. Throws Error(Usage) for an unknown name, options out of range and both or
+/// neither of name and tree, Error(InvalidInput) for the file of the tree, and Error(Cancelled).
 Phantom makePhantom(const PhantomOptions& options, Progress& progress);
 
 }  // namespace lumen::convert

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr float kFar = 1e6F;
 constexpr int kSubvoxels = 3;             // along each edge
-constexpr double kHalfDiagonal = 0.8661;  // of a unit cube
+constexpr double kHalfDiagonal = 0.8661;  // half diagonal of a unit cube
 constexpr int kColumns = 64;              // adjacent lines that one pass across rows takes together
 
 /// Faster than VolumeGeometry::position(): the axes are those of LPS.

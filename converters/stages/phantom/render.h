@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a design to voxels.
+// Rendering of a design into voxels.
 #pragma once
 
 #include <cstdint>
@@ -28,17 +28,18 @@ struct Image {
   float* row(int y, int z) { return value.data() + index(y, z); }
 };
 
-/// For each voxel the share of it that lies in the lumen, times the local contrast of the design,
-/// in [0, 1]. Voxels that the wall may cross are integrated over 27 subvoxels, each weighted by its
-/// own signed distance. The grid has cubic voxels and the axes of LPS.
+/// The share of each voxel that lies in the lumen, times the local contrast of the design, in [0,
+/// 1]. Voxels that the wall may cross are integrated over 27 subvoxels, each weighted by its own
+/// signed distance. The grid has cubic voxels and the axes of LPS.
 Image drawOccupancy(const Design& design, const VolumeGeometry& grid, Progress& progress);
 
 /// Convolves in place with a Gaussian of standard deviation `sigma` voxels, cut at 4 sigma and
 /// normalised; voxels beyond a face equal those on it.
 void blur(Image& image, double sigma, Progress& progress);
 
-/// Thick slices: each the mean over `thickness` voxels along z; those at its ends count by the share
-/// that it takes in. The first begins where the image does; the rest at the end is dropped.
+/// Averages an image over thick slices of `thickness` voxels along z; voxels at the ends of a slice
+/// count by the share that it takes in. The first slice begins where the image does; the rest at
+/// the end is dropped.
 Image averageSlices(const Image& image, double thickness);
 
 /// kBackground + kContrast * (occupancy + bias field + noise), rounded. The bias field is a mean of

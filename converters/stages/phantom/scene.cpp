@@ -77,7 +77,7 @@ double chordLength(const CenterlineFile& file) {
   return length;
 }
 
-// Refuses what would take too much memory or time to make.
+// Refuses options that would take too much memory or time.
 void checkEffort(const CenterlineFile& file, double voxel, const std::string& name) {
   Box3d box;
   double widest = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a phantom draws: a design, and the voxels that show it.
+// The scene of a phantom: a design, and the voxels that show it.
 #pragma once
 
 #include "converters/base/progress.h"
@@ -11,9 +11,9 @@ namespace lumen::convert {
 
 struct Scene {
   Design design;           ///< with its seeds
-  VolumeGeometry grid;     ///< of cubic voxels, before slices are averaged
+  VolumeGeometry grid;     ///< cubic voxels, before slices are averaged
   double slice = 1;        ///< thickness of a slice, voxels
-  std::string treeSha256;  ///< of the file with the tree; empty if the phantom has a name
+  std::string treeSha256;  ///< digest of the file with the tree; empty if the phantom has a name
 };
 
 /// The phantom `options.name` in a cube. The options are within their ranges. Throws Error(Usage)

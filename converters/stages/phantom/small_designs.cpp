@@ -128,7 +128,7 @@ Design designKissing(const Frame& frame) {
   return builder.design();
 }
 
-// A curved parent with a sphere that hangs on the outside of its bend by a narrow neck.
+// A curved parent with a sphere on the outside of its bend, joined by a narrow neck.
 Design designAneurysm(const Frame& frame) {
   const double e = frame.extent, scale = frame.radiusScale();
   const double radius = 1.0 * scale, sac = 2.6 * scale, neck = 0.7 * scale;

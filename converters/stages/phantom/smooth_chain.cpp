@@ -109,7 +109,7 @@ Path splined(const Path& knots, double step) {
 
 std::vector<SmoothVessel> smoothVessels(const CenterlineFile& file, double step) {
   const std::vector<CenterlineChain> chains = chainsOf(file);
-  std::vector<Path> knots;  // of each chain's own points
+  std::vector<Path> knots;  // each chain's own points
   std::vector<SmoothVessel> vessels;
   for (const CenterlineChain& chain : chains) {
     Path path;

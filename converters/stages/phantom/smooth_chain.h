@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Centerlines that were traced by hand, as the smooth vessels that they stand for.
+// Smooth vessels in place of centerlines that were traced by hand.
 #pragma once
 
 #include <cstdint>

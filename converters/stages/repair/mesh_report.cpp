@@ -121,7 +121,7 @@ private:
         static_cast<std::size_t>(std::count(m_pinched.begin(), m_pinched.end(), true));
   }
 
-  /// Boundary sides joined to loops: at each point the loop goes on in the same fan.
+  /// Boundary sides joined to loops: at each point the loop continues in the same fan.
   void traceLoops() {
     std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> at;  // point, fan, index
     for (std::uint32_t i = 0; i < m_boundary.size(); ++i)

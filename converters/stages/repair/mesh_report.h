@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a triangle mesh is, and what is wrong with it.
+// Topology, measures and faults of a triangle mesh.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct MeshComponent {
   bool closed = false;  ///< no boundary edge
   bool manifold = false;
   bool oriented = false;  ///< neighbours agree
-  /// Handles; only of a part that is manifold and oriented. Boundary loops count as filled.
+  /// Handles; only for a part that is manifold and oriented. Boundary loops count as filled.
   std::optional<std::int64_t> genus;
   /// Volume is signed, positive if normals point outward; openings count as closed by fans.
   double area = 0, volume = 0;
@@ -32,20 +32,20 @@ struct MeshReport {
   std::vector<MeshComponent> components;  ///< widest area first
   std::vector<BoundaryLoop> boundaryLoops;
   std::size_t boundaryEdges = 0;
-  std::size_t nonManifoldEdges = 0;     ///< of more than two triangles
-  std::size_t nonManifoldVertices = 0;  ///< whose triangles are not one fan, without such an edge
-  std::size_t misorientedEdges = 0;     ///< whose two triangles run along it the same way
-  std::size_t degenerateTriangles = 0;  ///< without area
+  std::size_t nonManifoldEdges = 0;     ///< edges of more than two triangles
+  std::size_t nonManifoldVertices = 0;  ///< off such edges, with triangles that are not one fan
+  std::size_t misorientedEdges = 0;  ///< edges that both triangles run along in the same direction
+  std::size_t degenerateTriangles = 0;  ///< triangles without area
   std::size_t duplicatePoints = 0, duplicateTriangles = 0, unusedPoints = 0;
   std::size_t selfIntersections = 0;  ///< pairs of triangles, as selfIntersections() finds them
   bool allSelfIntersections = true;   ///< false: there are more than were counted
   bool closed = false, manifold = false, oriented = false;
   double area = 0, volume = 0;                                ///< sums of the components'
-  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;  ///< the box
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;  ///< the bounding box
 };
 
-/// All of that. Points that are equal count as one (see duplicatePoints), so that a soup of
-/// triangles is judged as the surface that it is. Throws Error(Cancelled).
+/// Topology, measures and faults of a mesh. Equal points count as one (see duplicatePoints), so
+/// that a soup of triangles is judged as the surface that it is. Throws Error(Cancelled).
 MeshReport diagnoseMesh(const TriangleMesh& mesh, const Progress& progress);
 
 /// A unit that makes vessels of a mesh of this size plausible.
@@ -55,8 +55,9 @@ struct UnitGuess {
   bool plausible = true;    ///< false: none of them is
 };
 
-/// mm, unless vessels would be implausible in mm and plausible in m or cm. Twice the volume over the
-/// area of a tube is its radius: 0.2 to 30 mm of what meshes are made of, in boxes of 3 mm to 2 m.
+/// The unit mm, unless vessels would be implausible in mm and plausible in m or cm. Twice the
+/// volume over the area of a tube is its radius: it is plausible from 0.2 to 30 mm, in boxes of 3
+/// mm to 2 m.
 UnitGuess guessUnit(const MeshReport& report);
 
 }  // namespace lumen::convert

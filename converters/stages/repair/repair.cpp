@@ -12,7 +12,7 @@
 namespace lumen::convert {
 namespace {
 
-/// Triangles of edges that still have more than two, or two that run the same way.
+/// Triangles of edges that still have more than two, or two with the same direction.
 std::vector<bool> crowdedTriangles(const MeshInRepair& work, bool& any) {
   std::vector<bool> crowded(work.mesh.triangle.size(), false);
   any = false;
@@ -35,8 +35,8 @@ void makeManifold(MeshInRepair& work, const std::string& name, const Progress& p
     turned += orientSheets(work, name);
     cut += cutEdges(work);
     split += splitPoints(work);
-    // an edge that leads into the same sheet at both its points cannot be cut: its triangles go,
-    // and the hole is filled
+    // an edge that leads into the same sheet at both its points cannot be cut: its triangles are
+    // dropped, and the hole is filled
     const std::vector<bool> crowded = crowdedTriangles(work, again);
     if (again) dropped += work.dropTriangles(crowded);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holes are told from the ends of vessels by the wall beside them. Around an end the wall runs along
-// the loop's axis; around a hole it faces along it.
+// Holes are distinguished from the ends of vessels by the wall beside them. Around an end the wall
+// runs along the loop's axis; around a hole it faces along it.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

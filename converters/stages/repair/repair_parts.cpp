@@ -13,7 +13,7 @@
 namespace lumen::convert {
 namespace {
 
-// Of the box's diagonal: debris of a segmentation, far below any vessel that the mesh is about.
+// Share of the box's diagonal: debris of a segmentation, far below any vessel of the mesh.
 constexpr double kTinyPart = 0.01;
 // 36 pi V^2 / A^3 is 1 of a sphere and 4.5 r / l of a tube; sheets have rounding.
 constexpr double kEnclosesNothing = 1e-6;

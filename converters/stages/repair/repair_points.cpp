@@ -13,10 +13,10 @@
 namespace lumen::convert {
 namespace {
 
-// Of the box's diagonal: ten times what f32 resolves, far below the side of any triangle.
+// Share of the box's diagonal: ten times the resolution of f32, far below the side of any triangle.
 constexpr double kSamePoint = 1e-6;
 
-/// Triangles with points renumbered; gives how many distinct points went.
+/// Triangles with points renumbered; returns the number of distinct points that were dropped.
 std::size_t renumber(MeshInRepair& work, const std::vector<std::uint32_t>& same) {
   std::size_t merged = 0;
   for (std::size_t i = 0; i < same.size(); ++i) merged += same[i] != i ? 1 : 0;
@@ -26,8 +26,8 @@ std::size_t renumber(MeshInRepair& work, const std::vector<std::uint32_t>& same)
   return merged;
 }
 
-/// For each point the lowest of those that lie within `tolerance` of one another, from one to the
-/// next. A sweep along x: few points share so thin a slab.
+/// For each point the lowest index in its chain of points within `tolerance` of one another. A
+/// sweep along x: few points share so thin a slab.
 std::vector<std::uint32_t> closePoints(const std::vector<Eigen::Vector3d>& position,
                                        double tolerance) {
   std::vector<std::uint32_t> order(position.size());

@@ -16,8 +16,8 @@
 namespace lumen::convert {
 namespace {
 
-/// Turns triangle t round: corners 0 and 1 are exchanged, so the sides keep their edges but for
-/// those of corners 1 and 2.
+/// Reverses triangle t: corners 0 and 1 are exchanged, so the sides keep their edges but for those
+/// of corners 1 and 2.
 void turn(MeshInRepair& work, std::uint32_t t) {
   std::swap(work.mesh.triangle[t][1], work.mesh.triangle[t][2]);
   // sides 01, 12, 20 become 02, 21, 10: the first and the last are exchanged
@@ -34,8 +34,8 @@ bool runSame(const MeshInRepair& work, std::uint32_t a, std::uint32_t b) {
   return startOf(work.mesh.triangle, a) == startOf(work.mesh.triangle, b);
 }
 
-/// Turns triangles until those that `opposite` joins agree; per part as few as can be. Gives how
-/// many triangles were turned, and counts the pairs that cannot agree.
+/// Reverses triangles until those that `opposite` joins agree; as few as possible per part. Returns
+/// the number of reversed triangles, and counts the pairs that cannot agree.
 std::size_t propagate(MeshInRepair& work, std::size_t& disagreeing) {
   const std::size_t n = work.mesh.triangle.size();
   std::vector<std::int8_t> side(n, 0);  // 1: as it is, -1: to be turned
@@ -97,8 +97,8 @@ std::vector<Leaf> leavesOf(const MeshInRepair& work, std::span<const EdgeUse> ed
   return leaves;
 }
 
-/// Pairs the two triangles of a sheet that runs over the edge: a flap that hangs on it is no part of
-/// that sheet. `part` is that of each triangle; the leaves that are left are given back.
+/// Pairs the two triangles of a sheet that runs over the edge: a flap that is attached to it is no
+/// part of that sheet. `part` is that of each triangle; the other leaves are returned.
 std::vector<Leaf> pairSheets(MeshInRepair& work, const std::vector<Leaf>& leaves,
                              const std::vector<std::uint32_t>& part) {
   std::vector<Leaf> left;
@@ -117,10 +117,10 @@ std::vector<Leaf> pairSheets(MeshInRepair& work, const std::vector<Leaf>& leaves
   return left;
 }
 
-/// Pairs the triangles of an edge that have the inside between them. A triangle that runs along
-/// the edge's direction has its normal towards growing angles, so the inside is before it: pairs
-/// are one that runs back followed by one that runs along.
-/// A mesh that is inside out has it the other way round.
+/// Pairs the triangles of an edge that have the inside between them. A triangle that runs along the
+/// edge's direction has its normal towards growing angles, so the inside is before it: pairs are
+/// one that runs back followed by one that runs along. In a mesh that is inside out the order is
+/// reversed.
 void pairLeaves(MeshInRepair& work, const std::vector<Leaf>& leaves, bool insideOut) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const Leaf &here = leaves[i], &next = leaves[(i + 1) % leaves.size()];

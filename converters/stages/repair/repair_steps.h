@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of repairMesh(), one after the other; each counts what it did.
+// The steps of repairMesh(), one after the other; each counts its changes.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace lumen::convert {
 /// A mesh under repair.
 struct MeshInRepair {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> source;    ///< of each triangle, as in RepairResult
+  std::vector<std::uint32_t> source;    ///< for each triangle, as in RepairResult
   std::vector<std::uint32_t> opposite;  ///< as of oppositeSides(), once it is set
   std::vector<std::string> repairs;
 
@@ -27,22 +27,23 @@ struct MeshInRepair {
 };
 
 // repair_points.cpp
-/// Equal points become one, then those within 1e-6 of the box's diagonal.
+/// Merges equal points, then those within 1e-6 of the box's diagonal.
 void mergePoints(MeshInRepair& work);
-/// Triangles without area go; where one is a sliver whose middle point lies on the side of a
-/// neighbour, that side gets the point. Then those with the same points as one before.
+/// Drops triangles without area. Where a sliver's middle point lies on the side of a neighbour,
+/// that side gets the point. dropDuplicates() drops those with the same points as an earlier one.
 void dropDegenerate(MeshInRepair& work);
 void dropDuplicates(MeshInRepair& work);
 void dropUnusedPoints(MeshInRepair& work);
 
 // repair_sheets.cpp
-/// Sets `opposite` across the edges of two triangles, and turns as few triangles as possible until
-/// all neighbours agree; gives their number. Refuses a surface that cannot be oriented.
+/// Sets `opposite` across the edges of two triangles, and reverses as few triangles as possible
+/// until all neighbours agree; returns their number. Refuses a surface that cannot be oriented.
 std::size_t orientSheets(MeshInRepair& work, const std::string& name);
-/// Sets `opposite` at edges of more than two triangles: pairs have the inside between them, what is
-/// left is open. Gives how many such edges there are.
+/// Sets `opposite` at edges of more than two triangles: pairs have the inside between them, the
+/// other triangles stay open. Returns the number of such edges.
 std::size_t cutEdges(MeshInRepair& work);
-/// Points where several fans of triangles meet become one point for each; gives how many were added.
+/// Gives each fan of triangles a point of its own where several meet; returns the number of new
+/// points.
 std::size_t splitPoints(MeshInRepair& work);
 
 // repair_holes.cpp
@@ -54,10 +55,10 @@ void measureLoop(const TriangleMesh& mesh, BoundaryLoop& loop);
 void fillHoles(MeshInRepair& work);
 
 // repair_parts.cpp
-/// For each triangle its part: triangles joined by `opposite`, numbered from 0 in their order.
+/// The part of each triangle: triangles joined by `opposite`, numbered from 0 in their order.
 std::vector<std::uint32_t> partsOf(const MeshInRepair& work, std::size_t& count);
-/// Drops parts that are tiny or enclose nothing, and turns the others outward. Refuses what leaves
-/// no part. Gives how many are left.
+/// Drops parts that are tiny or enclose nothing, and turns the others outward. Refuses a mesh of
+/// which no part is left. Returns the number of parts that are left.
 std::size_t settleParts(MeshInRepair& work, const std::string& name);
 
 }  // namespace lumen::convert

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxCubes = std::size_t{1} << 25;  // 2 GB with their vert
 constexpr std::size_t kMaxNodes = std::size_t{1} << 29;  // near the cubes of a level, in all: 2 GB
 constexpr std::size_t kBatch = 256;                      // cubes between two looks at the progress
 constexpr double kReach = 2.4;   // radii from its centre to which a node's model is followed
-constexpr double kNear = 1.35;   // radii within which a node says how fine the lattice is
+constexpr double kNear = 1.35;   // radii within which a node determines the fineness of the lattice
 constexpr double kSafety = 1.5;  // the distance is an estimate: of half a cube's diagonal
 constexpr double kHalfDiagonal = 0.8660254037844386;
 

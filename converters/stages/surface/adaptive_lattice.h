@@ -16,26 +16,28 @@ namespace lumen::convert {
 /// A cube of the lattice. Coordinates and sizes are in steps of half the edge of the finest cube,
 /// from the lattice's origin, so centres of cubes and of their faces and edges have whole ones.
 struct LatticeCube {
-  std::array<std::int32_t, 3> corner{};  ///< the least
+  std::array<std::int32_t, 3> corner{};  ///< the corner of least coordinates
   std::int32_t size = 0;
-  std::uint32_t node = 0;  ///< of the tree: a cursor's start for points of the cube
+  std::uint32_t node = 0;  ///< node of the tree: a cursor's start for points of the cube
 };
 
 /// Spreads keys that are packed coordinates.
 struct LatticeHash {
   std::size_t operator()(std::uint64_t key) const {
-    key *= 0x9E3779B97F4A7C15ULL;  // of the golden ratio: D. Knuth, *Sorting and searching*, 6.4
+    key *= 0x9E3779B97F4A7C15ULL;  // golden ratio: D. Knuth, *Sorting and searching*, 6.4
     return key ^ key >> 32;
   }
 };
 
-/// An octree's leaves. Two that share a face, an edge or a corner differ at most by a factor of two.
+/// The leaves of an octree. Two that share a face, an edge or a corner differ at most by a factor
+/// of two.
 class AdaptiveLattice {
 public:
   using Position = std::array<std::int32_t, 3>;
 
-  /// Cubes that cover the lumen and what is near it. Near the wall their edges are at most `share`
-  /// radii of the thinnest vessel there, and at least half of that. Throws Error(InvalidInput) if the case needs more cubes than fit into memory.
+  /// Cubes that cover the lumen and its surroundings. Near the wall their edges are at most `share`
+  /// radii of the thinnest vessel there, and at least half of that. Throws Error(InvalidInput) if
+  /// the case needs more cubes than fit into memory.
   AdaptiveLattice(const SheetField& field, double share, Progress& progress);
 
   [[nodiscard]] const std::vector<LatticeCube>& cubes() const { return m_cubes; }
@@ -53,7 +55,7 @@ public:
     Kind kind = Kind::None;
     std::uint32_t cube = 0;  ///< where Same or Coarser
   };
-  /// What lies beyond face `side` (0, 1: less, greater x; 2, 3: y; 4, 5: z) of a cube.
+  /// The neighbour of a cube beyond its face `side` (0, 1: less, greater x; 2, 3: y; 4, 5: z).
   [[nodiscard]] Neighbour neighbour(const LatticeCube& cube, int side) const;
 
 private:
@@ -65,7 +67,7 @@ private:
   double m_step = 1;  ///< mm
   std::vector<LatticeCube> m_cubes;
   tsl::robin_map<std::uint64_t, std::int32_t, LatticeHash>
-      m_index;  ///< of a leaf, or -1: has children
+      m_index;  ///< index of a leaf, or -1: has children
   std::int32_t m_largest = 2;
 };
 

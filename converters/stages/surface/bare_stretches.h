@@ -10,9 +10,9 @@
 
 namespace lumen::convert {
 
-/// A sentence for each stretch of a branch, longer than four radii, around which the surface has no wall: no vertex
-/// whose cursor is at one of its nodes, and none of any vessel within two radii of its middle. Places in mm, LPS.
-/// O(v + n) for v vertices and n nodes, and O(v) for each stretch.
+/// A sentence for each stretch of a branch, longer than four radii, around which the surface has no
+/// wall: no vertex whose cursor is at one of its nodes, and none of any vessel within two radii of
+/// its middle. Places in mm, LPS. O(v + n) for v vertices and n nodes, and O(v) for each stretch.
 std::vector<std::string> bareStretches(const CaseSurface& surface,
                                        const formats::CenterlineTree& tree);
 

@@ -12,7 +12,7 @@ namespace lumen::convert {
 
 /// A place where the surface was cut flat, or closes as the field closes it.
 struct SurfaceEnd {
-  std::uint32_t group = 0;   ///< of the faces that close it: index into CaseSurface::groups
+  std::uint32_t group = 0;   ///< group of the faces that close it: index into CaseSurface::groups
   std::uint32_t branch = 0;  ///< index into the tree's branches
   std::uint32_t node = 0;    ///< the first or last node of that branch
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< in the plane, on the axis, mm
@@ -24,8 +24,8 @@ struct SurfaceEnd {
 /// that end's plane.
 struct CaseSurface {
   TriangleMesh mesh;
-  std::vector<std::uint32_t> node;   ///< of each vertex: at which a cursor on the surface is there
-  std::vector<std::uint32_t> group;  ///< of each triangle: index into `groups`
+  std::vector<std::uint32_t> node;   ///< for each vertex the node of a cursor there
+  std::vector<std::uint32_t> group;  ///< group of each triangle: index into `groups`
   std::vector<FaceGroup> groups;
   std::vector<SurfaceEnd> ends;  ///< in the order of their groups
 };

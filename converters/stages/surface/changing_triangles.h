@@ -21,8 +21,8 @@ public:
   void change(std::uint32_t triangle, const Triangle& corners);
   void remove(std::uint32_t triangle);
 
-  /// Whether a triangle of the mesh's vertices would have more in common with one that is there than
-  /// the vertices or the edge that they share by index; those of `without` do not count.
+  /// Whether a triangle of the mesh's vertices would meet an existing one in more than the vertices
+  /// or the edge that they share by index; triangles of `without` do not count.
   [[nodiscard]] bool meets(const Triangle& corners, std::span<const std::uint32_t> without) const;
 
   [[nodiscard]] const TriangleMesh& mesh() const { return m_mesh; }
@@ -37,8 +37,8 @@ private:
   TriangleMesh m_mesh;
   std::vector<bool> m_isRemoved;
   Tree m_tree;
-  std::vector<std::uint32_t> m_parent;  // of each node of the tree
-  std::vector<std::uint32_t> m_leafOf;  // of each triangle
+  std::vector<std::uint32_t> m_parent;  // parent of each node of the tree
+  std::vector<std::uint32_t> m_leafOf;  // leaf of each triangle
 };
 
 }  // namespace lumen::convert

@@ -28,14 +28,15 @@ namespace {
 
 // Edges of the lattice in radii: half of them would give no truer topology, at four times the cost.
 constexpr double kLatticeShare = 1.0;
-// Of a wall's thickness: how far lumens that touch are drawn apart, so that each keeps a third of
-// that as its wall.
+// Distance by which touching lumens are drawn apart, in wall thicknesses, so that each keeps a
+// third of it as its wall.
 constexpr double kSharedWall = 0.5;
-// Of the radius: how far a lumen is prolonged where its wall is made, a cell of the lattice.
+// Length by which a lumen is prolonged where its wall is made, in radii: a cell of the lattice.
 constexpr double kBeyondEnds = 1;
-// Of a wall's thickness: how much thinner it may be in the middle of a triangle.
+// Reduction of a wall's thickness that is allowed in the middle of a triangle, as a share of it.
 constexpr double kWallSag = 0.03;
-// Twice that takes a quarter of the time, and a vessel is still six-sided or more.
+// Edges of the preview's lattice in radii: twice the others, they take a quarter of the time, and a
+// vessel still has six sides or more.
 constexpr double kQuickShare = 2.0;
 
 double gapOf(const formats::Case& source, const ClosedSurfaceOptions& options) {
@@ -85,7 +86,7 @@ public:
   }
 
 private:
-  // With ends, but not yet as asked for.
+  // The lumen's surface with ends, before the requested changes.
   CaseSurface lumen() {
     CaseSurface surface = extract(m_field, m_result.report);
     noteEnds(cutEnds(surface, m_field, m_progress));
@@ -150,7 +151,7 @@ private:
     m_result.report.sharpTriangles += found.sharp;
   }
 
-  // The surface with as few triangles as --max-error allows, and in as many levels as are asked for.
+  // The surface with as few triangles as --max-error allows, and in the requested number of levels.
   std::vector<DetailLevel> leveled(CaseSurface surface) {
     std::optional<CaseSurface> whole;
     std::vector<DetailLevel> levels{{std::move(surface), -1}};

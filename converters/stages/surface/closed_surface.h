@@ -20,22 +20,22 @@
 namespace lumen::convert {
 
 struct ClosedSurfaceOptions {
-  /// What touching vessels keep between them, mm; nothing: a tenth of the voxel size, or where the
-  /// case has none, a twentieth of the least radius.
+  /// Gap between touching vessels, mm; nothing: a tenth of the voxel size, or where the case has
+  /// none, a twentieth of the least radius.
   std::optional<double> gap;
   EdgeLength edge;
   bool open = false;                ///< flat ends are left out
   std::vector<EndLength> extend;    ///< flow extensions
-  std::optional<Length> thickness;  ///< of a wall around the lumen: the solid is the wall
-  double maxError = 0;              ///< mm: more than 0, triangles are dropped as far as that
-  int levels = 1;                   ///< of detail
+  std::optional<Length> thickness;  ///< thickness of a wall around the lumen: the solid is the wall
+  double maxError = 0;              ///< mm: above 0, triangles are dropped within this distance
+  int levels = 1;                   ///< number of levels of detail
 };
 
-/// What was made, and where it differs from the field. Places are in mm, LPS.
+/// Results besides the surface, and its differences from the field. Places are in mm, LPS.
 struct SurfaceReport {
   double gap = 0;                           ///< mm
   std::size_t trees = 0;                    ///< closed surfaces, one for each connected tree
-  std::size_t vertices = 0, triangles = 0;  ///< of the finest level
+  std::size_t vertices = 0, triangles = 0;  ///< counts of the finest level
   std::size_t flatEnds = 0, roundedEnds = 0;
   std::size_t openedEdges = 0;        ///< tree edges that the field closes
   std::vector<Eigen::Vector3d> cuts;  ///< where a lumen that runs into itself was cut
@@ -43,8 +43,8 @@ struct SurfaceReport {
   std::size_t offField = 0;           ///< vertices with no surface of the field near by
   std::size_t sharpTriangles = 0;     ///< with an angle under 15 degrees
   std::size_t crossings = 0;          ///< pairs of triangles that pass through each other
-  std::vector<double> errors;  ///< of each level: greatest distance from the surface with all
-                               ///< triangles, mm; below 0: it has all
+  std::vector<double> errors;         ///< by level: greatest distance from the surface with all
+                                      ///< triangles, mm; below 0: it has all
   std::vector<std::string> messages;  ///< sentences about ends and extensions
 };
 
@@ -57,14 +57,14 @@ struct ClosedSurface {
 /// oriented 2-manifold whose genus is the number of loops that links close, with planar ends.
 /// Vertices lie within 1e-3 of the local radius of the blended field, but on ends and where vessels
 /// overlap. Throws Error(InvalidInput) if the case has no models or the surface would not fit into
-/// memory, Error(Usage) for options that do not go together, Error(Failed) where a wall of that thickness would meet itself, and
-/// Error(Cancelled).
+/// memory, Error(Usage) for options that do not go together, Error(Failed) where a wall of that
+/// thickness would meet itself, and Error(Cancelled).
 ClosedSurface closedSurface(const formats::Case& source, const ClosedSurfaceOptions& options,
                             Progress& progress);
 
-/// The same in a tenth of the time, to be looked at: as it is extracted, so with triangles of any
-/// shape, within a few per cent of a radius of the field's surface, and with ends as the field has
-/// them.
+/// A preview of the blended surface, in a tenth of the time: the extracted surface, with triangles
+/// of any shape, within a few per cent of a radius of the field's surface, and with the ends of the
+/// field.
 SurfaceMesh quickSurface(const formats::Case& source, Progress& progress);
 
 }  // namespace lumen::convert

@@ -22,7 +22,7 @@ using Mesh = RemeshMesh;
 using Quadric = OpenMesh::Geometry::Quadricd;
 
 constexpr double kNoSharper = 0.067;  // squared sine of 15 degrees
-constexpr int kCheckEvery = 256;      // collapses looked at, about 10 ms
+constexpr int kCheckEvery = 256;      // collapses tried, about 10 ms
 
 std::size_t indexOf(Mesh::VertexHandle v) {
   return static_cast<std::size_t>(v.idx());
@@ -46,7 +46,7 @@ TriangleMesh copyOf(const Mesh& mesh) {
   return copy;
 }
 
-// What a collapse costs, as M. Garland and P. Heckbert have it.
+// The cost of a collapse, by M. Garland and P. Heckbert.
 class Quadrics {
 public:
   explicit Quadrics(const Mesh& mesh) : m_quadric(mesh.n_vertices()), m_area(mesh.n_vertices(), 0) {
@@ -142,7 +142,7 @@ private:
     }
   };
 
-  // The collapses by which a vertex may go, the cheapest first.
+  // The collapses that may remove a vertex, the cheapest first.
   [[nodiscard]] std::vector<Candidate> candidates(Mesh::VertexHandle gone) const {
     std::vector<Candidate> found;
     const VertexKind kind = m_mesh.data(gone).kind;
@@ -166,7 +166,7 @@ private:
     if (tried < found.size()) m_queue.push({found[tried].cost, v.idx(), m_stamp[indexOf(v)]});
   }
 
-  // The faces around the vertex that goes, before and after.
+  // The faces around the vertex that is removed, before and after.
   void findFaces(Mesh::HalfedgeHandle h) {
     const auto gone = static_cast<std::uint32_t>(m_mesh.from_vertex_handle(h).idx());
     const auto kept = static_cast<std::uint32_t>(m_mesh.to_vertex_handle(h).idx());
@@ -201,7 +201,7 @@ private:
     return false;
   }
 
-  // What isAllowed() was asked last.
+  // Applies the collapse for which isAllowed() was called last.
   void collapse(Mesh::HalfedgeHandle h) {
     const Mesh::VertexHandle gone = m_mesh.from_vertex_handle(h), kept = m_mesh.to_vertex_handle(h);
     if (m_deviation) m_deviation->keep(m_before);

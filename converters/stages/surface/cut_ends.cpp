@@ -17,11 +17,11 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kWideEnough = 0.8;  // of the radius: narrower is where the field closes the vessel
+constexpr double kWideEnough = 0.8;  // radii: narrower is where the field closes the vessel
 constexpr int kMoves = 8;            // an eighth of a radius each
 constexpr double kReach = 3;         // radii along the branch in which an end's vertices have nodes
 
-// What is cut off at one end: one cut for each surface.
+// The cuts at one end: one for each surface.
 struct Cuts {
   EndPlane plane;
   double moved = 0;  ///< mm

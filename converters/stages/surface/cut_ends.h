@@ -18,7 +18,7 @@ struct EndsReport {
   std::size_t flat = 0;               ///< ends that were cut
   std::size_t rounded = 0;            ///< ends that no plane could cut
   std::vector<std::string> messages;  ///< a sentence for each rounded end
-  std::vector<std::string> moved;     ///< and for each that was cut farther in
+  std::vector<std::string> moved;     ///< a sentence for each end that was cut farther in
 };
 
 /// A surface with the field that it follows.
@@ -27,32 +27,31 @@ struct FieldSurface {
   const SheetField* field = nullptr;
 };
 
-/// Cuts each of the ends flat, and closes it by a flat cap: `surfaces` are one, or a lumen's and the
-/// same with a wall around it, which get the same ends in the same planes. Where the plane meets
+/// Cuts each of the ends flat, and closes it by a flat cap. `surfaces`: one, or a lumen's and the
+/// outer one of a wall around it, which get the same ends in the same planes. Where the plane meets
 /// no simple opening of at least 0.8 of the vessel's radius, it is moved inwards along the
-/// centerline, by up to a radius, to the first that is as wide, or else the widest; where there is
-/// none, the end stays as the field closes it. Groups
-/// are "wall"; "inlet", or "inlet-LABEL" where a case has several; "outlet-LABEL"; and "cap-LABEL" for
-/// what could not be cut; ends that have no surface have none. Surfaces stay closed manifolds of
-/// the same genus.
+/// centerline, by up to a radius, to the first opening of this width, or else the widest; where
+/// there is none, the end stays as the field closes it. Groups are "wall"; "inlet", or
+/// "inlet-LABEL" where a case has several; "outlet-LABEL"; and "cap-LABEL" for ends that could not
+/// be cut; ends without a surface have none. Surfaces stay closed manifolds of the same genus.
 EndsReport cutEnds(std::span<const FieldSurface> surfaces, const std::vector<EndPlane>& planes,
                    Progress& progress);
 
-/// The same for one surface and its case's own ends.
+/// Cuts the case's own ends of one surface, as the overload for several surfaces does.
 EndsReport cutEnds(CaseSurface& surface, const SheetField& field, Progress& progress);
 
-/// Cuts `outer`, a surface that lies around `inner` and follows `field`, in the planes of its flat ends:
-/// groups and ends become the same. Where a plane meets no simple opening of it, the end becomes one
-/// that is not flat, of both; returns a sentence for each.
+/// Cuts `outer`, a surface that lies around `inner` and follows `field`, in the planes of its flat
+/// ends: groups and ends become the same. Where a plane meets no simple opening of it, the end of
+/// both becomes one that is not flat; returns a sentence for each.
 std::vector<std::string> cutLike(CaseSurface& outer, const SheetField& field, CaseSurface& inner,
                                  Progress& progress);
 
-/// Leaves out what closes the flat ends: a boundary at each rim. Rounded ends stay closed.
+/// Leaves out the faces of the flat ends: a boundary at each rim. Rounded ends stay closed.
 void openEnds(CaseSurface& surface);
 
-/// The rim of each end: of a flat one the loop of vertices around its faces, counter-clockwise seen from
-/// outside; of a rounded one nothing. In the order of ends.
-/// Throws Error(Failed) unless the edges around a flat end make one loop.
+/// The rim of each end, in the order of ends: for a flat one the loop of vertices around its faces,
+/// counter-clockwise seen from outside; for a rounded one nothing. Throws Error(Failed) unless the
+/// edges around a flat end make one loop.
 std::vector<std::vector<std::uint32_t>> rimsOf(const CaseSurface& surface);
 
 }  // namespace lumen::convert

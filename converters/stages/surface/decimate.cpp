@@ -14,11 +14,10 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kBoundShare =
-    0.98;                     // what lies between the points that are looked at has the rest
-constexpr int kAttempts = 3;  // where that was not enough
+constexpr double kBoundShare = 0.98;  // share for sampled points; the rest is for places between
+constexpr int kAttempts = 3;          // where that was not enough
 
-// Where the surface looks, and how long its edges are, at each vertex.
+// The outward direction, and the length of edges, at each vertex.
 RemeshState stateOf(CaseSurface& surface) {
   const TriangleMesh& mesh = surface.mesh;
   const std::size_t vertices = mesh.position.size();

@@ -12,11 +12,11 @@ namespace lumen::convert {
 namespace {
 
 constexpr int kDeepest = 16;    // halvings of an edge
-constexpr int kMostParts = 64;  // of an edge
+constexpr int kMostParts = 64;  // parts of an edge
 constexpr double kDenser = 3;   // points that measure, than those that decide
 
 // Calls visit(point) for the points of a triangle whose edges are divided into `parts`, and for its
-// middle if that is none of them, until it gives false; without corners. Whether it never did.
+// middle if it is none of them, until it returns false; without corners. True if it never did.
 template <class Visit>
 bool eachPoint(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                int parts, const Visit& visit) {
@@ -40,7 +40,7 @@ int partsOf(double length, double spacing) {
   return std::clamp(static_cast<int>(std::ceil(length / spacing)), 2, kMostParts);
 }
 
-// Of points of one surface from another.
+// The greatest distance of points of one surface from another, mm.
 double farthest(const TriangleMesh& from, const std::vector<std::uint32_t>& group,
                 const std::vector<bool>& isFree, const TriangleMesh& to) {
   const TriangleTree tree(to);
@@ -110,7 +110,7 @@ bool Deviation::isEdgeNear(const NearestPoint& a, const Eigen::Vector3d& atA, co
          isEdgeNear(there, middle, b, atB, bound, depth - 1);
 }
 
-// What two surfaces of triangles that lie over each other have between them is greatest at a vertex
+// The distance between two surfaces of triangles that lie over each other is greatest at a vertex
 // of one, or where an edge of one crosses an edge of the other.
 bool Deviation::isNear(const GroupedFace& face, double bound) const {
   if (m_isFree[face.group]) return true;

@@ -20,8 +20,7 @@ namespace {
 // A vertex goes onto the plane if that is so near along one of its edges, as a share of the edge:
 // then no triangle of the rim is thinner. Less where that makes the rim touch itself.
 constexpr double kSnaps[] = {0.25, 0.1, 0};
-constexpr double kMostShift =
-    0.5;  // of the rim's mean edge: by how much a rim's vertex is projected
+constexpr double kMostShift = 0.5;  // mean edges of the rim: the longest projection of its vertices
 
 double distanceTo(const EndPlane& plane, const Eigen::Vector3d& point) {
   return plane.normal.dot(point - plane.centre);
@@ -94,7 +93,7 @@ private:
     return holds(m_part, v) ? Side::Beyond : Side::Inner;
   }
 
-  // Where an edge from beyond crosses the plane, as a share of it.
+  // The place where an edge from beyond crosses the plane, as a share of the edge.
   [[nodiscard]] double crossing(std::uint32_t beyond, std::uint32_t inner) const {
     const double a = distanceTo(m_plane, m_mesh.position[beyond]);
     const double b = distanceTo(m_plane, m_mesh.position[inner]);
@@ -106,8 +105,8 @@ private:
     return ontoPlane(m_plane, a + crossing(beyond, inner) * (b - a));
   }
 
-  // Vertices near the plane go to their nearest crossing: first those beyond, then those within that
-  // still have a neighbour beyond.
+  // Moves vertices near the plane to their nearest crossing: first those beyond, then those within
+  // that still have a neighbour beyond.
   void moveNear(double snap) {
     for (const bool isBeyond : {true, false}) {
       std::map<std::uint32_t, double> nearest;
@@ -155,7 +154,7 @@ private:
     const auto inner = std::count(side.begin(), side.end(), Side::Inner);
     if (inner > 0 && beyond == 0) return;
     m_cut.removed.push_back(t);
-    std::vector<std::uint32_t> rest;  // what is left, around
+    std::vector<std::uint32_t> rest;  // the remaining corners, around
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       if (side[i] != Side::Beyond) rest.push_back(corner[i]);
@@ -253,7 +252,7 @@ private:
     return (placeOf(t[1]) - placeOf(t[0])).cross(placeOf(t[2]) - placeOf(t[0]));
   }
 
-  // True if no triangle that stays is turned over by where its vertices have gone.
+  // True if no remaining triangle is turned over by the moves of its vertices.
   [[nodiscard]] bool isUpright(const std::vector<std::uint32_t>& triangles) const {
     const auto before = [this](std::uint32_t t) -> Eigen::Vector3d {
       const Triangle& c = m_mesh.triangle[t];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one plane cuts off one end of a surface, before it is done.
+// The cut of one end of a surface by one plane, before it is done.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +17,26 @@
 
 namespace lumen::convert {
 
-/// A cut that is possible. Numbers of vertices from that of the surface's on are those of `fresh`.
+/// A cut that is possible. Vertex numbers from the surface's count on refer to `fresh`.
 struct EndCut {
   struct Vertex {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     std::uint32_t node = 0;
   };
   std::vector<std::uint32_t> removed;  ///< triangles
-  std::vector<Triangle> kept;          ///< what is left of those that the plane cuts
+  std::vector<Triangle> kept;          ///< the remains of those that the plane cuts
   std::vector<Vertex> fresh;
   std::vector<std::pair<std::uint32_t, Eigen::Vector3d>> moved;  ///< vertices onto the plane
   std::vector<std::uint32_t> rim;  ///< vertices around the opening, counter-clockwise from outside
-  Loop2 loop;                      ///< the same in the coordinates of planeBasis(normal)
+  Loop2 loop;                      ///< the rim in the coordinates of planeBasis(normal)
   FlatMesh cap;                    ///< its points are the rim's, then new ones
 };
 
-/// Why a plane cannot cut an end.
+/// The reason why a plane cannot cut an end.
 enum class NoCut : std::uint8_t {
   Before,  ///< the surface closes before the plane
   Other,   ///< another vessel, or another part of this one, begins behind the plane
-  Handle,  ///< what lies behind the plane is no disc
+  Handle,  ///< the part behind the plane is no disc
   Crooked  ///< the rim would cross itself
 };
 
@@ -48,12 +48,12 @@ std::variant<EndCut, NoCut> planCut(const SurfaceFans& fans, const SheetField& f
                                     const EndPlane& plane, const std::vector<std::uint32_t>& nodes,
                                     const std::vector<std::uint32_t>& candidates);
 
-/// Does it; the cap's triangles get `group`. The cut must be of the surface as it is.
+/// Applies a cut to its surface, which is unchanged since; the cap's triangles get `group`.
 void applyCut(SurfaceFans& fans, const EndPlane& plane, const EndCut& cut, std::uint32_t group);
 
-/// The vertices of one connected part of the surface beyond the plane, ascending, found from the one
-/// of `candidates` that is beyond it and nearest to the axis; without those at other nodes than
-/// `nodes` (ascending), of which `leaves` says whether there are any.
+/// The vertices of one connected part of the surface beyond the plane, ascending: the part with the
+/// one of `candidates` beyond it that is nearest to the axis. Vertices at nodes other than `nodes`
+/// (ascending) are left out, and `leaves` reports whether there are any.
 std::vector<std::uint32_t> partBeyond(const SurfaceFans& fans, const EndPlane& plane,
                                       const std::vector<std::uint32_t>& nodes,
                                       const std::vector<std::uint32_t>& candidates, bool& leaves);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the vessels of a case end flat.
+// The planes in which the vessels of a case end.
 #pragma once
 
 #include <cstdint>
@@ -22,26 +22,28 @@ struct EndPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, out of the vessel
 };
 
-/// How far behind the centre of a branch's last node its plane lies, mm: half of the cylinder's
+/// The distance of the plane behind the centre of a branch's last node, mm: half of the cylinder's
 /// height, and no less than half a radius.
 double reachOfEnd(const formats::CenterlineTree& tree, std::uint32_t node);
 
 /// The end of a branch: at the flat end of its last node's cylinder, where its points end; beyond,
-/// models flare and taper by a quarter of the radius within a third of a height. `last`: behind the last node; else before the first. Nothing for an aneurysm, whose
-/// dome is wall that was seen, before a branch that hangs on another, and where another node
-/// within two edges continues the vessel within 60 degrees of its direction.
+/// models flare and taper by a quarter of the radius within a third of a height. `last`: behind the
+/// last node; else before the first. Nothing for an aneurysm, whose dome is wall that was seen,
+/// before a branch that is joined to another, and where another node within two edges continues the
+/// vessel within 60 degrees of its direction.
 std::optional<EndPlane> freeEnd(const formats::Case& source, const formats::Neighbours& edges,
                                 std::uint32_t branch, bool last);
 
 /// The free ends of a case that has models, by branch, inlets first. A branch does not end where
-/// another one hangs on its last node or a link ends there.
+/// another one is joined to its last node or a link ends there.
 std::vector<EndPlane> endPlanes(const formats::Case& source);
 
 /// The plane across the same vessel `way` mm farther in, along its centerline. Nothing beyond the
 /// other end of the branch.
 std::optional<EndPlane> movedInward(const formats::Case& source, const EndPlane& plane, double way);
 
-/// The nodes of the branch whose way along it to the plane's node is at most `reach` mm, ascending.
+/// The nodes of the branch whose distance along it from the plane's node is at most `reach` mm,
+/// ascending.
 std::vector<std::uint32_t> nodesNearEnd(const formats::Case& source, const EndPlane& plane,
                                         double reach);
 

@@ -14,7 +14,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kNearEnd = 0.03;  // of an edge: crossings keep off its ends
+constexpr double kNearEnd = 0.03;  // share of an edge: crossings keep off its ends
 
 class Extraction {
 public:
@@ -57,7 +57,7 @@ private:
     m_crossings.erase(std::unique(m_crossings.begin(), m_crossings.end()), m_crossings.end());
   }
 
-  // Of the closed surfaces around a lumen: each edge is that of two triangles.
+  // Euler characteristic of the closed surfaces around a lumen: each edge is that of two triangles.
   [[nodiscard]] std::ptrdiff_t eulerOf(std::uint32_t lumen) const {
     const auto isOf = [&](const Crossing& c) { return m_lumens[c.inside] == lumen; };
     const auto vertices = std::count_if(m_crossings.begin(), m_crossings.end(), isOf);
@@ -93,7 +93,8 @@ private:
     return 0.5 * (m_lattice.place(u) + m_lattice.place(v));
   }
 
-  // Where the wall of the sheet at the inside end crosses the edge, by the false position.
+  // The place where the wall of the sheet at the inside end crosses the edge, by the false
+  // position.
   void place(const Crossing& crossing, Eigen::Vector3d& position, std::uint32_t& node) const {
     constexpr int kSteps = 2;
     const Eigen::Vector3d in = m_lattice.place(crossing.inside), out = farEnd(crossing);

@@ -11,19 +11,19 @@
 
 namespace lumen::convert {
 
-/// What extraction found besides the surface.
+/// Results of extraction besides the surface.
 struct ExtractionReport {
   std::size_t trees = 0;  ///< connected trees of the case: closed surfaces
   std::size_t openedEdges =
       0;  ///< tree edges that were opened since the field leaves no lumen there
-  /// Places, mm, where a lumen that runs into itself, although no link says so, was cut.
+  /// Places, mm, where a lumen was cut that runs into itself without a link there.
   std::vector<Eigen::Vector3d> cuts;
 };
 
 /// A closed, oriented 2-manifold around each connected tree of a case that has models
-/// (docs/method.md, section 5): marching tetrahedra on a lattice whose edges are about `share` local
-/// radii. Two sheets that are inside at the ends of one edge and not joined along it have both
-/// their walls on it, so vessels that touch share no vertex. The genus of each surface is the
+/// (docs/method.md, section 5): marching tetrahedra on a lattice whose edges are about `share`
+/// local radii. Two sheets that are inside at the ends of one edge and not joined along it both
+/// have their walls on it, so vessels that touch share no vertex. The genus of each surface is the
 /// number of loops that links close. Vertices are within a few per cent of a radius of the field's
 /// surface; ends bulge as the field does. All triangles are in group 0.
 CaseSurface extractSurface(const SheetField& field, double share, ExtractionReport& report,

@@ -18,7 +18,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr int kSmoothings = 6;      // by then points hardly move
-constexpr double kRounding = 1e-9;  // of a sine: angles that add up to 180 degrees but for rounding
+constexpr double kRounding = 1e-9;  // a sine: angles that add up to 180 degrees but for rounding
 
 double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -57,7 +57,7 @@ public:
     for (std::uint32_t t = 0; t < m_mesh.triangle.size(); ++t)
       for (const std::uint32_t v : m_mesh.triangle[t]) fan[v].push_back(t);
     for (std::size_t v = m_firstNew; v < fan.size(); ++v) {
-      Point sum = Point::Zero();  // of all corners: each neighbour twice
+      Point sum = Point::Zero();  // sum of all corners: each neighbour twice
       for (const std::uint32_t t : fan[v])
         for (const std::uint32_t w : m_mesh.triangle[t])
           if (w != v) sum += m_mesh.point[w];
@@ -110,7 +110,7 @@ private:
     return side(c[0], c[1], p) > 0 && side(c[1], c[2], p) > 0 && side(c[2], c[0], p) > 0;
   }
   // The triangle around a point: by a walk from the last one, through edges that the point is
-  // behind, or where that ends at the boundary, by looking at all. The number of triangles if none.
+  // behind, or, if it ends at the boundary, by examining all. The number of triangles if none.
   [[nodiscard]] std::uint32_t locate(const Point& p) const {
     const auto count = static_cast<std::uint32_t>(m_mesh.triangle.size());
     std::uint32_t t = count - 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Better triangles within a region of a plane that has some already.
+// Improvement of triangles within a triangulated region of a plane.
 #pragma once
 
 #include <vector>

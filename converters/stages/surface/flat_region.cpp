@@ -16,8 +16,8 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double kRowHeight = 0.866;    // of a triangular lattice's edge
-constexpr double kLoopClearance = 0.6;  // of an edge: nearer to a loop triangles get flat
+constexpr double kRowHeight = 0.866;    // edges of a triangular lattice
+constexpr double kLoopClearance = 0.6;  // edges: nearer to a loop triangles get flat
 constexpr double kMostInner = 4000;     // points; beyond, the lattice is coarser
 
 bool isOn(const Point& a, const Point& b, const Point& p) {
@@ -66,7 +66,7 @@ bool crossesRing(const std::vector<Point>& point, const Ring& ring, std::uint32_
   return false;
 }
 
-// True if the way from corner i of the ring to `p` begins within the region.
+// True if the line from corner i of the ring to `p` begins within the region.
 bool opensTo(const std::vector<Point>& point, const Ring& ring, std::size_t i, const Point& p) {
   const std::size_t n = ring.size();
   const Point &before = point[ring[(i + n - 1) % n]], &at = point[ring[i]],

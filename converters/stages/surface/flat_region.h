@@ -28,10 +28,11 @@ double areaOf(const Loop2& loop);
 /// True if `inner` lies within `outer` and touches it nowhere; both are simple.
 bool isWithin(const Loop2& inner, const Loop2& outer);
 
-/// Triangles of the region within the simple loop `outer`, which runs counter-clockwise, and outside
-/// of the simple loops `holes` within it, which run clockwise. Edges are about `edge` long where the
-/// loops do not force others: ears are clipped, points of a triangular lattice are put in, and
-/// edges flipped until they are Delaunay's but for the loops' own. Nothing if the loops are not so.
+/// Triangles of the region within the simple loop `outer`, which runs counter-clockwise, and
+/// outside of the simple loops `holes` within it, which run clockwise. Edges are about `edge` long
+/// where the loops do not force others: ears are clipped, points of a triangular lattice are put
+/// in, and edges flipped until they are Delaunay's but for the loops' own. Nothing for loops
+/// without these properties.
 FlatMesh triangulateRegion(const Loop2& outer, const std::vector<Loop2>& holes, double edge);
 
 }  // namespace lumen::convert

@@ -22,7 +22,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kMostTriangles = 5e6;  // of one tube
+constexpr double kMostTriangles = 5e6;  // bound for one tube
 
 void closeTube(SurfaceFans& fans, const FlowTube& tube, const SurfaceEnd& end,
                const std::vector<std::uint32_t>& ring, double length) {
@@ -101,7 +101,7 @@ std::vector<std::optional<Length>> lengthsOf(const CaseSurface& surface,
   return found;
 }
 
-// What tubes run into. Vertices from `firstNew` on are those of tubes; `owner` is the end of each.
+// Collisions of tubes. Vertices from `firstNew` on are those of tubes; `owner` is the end of each.
 class Collisions {
 public:
   Collisions(const CaseSurface& surface, const formats::Case& source, std::size_t firstNew,
@@ -169,7 +169,7 @@ std::vector<std::string> extendEnds(CaseSurface& surface, const formats::Case& s
   std::vector<std::vector<std::uint32_t>> faces(surface.groups.size());
   for (std::uint32_t t = 0; t < surface.group.size(); ++t) faces[surface.group[t]].push_back(t);
   const std::size_t before = surface.mesh.position.size();
-  std::vector<std::uint32_t> owner;  // of each new vertex
+  std::vector<std::uint32_t> owner;  // end of each new vertex
   SurfaceFans fans(surface);
   for (std::size_t e = 0; e < wanted.size(); ++e) {
     if (wanted[e]) extend(fans, surface.ends[e], rims[e], faces[surface.ends[e].group], *wanted[e]);

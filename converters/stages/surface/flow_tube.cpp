@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kBlend = 1.5;     // radii until the section is round
 constexpr double kSteepest = 1.0;  // slope of the wall at the rim: beyond 45 degrees it is no tube
-constexpr int kSlopeSmoothings = 3;   // of the tangents around the rim, which triangles make rough
-constexpr double kRowHeight = 0.866;  // of an equilateral triangle's edge
+constexpr int kSlopeSmoothings = 3;   // passes over the tangents, which triangles roughen
+constexpr double kRowHeight = 0.866;  // edges of an equilateral triangle
 constexpr double kEvenAfter = 8;      // rows until the vertices of a ring are evenly spaced
 
 using Vector = Eigen::Vector3d;
@@ -102,7 +102,7 @@ Vector FlowTube::lift(const Eigen::Vector2d& p, double height) const {
   return m_end.centre + p.x() * m_along + p.y() * m_across + height * m_end.normal;
 }
 
-// How the wall goes on at the rim: sideways by this much for each mm along the normal.
+// Slope of the wall at the rim: sideways by this many mm for each mm along the normal.
 Vector FlowTube::slopeAt(const SurfaceFans& fans, const std::vector<std::uint32_t>& rim,
                          std::size_t i) const {
   const TriangleMesh& mesh = fans.surface().mesh;
@@ -147,7 +147,7 @@ double FlowTube::turnOf(const Loop2& loop) const {
   return std::atan2(y, x);
 }
 
-// The inverse of m_share: which vertex of the rim, and how far to the next, is at a parameter.
+// The inverse of m_share: the rim's vertex, and the share of the step to the next, at a parameter.
 double FlowTube::indexAt(double around) const {
   const double n = double(m_point.size());
   const double turns = std::floor(around / n), rest = around - turns * n;

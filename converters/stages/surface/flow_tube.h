@@ -13,19 +13,19 @@
 
 namespace lumen::convert {
 
-/// One opening with what its tube is made from. `place` of row 0 is the rim itself.
+/// An opening and the data of its tube. `place` of row 0 is the rim itself.
 class FlowTube {
 public:
   /// `rim` runs counter-clockwise seen from outside; the faces of the end are there.
   FlowTube(const SurfaceFans& fans, const SurfaceEnd& end, const std::vector<std::uint32_t>& rim);
 
-  /// Of the circle of the opening's area, mm.
+  /// Radius of the circle of the opening's area, mm.
   [[nodiscard]] double radius() const { return m_radius; }
   /// Mean edge of the rim, mm.
   [[nodiscard]] double edge() const { return m_length / double(m_point.size()); }
-  /// Vertices around.
+  /// Number of vertices around the tube.
   [[nodiscard]] std::size_t around() const { return m_point.size(); }
-  /// Rows of nearly equilateral triangles that a tube of that many mm needs.
+  /// Rows of nearly equilateral triangles that a tube of this length, mm, needs.
   [[nodiscard]] std::size_t rows(double length) const;
 
   /// Vertex k of row j of `rows` of a tube of `length` mm; rows are staggered by half an edge.
@@ -45,9 +45,9 @@ private:
 
   SurfaceEnd m_end;
   Eigen::Vector3d m_along, m_across;
-  std::vector<Eigen::Vector3d> m_point;  ///< of the rim
+  std::vector<Eigen::Vector3d> m_point;  ///< positions of the rim's vertices
   std::vector<Eigen::Vector3d> m_slope;  ///< sideways for each mm along the normal, at each of them
-  std::vector<double> m_share;           ///< of the rim's length at each, times their number
+  std::vector<double> m_share;           ///< rim length at each as a share, times their number
   double m_length = 0, m_radius = 0, m_turn = 0;
   Eigen::Vector2d m_centre = Eigen::Vector2d::Zero();
 };

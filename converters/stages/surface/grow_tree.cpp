@@ -9,16 +9,17 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kCore = 0.35;       // of the radius: what is grown first, along the axes
+constexpr double kCore = 0.35;       // radii: the part that is grown first, along the axes
 constexpr std::size_t kDepths = 64;  // steps from the axis to the wall
 
 using Tetrahedron = SampledLattice::Tetrahedron;
 
-// What of a vertex' link is grown: the link is a sphere of triangles, one for each tetrahedron.
+// Topology of the grown part of a vertex' link: the link is a sphere of triangles, one for each
+// tetrahedron.
 struct LinkFacts {
   int parts = 0;
   int euler = 0;
-  // Adding the vertex changes nothing: what it touches is a disc.
+  // Adding the vertex changes nothing: it touches a disc.
   [[nodiscard]] bool isSimple() const { return parts == 1 && euler == 1; }
   // Adding it closes one loop: it touches two discs.
   [[nodiscard]] bool isBridge() const { return parts == 2 && euler == 2; }
@@ -157,7 +158,7 @@ private:
     }
   }
 
-  // Where two fronts have met on an axis.
+  // Closes a loop where two fronts have met on an axis.
   bool closeLoop() {
     std::uint32_t best = kOther;
     double least = 0;
@@ -176,8 +177,8 @@ private:
 
   const SampledLattice& m_lattice;
   const SheetField& m_field;
-  std::vector<std::uint32_t> m_vertex, m_local;  // of this lumen: local to lattice, and back
-  std::vector<Tetrahedron> m_tetrahedron;        // of local vertices
+  std::vector<std::uint32_t> m_vertex, m_local;  // this lumen's: local to lattice, and back
+  std::vector<Tetrahedron> m_tetrahedron;        // made of local vertices
   std::vector<std::uint32_t> m_offset, m_at;
   std::vector<bool> m_isGrown, m_isQueued;
   std::vector<std::deque<std::uint32_t>> m_queue;

@@ -11,7 +11,7 @@
 namespace lumen::convert {
 namespace {
 
-// The vertices around a node's centre that a cursor at the node can get to.
+// The vertices around a node's centre that a cursor at the node can reach.
 class NodePlaces {
 public:
   NodePlaces(const SampledLattice& lattice, const SheetField& field)

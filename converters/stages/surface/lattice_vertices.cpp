@@ -32,7 +32,8 @@ Position faceCentre(const LatticeCube& cube, int side) {
   return p;
 }
 
-// The four corners of a face, in a circle: bit a of a corner is set where it is greater along axis a.
+// The four corners of a face, in a circle: bit a of a corner is set where it is greater along axis
+// a.
 std::array<unsigned, 4> faceCorners(int side) {
   const unsigned axis = static_cast<unsigned>(side) / 2;
   const unsigned u = 1U << (axis + 1) % 3, v = 1U << (axis + 2) % 3;
@@ -98,8 +99,8 @@ std::uint32_t LatticeVertices::middleOf(std::uint32_t cube, unsigned from, unsig
   return find({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
 }
 
-// Of two cubes of one size the one at the greater coordinate answers for what they share, and of
-// two sizes the smaller.
+// Cubes of different sizes share tetrahedra that the smaller one collects; of two equal cubes the
+// one at the greater coordinate does.
 std::size_t LatticeVertices::collect(std::uint32_t index,
                                      std::array<Tetrahedron, 96>& found) const {
   using Kind = AdaptiveLattice::Kind;

@@ -33,11 +33,11 @@ public:
   }
   /// The centre of a cube, and its corners.
   [[nodiscard]] std::vector<std::uint32_t> verticesOf(std::uint32_t cube) const;
-  /// Whether it lies on the outside of the lattice.
+  /// Whether a vertex lies on the outside of the lattice.
   [[nodiscard]] bool isOutermost(std::uint32_t vertex) const { return m_isOutermost[vertex]; }
 
   using Tetrahedron = std::array<std::uint32_t, 4>;
-  /// Hands on the tetrahedra that a cube answers for, each once, of positive volume.
+  /// Visits the tetrahedra that a cube is responsible for, each once, of positive volume.
   template <class Visit>
   void eachTetrahedron(std::uint32_t cube, Visit&& visit) const {
     std::array<Tetrahedron, 96> found{};
@@ -48,7 +48,7 @@ public:
 private:
   using Position = AdaptiveLattice::Position;
   static constexpr std::uint32_t kNone = UINT32_MAX;
-  /// A cube's own.
+  /// The vertices of a cube: its centre and its corners.
   struct Own {
     std::uint32_t centre = 0;
     std::array<std::uint32_t, 8> corner{};
@@ -60,7 +60,7 @@ private:
   void orient(Tetrahedron& t) const;
 
   const AdaptiveLattice& m_lattice;
-  std::vector<Own> m_own;  ///< of each cube
+  std::vector<Own> m_own;  ///< vertices of each cube
   std::vector<Position> m_position;
   std::vector<std::uint32_t> m_cube;
   std::vector<bool> m_isOutermost;

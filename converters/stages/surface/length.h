@@ -7,26 +7,27 @@
 
 namespace lumen::convert {
 
-/// The sum of both parts.
+/// A length as the sum of both parts.
 struct Length {
   double mm = 0;
-  double radii = 0;  ///< times the vessel's radius
+  double radii = 0;  ///< multiple of the vessel's radius
   [[nodiscard]] double at(double radius) const { return mm + radii * radius; }
   friend bool operator==(const Length&, const Length&) = default;
 };
 
-/// "0.5" and "0.5mm" are millimetres, "5r" are radii. Throws Error(Usage), with `option` in the
-/// sentence, unless the number is finite and above 0.
+/// Parses a length: "0.5" and "0.5mm" are millimetres, "5r" are radii. Throws Error(Usage), with
+/// `option` in the sentence, unless the number is finite and above 0.
 Length parseLength(std::string_view text, const std::string& option);
 
 /// A length for every end, or for the ends of one branch.
 struct EndLength {
-  std::string label;  ///< of the branch; empty: of all that no other one names
+  std::string label;  ///< label of the branch; empty: every branch that no other names
   Length length;
   friend bool operator==(const EndLength&, const EndLength&) = default;
 };
 
-/// "5r", or "LABEL=5r". A label may contain "=": the last one counts. Throws as parseLength().
+/// Parses "5r", or "LABEL=5r". A label may contain "=": the last one counts. Throws as
+/// parseLength().
 EndLength parseEndLength(std::string_view text, const std::string& option);
 
 }  // namespace lumen::convert

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface between inside and outside on a complex of tetrahedra, some of whose edges have both
-// ends inside and are cut all the same.
+// The surface between inside and outside on a complex of tetrahedra. Some edges are cut although
+// both of their ends are inside.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace lumen::convert {
 
-/// A crossing of an edge: near its end `inside`, on the way to `outside`. Of an edge that is split
-/// each end has one.
+/// A crossing of an edge: near its end `inside`, towards `outside`. An edge that is split has one
+/// at each end.
 struct Crossing {
   std::uint32_t inside = 0, outside = 0;
   friend auto operator<=>(const Crossing&, const Crossing&) = default;
@@ -43,13 +43,13 @@ private:
 };
 
 /// Adds the triangles of one tetrahedron of positive volume, counter-clockwise seen from outside.
-/// isInside(vertex) is asked of vertices below split.firstPoint(). A tetrahedron with split edges is
-/// bisected at their points, the least edge first, so that neighbours agree about their face.
+/// isInside(vertex) is called for vertices below split.firstPoint(). A tetrahedron with split edges
+/// is bisected at their points, the least edge first, so that neighbours agree about their face.
 template <class IsInside>
 void marchTetrahedron(const std::array<std::uint32_t, 4>& t, const SplitEdges& split,
                       const IsInside& isInside, std::vector<CrossingTriangle>& out);
 
-// The rest is the implementation of the template.
+// Implementation of the template.
 namespace detail {
 
 inline void marchUnsplit(const std::array<std::uint32_t, 4>& t, unsigned inside,

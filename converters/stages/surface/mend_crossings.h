@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walls of vessels that are kept apart, where triangles are too coarse for the gap between them.
+// Repair of crossings between walls of vessels, where triangles are too coarse for the gap between
+// them.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,8 @@
 
 namespace lumen::convert {
 
-/// Draws the triangles that pass through others back into their own lumens, in steps of a quarter of
-/// the gap or of a fiftieth of the radius, whichever is more, until none does, or eight times.
+/// Moves the triangles that pass through others back into their own lumens, in steps of a quarter
+/// of the gap or of a fiftieth of the radius, whichever is more, until none does, or eight times.
 /// Vertices of flat ends stay where they are. Returns the pairs that still intersect. Throws
 /// Error(Cancelled).
 std::size_t mendCrossings(CaseSurface& surface, const SheetField& field, Progress& progress);

@@ -12,14 +12,14 @@
 namespace lumen::convert {
 namespace {
 
-// The walls of two legs of a fork of 20 degrees come apart where the way between them is that many
-// times their width: 1 / sin(10 degrees).
+// Ratio of path to width at which the walls of two legs of a fork of 20 degrees come apart: 1 /
+// sin(10 degrees).
 constexpr double kLeastWay = 6;
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-constexpr double kReach = 3;            // thicknesses: what is farther off is nobody's wall
-constexpr double kOnEdge = 1e-6;        // of a triangle: a foot so near to an edge is on it
-constexpr double kRounding = 1 + 1e-9;  // of a thickness that is interpolated
-constexpr double kOnWall = 1e-9;        // mm: where the way to the foot has no direction
+constexpr double kReach = 3;            // thicknesses: no wall reaches farther
+constexpr double kOnEdge = 1e-6;        // share of a triangle: a foot so near to an edge is on it
+constexpr double kRounding = 1 + 1e-9;  // factor of a thickness that is interpolated
+constexpr double kOnWall = 1e-9;        // mm: where the line to the foot has no direction
 
 // The corners' angles are the weights (J. Baerentzen and H. Aanaes, *Signed distance computation
 // using the angle weighted pseudonormal*, 2005).
@@ -118,7 +118,7 @@ OffsetField::Foot OffsetField::footOf(const Eigen::Vector3d& point, double reach
     if (distance - foot.thickness >= least) return;
     least = distance - foot.thickness;
     best = foot;
-    // a greater distance cannot give less, whatever the thickness
+    // a greater distance cannot give a lesser d - t, whatever the thickness
     most = std::min(most, (least + m_thickest) * (least + m_thickest));
   };
   // neither nearer than the nearest foot, nor with less of d - t than the best one
@@ -127,7 +127,7 @@ OffsetField::Foot OffsetField::footOf(const Eigen::Vector3d& point, double reach
     return distance < nearest || distance - m_thickestBelow[node] < least;
   };
   m_tree.visitNear(point, most, visit, enters);
-  // inside the lumen the nearest point says how deep
+  // inside the lumen the nearest point determines the depth
   return plain.distance < 0 ? plain : best;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outer surface of a wall: what is as far from a lumen's surface as the wall is thick.
+// The outer surface of a wall: its distance from a lumen's surface is the wall's thickness.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,14 @@ namespace lumen::convert {
 ///
 ///     g = max(d - t, (d/t - d'/t') / (1/t + 1/t') + gap/2)
 ///
-/// so walls of vessels that touch share what is between the lumens as their thicknesses are. What is
-/// another vessel is told by the tree: nodes whose way along it is longer than six times the width of
-/// both with their walls. Nearer ones have one wall: it fills the corner of a fork.
+/// so walls of vessels that touch share the space between the lumens in proportion to their
+/// thicknesses. Nodes belong to different vessels if their distance along the tree is longer than
+/// six times the width of both with their walls. Nearer ones have one wall: it fills the corner of
+/// a fork.
 class OffsetField : public SheetField {
 public:
-  /// `inner` is a closed surface of the case, whose ends are cut; it must stay. Thicknesses of radii
-  /// grow by no more than a quarter of the way along the surface.
+  /// `inner` is a closed surface of the case, whose ends are cut; it must stay. Thicknesses in
+  /// radii grow by no more than a quarter of the distance along the surface.
   OffsetField(const formats::Case& source, const field::BlendedField& field, double gap,
               const CaseSurface& inner, const Length& thickness);
 
@@ -42,11 +43,11 @@ private:
   struct Foot {
     double distance = 0;  ///< from the lumen's surface, mm; negative inside
     double thickness = 0;
-    std::uint32_t node = kNone;  ///< of the tree; none if nothing is within reach
+    std::uint32_t node = kNone;  ///< node of the tree; none if nothing is within reach
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, of the distance
   };
   [[nodiscard]] bool isOther(std::uint32_t a, std::uint32_t b) const;
-  /// The foot with the least d - t of those within `reach` whose node `takes` takes.
+  /// The foot with the least d - t within `reach`, among those whose node `takes` accepts.
   template <class Takes>
   [[nodiscard]] Foot footOf(const Eigen::Vector3d& point, double reach, const Takes& takes) const;
   [[nodiscard]] Foot ownFoot(const Eigen::Vector3d& point, std::uint32_t node) const;
@@ -56,9 +57,9 @@ private:
 
   const CaseSurface& m_inner;
   TriangleTree m_tree;
-  std::vector<double> m_thickness;        ///< of each vertex
-  std::vector<Eigen::Vector3d> m_normal;  ///< of each vertex, by the angles of its faces
-  std::vector<double> m_thickestBelow;    ///< of each node of m_tree's boxes
+  std::vector<double> m_thickness;        ///< thickness at each vertex
+  std::vector<Eigen::Vector3d> m_normal;  ///< normal of each vertex, weighted by its faces' angles
+  std::vector<double> m_thickestBelow;    ///< for each node of the boxes of m_tree
   double m_thickest = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where vessels overlap.
+// Overlaps of vessels.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace lumen::convert {
 
 /// Two vessels that overlap, so that their walls were moved apart.
 struct Overlap {
-  std::uint32_t branch = 0, other = 0;  ///< of the tree, the lesser first
+  std::uint32_t branch = 0, other = 0;  ///< branches of the tree, the lesser first
   double depth = 0;                     ///< greatest distance that a wall was moved inwards, mm
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< place of that depth, mm, LPS
 };

@@ -15,15 +15,15 @@
 namespace lumen::convert {
 namespace {
 
-constexpr int kSeamRings = 5;  // what a boundary that could not move has left uneven
+constexpr int kSeamRings = 5;  // reach of the unevenness at a boundary that could not move
 constexpr int kMendRings = 4;
 constexpr int kStretchRings = 10;  // six may leave the field
 constexpr int kStretchRounds = 2;
 constexpr double kMendBelow = 1.2 * kSharpAngle;  // as in each piece
 constexpr std::size_t kBatch = 1024;              // vertices between two looks at the progress
-constexpr double kFieldStep = 0.5;  // of the radius: more is no distance from the wall
+constexpr double kFieldStep = 0.5;                // radii: more is no distance from the wall
 
-// Asks the field about every vertex, and moves those of the wall by one step onto it.
+// Samples the field at every vertex, and moves those of the wall by one step onto it.
 void moveOntoField(RemeshState& state, const PieceRules& rules) {
   CaseSurface& surface = state.surface;
   std::vector<std::uint8_t> isFlat(surface.mesh.position.size(), 0);
@@ -63,7 +63,7 @@ double leastAngleOf(const TriangleMesh& mesh, const Triangle& t) {
   return leastAngle(mesh.position[t[0]], mesh.position[t[1]], mesh.position[t[2]]);
 }
 
-// The corners of triangles that are sharp, or look into the lumen.
+// The corners of triangles that are sharp, or face into the lumen.
 std::vector<std::uint8_t> sharpVertices(const RemeshState& state, const PieceRules& rules) {
   const TriangleMesh& mesh = state.surface.mesh;
   std::vector<std::uint8_t> sharp(mesh.position.size(), 0);
@@ -104,7 +104,7 @@ RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLen
   state.isSeparated.assign(vertices, 0);
   state.isOffField.assign(vertices, 0);
   moveOntoField(state, rules);
-  // What no piece holds inside is a boundary as well.
+  // Vertices that no piece holds inside are boundary as well.
   state.isBoundary.assign(vertices, 1);
   std::vector<TriangleList> pieces = piecesByNode(surface);
   progress.begin("remeshing", pieces.size());

@@ -11,17 +11,17 @@
 
 namespace lumen::convert {
 
-/// What remesh() could not do.
+/// Remaining faults after remesh().
 struct RemeshReport {
   std::size_t offField = 0;  ///< vertices with no surface of the field near by: they stayed there
   std::size_t sharp = 0;     ///< triangles with an angle under kSharpAngle
 };
 
-/// Gives `surface` triangles whose edges follow `edge` (docs/method.md, section 5, Triangles): edges are
-/// split, collapsed and flipped, vertices relaxed along the surface and moved onto the field.
-/// Topology and groups stay as they are: vertices of a rim stay on it, those of a flat end in its
-/// plane. Each vertex keeps a node from which a cursor follows to it. The same result on any number
-/// of threads. Throws Error(Cancelled).
+/// Gives `surface` triangles whose edges follow `edge` (docs/method.md, section 5, Triangles):
+/// edges are split, collapsed and flipped, vertices relaxed along the surface and moved onto the
+/// field. Topology and groups stay as they are: vertices of a rim stay on it, those of a flat end
+/// in its plane. Each vertex keeps a node from which a cursor follows to it. The result is the same
+/// on any number of threads. Throws Error(Cancelled).
 RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
                     Progress& progress);
 

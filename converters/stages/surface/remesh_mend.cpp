@@ -16,9 +16,10 @@ using Mesh = RemeshMesh;
 
 constexpr double kMendBelow = 0.095;  // positions are rounded to floats when written
 constexpr int kRounds = 6;
-// Where the field has no smooth surface, such as where it jumps from one model to the next.
+// Bounds on stretching where the field has no smooth surface, such as where it jumps from one model
+// to the next.
 constexpr int kStretchSteps = 30, kStretchRings = 6, kStretchPasses = 3;
-constexpr double kLongestMade = 2;  // of the target: a longer edge is no cure
+constexpr double kLongestMade = 2;  // targets: a longer edge is no cure
 constexpr double kGain = 1.0001;    // else it could go round in circles by rounding
 
 // Flips the edge of the face that helps most.

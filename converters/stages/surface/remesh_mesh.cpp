@@ -10,7 +10,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr double kLargestTurn = 0.5;    // cosine: 60 degrees from where a face should look
-constexpr std::uint32_t kRimEdges = 8;  // of a rim, at least
+constexpr std::uint32_t kRimEdges = 8;  // least number of edges of a rim
 
 Eigen::Vector3d normalOf(const RemeshMesh::Corners& c) {
   return (c[1] - c[0]).cross(c[2] - c[0]);
@@ -22,7 +22,7 @@ double cosine(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return lengths > 0 ? a.dot(b) / lengths : -1;
 }
 
-// True if a face of the normal looks away from `outward`, and further than `before` did.
+// True if a face of the normal is turned away from `outward`, and further than `before` was.
 bool isTurned(const Eigen::Vector3d& normal, const RemeshMesh::Corners& before,
               const Eigen::Vector3d& outward) {
   if (outward.isZero(0)) return cosine(normal, normalOf(before)) < kLargestTurn;
@@ -227,8 +227,8 @@ void RemeshMesh::collapse(HalfedgeHandle h) {
   const HalfedgeHandle back = opposite_halfedge_handle(h);
   if (data(edge_handle(h)).isRim)
     for (const HalfedgeHandle side : {h, back}) --m_rimEdges[data(face_handle(side)).group];
-  // Of the two edges of a face that vanishes, the one of the vertex that goes is merged into the
-  // other or takes its place: both must say the same.
+  // When a face vanishes, its edge at the removed vertex is merged into its other edge or takes the
+  // other's place: both get the same rim mark.
   for (const HalfedgeHandle side : {h, back}) {
     if (!face_handle(side).is_valid()) continue;
     const EdgeHandle a = edge_handle(next_halfedge_handle(side)),
@@ -259,7 +259,7 @@ RemeshMesh::Outcome RemeshMesh::afterFlip(EdgeHandle edge) const {
   Outcome outcome{false, 4, 4, 0};
   for (const Corner& v : {old0, old1})
     outcome.before = std::min(outcome.before, qualityOf(cornersAt(v), outward(group, v)));
-  // Neither new face may look worse than the worse of the two before.
+  // Neither new face may be worse than the worse of the two before.
   const Corners before0 = cornersAt(old0), before1 = cornersAt(old1);
   for (const Corner& v : {new0, new1}) {
     const Eigen::Vector3d out = outward(group, v), normal = normalOf(cornersAt(v));

@@ -19,7 +19,7 @@
 
 namespace lumen::convert {
 
-/// How a vertex may move.
+/// Freedom of a vertex to move.
 enum class VertexKind : std::uint8_t {
   Wall,   ///< along the field's surface
   Flat,   ///< within the plane of its end
@@ -82,7 +82,7 @@ public:
   }
   [[nodiscard]] EdgeHandle longestOf(FaceHandle face) const;
 
-  /// Where a face of these vertices should look, of any length: zero if nobody knows.
+  /// The direction in which a face of these vertices should look, of any length: zero if unknown.
   [[nodiscard]] Eigen::Vector3d outward(std::uint32_t group,
                                         const std::array<VertexHandle, 3>& vertices) const;
   /// The squared sine of a face's least angle; 0 if it is turned away from where it should look.
@@ -94,19 +94,19 @@ public:
   /// True if no face is turned away, or further than now, by moving `vertex` to `position`.
   [[nodiscard]] bool mayMove(VertexHandle vertex, const Eigen::Vector3d& position) const;
 
-  /// What a collapse of `h` (its start goes) would leave: allowed only by topology, rims and
-  /// boundary.
+  /// Whether topology, rims and boundary allow a collapse of `h` (its start vanishes);
+  /// afterCollapse() has its outcome.
   [[nodiscard]] bool mayCollapse(HalfedgeHandle h);
   struct Outcome {
     bool isTurned = false;  ///< a face would turn away, or further than before
-    double quality = 0;     ///< the least of the faces that change, after
-    double before = 0;      ///< and before, those that vanish included
-    double longest = 0;     ///< edge that would be made, over its target
+    double quality = 0;     ///< the least of the changed faces, after
+    double before = 0;      ///< the least before, with the faces that vanish
+    double longest = 0;     ///< longest new edge, over its target
   };
   [[nodiscard]] Outcome afterCollapse(HalfedgeHandle h) const;
-  /// True if Outcome::longest would be more than `share`: quicker to find out than the rest.
+  /// True if Outcome::longest would be more than `share`: faster than the full outcome.
   [[nodiscard]] bool makesLonger(HalfedgeHandle h, double share) const;
-  /// As OpenMesh's, whose decimater calls it too, and keeps count of rims.
+  /// Collapses like OpenMesh, whose decimater calls it too, and counts the edges of rims.
   void collapse(HalfedgeHandle h);
 
   [[nodiscard]] bool mayFlip(EdgeHandle edge) const;
@@ -120,7 +120,7 @@ private:
   static constexpr std::uint32_t kPulses = 4096;  // elements that take a few milliseconds
   const PieceRules& m_rules;
   std::uint32_t m_pulse = 0;
-  std::vector<std::uint32_t> m_rimEdges;  ///< of each group
+  std::vector<std::uint32_t> m_rimEdges;  ///< count for each group
 };
 
 }  // namespace lumen::convert

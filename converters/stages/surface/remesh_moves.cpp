@@ -17,14 +17,14 @@ using Mesh = RemeshMesh;
 // 2004: a split or a collapse brings an edge nearer to its target.
 constexpr double kLong = 4.0 / 3.0, kShort = 4.0 / 5.0;
 constexpr int kSplitSweeps = 4;        // each halves: enough for edges of sixteen targets
-constexpr double kRelaxation = 0.8;    // of the way to the middle
-constexpr double kLongestMove = 0.5;   // of the target, in one step
-constexpr double kSmallMove = 0.01;    // of the target: not worth a look at the faces around
-constexpr double kDrift = 0.05;        // of the target: a smaller move leaves the surface by 2e-5 r
-constexpr double kFieldStep = 0.3;     // of the radius: farther off, f is not straight
-constexpr double kChordInSlit = 0.25;  // of the gap
-constexpr double kFinest = 0.2;        // of the target, at a slit
-constexpr double kLargestSag = 0.25;   // of an edge
+constexpr double kRelaxation = 0.8;    // share of the distance to the middle
+constexpr double kLongestMove = 0.5;   // targets, in one step
+constexpr double kSmallMove = 0.01;    // targets: not worth a look at the faces around
+constexpr double kDrift = 0.05;        // targets: a smaller move leaves the surface by 2e-5 r
+constexpr double kFieldStep = 0.3;     // radii: farther off, f is not straight
+constexpr double kChordInSlit = 0.25;  // gaps
+constexpr double kFinest = 0.2;        // share of the target, at a slit
+constexpr double kLargestSag = 0.25;   // share of an edge
 constexpr double kFlipQuality = 0.25;  // flips for valence leave no angle under 30 degrees, unless
                                        // it was there before
 
@@ -33,7 +33,7 @@ std::optional<Eigen::Vector3d> planeOf(const Mesh& mesh, Mesh::VertexHandle v) {
   return here.end == 0 ? std::nullopt : mesh.rules().plane[here.end];
 }
 
-// Where relaxation would have a vertex of a rim: the middle of its two neighbours along it.
+// Target of the relaxation of a vertex on a rim: the middle of its two neighbours along it.
 Eigen::Vector3d rimTarget(const Mesh& mesh, Mesh::VertexHandle v) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
@@ -59,7 +59,7 @@ Eigen::Vector3d faceTarget(const Mesh& mesh, Mesh::VertexHandle v) {
   return weights > 0 ? Eigen::Vector3d(here + sum / weights) : here;
 }
 
-// Moves as far as no face turns: all the way, half, a quarter, or not at all.
+// Moves a vertex as far as no face turns: fully, by half, by a quarter, or not at all.
 void moveTowards(Mesh& mesh, Mesh::VertexHandle v, Eigen::Vector3d move) {
   for (int attempt = 0; attempt < 3; ++attempt, move *= 0.5) {
     const Eigen::Vector3d position = mesh.point(v) + move;
@@ -89,13 +89,15 @@ void stepOntoField(Mesh& mesh, Mesh::VertexHandle v) {
   mesh.data(v).drift = 0;
 }
 
-// How far the valence of a vertex will be from six; of the boundary nobody knows it.
+// Squared difference of the future valence of a vertex from six; 0 on the boundary, where it is
+// unknown.
 int valenceError(const Mesh& mesh, Mesh::VertexHandle v, int change) {
   const int error = mesh.data(v).valence + change - 6;
   return mesh.is_boundary(v) ? 0 : error * error;
 }
 
-// Where the angles across an edge sum up to more than 180 degrees, the other diagonal is better.
+// True if the angles across an edge sum up to at most 180 degrees; else the other diagonal is
+// better.
 bool isDelaunay(const Mesh& mesh, Mesh::EdgeHandle edge) {
   const Mesh::HalfedgeHandle h = mesh.halfedge_handle(edge, 0);
   const auto &a = mesh.point(mesh.from_vertex_handle(h)), &b = mesh.point(mesh.to_vertex_handle(h));

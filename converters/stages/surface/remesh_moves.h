@@ -6,7 +6,7 @@
 
 namespace lumen::convert {
 
-/// Splits edges longer than 4/3 of their target, the boundary's excepted.
+/// Splits edges longer than 4/3 of their target, except those of the boundary.
 void splitLong(RemeshMesh& mesh);
 
 /// Collapses edges shorter than 4/5 of their target, where no edge longer than 4/3 of its target
@@ -19,8 +19,8 @@ void flipToSix(RemeshMesh& mesh);
 /// Flips edges where that makes the lesser of the least angles of both faces larger.
 void flipForAngles(RemeshMesh& mesh);
 
-/// Moves vertices along the surface towards the middle of their faces, weighted so that faces get
-/// areas as their targets ask for; those of a rim towards the middle of their neighbours on it.
+/// Moves vertices along the surface towards the middle of their faces, weighted so that areas of
+/// faces follow their targets; those of a rim towards the middle of their neighbours on it.
 void relax(RemeshMesh& mesh);
 
 /// Moves vertices that may have left the field's surface onto it: by one step of Newton's method,
@@ -34,10 +34,11 @@ bool settle(RemeshMesh& mesh, RemeshMesh::VertexHandle vertex);
 /// edge is out of the surface by more than a quarter of the gap.
 void refineSlits(RemeshMesh& mesh);
 
-/// Works on sharp and folded faces until there are none or nothing helps.
+/// Repairs sharp and folded faces until there are none or nothing helps.
 void mendFaces(RemeshMesh& mesh, const Progress& progress);
 
-/// Where mendFaces() has left some: takes the wall around them off the field, and stretches it.
+/// Repairs faces that mendFaces() has left: takes the wall around them off the field, and stretches
+/// it.
 void stretchFolds(RemeshMesh& mesh, const Progress& progress);
 
 }  // namespace lumen::convert

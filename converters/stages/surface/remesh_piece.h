@@ -20,11 +20,11 @@ struct PieceVertex {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, of the field; zero if unknown
   double target = 0;                                   ///< length that edges should have here, mm
-  std::uint32_t node = 0;                              ///< of its cursor
+  std::uint32_t node = 0;                              ///< node of its cursor
   std::uint32_t home = kNewVertex;                     ///< its index in the whole surface
-  bool isSeparated = false;                            ///< as SheetSample says
+  bool isSeparated = false;                            ///< see SheetSample::isSeparated
   bool isOffField = false;                             ///< the field had no surface near by
-  bool isBoundary = false;                             ///< of the piece, so that it was not touched
+  bool isBoundary = false;                             ///< on the boundary, so not touched
 };
 
 /// A manifold with boundary. Vertices of the boundary are not touched, and no edge is made between
@@ -32,25 +32,25 @@ struct PieceVertex {
 struct Piece {
   std::vector<PieceVertex> vertex;
   std::vector<Triangle> triangle;    ///< indices into `vertex`
-  std::vector<std::uint32_t> group;  ///< of each triangle
+  std::vector<std::uint32_t> group;  ///< group of each triangle
 };
 
-/// What all pieces of a surface share.
+/// Data that all pieces of a surface share.
 struct PieceRules {
   const SheetField& field;
-  const Progress& progress;  ///< asked by long loops whether they go on
-  /// Of each group, the unit normal of its plane if it is a flat end.
+  const Progress& progress;  ///< checked by long loops for cancelling
+  /// For each group, the unit normal of its plane if it is a flat end.
   std::vector<std::optional<Eigen::Vector3d>> plane;
 };
 
 enum class PieceWork : std::uint8_t {
   Remesh,  ///< to the target lengths, which become shorter in slits
-  Seam,    ///< the same, where slits have their targets
+  Seam,    ///< to the target lengths, where slits have theirs
   Mend,    ///< only triangles that are sharp or folded
-  Stretch  ///< and where that does not help, off the field
+  Stretch  ///< and those that Mend leaves, off the field
 };
 
-/// Does the work in place; vertices that went are gone, new ones are at the end.
+/// Remeshes a piece in place; vertices that vanish are removed, new ones are at the end.
 void remeshPiece(Piece& piece, const PieceRules& rules, PieceWork work, const Progress& progress);
 
 }  // namespace lumen::convert

@@ -21,7 +21,7 @@ std::size_t pieceSize(std::size_t triangles) {
 // A part of a mesh with vertices of its own.
 struct LocalMesh {
   std::vector<Triangle> triangle;
-  std::vector<std::uint32_t> home;  // of each vertex: its number in the mesh, ascending
+  std::vector<std::uint32_t> home;  // each vertex' number in the mesh, ascending
 };
 
 LocalMesh localMesh(const TriangleMesh& mesh, const TriangleList& list) {

@@ -11,7 +11,7 @@
 
 namespace lumen::convert {
 
-/// A surface with what remeshing knows of each vertex.
+/// A surface with remeshing's data of each vertex.
 struct RemeshState {
   CaseSurface& surface;
   std::vector<double> target;  ///< as PieceVertex has it, and so on
@@ -36,7 +36,7 @@ std::vector<TriangleList> piecesAround(const TriangleMesh& mesh, std::vector<std
 /// taken off the list and left alone.
 Piece cutOut(const RemeshState& state, TriangleList& triangles);
 
-/// Puts pieces in the place of the triangles that they were cut out as.
+/// Puts pieces in the place of the triangles that were cut out as them.
 void putBack(RemeshState& state, std::span<const TriangleList> triangles,
              std::span<const Piece> pieces);
 

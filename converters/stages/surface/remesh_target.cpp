@@ -16,7 +16,7 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kGrowth = 0.25;  // of the way: neighbouring edges differ by a quarter at most
+constexpr double kGrowth = 0.25;  // per distance: neighbouring edges differ by a quarter at most
 constexpr double kEdgesAround = 8;
 
 Eigen::Vector3d centreOf(const formats::CenterlineTree& tree, std::uint32_t node) {
@@ -24,7 +24,7 @@ Eigen::Vector3d centreOf(const formats::CenterlineTree& tree, std::uint32_t node
 }
 
 // The radius between `node` and its neighbours in its branch, at the nearest point of the axis: it
-// has no steps where the cursor goes on to the next node.
+// has no steps where the cursor moves to the next node.
 double radiusAt(const formats::CenterlineTree& tree, const formats::Neighbours& edges,
                 const Eigen::Vector3d& point, std::uint32_t node) {
   const Eigen::Vector3d from = centreOf(tree, node);

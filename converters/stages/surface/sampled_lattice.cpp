@@ -53,7 +53,7 @@ bool SampledLattice::isOneLumen(std::uint32_t u, std::uint32_t v) const {
 }
 
 void SampledLattice::force(std::uint32_t vertex, const SheetSample& sample) {
-  constexpr double kDepth = 1e-3;  // of the radius
+  constexpr double kDepth = 1e-3;  // radii
   m_isInside[vertex] = 1;
   m_node[vertex] = sample.node;
   m_distance[vertex] = std::min(sample.distance, -kDepth * m_field.radius(sample.node));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is inside on a lattice, and which insides are one lumen.
+// The inside of a lattice, and its division into lumens.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace lumen::convert {
 
-/// The field at the vertices of a lattice. A vertex belongs to one sheet, that whose axis is
+/// The field at the vertices of a lattice. A vertex belongs to one sheet, the one whose axis is
 /// nearest; two neighbours that are inside are joined if a cursor gets from one to the other.
 class SampledLattice {
 public:
@@ -30,7 +30,7 @@ public:
   [[nodiscard]] Eigen::Vector3d place(std::uint32_t vertex) const {
     return m_vertices.place(vertex);
   }
-  /// Of the vertex' sheet, mm; negative inside.
+  /// Distance to the vertex' sheet, mm; negative inside.
   [[nodiscard]] double distance(std::uint32_t vertex) const { return m_distance[vertex]; }
   [[nodiscard]] std::uint32_t node(std::uint32_t vertex) const { return m_node[vertex]; }
   [[nodiscard]] bool isInside(std::uint32_t vertex) const { return m_isInside[vertex] != 0; }
@@ -38,7 +38,7 @@ public:
     return m_vertices.isOutermost(vertex);
   }
 
-  /// Changes what is inside, whatever the field says.
+  /// Puts a vertex inside or outside, whatever the field is there.
   void setInside(std::uint32_t vertex, bool isInside) { m_isInside[vertex] = isInside ? 1 : 0; }
   /// Makes a vertex inside, of a sheet; update() is due then.
   void force(std::uint32_t vertex, const SheetSample& sample);
@@ -54,16 +54,16 @@ public:
   /// The vertices of the cube that holds a point: its centre, and its corners. Empty outside.
   [[nodiscard]] std::vector<std::uint32_t> verticesAround(const Eigen::Vector3d& point) const;
 
-  /// Calls work(block, tetrahedron) for all tetrahedra that had a vertex inside when the lattice was
-  /// sampled or forced, blocks side by side; the tetrahedra of a block come in one order. There are
-  /// blockCount() blocks.
+  /// Calls work(block, tetrahedron) for all tetrahedra that had a vertex inside when the lattice
+  /// was sampled or forced, with blocks in parallel; the tetrahedra of a block come in one order.
+  /// There are blockCount() blocks.
   template <class Work>
   void eachTetrahedron(const Work& work) const {
     tbb::parallel_for(std::size_t{0}, m_tetrahedra.size(), [&](std::size_t block) {
       for (const Tetrahedron& t : m_tetrahedra[block]) work(block, t);
     });
   }
-  /// The same one after another.
+  /// Calls visit(tetrahedron) for the tetrahedra of eachTetrahedron(), one after another.
   template <class Visit>
   void eachTetrahedronInTurn(const Visit& visit) const {
     for (const std::vector<Tetrahedron>& block : m_tetrahedra)

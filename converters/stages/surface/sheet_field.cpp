@@ -9,13 +9,14 @@ namespace lumen::convert {
 namespace {
 
 constexpr int kMaxSteps = 40;         // three to five near the wall; the rest is for long ways
-constexpr double kTolerance = 1e-4;   // of the radius
-constexpr double kLongestStep = 0.3;  // of the radius: far from the wall h is not straight
-constexpr double kFarthest = 0.5;     // of the radius: a surface beyond is another one
-constexpr double kCore = 0.25;        // of the radius: around its axis, where one sheet goes first
-constexpr double kLeastSlope = 0.05;  // of the way between two axes that run side by side
-constexpr double kVanished = 1e-12;   // of the level: below, f says nothing about the wall
-// How far apart, in sums of radii, nodes are whose walls may touch: a model reaches beyond its ball.
+constexpr double kTolerance = 1e-4;   // radii
+constexpr double kLongestStep = 0.3;  // radii: far from the wall h is not straight
+constexpr double kFarthest = 0.5;     // radii: a surface beyond is another one
+constexpr double kCore = 0.25;        // radii around the axis, where one sheet goes first
+constexpr double kLeastSlope = 0.05;  // share of the slope between two axes that run side by side
+constexpr double kVanished = 1e-12;   // share of the level: a lesser f does not locate the wall
+// Largest distance, in sums of radii, of nodes whose walls may touch: a model reaches beyond its
+// ball.
 constexpr double kTouchingReach = 1.5;
 
 field::Vec toVec(const Eigen::Vector3d& p) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wall that a mesh of a whole case follows: that of the blended field, kept off other vessels.
+// The wall that a mesh of a whole case follows: the wall of the blended field, kept off other
+// vessels.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +17,22 @@
 
 namespace lumen::convert {
 
-/// Where the wall lies; lengths in mm.
+/// Position of the wall; lengths in mm.
 struct SheetOptions {
-  /// Distance that two vessels keep where their walls touch or overlap.
+  /// Gap between two vessels where their walls touch or overlap.
   double gap = 0;
-  /// The same as a share of the lesser radius of both; added to `gap`.
+  /// Gap as a share of the lesser radius of both; added to `gap`.
   double gapShare = 0;
-  /// How far outside of the lumen's wall the surface may lie: 0, or a wall's thickness.
+  /// Greatest distance of the surface outside of the lumen's wall: 0, or a wall's thickness.
   double offset = 0;
-  /// The same as a share of the local radius; added to `offset`.
+  /// Distance as a share of the local radius; added to `offset`.
   double offsetShare = 0;
-  /// Vessels touch only where the way between them along the tree is longer than this many times
-  /// the width of both.
+  /// Least length of the path along the tree between vessels that touch, as a multiple of the width
+  /// of both.
   double leastWay = 0;
 };
 
-/// What SheetField says of a point.
+/// Values of a SheetField at a point.
 struct SheetSample {
   double distance = 0;  ///< to the surface, about, mm; negative inside
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, out of the lumen
@@ -65,11 +66,11 @@ public:
   SheetField(const SheetField&) = delete;
   SheetField& operator=(const SheetField&) = delete;
 
-  /// For a cursor that begins at `node` and follows.
+  /// The sample for a cursor that begins at `node` and follows.
   [[nodiscard]] virtual SheetSample at(const Eigen::Vector3d& point, std::uint32_t node) const;
 
-  /// For the sheet of a point whose axis is the nearest in radii, of the one that following from
-  /// `node` leads to and those that touch it.
+  /// The sample of the sheet of a point whose axis is the nearest in radii, among the one that
+  /// following from `node` leads to and those that touch it.
   [[nodiscard]] virtual SheetSample deepest(const Eigen::Vector3d& point, std::uint32_t node) const;
 
   /// Whether two cursors that have followed a point are on one sheet of it.
@@ -97,7 +98,7 @@ public:
   }
 
   /// The point of the surface that Newton's method reaches from `start`, within 1e-4 of the local
-  /// radius; `sample` is what at() says there. With `plane`, a unit vector, it stays in the plane
+  /// radius; `sample`: the values of at() there. With `plane`, a unit vector, it stays in the plane
   /// through `start` normal to it. Nothing if there is no surface near by.
   struct Foot {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -113,14 +114,15 @@ public:
   [[nodiscard]] const SheetOptions& options() const { return m_options; }
 
 private:
-  /// Distance to the wall f = T, and where it grows.
+  /// Distance to the wall f = T, and its gradient.
   struct Wall {
     double distance = 0;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   };
-  /// The way from the axis at a sheet's node: along tree edges, radii in between are linear.
+  /// The position relative to the axis at a sheet's node: along tree edges, radii in between are
+  /// linear.
   struct Axis {
-    double share = 0;                                    ///< of the radius
+    double share = 0;                                    ///< distance as a share of the radius
     double radius = 1;                                   ///< at the foot
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< unit, away from the axis
   };
@@ -129,7 +131,7 @@ private:
   [[nodiscard]] Axis axisOf(const Eigen::Vector3d& point, std::uint32_t node) const;
   /// `sample` kept off the sheet of node `other`.
   void separate(SheetSample& sample, const Eigen::Vector3d& point, std::uint32_t other) const;
-  /// Two sheets' axes, for comparison: what goes first is nearer within its core.
+  /// The axes of two sheets, for comparison: the one with precedence is nearer within its core.
   [[nodiscard]] std::pair<Axis, Axis> axesOf(const Eigen::Vector3d& point, std::uint32_t a,
                                              std::uint32_t b) const;
   [[nodiscard]] SheetSample sampleOf(const Eigen::Vector3d& point, std::uint32_t node) const;
@@ -146,8 +148,8 @@ private:
 
 /// For each node, in CSR form, the nodes whose lumen may touch its own although they are not near
 /// along the tree: their centres are closer than `reach` times the sum of both radii plus `margin`
-/// mm, and the way along the tree is longer than 1.3 times that distance, and than `leastWay` times
-/// the sum of the radii plus `margin`. Symmetric, ascending.
+/// mm, and the path along the tree is longer than 1.3 times that distance, and than `leastWay`
+/// times the sum of the radii plus `margin`. Symmetric, ascending.
 void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double margin,
                        double leastWay, std::vector<std::uint32_t>& offset,
                        std::vector<std::uint32_t>& node);

@@ -27,7 +27,7 @@ public:
   void add(const Triangle& triangle, std::uint32_t group);
   void remove(std::uint32_t triangle);
 
-  /// Drops what was removed, and the vertices that no triangle has; the fans end with it.
+  /// Drops the removed triangles, and the vertices without triangles; the fans end with it.
   void compact();
 
 private:

@@ -15,7 +15,7 @@
 namespace lumen::convert {
 namespace {
 
-// The step by which an edge that is enough is looked for.
+// The factor by which the search for an edge that is enough proceeds.
 constexpr double kCoarser = 1.1, kMostCoarse = 1e15;
 
 std::string shown(const char* format, double value) {
@@ -49,7 +49,7 @@ std::string roundedUp(double value) {
 
 double expectedTriangles(const formats::CenterlineTree& tree, const EdgeLength& edge,
                          const std::optional<Length>& thickness) {
-  const double areaInEdges = std::numbers::sqrt3 / 4;  // of an equilateral triangle
+  const double areaInEdges = std::numbers::sqrt3 / 4;  // area of an equilateral triangle
   double triangles = 0;
   for (std::size_t node = 0; node < tree.nodeCount(); ++node) {
     const double radius = tree.radius[node], length = edgeAt(edge, radius);
@@ -72,7 +72,7 @@ void requireFewTriangles(const formats::CenterlineTree& tree, const EdgeLength& 
   withoutSag.sag = {};
   if (expectedTriangles(tree, withoutSag, thickness) <= kMaxSurfaceTriangles)
     throw invalidInput(found + "a thicker wall has longer edges");
-  // the bound in mm is what makes edges short, unless they are as short without it
+  // the bound in mm makes edges short, unless they are as short without it
   EdgeLength shareAlone = withoutSag;
   shareAlone.maximum = std::numeric_limits<double>::infinity();
   const bool isShare =

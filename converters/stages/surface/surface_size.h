@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How large the surface of a case will be.
+// Estimates of the size of the surface of a case.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,13 @@ namespace lumen::convert {
 /// Triangles that a surface may have, and the memory that one takes while it is made.
 constexpr double kMaxSurfaceTriangles = 1 << 24, kBytesPerTriangle = 400;
 
-/// The number of triangles of the surface of a tree, about, with an outer surface if there is a wall
-/// of that thickness. O(nodes).
+/// The approximate number of triangles of the surface of a tree, with an outer surface if there is
+/// a wall of that thickness. O(nodes).
 double expectedTriangles(const formats::CenterlineTree& tree, const EdgeLength& edge,
                          const std::optional<Length>& thickness);
 
-/// Throws Error(InvalidInput) if more than kMaxSurfaceTriangles are to be expected; the sentence has the
-/// numbers, and an edge or a thickness that is enough.
+/// Throws Error(InvalidInput) if more than kMaxSurfaceTriangles are to be expected; the sentence
+/// states the numbers, and an edge or a thickness that is enough.
 void requireFewTriangles(const formats::CenterlineTree& tree, const EdgeLength& edge,
                          const std::optional<Length>& thickness);
 

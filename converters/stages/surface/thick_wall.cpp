@@ -21,7 +21,7 @@ namespace {
 
 using Rims = std::vector<std::vector<std::uint32_t>>;
 
-// Both surfaces in one, without the faces of their flat ends.
+// One surface of both, without the faces of their flat ends.
 CaseSurface bothWalls(const CaseSurface& inner, const CaseSurface& outer) {
   CaseSurface both;
   both.groups = {{"wall", FaceKind::Wall}, {"outer-wall", FaceKind::Wall}};

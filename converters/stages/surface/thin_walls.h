@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where vessels that touch leave less room than their walls need.
+// Walls between touching vessels that are thinner than asked for.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 namespace lumen::convert {
 
 /// A sentence for each pair of branches between which the wall whose outer surface is `outer` is
-/// thinner than was asked, with the least thickness and its place, mm, LPS; the thinnest first, five
-/// at most, then how many more there are.
+/// thinner than was asked, with the least thickness and its place, mm, LPS; the thinnest first, at
+/// most five, then the number of further ones.
 std::vector<std::string> thinWalls(const CaseSurface& outer, const OffsetField& field);
 
 }  // namespace lumen::convert

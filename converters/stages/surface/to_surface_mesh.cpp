@@ -21,8 +21,8 @@ Float3 toFloat3(const Eigen::Vector3d& v) {
   return {f.x(), f.y(), f.z()};
 }
 
-/// Sums of the normals of triangles, by their areas: first of the wall, then, where there is none, of
-// ends.
+/// Sums of the normals of triangles, by their areas: those of the wall, and those of ends where
+/// there is none.
 std::vector<Eigen::Vector3d> normalsOf(const CaseSurface& surface) {
   const std::vector<Eigen::Vector3d>& position = surface.mesh.position;
   std::vector<Eigen::Vector3d> normal(position.size(), Eigen::Vector3d::Zero());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a case as writers of meshes take it.
+// The surface of a case in the form for writers of meshes.
 #pragma once
 
 #include "converters/base/progress.h"
@@ -9,9 +9,10 @@
 
 namespace lumen::convert {
 
-/// The same vertices, triangles and groups, with the labels of the case that `field` is of, and at
-/// each vertex the radius and the inlier rate of its place along the vessel. Normals are those of
-/// the field, outward; of vertices within a flat end that of the end. Throws Error(Cancelled).
+/// A surface as a mesh for writers: its vertices, triangles and groups, the labels of the case that
+/// `field` is of, and at each vertex the radius and the inlier rate of its place along the vessel.
+/// Normals are those of the field, outward; vertices within a flat end have the end's. Throws
+/// Error(Cancelled).
 SurfaceMesh toSurfaceMesh(const CaseSurface& surface, const SheetField& field, Progress& progress);
 
 }  // namespace lumen::convert

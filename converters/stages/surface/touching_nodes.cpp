@@ -12,7 +12,7 @@
 namespace lumen::convert {
 namespace {
 
-// Longer ways than this many distances lead round a bend, or through a fork.
+// Paths longer than this many distances lead round a bend, or through a fork.
 constexpr double kDetour = 1.3;
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
@@ -55,7 +55,7 @@ private:
   std::map<Cell, std::vector<std::uint32_t>> m_cell;
 };
 
-// Ways along the tree from one node, as far as they matter.
+// Paths along the tree from one node, up to the lengths that matter.
 class Ways {
 public:
   Ways(const formats::CenterlineTree& tree, const formats::Neighbours& edges)
@@ -75,7 +75,7 @@ public:
       }
     }
   }
-  // Negative if farther than was asked for.
+  // Negative if the path is longer than the requested length.
   [[nodiscard]] double to(std::uint32_t node) const { return m_way[node]; }
 
 private:
@@ -101,7 +101,7 @@ void findTouchingNodes(const formats::CenterlineTree& tree, double reach, double
   for (std::uint32_t i = 0; i < count; ++i) {
     const double own = tree.radius[i], farthest = 2 * reach * own + margin;
     ways.from(i, std::max(kDetour * farthest, leastWay * (2 * own + margin)));
-    // wide nodes look for narrow ones, not the other way round
+    // wide nodes search for narrow ones, not the reverse
     grid.visitNear(i, farthest, [&](std::uint32_t j) {
       const double sum = own + tree.radius[j];
       if (tree.radius[j] > own || (tree.radius[j] == own && j >= i)) return;

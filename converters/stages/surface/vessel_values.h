@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a tree says of a place on the wall.
+// Values of a tree at a place on the wall.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct VesselValues {
   std::optional<float> confidence;  ///< the inlier rate, in [0, 1]; nothing if the tree has none
 };
 
-/// Those of the nodes, linear along the edges of the tree that end in `node`, at the point of these
-/// edges nearest to `point`, mm, LPS.
+/// The values of the nodes, linear along the edges of the tree that end in `node`, at the point of
+/// these edges nearest to `point`, mm, LPS.
 VesselValues vesselAt(const formats::CenterlineTree& tree, const formats::Neighbours& edges,
                       const Eigen::Vector3d& point, std::uint32_t node);
 

@@ -42,7 +42,7 @@ bool isInLumen(const TrackedBranch& parent, const TrackedNode& node) {
 }
 
 /// A node from one of several guesses, each with several radii: the first that leads on and is not
-/// in the lumen of `parent`, else the one that goes on farthest; well fitted ones before others.
+/// in the lumen of `parent`, else the one whose track is longest; well fitted ones before others.
 BranchStart startBeside(TrackRun& run, const TrackedBranch& parent,
                         std::span<const NodeGuess> guesses, std::span<const double> radii) {
   const TrackOptions& options = run.context.options;

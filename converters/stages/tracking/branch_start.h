@@ -13,7 +13,7 @@
 
 namespace lumen::convert {
 
-/// The first nodes of a branch, away from its parent, or the reason why there are none.
+/// The first nodes of a branch, away from its parent, or the reason for their absence.
 struct BranchStart {
   std::vector<TrackedNode> nodes;
   int parentNode = -1;    ///< node of the parent to which the first of them is joined

@@ -8,8 +8,8 @@
 namespace lumen::convert {
 namespace {
 
-/// mm^2, twice the parallelogram of the three points: below it they lie on a line, as near as
-/// single precision tells.
+/// mm^2: twice the parallelogram of three points, below which they lie on a line within single
+/// precision.
 constexpr float kOnALine = 1e-12F;
 
 }  // namespace

@@ -31,7 +31,7 @@ void circlesThrough(CircleBlock& block, float low, float high);
 /// Points within `band` of the circle, by squared distances: low2 <= |p - centre|^2 <= high2.
 int countInBand(const float* u, const float* v, std::size_t count, float centreU, float centreV,
                 float low2, float high2);
-/// The same, one point at a time: the reference for countInBand.
+/// Points within the band of a circle, one at a time: the reference for countInBand.
 int countInBandReference(const float* u, const float* v, std::size_t count, float centreU,
                          float centreV, float low2, float high2);
 

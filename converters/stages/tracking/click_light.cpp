@@ -11,11 +11,10 @@
 namespace lumen::convert {
 namespace {
 
-/// Places that are compared with, and the share of them that may stand out: vessels fill less of a
-/// volume.
+/// Places for comparison, and the share of them that may stand out: vessels fill less of a volume.
 constexpr std::size_t kPlaces = 200;
 constexpr double kOutstanding = 0.1;
-/// Multiple of the contrast of those places: noise alone comes up to it, and stays below twice of it.
+/// Multiple of the contrast of those places: noise alone reaches it, and stays below twice of it.
 constexpr double kClear = 2;
 /// Stream of the random numbers; those of the branches count up from 0.
 constexpr std::uint64_t kStream = ~std::uint64_t{1};

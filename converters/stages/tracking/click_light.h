@@ -12,10 +12,12 @@
 
 namespace lumen::convert {
 
-/// Judges clicks by how much they stand out of what is around them, as few places of a volume do.
+/// Judges clicks by their contrast with their surroundings, compared with that of places all over
+/// the volume.
 class ClickLight {
 public:
-  /// All must stay. Throws Error(Cancelled).
+  /// Samples the contrast of the volume. The arguments must outlive the object. Throws
+  /// Error(Cancelled).
   ClickLight(const Volume& volume, const TrackOptions& options, const Progress& progress);
 
   /// The seeds whose first point lies in a vessel, as far as its contrast shows. Throws

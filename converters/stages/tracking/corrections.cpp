@@ -18,8 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The most nodes that are measured, for the time it takes, and the fewest for which a median means
-/// anything.
+/// The most nodes that are measured, to bound the time, and the fewest for a meaningful median.
 constexpr std::size_t kMostNodes = 256, kFewestNodes = 8;
 /// Radii whose walls are measured, the second if there are too few of the first. Wider walls are
 /// flatter, and less of the far wall shows in their profiles.
@@ -38,7 +37,7 @@ constexpr double kLevelReachVoxels = 2.5;
 constexpr double kLopsidedVoxels = 0.05;
 /// The largest move of a wall to the half level, in radii.
 constexpr double kLopsidedRadii = 0.1;
-constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // of the Gaussian exp(-x^2/2)
+constexpr double kWidthAtHalfHeight = 2.3548200450309493;  // width of the Gaussian exp(-x^2/2)
 
 /// The last partial denominator of the continued fraction: it has converged to all digits for the
 /// arguments that occur, w < (q + 1)^2 with q <= kNearlyFlat.
@@ -202,8 +201,8 @@ std::vector<const TrackedNode*> widestNodes(std::span<const TrackedBranch* const
   return even;
 }
 
-/// The largest shift of a centre, in radii. Vessels whose bends ask for more are bent too sharply
-/// for a circle to show by how much.
+/// The largest shift of a centre, in radii. Vessels whose bends require more are bent too sharply
+/// for a circle to determine the shift.
 constexpr double kLargestShiftRadii = 0.1;
 
 /// The curvature at node `n`, 1/mm, towards the middle of the bend; zero where the chain is too

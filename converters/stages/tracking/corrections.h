@@ -15,11 +15,12 @@ namespace lumen::convert {
 /// has its steepest fall at the distance `seen` from its axis (all in one unit). The blurred disc
 /// of radius R falls by (R/s^2) exp(-(r^2 + R^2)/(2 s^2)) I1(r R/s^2), which is steepest where z
 /// I0(z)/I1(z) = (r/s)^2 + 1 with z = r R/s^2: about s^2/(2R) inside of the wall, and never nearer
-/// to the axis than s. There the radius cannot be told; the least that is returned is seen / 2.
+/// to the axis than s. Nearer falls do not determine the radius; the least that is returned is seen
+/// / 2.
 double cylinderRadius(double seen, double sigma);
 
 /// The radius of the ball that has its steepest fall at the distance `seen` from its centre. Its
-/// wall is bent both ways, so that the fall is about s^2/R inside.
+/// wall is bent in both directions, so that the fall is about s^2/R inside.
 double ballRadius(double seen, double sigma);
 
 /// The mean shape of the walls of tracked vessels.
@@ -28,9 +29,9 @@ struct WallShape {
   /// the width at half height of the derivative of the profile. It holds the voxel's own box and
   /// the spline as well as the scanner.
   double pointSpread = 0;
-  /// mm, outward of the steepest fall: where the intensity is halfway between lumen and background,
-  /// less what the blur of a round wall makes of that. 0 for an even lumen; less than 0 where it
-  /// darkens towards its wall.
+  /// mm, outward of the steepest fall: the place where the intensity is halfway between lumen and
+  /// background, less the displacement by the blur of a round wall. 0 for an even lumen; less than
+  /// 0 where it darkens towards its wall.
   double halfLevel = 0;
 };
 

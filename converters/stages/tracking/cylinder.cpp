@@ -19,17 +19,19 @@ using Eigen::Vector3d;
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
-/// Of the expected radius: a vessel's width does not change by more from one step to the next.
+/// Bounds on the radius, in expected radii: a vessel's width does not change by more from one step
+/// to the next.
 constexpr double kLeastRadius = 0.5, kMostRadius = 1.5;
 
 /// RANSAC trials after which an axis may be given up: three of four good points in ten are drawn
 /// with 98 %.
 constexpr int kFirstLook = 64;
-/// Of the inliers that an axis needs: with fewer at the first look, it will not get there.
+/// Share of the inliers needed by an axis that its first look must find; with fewer, it is given
+/// up.
 constexpr double kPromising = 0.75;
 /// Chance that three inliers of the best circle were never drawn together when trials end.
 constexpr double kMissed = 1e-4;
-/// The least chance of a draw that is reckoned with: below it, trials go on to their bound.
+/// The least chance of a draw that counts: below it, trials continue to their bound.
 constexpr double kLeastChance = 1e-6;
 
 /// Least squares: rounds that choose inliers anew, and Gauss-Newton steps in each; both converge
@@ -37,7 +39,8 @@ constexpr double kLeastChance = 1e-6;
 constexpr int kRounds = 3, kSteps = 8;
 /// Relative decrease of the squares below which a round has converged.
 constexpr double kConverged = 1e-6;
-/// Of the start's radius: a fit that leaves this range has gone to another wall.
+/// Bounds on the refined radius, in radii of the start: a fit that leaves them has moved to another
+/// wall.
 constexpr double kLeastRefined = 0.5, kMostRefined = 2.0;
 /// Levenberg damping, of the normal matrix' trace: a short set of points leaves the tilt free, and
 /// this keeps it where it is.
@@ -116,10 +119,10 @@ Circle betterCircle(const CircleBlock& block, const CylinderWorkspace& points, f
   return best;
 }
 
-/// RANSAC over circles through three of the projected points (Yureidini's thesis, algorithm
-/// 2), in blocks. Beyond the least number of trials it ends when a circle is accepted, or when
-/// three of the best circle's inliers have been drawn with near certainty (Fischler and Bolles,
-/// 1981). It ends early where a first look says that `needed` inliers are out of reach.
+/// RANSAC over circles through three of the projected points (Yureidini's thesis, algorithm 2), in
+/// blocks. Beyond the least number of trials it ends when a circle is accepted, or when three of
+/// the best circle's inliers have been drawn with near certainty (Fischler and Bolles, 1981). It
+/// ends early where a first look shows that `needed` inliers are out of reach.
 Circle bestCircle(const CylinderSearch& search, const CylinderWorkspace& points, double rho,
                   double needed, Random& random) {
   const auto count = static_cast<std::uint32_t>(points.u.size());

@@ -25,7 +25,7 @@ struct Cylinder {
   double inlierRate = 0;                             ///< in [0, 1]
 };
 
-/// How cylinders are searched for. Only read: any number of threads may share one.
+/// Parameters of the search for cylinders. Only read: any number of threads may share one.
 struct CylinderSearch {
   explicit CylinderSearch(const TrackOptions& options);
 
@@ -35,7 +35,7 @@ struct CylinderSearch {
   std::vector<Eigen::Vector3d> sphere;  ///< an icosphere; half of it are the axes
 };
 
-/// What a cylinder is expected to be like.
+/// The expected direction and radius of a cylinder.
 struct ExpectedCylinder {
   Eigen::Vector3d direction;  ///< unit
   double radius = 0;          ///< rho, mm
@@ -51,9 +51,9 @@ struct CylinderWorkspace {
 
 /// The best cylinder through `points` that holds their origin, with an axis within 90 degrees of
 /// the expected direction and a radius in [rho/2, 3 rho/2]: the first axis, by increasing angle,
-/// whose rate reaches the accepted one; else the best of all, where `smooth` says that a rate at an
-/// angle a from the direction counts (1 + cos a)/2 of itself (its rate may be anything; 0 and no
-/// radius if none is valid). Refined to least squares on its inliers.
+/// whose rate reaches the accepted one; else the best of all. With `smooth` a rate at an angle a
+/// from the direction is weighted by (1 + cos a)/2. The rate of the result may be anything; it is
+/// 0, without a radius, if no cylinder is valid. Refined to least squares on its inliers.
 Cylinder estimateCylinder(const CylinderSearch& search, const Candidates& points,
                           const ExpectedCylinder& expected, Random& random,
                           CylinderWorkspace& workspace);

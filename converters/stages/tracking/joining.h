@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From tracks to one lumen: gaps within a branch are filled, and every child is led to its parent's
-// axis (docs/method.md, section 1.12).
+// Conversion of tracks to one lumen: gaps within a branch are filled, and every child is led to its
+// parent's axis (docs/method.md, section 1.12).
 #pragma once
 
 #include <cstddef>

@@ -64,7 +64,7 @@ Path smoothed(const TrackContext& context, const LumenLevels& levels,
 }
 
 /// The lumen that a path has passed when it comes to a voxel: its own only, another vessel's, or
-/// that and its own again.
+/// another's and then its own again.
 enum class PathPart : std::uint8_t { Own, Other, Beyond, Closed };
 
 /// The parts of the paths of a search, and their lengths.

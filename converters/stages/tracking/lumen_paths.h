@@ -15,7 +15,7 @@
 
 namespace lumen::convert {
 
-/// Intensities, bright or dark as the vessels are: of the lumen's middle, and halfway down its wall.
+/// Intensities of the lumen's middle, and halfway down its wall, bright or dark as the vessels are.
 struct LumenLevels {
   double middle = 0, wall = 0;
 };

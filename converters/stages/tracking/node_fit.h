@@ -15,7 +15,7 @@
 
 namespace lumen::convert {
 
-/// Place and size at which a node is looked for.
+/// Place and size of the search for a node.
 struct NodeGuess {
   Eigen::Vector3d centre, direction;  ///< mm, LPS; unit
   double radius = 0;                  ///< mm
@@ -47,8 +47,8 @@ struct NodeFit {
 /// True if `a` came nearer to success than `b`.
 bool isNearer(const NodeFit& a, const NodeFit& b);
 
-/// The reason why nothing was accepted, with the numbers that decided and advice; follows "at the
-/// seed ".
+/// The reason why nothing was accepted, with the numbers that decided and advice; continues a
+/// sentence after "at the seed ".
 std::string failureText(const TrackContext& context, const NodeFit& best);
 
 /// The least inlier rate of any node: half of the one that accepts a cylinder at once.

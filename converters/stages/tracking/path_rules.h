@@ -33,8 +33,9 @@ bool isSwollen(const TrackOptions& options, std::span<const TrackedNode> nodes,
                const TrackedNode& next);
 
 /// The number of nodes before the place where a track that `next` would lead back onto itself has
-/// turned round; empty if `next` does not lead back. It does if it is behind the last node, or in
-/// the core of an earlier one although the track from there is longer than a bend of a vessel.
+/// turned round; empty if `next` does not lead back. It leads back if it is behind the last node,
+/// or in the core of an earlier one although the track from there is longer than a bend of a
+/// vessel.
 std::optional<std::size_t> findTurningPoint(std::span<const TrackedNode> nodes,
                                             const TrackedNode& next);
 

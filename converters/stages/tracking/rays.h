@@ -11,8 +11,8 @@
 
 namespace lumen::convert {
 
-/// Length of the rays that look for the wall of a vessel, in radii expected of it (thesis section
-/// 3.3): those that reach a wall twice as far as expected still see it whole.
+/// Length of the rays that find the wall of a vessel, in expected radii (thesis section 3.3): rays
+/// that reach a wall twice as far as expected still show it whole.
 constexpr double kRayRadii = 3.0;
 
 /// Wall candidates as a structure of arrays, in mm relative to `origin` (LPS mm).
@@ -35,7 +35,7 @@ public:
 
   /// Rays of `length` mm from `centre` (LPS mm). On each, the place where the intensity falls
   /// fastest, refined between samples by a parabola, if its distance t holds length/12 <= t <= 0.8
-  /// length. What lies outside the volume is not seen.
+  /// length. Walls outside the volume are not found.
   void cast(const Eigen::Vector3d& centre, double length, Candidates& out);
 
   [[nodiscard]] std::size_t rayCount() const { return m_directions.size(); }

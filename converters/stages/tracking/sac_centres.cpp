@@ -14,10 +14,10 @@ using Eigen::Vector3d;
 /// Radii of the greatest ball around a centre: wall that is farther away is another part's, and how
 /// near the centre of that part comes to it.
 constexpr double kCover = 2, kNearby = 1.25;
-/// Centres that are added to one sac, and points of the wall that each must be nearest to, by
-/// power: a node without any would have nothing to say.
+/// The most centres that are added to one sac, and the fewest points of the wall that each must be
+/// nearest to, by power: a node without any would determine nothing.
 constexpr std::size_t kMostCentres = 32, kFewestOwned = 20;
-/// Places that are looked at in vain or not, for the time it takes.
+/// The most places that are examined, to bound the time.
 constexpr std::size_t kMostTurns = 128;
 /// Voxels: from the nearest voxel outside to the wall.
 constexpr double kRim = 0.5;

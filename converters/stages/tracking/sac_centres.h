@@ -11,9 +11,9 @@
 namespace lumen::convert {
 
 /// Balls within a region for the parts of its `wall` that are more than half a radius outside of
-/// the greatest balls around the sac's `nodes`, but for parts that only balls narrower than `least`
-/// mm reach, and such as hardly have a place that is nearer to them than to the nodes, by power.
-/// mm, LPS. Throws Error(Cancelled).
+/// the greatest balls around the sac's `nodes`. Parts that only balls narrower than `least` mm
+/// reach get none; balls with hardly a place that is nearer to them than to the nodes, by power,
+/// are left out. mm, LPS. Throws Error(Cancelled).
 std::vector<SacBall> furtherCentres(const TrackContext& context, const SacRegion& region,
                                     std::span<const Eigen::Vector3d> wall,
                                     std::span<const SacBall> nodes, double least);

@@ -15,10 +15,9 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// Of the least ball's radius: half of the width of a way that leads on within the sac.
+/// Half of the width of a passage that continues within the sac, in radii of the least ball.
 constexpr double kHalfWay = 0.25;
-/// Voxels: how far beyond what a ball of half a way's width reaches the sac still goes, for
-/// corners.
+/// Voxels: extent of the sac beyond the reach of a ball of half a passage's width, for corners.
 constexpr double kCorner = 1.5;
 /// Voxels in a box: beyond, a radius was mistyped.
 constexpr std::size_t kMostInBox = std::size_t{1} << 24;
@@ -28,12 +27,13 @@ constexpr auto kProfile = static_cast<std::size_t>((kInward + kOutward) / kProfi
 /// Samples before and behind a place whose difference is the fall there: half a voxel apart.
 constexpr std::size_t kHalfFall = 2;
 
-/// Voxels between two looks at whether the user has cancelled, less one.
+/// Voxels between two checks for cancelling, less one.
 constexpr std::size_t kOften = 4095;
 
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 
-/// Marks with `reached` what is joined to the places in `queue` by faces of voxels marked `open`.
+/// Marks with `reached` the voxels that are joined to the places in `queue` by faces of voxels
+/// marked `open`.
 void flood(const CellBox& box, std::vector<std::uint8_t>& mark, std::uint8_t open,
            std::uint8_t reached, std::vector<std::size_t> queue) {
   std::erase_if(queue, [&](std::size_t place) { return mark[place] != open; });

@@ -35,16 +35,18 @@ struct SacBall {
   double radius;
 };
 
-/// Radii of a ball: the farthest wall that belongs to the same sac, as on rays (rays.h).
+/// Distance of the farthest wall that belongs to a ball's sac, in radii of the ball, as on rays
+/// (rays.h).
 constexpr double kSacReach = 2.4;
 
-/// Half of the width of a way that leads on within the sac of some balls, mm.
+/// Half of the width of a passage that continues within the sac of some balls, mm.
 double leastPassage(std::span<const SacBall> balls);
 
-/// What is brighter than `wallLevel` (darker, for dark vessels), in no vessel, and joined to the
-/// balls' centres by ways at least half of the least ball's radius wide, up to kSacReach radii from
-/// one of them. Holes within the lumen belong to it. `inVessel`: for places in LPS mm. Empty if no
-/// ball holds any, or if the box around them has too many voxels. Throws Error(Cancelled).
+/// The voxels of a sac: brighter than `wallLevel` (darker, for dark vessels), in no vessel, and
+/// joined to the balls' centres by passages at least half of the least ball's radius wide, up to
+/// kSacReach radii from one of them. Holes within the lumen belong to it. `inVessel`: for places in
+/// LPS mm. Empty if no ball holds any, or if the box around them has too many voxels. Throws
+/// Error(Cancelled).
 std::optional<SacRegion> growSac(const TrackContext& context, double wallLevel,
                                  std::span<const SacBall> balls,
                                  const std::function<bool(const Eigen::Vector3d&)>& inVessel);
@@ -57,8 +59,8 @@ struct SacWall {
 };
 SacWall wallOf(const TrackContext& context, const SacRegion& region);
 
-/// Points that are at least `apart` mm from each other, so many that each of `points` has one at
-/// most as far away.
+/// A subset of the points whose members are at least `apart` mm from each other, such that each of
+/// `points` has a member at most as far away.
 std::vector<Eigen::Vector3d> thinnedOut(std::span<const Eigen::Vector3d> points, double apart);
 
 }  // namespace lumen::convert

@@ -24,7 +24,7 @@ using formats::NodeOrigin;
 
 /// Distances from its axis, in radii, at which a tube has no lumen any more.
 constexpr double kAroundTubeRadii[] = {1.25, 1.5};
-/// Share of the directions around an axis: where the lumen goes on in more of them, there is no
+/// Share of the directions around an axis: where the lumen continues in more of them, there is no
 /// tube.
 constexpr double kOpenShare = 1.0 / 3.0;
 constexpr int kDirections = 24;
@@ -52,7 +52,8 @@ struct Piece {
   }
 };
 
-/// The new aneurysms that hang on one another with their vessels, for each that hangs on none.
+/// The new aneurysms that are joined to one another, with their vessels, for each that is joined to
+/// none.
 std::vector<Sac> sacsOf(const TrackedTree& tree) {
   const std::vector<TrackedBranch>& all = tree.branches;
   const auto isVessel = [&](int i) { return i >= 0 && tree.isVessel(static_cast<std::size_t>(i)); };
@@ -135,7 +136,7 @@ std::vector<Piece> boundsOf(const TrackContext& context, double wallLevel, const
   return pieces;
 }
 
-/// Wall points of a region that are as strong as is asked, evenly spread.
+/// Wall points of a region whose strength is at least the required one, evenly spread.
 std::vector<Vector3d> pointsOf(const TrackContext& context, const SacRegion& region) {
   const SacWall wall = wallOf(context, region);
   std::vector<Vector3d> strong;

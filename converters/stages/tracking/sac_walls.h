@@ -11,8 +11,8 @@ namespace lumen::convert {
 /// Gives the nodes of every new aneurysm the whole wall of its sac, lobes included, up to the
 /// vessels that open into it. Nodes of these vessels in the sac or at its neck, known ones
 /// included, get the wall that is nearest to them, and lose points within the lumen, which would be
-/// a wall across it. An aneurysm that hangs on another is one sac with it; known aneurysms bound
-/// the new ones. Where no sac is found, nodes keep the points that rays saw. Throws
+/// a wall across it. An aneurysm that is joined to another is one sac with it; known aneurysms
+/// bound the new ones. Where no sac is found, nodes keep the points that rays found. Throws
 /// Error(Cancelled).
 void captureSacs(const TrackContext& context, TrackedTree& tree);
 

@@ -23,20 +23,21 @@ constexpr int kRays = 42;
 /// Places that the noise floor is taken from, and the fewest where voxels are so uneven that rays
 /// cross many of them: the spline must be made wherever they go.
 constexpr int kPlaces = 64, kFewestPlaces = 8;
-/// Voxels along the finest axis: rays up to so long are cast from all places.
+/// Voxels along the finest axis: rays up to this length are cast from all places.
 constexpr double kLongRay = 32.0;
-/// Voxels: the radius that noise is measured at. Thin vessels are those that it is mistaken for.
+/// Voxels: the radius that noise is measured at. Noise resembles thin vessels.
 constexpr double kRadiusVoxels = 2.0;
-/// Of the places: vessels and organs lie in the upper three quarters.
+/// Quantile of the places: vessels and organs lie in the upper three quarters.
 constexpr double kEmptyShare = 0.25;
 /// Stream of the random numbers; those of the branches count up from 0.
 constexpr std::uint64_t kStream = ~std::uint64_t{0};
 
-/// Voxels: the rays that see what is around a click.
+/// Voxels: length of the rays that sample the surroundings of a click.
 constexpr int kReach = 16;
-/// Clicks whose contrast is measured: the most, for the time it takes.
+/// The most clicks whose contrast is measured, to bound the time.
 constexpr std::size_t kMostClicks = 256;
-/// Of a ray's samples: what is around a vessel, even if the ray runs along it for a while.
+/// Quantile of a ray's samples that is the vessel's surroundings, even if the ray runs along it for
+/// a while.
 constexpr double kAroundShare = 0.25;
 
 /// Voxels: the smoothing that is tried, least first.
@@ -53,7 +54,7 @@ constexpr double kSampling = 0.5;
 /// Ratio of edges up to which a difference in blur costs less than more blur does.
 constexpr double kBearable = 1.5;
 
-/// How many places the noise floor of a volume is taken from.
+/// The number of places that the noise floor of a volume is taken from.
 std::size_t placesOf(const VolumeGeometry& geometry) {
   const double voxels =
       kRayRadii * kRadiusVoxels * geometry.voxelSize() / geometry.spacing.minCoeff();
@@ -72,7 +73,7 @@ double strengthAround(const BsplineVolume& volume, const TrackOptions& options,
   return points.count() == 0 ? 0.0 : double{lowerQuantile(points.strength, 0.5)};
 }
 
-/// How much a click differs from the lower quartile of what rays around it meet.
+/// The difference between a click and the lower quartile of the samples of rays around it.
 float contrastAt(const BsplineVolume& volume, const Eigen::Vector3d& click, float sign) {
   const VolumeGeometry& geometry = volume.geometry();
   std::vector<float> values(kReach + 1), inside, around;

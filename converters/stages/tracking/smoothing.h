@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How strong noise alone looks to the tracker; how much smoothing a volume needs because of it, and
-// because of thick slices; and the spline of the volume smoothed so (docs/method.md, section 1.8).
+// The apparent strength of noise to the tracker; the smoothing that a volume needs because of it
+// and because of thick slices; and the spline of the smoothed volume (docs/method.md, section 1.8).
 #pragma once
 
 #include <memory>
@@ -21,29 +21,30 @@ namespace lumen::convert {
 double noiseFloor(const BsplineVolume& volume, const TrackOptions& options,
                   const Progress& progress);
 
-/// How much brighter (or darker, if `options.dark`) the vessels are than what is around them, voxel
+/// Excess brightness (or darkness, if `options.dark`) of the vessels over their surroundings, voxel
 /// units: the median over the clicks (256 of them, if there are more) of the difference between a
-/// click and the lower quartile of what rays of sixteen voxels meet. Zero without clicks inside of
-/// the volume.
+/// click and the lower quartile of the samples of rays of sixteen voxels. Zero without clicks
+/// inside of the volume.
 double contrastAtClicks(const BsplineVolume& volume, const std::vector<SeedBranch>& seeds,
                         const TrackOptions& options, const Progress& progress);
 
 /// Standard deviations, mm, of the Gaussian along each index axis: `smoothing`, and if `evenBlur`
-/// what the finer axes need to be about as blurred as one that is more than 1.5 times as coarse.
-/// Without that a round vessel is an ellipse in thick slices, which no cylinder fits. At most what
-/// BsplineVolume takes.
+/// the additional blur that makes the finer axes about as blurred as one that is more than 1.5
+/// times as coarse. Without it a round vessel is an ellipse in thick slices, which no cylinder
+/// fits. At most the limit of BsplineVolume.
 Eigen::Vector3d smoothingAlongAxes(const VolumeGeometry& geometry, double smoothing, bool evenBlur);
 
 struct SmoothedVolume {
   std::unique_ptr<BsplineVolume> spline;
-  double smoothing = 0;   ///< mm, without what makes the blur even
-  double noiseFloor = 0;  ///< of `spline`
+  double smoothing = 0;   ///< mm, without the part that makes the blur even
+  double noiseFloor = 0;  ///< noise floor of `spline`
 };
 
-/// The spline that a volume is tracked in, and its noise floor: smoothed as `options` say, or else
-/// as little as it takes, of steps up to 1.25 voxels, for the wall of a vessel of the clicks'
-/// contrast to be six times as strong as noise; not at all if that takes more, since the clicks are
-/// then on nothing that can be told from noise. The seeds are needed for their contrast only.
+/// The spline that a volume is tracked in, and its noise floor. It is smoothed as `options` state,
+/// or else by the least amount, in steps up to 1.25 voxels, that makes the wall of a vessel of the
+/// clicks' contrast six times as strong as noise; not at all if more is needed, since the clicks
+/// then lie on nothing that can be distinguished from noise. The seeds are needed for their
+/// contrast only.
 SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch>& seeds,
                               const TrackOptions& options, const Progress& progress);
 

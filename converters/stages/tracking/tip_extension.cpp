@@ -54,7 +54,7 @@ PathStart pathStartAtTip(const TrackContext& context, std::span<const TrackedNod
   return start;
 }
 
-/// True if the nodes found along a path belong to the vessel that was tracked so far.
+/// True if the nodes found along a path belong to the vessel of the track.
 bool isSameVessel(std::span<const TrackedNode> before, std::span<const TrackedNode> found) {
   const auto isFitted = [](const TrackedNode& n) { return n.origin == NodeOrigin::Measured; };
   if (found.size() < kLastFittedNodes) return false;
@@ -117,8 +117,8 @@ bool appendAlongPath(TrackRun& run, std::vector<TrackedNode>& nodes, std::span<c
   return false;
 }
 
-/// Appends nodes along a path beyond the tip of a branch, and writes for what length the lumen is
-/// seen to continue.
+/// Appends nodes along a path beyond the tip of a branch, and records the length for which the
+/// lumen is seen to continue.
 bool extendOnce(TrackRun& run, TrackedBranch& branch, std::span<const Ball> others) {
   const TrackContext& context = run.context;
   std::vector<TrackedNode>& nodes = branch.nodes;

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// A branch that starts farther from its parent's axis than this many of the parent's radii may
-/// look the wrong way.
+/// point in the wrong direction.
 constexpr double kBesideRadii = 2.5;
 /// A tip nearer to the parent than this share of the first node's distance is the branch's start.
 constexpr double kWrongEndShare = 0.5;
@@ -29,7 +29,7 @@ BranchStart startAtSeed(TrackRun& run, const SeedBranch& seed, const TrackedBran
                       direction.has_value());
 }
 
-/// The reason why a branch cannot go on from its start; empty if it can.
+/// The reason why a branch cannot continue from its start; empty if it can.
 std::string failureOf(const TrackContext& context, const BranchStart& start,
                       FinishedBranches finished) {
   if (start.nodes.empty())
@@ -41,7 +41,7 @@ std::string failureOf(const TrackContext& context, const BranchStart& start,
 }
 
 /// Leads a track through a further click that it may have missed: tracks from there back to the
-/// track, gives up the nodes beyond the place of meeting, and goes on from the click. Returns the
+/// track, drops the nodes beyond the place of meeting, and continues from the click. Returns the
 /// reason if nothing fits at the click; else an empty text.
 std::string trackThroughClick(TrackRun& run, const SeedPoint& click, TrackedBranch& branch,
                               FinishedBranches finished) {
@@ -58,7 +58,7 @@ std::string trackThroughClick(TrackRun& run, const SeedPoint& click, TrackedBran
   return {};
 }
 
-/// Goes on from a branch's first node, against its direction.
+/// Continues from a branch's first node, against its direction.
 void trackFromFirstNode(TrackRun& run, TrackedBranch& branch, FinishedBranches finished) {
   turnRound(branch);
   trackToEnd(run, branch, finished);
@@ -73,7 +73,7 @@ bool looksBack(const TrackedBranch& parent, const TrackedBranch& branch) {
          last.distance < kWrongEndShare * first.distance;
 }
 
-/// The track from one start, both ways where it has no parent.
+/// The track from one start, in both directions where it has no parent.
 TrackedBranch trackFromStart(TrackRun& run, const SeedBranch& seed, const TrackedBranch* parent,
                              BranchStart start, FinishedBranches finished) {
   TrackedBranch branch;

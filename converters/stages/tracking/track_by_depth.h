@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracking of all vessels, parents before children, and the choice of who keeps a stretch that two
-// of them have tracked (docs/method.md, section 1.7).
+// Tracking of all vessels, parents before children, and the choice of the branch that keeps a
+// stretch which two of them have tracked (docs/method.md, section 1.7).
 #pragma once
 
 #include "converters/base/progress.h"

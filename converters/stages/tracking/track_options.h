@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user may set of the tracker.
+// Options of the tracker.
 #pragma once
 
 #include <cstdint>
@@ -30,20 +30,19 @@ struct TrackOptions {
   /// standard deviation of the blur, mm, by which walls are corrected; 0: not at all; empty:
   /// measured
   std::optional<double> pointSpread;
-  /// standard deviation, mm, of the Gaussian that the volume is smoothed by; empty: what its noise
-  /// asks for
+  /// standard deviation, mm, of the Gaussian that smooths the volume; empty: chosen by its noise
   std::optional<double> smoothing;
   /// Smooth the finer axes of a volume whose coarsest edge is over 1.5 times as long, until all are
   /// about as blurred.
   bool evenBlur = true;
   int maxNodes = 20000;    ///< bound on nodes in one branch
   bool dark = false;       ///< vessels are darker than their background
-  std::uint64_t seed = 1;  ///< of the random numbers
+  std::uint64_t seed = 1;  ///< seed of the random numbers
 
-  /// Adds the rows of all values above, which are stored in this object.
+  /// Adds a row for each value above, stored in this object.
   void addRows(OptionTable& table);
-  /// Throws Error(InvalidInput) if a value is out of range for a volume whose voxels' smallest edge is
-  /// `smallestEdge` mm.
+  /// Throws Error(InvalidInput) if a value is out of range for a volume whose voxels' smallest edge
+  /// is `smallestEdge` mm.
   void check(double smallestEdge) const;
   /// The values that are set, by option name, as a case stores them.
   [[nodiscard]] std::map<std::string, formats::ParameterValue> parameters() const;

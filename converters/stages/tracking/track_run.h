@@ -18,8 +18,8 @@
 
 namespace lumen::convert {
 
-/// Data that all tracks of one volume share. Any number of threads may read one. Whatever it refers
-/// to must outlive it.
+/// Data that all tracks of one volume share. Any number of threads may read one. The referenced
+/// objects must outlive it.
 struct TrackContext {
   TrackContext(const BsplineVolume& theVolume, const TrackOptions& theOptions, double theNoiseFloor,
                const Progress& theProgress)

@@ -90,7 +90,7 @@ std::vector<TrackedNode> fitPair(TrackRun& run, std::span<const TrackedNode> nod
   return {std::move(*first), std::move(*second)};
 }
 
-/// The two nodes of the nearest place ahead of a track that it may go on to; empty if there is
+/// The two nodes of the nearest place ahead of a track where it may continue; empty if there is
 /// none.
 std::vector<TrackedNode> findPairAhead(TrackRun& run, std::span<const TrackedNode> nodes) {
   const TrackContext& context = run.context;

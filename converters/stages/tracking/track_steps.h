@@ -14,11 +14,11 @@ namespace lumen::convert {
 void trackToEnd(TrackRun& run, TrackedBranch& branch, FinishedBranches finished);
 
 /// The nodes from `goal` to `start`, in that order, by tracking from `start` against its direction;
-/// `start` alone if that does not lead to `goal`, or along a path too long to be believed.
+/// `start` alone if this does not lead to `goal`, or along an implausibly long path.
 std::vector<TrackedNode> trackBackTo(TrackRun& run, const TrackedNode& start,
                                      const TrackedBranch& goal);
 
-/// Steps that a track must go on for from its start; noise goes on for one or two.
+/// Steps that a track must reach from its start; in noise it goes on for one or two.
 constexpr int kTrialSteps = 4;
 /// The number of steps, at most kTrialSteps, that a track from a node which was fitted to a guess
 /// goes on outside of the lumen of `parent`, which may be null.

@@ -26,9 +26,9 @@ struct TrackedNode {
 
 struct TrackedBranch {
   std::vector<TrackedNode> nodes;  ///< in order, away from the parent; empty if nothing was tracked
-  std::size_t clickNode = 0;       ///< the one that was fitted at the seed's first point
+  std::size_t clickNode = 0;       ///< the node that was fitted at the seed's first point
   formats::StopReason stopReason = formats::StopReason::Unknown;  ///< at its last node
-  /// at its first node, if it was tracked both ways from a click
+  /// stop reason at its first node, if it was tracked in both directions from a click
   formats::StopReason startReason = formats::StopReason::Unknown;
   double goesOn = 0;       ///< mm for which the lumen is seen to continue beyond the last node
   double startGoesOn = 0;  ///< mm for which it is seen to continue beyond the first node

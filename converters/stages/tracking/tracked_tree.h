@@ -42,7 +42,7 @@ formats::Case caseOfTracks(const TrackedTree& tree);
 /// An end of a tracked vessel, and the reason for it.
 struct TrackEnd {
   std::string label;
-  bool isStart = false;  ///< the other end of a root that was tracked both ways
+  bool isStart = false;  ///< the other end of a root that was tracked in both directions
   formats::StopReason reason = formats::StopReason::Unknown;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< mm, LPS
   /// least length, mm, for which the lumen is seen to continue from there; 0 if it ends

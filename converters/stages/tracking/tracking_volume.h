@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A volume in which vessels are tracked again and again, with the data that every track needs.
+// A volume in which vessels are tracked repeatedly, with the data that every track needs.
 #pragma once
 
 #include <optional>
@@ -21,11 +21,11 @@ namespace lumen::convert {
 /// displacement of its walls. Any number of threads may track in one. The volume must outlive it.
 class TrackingVolume {
 public:
-  /// For a case that was tracked in this volume: smoothed as its last "track" step states, with
-  /// that step's options. Throws as trackCase() does, and Error(InvalidInput) if the case has no
-  /// such step.
+  /// Prepares the volume for a case that was tracked in it: smoothed as its last "track" step
+  /// states, with that step's options. Throws as trackCase() does, and Error(InvalidInput) if the
+  /// case has no such step.
   TrackingVolume(const Volume& volume, const formats::Case& tracked, Progress& progress);
-  /// For a volume without a case: smoothed as the noise around these clicks requires.
+  /// Prepares a volume without a case: smoothed as the noise around these clicks requires.
   TrackingVolume(const Volume& volume, const std::vector<SeedBranch>& clicks,
                  const TrackOptions& options, Progress& progress);
 

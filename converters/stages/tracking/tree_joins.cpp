@@ -20,7 +20,7 @@ using formats::StopReason;
 
 /// An end that met another vessel lies within this many of its radii.
 constexpr double kAtEndRadii = 1.5;
-/// Cosine of 45 degrees, the angle within which an end looks at something.
+/// Cosine of 45 degrees, the largest angle between the direction of an end and its target.
 constexpr double kAheadCosine = 0.7;
 /// Largest radius of a root that may be joined by its tip, in radii of the other vessel.
 constexpr double kNoWiderRadii = 1.2;
@@ -56,7 +56,7 @@ public:
       i = static_cast<std::size_t>(m_tree.branches[i].parentBranch);
     return i;
   }
-  /// Links to the root, without those from a tail to what it was taken from.
+  /// Links to the root, without those from a tail to the vessel it was taken from.
   [[nodiscard]] int levelOf(std::size_t i) const {
     int level = 0;
     for (; m_tree.branches[i].parentBranch >= 0;
@@ -135,8 +135,8 @@ void extendTipsIf(const TrackContext& context, const Vessels& vessels,
   trimExtensions(vessels, before);
 }
 
-/// The vessel of another tree that an end of a root has met, or that it stopped before and looks
-/// at; -1 if there is none. `end` looks outward.
+/// The vessel of another tree that an end of a root has met, or that it stopped before and points
+/// to; -1 if there is none. `end` points outward.
 int metAt(const Vessels& vessels, std::size_t root, const TrackedNode& end, StopReason reason) {
   if (reason == StopReason::Unknown || reason == StopReason::LeftVolume) return -1;
   int best = -1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From tracks to trees: tips are extended as far as the lumen goes, gaps filled, children led to
-// their parents (docs/method.md, section 1.12).
+// Conversion of tracks to trees: tips are extended as far as the lumen continues, gaps filled,
+// children led to their parents (docs/method.md, section 1.12).
 #pragma once
 
 #include "converters/stages/tracking/track_run.h"
@@ -8,7 +8,7 @@
 
 namespace lumen::convert {
 
-/// Extends all vessels from the ends at which they found nothing, as far as the lumen goes on and
+/// Extends all vessels from the ends at which they found nothing, as far as the lumen continues and
 /// is not another vessel's. A stretch that two of them find belongs to the earlier one. Known
 /// branches stay as they are. Throws Error(Cancelled).
 void extendTips(const TrackContext& context, TrackedTree& tree);

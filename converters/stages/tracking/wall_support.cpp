@@ -17,18 +17,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the radius: how far out the inside is sampled. The band of inliers ends at nine tenths.
+/// Extent of the sampled inside, in radii. The band of inliers ends at nine tenths.
 constexpr double kInside = 0.8;
-/// Sections along the axis, and rings of a section, each with so many samples more than the last:
-/// every sample stands for the same area.
+/// Sections along the axis, rings of a section, and samples of the first ring, by which number each
+/// ring exceeds the last: every sample represents the same area.
 constexpr int kSections = 3, kRings = 3, kOnFirstRing = 6;
-/// Of the half height: where the outer sections lie. Farther out a bend leaves the cylinder.
+/// Place of the outer sections, in half heights. Farther out a bend leaves the cylinder.
 constexpr double kOuterSection = 0.5;
-/// Of the inside: more that is dark is another shape. A circle around the longer axis of an ellipse
-/// of axes 3:2, which is a vessel, is dark by a third; one that two touching discs of equal size
+/// Largest dark share of the inside of one vessel. A circle around the longer axis of an ellipse of
+/// axes 3:2, which is a vessel, is dark by a third; a circle that two touching discs of equal size
 /// share with the gap between them, by a half.
 constexpr double kMostDark = 0.28;
-/// Steps to the middle of a lumen, and of the radius: how far samples attract.
+/// The most steps to the middle of a lumen, and the reach of a sample's attraction, in radii.
 constexpr int kShifts = 8;
 constexpr double kAttraction = 0.4;
 
@@ -47,7 +47,7 @@ double wallLevel(const BsplineVolume& volume, const TrackedNode& node, double si
   return values.empty() ? -std::numeric_limits<double>::infinity() : median(std::move(values));
 }
 
-/// Evenly over the inside; what lies outside of the volume is left out.
+/// Samples spread evenly over the inside; those outside of the volume are left out.
 std::vector<Sample> insideOf(const BsplineVolume& volume, const TrackedNode& node, double sign) {
   std::vector<Sample> samples;
   const auto [u, v] = planeBasis(node.direction);

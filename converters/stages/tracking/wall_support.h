@@ -9,18 +9,18 @@
 
 namespace lumen::convert {
 
-/// What lies within a node's cylinder.
+/// The contents of a node's cylinder.
 struct WallSupport {
   double dark = 0;  ///< share of the inside that is beyond the level of the node's wall, in [0, 1]
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< mm, LPS: of the lumen nearest to the guess
-  double radius = 0;                                 ///< mm: of a disc as large as all of its lumen
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< mm, LPS, of the lumen nearest to `guess`
+  double radius = 0;                                 ///< mm, of a disc as large as all of its lumen
 };
 
 /// Samples the inside of a node, up to four fifths of its radius, and compares it with the median
-/// intensity at its wall points. A wall around a vessel holds lumen only. One that takes in the gap
-/// to a neighbour, or that bulges into the dark, does not. `dark`: vessels are darker than their
-/// background. All of the inside is taken for lumen where the node has no points. `guess`: where
-/// the vessel was expected, mm, LPS; of several lumens inside, `middle` is that of the nearest.
+/// intensity at its wall points. A wall around a vessel holds lumen only; a wall that takes in the
+/// gap to a neighbour, or that bulges into the dark, does not. `dark`: vessels are darker than
+/// their background. Without points all of the inside counts as lumen. `guess`: the expected place
+/// of the vessel, mm, LPS; of several lumens inside, `middle` is that of the nearest.
 WallSupport wallSupport(const BsplineVolume& volume, const TrackedNode& node,
                         const Eigen::Vector3d& guess, bool dark);
 

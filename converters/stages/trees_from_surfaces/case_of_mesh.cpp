@@ -21,7 +21,7 @@
 namespace lumen::convert {
 namespace {
 
-/// Of the voxel of the search: half the least width that it can tell.
+/// Half of the least width that the search resolves, in its voxels.
 constexpr double kLeastRadius = 0.5;
 
 /// "The surface has 3 loops; 2 of them became links". Empty if there are as many.
@@ -36,8 +36,8 @@ std::string loopsNote(const ClosedMesh& surface, const formats::CenterlineTree& 
          std::to_string(links) + " of the tree are closed by a link";
 }
 
-/// A surface without openings of which no part is in another, and which is no wall with a thickness: of one that is,
-/// the inner side. Says in `notes` what was left out.
+/// A surface without openings and without nested parts, which is no wall with a thickness: such a
+/// wall is replaced by its inner side. Reports in `notes` the parts that were left out.
 ClosedMesh lumenSurface(TriangleMesh mesh, const std::string& name, std::vector<std::string>& notes,
                         const Progress& progress) {
   UnnestedMesh apart = unnested(std::move(mesh));

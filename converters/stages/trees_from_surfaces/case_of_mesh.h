@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the surface of vessels to a case: its tree and its wall points (docs/method.md, section 10).
+// Conversion of the surface of vessels to a case: its tree and its wall points (docs/method.md,
+// section 10).
 #pragma once
 
 #include <map>
@@ -18,24 +19,26 @@ namespace lumen::convert {
 /// The centerline that a surface comes with.
 struct GivenCenterline {
   CenterlineFile file;  ///< mm, LPS
-  std::string name;     ///< of its file, printable, for messages
+  std::string name;     ///< name of its file, printable, for messages
 };
 
 struct MeshCase {
   formats::Case result;            ///< tree, wall points and metadata, without models
-  std::vector<std::string> notes;  ///< what a user should know, a sentence each
+  std::vector<std::string> notes;  ///< remarks for the user, a sentence each
 };
 
-/// `mesh` is repaired: oriented and manifold, closed or open where vessels end; mm, LPS. `name` is that of its
-/// file, printable. `parameters` are stored with the step. The same bits on any number of threads. Throws
-/// Error(InvalidInput) if there is no vessel in it, or for a centerline that does not lie in it; and
-/// Error(Cancelled). Of a wall that has a thickness the inner side is taken, and `notes` says so.
+/// The case of a vessel's surface. `mesh` is repaired: oriented and manifold, closed or open where
+/// vessels end; mm, LPS. `name` is that of its file, printable. `parameters` are stored with the
+/// step. The result has the same bits on any number of threads. A wall that has a thickness is
+/// replaced by its inner side, which `notes` reports. Throws Error(InvalidInput) if there is no
+/// vessel in it, or for a centerline that does not lie in it; and Error(Cancelled).
 MeshCase caseOfMesh(TriangleMesh mesh, const std::string& name,
                     const std::optional<GivenCenterline>& centerline,
                     const std::map<std::string, formats::ParameterValue>& parameters,
                     Progress& progress);
 
-/// The same for what is known to be the surface of the lumen, and to hold nothing narrower than `resolution`, mm.
+/// The case of a mesh that is known to be the surface of a lumen, nowhere narrower than
+/// `resolution`, mm; otherwise like caseOfMesh().
 MeshCase caseOfLumen(const ClosedMesh& surface, double resolution, const std::string& name,
                      const std::optional<GivenCenterline>& centerline,
                      const std::map<std::string, formats::ParameterValue>& parameters,

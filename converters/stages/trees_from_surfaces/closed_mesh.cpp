@@ -26,23 +26,27 @@ const double kFlat = std::cos(2 * std::numbers::pi / 180);
 // ... it is bounded by edges of more than 45 degrees, for nine tenths of its outline ...
 const double kSharp = std::cos(45 * std::numbers::pi / 180);
 constexpr double kSharpShare = 0.9;
-// ... and round: 4 pi area / outline^2 is 1 for a disc, 0.79 for a square, 0.81 for an ellipse of 2:1
+// ... and round: 4 pi area / outline^2 is 1 for a disc, 0.79 for a square, 0.81 for an ellipse of
+// 2:1
 constexpr double kRound = 0.75;
 
 // A blunt cap, smoothed and uneven as of a segmentation: its normals agree within 25 degrees ...
 const double kNearlyFlat = std::cos(25 * std::numbers::pi / 180);
-// ... what belongs to one that is no cap is not tried as the beginning of another, and on rough surfaces no more
-// triangles are looked at than so many times those that there are ...
+// ... triangles of a region that is no cap are not tried as the beginning of another, and on rough
+// surfaces the triangles that are examined number at most this multiple of all ...
 constexpr std::size_t kMostLooks = 20;
-// ... and from a seed on the rim so many rounds lead to the mean of the whole cap.
+// ... and this many rounds lead from a seed on the rim to the mean of the whole cap.
 constexpr int kPasses = 5;
 // ... it fills an ellipse of up to 2.5:1 of its own moments (a square does by 0.95) ...
 constexpr double kFull = 0.9, kLongest = 2.5;
-// ... and of what lies around it, between so many of its radii, nine tenths have turned by 45 degrees.
+// ... and nine tenths of the surface around it, between these multiples of its radius, have turned
+// by 45 degrees.
 constexpr double kRimFrom = 1.1, kRimTo = 1.4;
-// Fewer triangles, in the cap or around it, do not tell a smoothed rim from a bend of few facets.
+// Fewer triangles, in the cap or around it, do not distinguish a smoothed rim from a bend of few
+// facets.
 constexpr std::size_t kFewest = 16;
-// Of the area around: what the normals there may add up to across the end's; all around a tube they add up to nothing.
+// Largest sum of the normals around a cap across its own, as a share of the area there; all around
+// a tube the sum is zero.
 constexpr double kUneven = 0.3;
 
 /// Twice the area times the normal.
@@ -51,7 +55,7 @@ Vector3d areaVector(const TriangleMesh& mesh, const Triangle& t) {
   return (mesh.position[t[1]] - a).cross(mesh.position[t[2]] - a);
 }
 
-/// The loops of edges that only one triangle has, each against the way of its triangles.
+/// The loops of edges that only one triangle has, each against the direction of its triangles.
 std::vector<std::vector<std::uint32_t>> openLoops(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> next(mesh.position.size(), kNone);
   forEachEdge(edgeUses(mesh.triangle), [&](std::span<const EdgeUse> edge) {
@@ -170,7 +174,8 @@ private:
     }
   }
 
-  /// The region of a triangle in which normals have `least` along a direction; `visit` says `round` of it.
+  /// The region of a triangle in which normals have at least `least` along a direction; `visit` is
+  /// set to `round` there.
   void growAround(std::uint32_t seed, const Vector3d& normal, double least,
                   std::vector<std::uint32_t>& visit, std::uint32_t round) {
     m_region.assign(1, seed);
@@ -209,7 +214,7 @@ private:
            area >= kFull * 4 * std::numbers::pi * std::sqrt(wide[1] * wide[2]);
   }
 
-  /// Whether the surface goes on backwards around the region.
+  /// Whether the surface continues backwards around the region.
   [[nodiscard]] bool turnsAround(const MeshEnd& end, std::vector<std::uint32_t>& visit,
                                  std::uint32_t round) const {
     std::vector<std::uint32_t> open = m_region;

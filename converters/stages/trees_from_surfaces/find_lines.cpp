@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kNone = VesselPath::kNone;
 constexpr std::size_t kLeastPart = 27;  // voxels of a part that may be a vessel
-constexpr double kTip = 4;              // depths from a tip: what says how wide the vessel is there
-constexpr double kReach = 4;            // depths from where a path is trimmed to the vessel's end
+constexpr double kTip = 4;    // depths from a tip: the stretch that shows its vessel's width
+constexpr double kReach = 4;  // depths from where a path is trimmed to the vessel's end
 
 /// From the inside as voxels to lines.
 class LineFinder {
@@ -89,7 +89,7 @@ private:
     return out;
   }
 
-  /// Where the widest vessel of a part comes in.
+  /// The place where the widest vessel of a part enters it.
   std::uint32_t rootOf(const std::vector<std::uint32_t>& atEnd,
                        const std::vector<std::uint32_t>& part) {
     std::vector<std::uint32_t> sorted = part;

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastInside = 0.5;  // of the points: fewer, and it is another frame or surface
+constexpr double kLeastInside = 0.5;  // share of the points: below, another frame or surface
 constexpr double kReach = 2;          // depths from a line's last point to the vessel's end
 
 std::vector<std::uint8_t> insideOf(const CenterlineFile& file, const LumenGeometry& lumen,
@@ -33,7 +33,7 @@ std::size_t countOf(const std::vector<std::uint8_t>& inside) {
   return static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
 }
 
-/// What a centerline might have been meant to be, and what to do then.
+/// A possible intended meaning of a centerline, and its remedy.
 struct Meant {
   Vector3d scale;
   const char* how;
@@ -68,7 +68,7 @@ void requireInside(const CenterlineFile& file, const std::string& name, const Lu
   throw invalidInput(text + ": it belongs to another surface, or one of them is in another frame");
 }
 
-/// What of a chain lies inside, from the first point that does to the last.
+/// The part of a chain from its first point inside to its last.
 std::vector<Vector3d> pointsOf(const CenterlineFile& file, const CenterlineChain& chain,
                                const std::vector<std::uint8_t>& inside) {
   std::vector<Vector3d> points;

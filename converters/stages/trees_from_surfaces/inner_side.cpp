@@ -19,24 +19,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the area: so much of a wall is its inner side, unless it is thicker than its lumen is wide.
+// Least share of a wall's area that is its inner side, unless it is thicker than its lumen is wide.
 constexpr double kLeastInner = 0.25;
-// The outer side is the greater one; more than this, and the surface is merely rough.
+// Largest share: the outer side is the greater one; beyond this the surface is merely rough.
 constexpr double kMostInner = 0.55;
-// Of the rays: a side from where so many meet the wall again is surely an inner one ...
+// Share of the rays: a side from which this many meet the wall again is surely an inner one ...
 constexpr double kEnclosed = 0.75;
-// ... and one from where most do is, if it belongs to a greater region of such ones.
+// ... and one from which most do is, if it belongs to a greater region of such ones.
 constexpr double kMostly = 0.5;
 // Rays of a triangle are those of an icosphere that leave it at more than 20 degrees to its plane.
 constexpr int kRayOrder = 2;
 constexpr double kSteep = 0.34;
-constexpr std::size_t kMostLooks = 4000;  // triangles, to tell whether there is a wall
+constexpr std::size_t kMostLooks = 4000;  // triangles that show whether there is a wall
 constexpr int kVotes = 3;                 // rounds in which a triangle follows those beside it
-// Of the greatest region's area: less is a fold of the outer side.
+// Share of the greatest region's area: less is a fold of the outer side.
 constexpr double kLeastRegion = 0.05;
-constexpr std::size_t kNestedLooks = 20;  // points of a part, to tell whether it is enclosed
+constexpr std::size_t kNestedLooks = 20;  // points of a part that show whether it is enclosed
 
-/// How much each triangle of a surface faces that surface from outside.
+/// The degree to which each triangle of a surface faces that surface from outside.
 class Facing {
 public:
   Facing(const ClosedMesh& surface, const TriangleTree& tree)
@@ -114,7 +114,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> neighboursOf(const Triangle
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Lets triangles follow what those beside them are: rays miss through a gap here and there.
+/// Adapts triangles to their neighbours: rays miss through a gap here and there.
 void vote(std::vector<std::uint8_t>& isInner, const Pairs& pairs) {
   for (int round = 0; round < kVotes; ++round) {
     std::vector<std::uint8_t> votes(isInner.size(), 0);
@@ -144,7 +144,7 @@ void keepGreatRegions(std::vector<std::uint8_t>& isInner, const Pairs& pairs,
 /// A connected part of a mesh, with its openings closed.
 struct MeshPart {
   TriangleMesh mesh;
-  std::vector<std::size_t> source;  // of its triangles
+  std::vector<std::size_t> source;  // source of each of its triangles
   Vector3d low = Vector3d::Constant(1e300), high = -low;
   double area = 0;
   bool isDropped = false;
@@ -157,7 +157,7 @@ std::vector<MeshPart> partsOf(const TriangleMesh& mesh) {
     sets.join(t[0], t[2]);
   }
   std::vector<MeshPart> parts;
-  std::vector<std::size_t> index(mesh.position.size(), 0);  // of a set's part, plus one
+  std::vector<std::size_t> index(mesh.position.size(), 0);  // index in a set's part, plus one
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
     std::size_t& of = index[sets.find(mesh.triangle[t][0])];
     if (of == 0) {

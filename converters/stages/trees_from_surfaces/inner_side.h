@@ -11,16 +11,17 @@
 
 namespace lumen::convert {
 
-/// The inner side of a wall with a thickness, of which inner and outer side make one surface: the triangles that
-/// face, away from the wall, little but the wall. Oriented out of the lumen, with an opening where the lumen is open;
-/// not repaired. Nothing if the surface is not that of such a wall: if less than a quarter of its area faces so, or more than
-/// a wall's inner side can have.
+/// The inner side of a wall with a thickness whose inner and outer side are one surface: the
+/// triangles that face, away from the wall, little but the wall. Oriented out of the lumen, with an
+/// opening where the lumen is open; not repaired. Nothing if the surface is not that of such a
+/// wall: if less than a quarter of its area faces so, or more than a wall's inner side can have.
 /// `tree` is that of `surface`. Throws Error(Cancelled).
 std::optional<TriangleMesh> innerSide(const ClosedMesh& surface, const TriangleTree& tree,
                                       const Progress& progress);
 
-/// A mesh without the parts that another one encloses: debris and cavities; but where what is enclosed has at least
-/// a quarter of the area of what encloses it, it is the inner side of a wall, and the outer one is left out.
+/// A mesh without the parts that another one encloses: debris and cavities. An enclosed part that
+/// has at least a quarter of the area of the enclosing one is the inner side of a wall, and the
+/// outer one is left out instead.
 struct UnnestedMesh {
   TriangleMesh mesh;
   std::size_t enclosed = 0;  ///< parts that were left out because another one encloses them

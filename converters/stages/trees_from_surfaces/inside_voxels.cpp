@@ -20,19 +20,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kVoxelsAcross = 4;  // of the least width
+constexpr double kVoxelsAcross = 4;  // voxels to the least width
 constexpr double kMostVoxels = 3e5;  // inside
 constexpr int kMostAlong = 2048;     // an axis of the grid
 constexpr std::size_t kMostRays = 20000;
-constexpr double kNarrowShare = 0.02;  // of the length that may be narrower
-// of a voxel: no wall that a person designs lies on the lines through voxels' centres
+constexpr double kNarrowShare = 0.02;  // share of the length that may be narrower
+// share of a voxel: no wall that a person designs lies on the lines through voxels' centres
 constexpr double kOffGrid = 0.38196601;
 
 /// A surface passed along a line of voxels.
 struct Crossing {
   std::size_t line;
   double at;  ///< index position along the line
-  int turns;  ///< 1: into what the surface encloses; -1: out
+  int turns;  ///< 1: into the enclosed volume; -1: out
 };
 
 /// Twice the area of (a, b, p) in the plane of axes u and v, the same but for its sign whichever of
@@ -73,7 +73,8 @@ private:
     return m_grid.indexFromWorld(m_mesh.position[i]);
   }
 
-  /// A side of a triangle, seen from the end of lower index, so that both triangles compute the same.
+  /// A side of a triangle, seen from the end of lower index, so that both triangles compute equal
+  /// values.
   [[nodiscard]] double sideOf(std::uint32_t i, std::uint32_t j, double pu, double pv) const {
     return i < j ? side(corner(i), corner(j), pu, pv, m_u, m_v)
                  : -side(corner(j), corner(i), pu, pv, m_u, m_v);

@@ -26,14 +26,15 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostLabels = 255;
 constexpr std::size_t kMostListed = 10;
 constexpr double kGreyShare =
-    1.0 / 3;                       // of neighbours that differ, beyond which voxels are no labels
+    1.0 / 3;  // share of neighbours that differ, beyond which voxels are no labels
 constexpr double kSpread = 0.7;    // voxels: the standard deviation that takes the steps away
 constexpr int kReach = 3;          // voxels: where its kernel ends
-constexpr int kHalo = 2 * kReach;  // of the kernel applied twice
+constexpr int kHalo = 2 * kReach;  // reach of the kernel applied twice
 constexpr int kSlab = 32;          // slices that are smoothed at a time
-// From the half level: a voxel's centre stays on its side by so much, so that no triangle is nothing.
+// Least distance from the half level: a voxel's centre stays on its side, and no triangle vanishes.
 constexpr float kLeast = 0.05F;
-// The same for what is one voxel wide, so that its wall is about half a voxel away as it was drawn.
+// Least distance from the half level for lines one voxel wide, whose wall stays about half a voxel
+// away, as it was drawn.
 constexpr float kThin = 0.25F;
 
 std::string listOf(const std::set<std::int64_t>& values) {
@@ -184,7 +185,7 @@ private:
     });
   }
 
-  /// The smoothed labels, which beyond the volume go on as they end.
+  /// The smoothed labels, which beyond the volume continue the outermost values.
   [[nodiscard]] double sample(const std::vector<float>& once, const std::vector<float>& twice,
                               int x, int y, int z) const {
     const int nearX = std::clamp(x, 0, m_size[0] - 1), nearY = std::clamp(y, 0, m_size[1] - 1),
@@ -199,7 +200,7 @@ private:
     return std::max(smoothed, 0.5F + (isThinVoxel(voxel, isIn) ? kThin : kLeast));
   }
 
-  /// Along each axis; the volume goes on as it ends.
+  /// Smooths along each axis; beyond the volume the outermost values continue.
   void smooth(std::vector<float>& values) const {
     const std::array<int, 3> size{m_size[0], m_size[1], m_slices};
     std::size_t stride = 1;
@@ -237,11 +238,12 @@ private:
   std::array<int, 3> m_size;
   std::array<float, 2 * kReach + 1> m_kernel{};
   SampleGrid m_grid;
-  int m_low = 0, m_slices = 0;  // of the slab
+  int m_low = 0, m_slices = 0;  // range of the slab
 };
 
-/// Drops the closed parts that go round what is not of the labels, and counts them. Parts that reach
-/// beyond half a voxel outside of the volume, where they are open, stay. Positions are indices.
+/// Drops the closed parts that surround voxels outside the labels, and counts them. Parts that
+/// reach beyond half a voxel outside of the volume, where they are open, stay. Positions are
+/// indices.
 std::size_t dropCavities(TriangleMesh& mesh, const Vector3d& low, const Vector3d& high) {
   DisjointSets parts(mesh.position.size());
   for (const Triangle& t : mesh.triangle) {

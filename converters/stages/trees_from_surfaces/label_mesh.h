@@ -28,8 +28,9 @@ struct LabelMask {
 };
 
 /// The voxels with these labels; all but 0, called "label-N", if `wanted` is empty. Throws
-/// Error(InvalidInput), `name` (of the file, printable) first, for voxels that are no whole numbers,
-/// more than 255 labels, and a label that no voxel has, with those that there are.
+/// Error(InvalidInput), `name` (of the file, printable) first, for voxels that are no whole
+/// numbers, more than 255 labels, and a label that no voxel has; this message lists the labels of
+/// the volume.
 LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::string& name);
 
 struct LabelSurface {
@@ -38,10 +39,11 @@ struct LabelSurface {
   std::size_t cavities = 0;  ///< holes within that were filled
 };
 
-/// The surface of all labels in one (docs/method.md, section 10): their voxels, smoothed by a kernel
-/// whose second moments are zero, so that round walls stay where they are. No voxel's centre changes
-/// sides. Vessels that the volume cuts off are open there, half a voxel beyond the last centres. Memory: a byte a voxel, and what is near to labels. The same bits on any number of
-/// threads. Throws Error(Cancelled).
+/// The surface of all labels in one (docs/method.md, section 10): their voxels, smoothed by a
+/// kernel whose second moments are zero, so that round walls stay where they are. No voxel's centre
+/// changes sides. Vessels that the volume cuts off are open there, half a voxel beyond the last
+/// centres. Memory: a byte a voxel, and the surroundings of labels. The result has the same bits on
+/// any number of threads. Throws Error(Cancelled).
 LabelSurface surfaceOf(const LabelMask& mask, const Progress& progress);
 
 /// Names each branch by the label that most of its nodes lie in, "NAME", "NAME-2" and so on along

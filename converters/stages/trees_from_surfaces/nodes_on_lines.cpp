@@ -24,11 +24,11 @@ using formats::NodeOrigin;
 constexpr double kSpacing = 1.0;  // widths from one node to the next
 constexpr int kRayOrder = 3;      // an icosphere of 162 rays, as tracking has
 constexpr int kNear = 12;         // edges along the tree within which nodes share out the wall
-// Of the squared distance of two nodes: by so much a node's power may exceed the other's. Half the
-// way between them is 0, the other's own section 1.
+// Share of the squared distance of two nodes by which a node's power may exceed the other's.
+// Halfway between them it is 0, at the other's own section 1.
 constexpr double kShared = 0.5;
-constexpr double kBand = 0.1;            // of the radius, as tracking's inliers
-constexpr double kWidest = 1.5;          // of the depth: the radius of a section that is not round
+constexpr double kBand = 0.1;            // radii, as tracking's inliers
+constexpr double kWidest = 1.5;          // depths: the radius of a section that is not round
 constexpr std::size_t kLeastPoints = 8;  // for a radius
 
 /// A node before it is one of a case.
@@ -38,7 +38,7 @@ struct Station {
   bool isBridged = false;
 };
 
-/// Where a line has its nodes, in spacings from its first point, and how many of them.
+/// The places of a line's nodes, in spacings from its first point, and their number.
 struct Spread {
   double first = 0, step = 0;
   std::size_t count = 0;
@@ -57,7 +57,8 @@ Spread spreadOf(const VesselLine& line, double total) {
   return spread;
 }
 
-/// What a child has in its parent's lumen was measured by nobody; it is as wide as where it leaves.
+/// Bridges the part of a child within its parent's lumen, which was not measured; it is as wide as
+/// at its exit.
 void bridgeWithin(const VesselLine& parent, const LumenGeometry& lumen, std::vector<Station>& out) {
   std::size_t free = 0;
   for (; free < out.size(); ++free) {
@@ -135,7 +136,7 @@ void append(const VesselLine& line, const std::vector<Station>& stations, format
   tree.branches.push_back(std::move(record));
 }
 
-/// The links of lines that come round a loop.
+/// The links of lines that close a loop.
 void addLinks(const std::vector<VesselLine>& lines, formats::CenterlineTree& tree,
               const formats::Case& value) {
   for (std::uint32_t b = 0; b < lines.size(); ++b) {
@@ -175,7 +176,7 @@ public:
     return out;
   }
 
-  /// The radius of the disc that a node's points stand around, and the share of them within the band.
+  /// The radius of the disc that a node's points surround, and the share of them within the band.
   [[nodiscard]] std::pair<double, double> radius(std::uint32_t node,
                                                  const std::vector<formats::Vec3f>& points) const {
     const Vector3d axis = toEigen(m_tree.direction[node]);

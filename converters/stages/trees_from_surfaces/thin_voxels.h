@@ -8,7 +8,7 @@
 namespace lumen::convert {
 
 /// The voxels of a block of 2 x 2 x 2 with its lowest corner at (x, y, z), bit by bit, x first.
-/// `isIn(x, y, z)` says whether a voxel is of the labels.
+/// `isIn(x, y, z)`: true for a voxel of the labels.
 template <class IsIn>
 unsigned blockOf(int x, int y, int z, const IsIn& isIn) {
   unsigned bits = 0;
@@ -41,8 +41,8 @@ bool isThinVoxel(const std::array<int, 3>& voxel, const IsIn& isIn) {
   return true;
 }
 
-/// Whether a voxel that is not of the labels lies between thin ones that meet at an edge or a corner
-/// alone, as lines do that are drawn one voxel wide.
+/// Whether a voxel that is not of the labels lies between thin ones that meet at an edge or a
+/// corner alone, as lines do that are drawn one voxel wide.
 template <class IsIn>
 bool joinsThinVoxels(const std::array<int, 3>& voxel, const IsIn& isIn) {
   for (int corner = 0; corner < 8; ++corner) {

@@ -17,16 +17,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTaper = 0.5;  // of the way: as fast as a line may get thinner
-constexpr double kNarrowest =
-    0.1;                           // of the median: a line's point that lies at the wall by mistake
-constexpr double kTrim = 1.5;      // widths from a tip: where its way keeps to the middle
-constexpr int kLooks = 6;          // for the width behind a tip
-constexpr int kRounds = 4;         // of centring
-constexpr int kSmoothings = 3;     // passes in each
-constexpr int kRays = 24;          // of a section
-constexpr double kClip = 1.6;      // of their median: farther is another vessel, through a fork
-constexpr double kMost = 0.5;      // of the depth: as far as a point moves in a round
+constexpr double kTaper = 0.5;      // loss of width per length: as fast as a line may get thinner
+constexpr double kNarrowest = 0.1;  // medians: a line's point that lies at the wall by mistake
+constexpr double kTrim = 1.5;       // widths from a tip: where its path keeps to the middle
+constexpr int kLooks = 6;           // points that show the width behind a tip
+constexpr int kRounds = 4;          // rounds of centring
+constexpr int kSmoothings = 3;      // passes of smoothing in each round
+constexpr int kRays = 24;           // rays of a section
+constexpr double kClip = 1.6;      // medians of the rays: farther is another vessel, through a fork
+constexpr double kMost = 0.5;      // depths: the longest move of a point in a round
 constexpr double kChord = 1.0;     // depths on either side: the course at a point
 constexpr double kEndChord = 1.5;  // depths: the course at an end
 
@@ -119,7 +118,7 @@ std::vector<double> widthsAlong(std::span<const Vector3d> line, const LumenGeome
                     [&](std::size_t i) { widths[i] = lumen.depth(line[i]); });
   const double least = std::max(kNarrowest * median(widths), 1e-4 * at.back());
   for (double& width : widths) width = std::max(width, least);
-  // from either end: a point is at least as wide as the one before less half the way from it
+  // from either end: a point is at least as wide as its neighbour less half the distance from it
   for (std::size_t i = 1; i < widths.size(); ++i)
     widths[i] = std::max(widths[i], widths[i - 1] - kTaper * (at[i] - at[i - 1]));
   for (std::size_t i = widths.size() - 1; i > 0; --i)

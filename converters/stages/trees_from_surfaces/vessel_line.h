@@ -22,10 +22,10 @@ struct VesselLine {
   int meets = -1;                      ///< the line that the last point joins: a loop; or -1
   bool isSac = false;
   bool reachesStart = false;  ///< its first point is where the lumen ends, not a place in it
-  bool reachesEnd = false;    ///< the same of its last point
+  bool reachesEnd = false;    ///< its last point is where the lumen ends, not a place in it
 };
 
-/// Where lumens begin and end, how wide they are, and what is on the axis of another.
+/// The surface of vessels, with distances to its wall, which leaves out flat ends.
 class LumenGeometry {
 public:
   /// `surface` must stay; not all of it is ends.
@@ -35,7 +35,7 @@ public:
   LumenGeometry& operator=(const LumenGeometry&) = delete;
   [[nodiscard]] const ClosedMesh& surface() const { return m_surface; }
   [[nodiscard]] const TriangleTree& tree() const { return m_tree; }
-  /// mm to the wall; flat ends are none.
+  /// Distance to the wall, mm; flat ends are no wall.
   [[nodiscard]] double depth(const Eigen::Vector3d& point) const {
     return m_wallTree.nearest(point).distance;
   }
@@ -58,34 +58,36 @@ std::vector<double> lengthsAlong(std::span<const Eigen::Vector3d> line);
 Eigen::Vector3d placeAt(std::span<const Eigen::Vector3d> line, std::span<const double> lengths,
                         double length);
 
-/// How wide the lumen is along a line, mm: at each point its depth, or that of a point of the line less half the way
-/// there, so that round ends are not thin.
+/// The widths of the lumen along a line, mm: at each point its depth, or that of another point of
+/// the line less half the distance to it along the line, so that round ends are not thin.
 std::vector<double> widthsAlong(std::span<const Eigen::Vector3d> line, const LumenGeometry& lumen);
 
 /// The unit direction of a line at one of its points, over `reach` mm on either side.
 Eigen::Vector3d courseAt(std::span<const Eigen::Vector3d> line, std::size_t i, double reach);
 
-/// mm from a point to a line, and the line's nearest point.
+/// Distance of a point from a line, mm, and the line's nearest point.
 std::pair<double, std::size_t> distanceTo(std::span<const Eigen::Vector3d> line,
                                           const Eigen::Vector3d& point);
 
-/// What evenly() puts between two points, of the width.
+/// Spacing of the points of evenly(), as a share of the width.
 constexpr double kLineStep = 0.25;
 
-/// The same course by points that are a quarter of its width apart; both ends stay.
+/// Resamples a line by points that are a quarter of its width apart; both ends stay.
 std::vector<Eigen::Vector3d> evenly(std::span<const Eigen::Vector3d> line,
                                     const LumenGeometry& lumen);
 
-/// Moves the points of a line, but the first and the last, into the middle of the lumen: to the centroids of the
-/// sections across it, as far as 1.6 times the median of each section's rays. Points that lie within the lumen of
-/// `parent` (which may be null), and its wall around them, stay on a smooth way.
+/// Moves the points of a line, but the first and the last, into the middle of the lumen: to the
+/// centroids of the sections across it, as far as 1.6 times the median of each section's rays.
+/// Points that lie within the lumen of `parent` (which may be null), and its wall around them, stay
+/// on a smooth curve.
 void centre(VesselLine& line, const VesselLine* parent, const LumenGeometry& lumen);
 
-/// Takes off the last point of a way through voxels: what is nearer to its tip than the wall is; `atStart`: the first.
+/// Removes the tip of a path through voxels: the points that are nearer to its last point than the
+/// wall is; `atStart`: to its first.
 void trim(VesselLine& line, bool atStart, const LumenGeometry& lumen);
 
-/// Lets the line end where its lumen does: straight on to the wall, or to the centre of the flat end that is there,
-/// if that is within `reach` depths.
+/// Extends a line to the end of its lumen: straight on to the wall, or to the centre of a flat end
+/// there, if that is within `reach` depths.
 void extend(VesselLine& line, bool atStart, double reach, const LumenGeometry& lumen);
 
 }  // namespace lumen::convert

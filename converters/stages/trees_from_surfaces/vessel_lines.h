@@ -14,16 +14,16 @@ namespace lumen::convert {
 
 struct VesselLines {
   std::vector<VesselLine> lines;   ///< parents first
-  std::vector<std::string> notes;  ///< what a user should know, a sentence each
+  std::vector<std::string> notes;  ///< remarks for the user, a sentence each
 };
 
-/// The vessels of each connected part of the inside (docs/method.md, section 10): from its widest flat
-/// end, or else from its widest tip. `grid` is that of insideGrid(). Throws Error(Cancelled).
+/// The vessels of each connected part of the inside (docs/method.md, section 10): from its widest
+/// flat end, or else from its widest tip. `grid` is that of insideGrid(). Throws Error(Cancelled).
 VesselLines findLines(const LumenGeometry& lumen, const VolumeGeometry& grid, Progress& progress);
 
-/// The chains of a centerline (mm, LPS), without what of them lies outside. Throws Error(InvalidInput), `name`
-/// (of its file, printable) first, if less than half of its points lie inside; it says if more would
-/// with x and y negated or in another unit.
+/// The chains of a centerline (mm, LPS), without their parts outside. Throws Error(InvalidInput),
+/// `name` (of its file, printable) first, if less than half of its points lie inside; the message
+/// reports if more would with x and y negated or in another unit.
 VesselLines linesOf(const CenterlineFile& centerline, const std::string& name,
                     const LumenGeometry& lumen);
 

@@ -25,7 +25,7 @@ constexpr double kLeastOfParent = 0.5;
 constexpr double kLeastVoxels = 3;
 // Multiple of the depth in the neck: a path that gets deeper behind it leads into a sac.
 constexpr double kSac = 1.25;
-// Path along the tree over the distance across: beyond that a tip has come back to a vessel by a loop.
+// Path along the tree over the distance across: beyond this ratio a tip has closed a loop.
 constexpr double kLoop = 4;
 
 }  // namespace
@@ -115,7 +115,7 @@ bool VesselPaths::isVessel(VesselPath& path) const {
   return length > least;
 }
 
-// The tip of a path that comes round a loop lies in the middle of a lumen, near another path.
+// The tip of a path that closes a loop lies in the middle of a lumen, near another path.
 void VesselPaths::findLoop(VesselPath& path) const {
   const std::uint32_t tip = path.voxels.back();
   const double unit = m_set.geometry().voxelSize();
@@ -142,7 +142,7 @@ void VesselPaths::findLoop(VesselPath& path) const {
   });
 }
 
-// What lies behind a wall, in a vessel that touches, is not covered.
+// Voxels behind a wall, in a vessel that touches, are not covered.
 void VesselPaths::coverAround(std::uint32_t i, bool isBall) {
   m_skeleton.eachCovered(i, [&](std::uint32_t j) {
     if (m_cover[j] == kFree && isOpen(i, j)) m_cover[j] = kNear;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vessels of a set of voxels as paths that hang on one another.
+// The vessels of a set of voxels as a tree of paths.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ struct VesselPath {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> voxels;  ///< from where it begins, on its parent's path, to its tip
   std::uint32_t parent = kNone;       ///< a path before this one
-  std::size_t parentVoxel = 0;        ///< which of the parent's voxels it begins at
+  std::size_t parentVoxel = 0;        ///< index of the parent's voxel that it begins at
   std::uint32_t meets = kNone;  ///< a path before this one whose lumen its tip lies in: a loop
-  std::size_t meetsVoxel = 0;   ///< which of that one's voxels is nearest to the tip
+  std::size_t meetsVoxel = 0;   ///< index of that path's voxel nearest to the tip
   bool isSac = false;           ///< it widens beyond a neck and ends there
 };
 
@@ -36,15 +36,15 @@ public:
   VesselPaths(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen,
               const Progress& progress);
 
-  /// The connected part of `root`: the first path begins there. A path is kept if its length outside
-  /// of the balls of those before it is more than its width; or if it widens behind a neck by a
-  /// fifth, as a sac does. Throws Error(Cancelled).
+  /// The paths of the connected part of `root`, where the first begins. A path is kept if its
+  /// length outside of the balls of those before it is more than its width; or if it widens behind
+  /// a neck by a fifth, as a sac does. Throws Error(Cancelled).
   std::vector<VesselPath> find(std::uint32_t root, const Progress& progress);
 
-  /// The connected part of a voxel, itself first.
+  /// The voxels of a connected part; the given one is the first.
   [[nodiscard]] std::vector<std::uint32_t> partOf(std::uint32_t voxel) const;
 
-  /// The voxel of the part of `from` that is the farthest from it.
+  /// The voxel farthest from `from`, in its part.
   std::uint32_t farthest(std::uint32_t from, const Progress& progress);
 
 private:
@@ -83,8 +83,8 @@ private:
   std::vector<Step> m_steps;          ///< kMostSteps for each voxel, kNoStep behind the last
   std::array<float, 4> m_lengthOf{};  ///< mm of a step along 1, 2 or 3 axes
   std::vector<std::uint8_t> m_cover;
-  std::vector<std::uint32_t> m_path;   ///< of voxels that are on a path: which
-  std::vector<std::uint32_t> m_place;  ///< and which of its voxels
+  std::vector<std::uint32_t> m_path;   ///< for each voxel on a path, the index of the path
+  std::vector<std::uint32_t> m_place;  ///< for each voxel on a path, its position on it
 };
 
 }  // namespace lumen::convert

@@ -18,9 +18,9 @@ constexpr double kMinRadiusCells = 2;
 constexpr int kMaxHalvings = 3;
 /// Rows of a node's lattice, and triangles of a mesh: about a hundred bytes each while it is made.
 constexpr double kMaxRows = 1 << 23, kMaxTriangles = 1 << 26;
-/// How far a node's grid reaches around it, in radii.
+/// Extent of a node's grid around it, in radii.
 constexpr double kGridRadii = 2.4;
-/// The step by which a cell that would do is looked for.
+/// The factor by which the search for a sufficient cell proceeds.
 constexpr double kCoarser = 1.1;
 
 /// Length of vessel that a node draws, mm: at least to its parent.

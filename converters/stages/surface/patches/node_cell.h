@@ -25,7 +25,7 @@ struct NodeCell {
 /// as the blended field has them, that have a model: it is where following a point ends at the
 /// node.
 ///
-/// It is cut flat at free ends (end_planes.h).
+/// The cell is cut flat at free ends (end_planes.h).
 std::optional<NodeCell> nodeCell(const formats::Case& source, const formats::Neighbours& edges,
                                  std::span<const std::uint32_t> neighbours, std::uint32_t node);
 

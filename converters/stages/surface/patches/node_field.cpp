@@ -50,7 +50,7 @@ NodeField::NodeField(const formats::BlobbyModels& models, std::uint32_t node)
     m_z.push_back(centre.z());
     m_width.push_back(width);
     m_scale.push_back(field::blobScale(m_kernel, m_parameter, width));
-    // Of N terms that exceed T together, one exceeds T / N alone.
+    // If N terms exceed T together, one exceeds T / N alone.
     const double share = m_level / (end - begin);
     m_reach.push_back(formats::isoRadius(m_kernel, m_parameter, width, share));
     m_low = m_low.cwiseMin((centre.array() - m_reach.back()).matrix());

@@ -33,8 +33,8 @@ public:
   /// The scalar reference for sampleRow: the same bits.
   void sampleRowReference(int first, double cell, double y, double z, std::span<double> out) const;
 
-  /// The share t in (0, 1) of the way from a to b at which f = T; f(a) = fa and f(b) = fb lie on
-  /// either side of T. Newton's method within the bracket, on the level transform of f, which is
+  /// The share t in (0, 1) of the distance from a to b at which f = T; f(a) = fa and f(b) = fb lie
+  /// on either side of T. Newton's method within the bracket, on the level transform of f, which is
   /// nearly straight across a wall.
   [[nodiscard]] double crossing(const Eigen::Vector3d& a, double fa, const Eigen::Vector3d& b,
                                 double fb) const;
@@ -57,8 +57,7 @@ private:
   formats::Kernel m_kernel;
   double m_parameter, m_level;
   std::vector<double> m_x, m_y, m_z, m_width;
-  std::vector<double>
-      m_scale;  ///< what |X - C|^2 is multiplied by: 1/w^2, and the kernel's parameter
+  std::vector<double> m_scale;  ///< factor of |X - C|^2: 1/w^2 and the kernel's parameter
   std::vector<double> m_reach;  ///< where f > T, some blob is nearer than its reach, mm
   Eigen::Vector3d m_low, m_high;
 };

@@ -25,14 +25,14 @@ namespace {
 
 // A cell that straddles a plane has every corner nearer to it than this many cells: over sqrt(3).
 constexpr double kCellDiagonal = 1.74;
-// How far from its centre a node's surface is followed along each axis. Its points lie within 2.4
-// radii, because its rays are sampled no farther; a surface beyond runs away from them.
+// Extent of a node's surface from its centre along each axis. Its points lie within 2.4 radii,
+// because its rays are sampled no farther; a surface beyond runs away from them.
 constexpr double kReachRadii = 2.4, kReachHeights = 0.5;
 // A part of the cut patch that nowhere comes this near to the node, in radii, is not its lumen's.
 constexpr double kLumenRadii = 2;
 // Vertices this near to a plane, in cells, are on it.
 constexpr double kSnap = 1e-4;
-// How far, in radii, a vertex of a local surface may be moved onto the surface of the case.
+// Largest move, in radii, of a vertex of a local surface onto the surface of the case.
 constexpr double kMaxShift = 0.5;
 
 struct NodePatch {
@@ -42,7 +42,7 @@ struct NodePatch {
   std::size_t lostTriangles = 0;
 };
 
-// What all patches are made from.
+// The common input of all patches.
 struct Source {
   const formats::Case& value;
   const formats::Neighbours& edges;
@@ -129,10 +129,10 @@ const HalfSpace* planeThrough(const std::vector<HalfSpace>& spaces, const Eigen:
 }
 
 // Moves vertices from the surface of the node's own model onto that of the case, where patches
-// meet. What a plane has cut stays in that plane, unless the surface is so oblique to it that it
-// lies far away there; ends always stay flat. Where there is no surface of the case near by, as
-// where a model draws a wall within the lumen of its neighbours, triangles are dropped; how many, is
-// returned.
+// meet. Vertices that a plane has cut stay in that plane, unless the surface is so oblique to it
+// that it lies far away there; ends always stay flat. Where there is no surface of the case near
+// by, as where a model draws a wall within the lumen of its neighbours, triangles are dropped;
+// returns their number.
 std::size_t moveOntoSurface(const Source& source, std::uint32_t node, const NodeCell& cell,
                             double snap, TriangleMesh& patch) {
   const double radius = source.value.tree.radius[node];

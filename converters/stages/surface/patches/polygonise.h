@@ -17,11 +17,11 @@ struct PolygoniseOptions {
   double cell = 0;
 };
 
-/// What the patches of a branch lack of its surface.
+/// Losses of the patches of a branch against its surface.
 struct BranchLosses {
-  std::size_t nodes = 0;      ///< that have a model
-  std::size_t triangles = 0;  ///< that its patches have
-  /// of those nodes, the ones whose lumen no corner of a cell lies in: the cells are too coarse for them
+  std::size_t nodes = 0;      ///< nodes that have a model
+  std::size_t triangles = 0;  ///< triangles of its patches
+  /// nodes of these whose lumen holds no corner of a cell: the cells are too coarse for them
   std::size_t missedNodes = 0;
   std::size_t lostTriangles = 0;  ///< dropped where the surface of the case is not near
   double thinnest = 0;            ///< the least radius of nodes with such losses, mm
@@ -32,16 +32,16 @@ struct BranchLosses {
 /// tree's order; one without triangles too.
 struct Patches {
   SurfaceMesh surface;
-  std::vector<BranchLosses> losses;  ///< of each branch
+  std::vector<BranchLosses> losses;  ///< losses of each branch
 };
 
-/// The edge of a cell, mm: as the options say, or the voxel size. Throws as polygonise() does.
+/// The edge of a cell, mm: the options' value, or the voxel size. Throws as polygonise() does.
 double cellOf(const formats::Case& source, const PolygoniseOptions& options);
 
-/// The surface of a case as patches, one for each node (docs/method.md, section 5). For each node with blobs,
-/// marching cubes at the iso-level on a lattice that all nodes share, of the connected component
-/// of the lumen at the node's centre. The patch is cut by the radical planes to the node's
-/// neighbours, and the node's side kept; what is left is moved onto the surface of the blended
+/// The surface of a case as patches, one for each node (docs/method.md, section 5). For each node
+/// with blobs, marching cubes at the iso-level on a lattice that all nodes share, of the connected
+/// component of the lumen at the node's centre. The patch is cut by the radical planes to the
+/// node's neighbours, and the node's side kept; the rest is moved onto the surface of the blended
 /// field, and dropped where there is none near by. A vessel's free end is cut flat at the end of
 /// its last node's cylinder and left open; an aneurysm's dome stays whole.
 ///
@@ -50,10 +50,10 @@ double cellOf(const formats::Case& source, const PolygoniseOptions& options);
 /// where the field itself jumps; patches of adjacent nodes meet in its curve on their radical
 /// plane, and share no vertex. Normals are those of the blended field, outward.
 ///
-/// What a branch lacks, because its cells are too coarse for thin vessels, is counted.
+/// Losses of a branch, where its cells are too coarse for thin vessels, are counted.
 ///
-/// Throws Error(InvalidInput) if the case has no models, no voxel size while `cell` is 0, or at once a
-/// cell that is too small for it, and Error(Cancelled).
+/// Throws Error(InvalidInput) if the case has no models, no voxel size while `cell` is 0, or at
+/// once a cell that is too small for it, and Error(Cancelled).
 Patches polygonise(const formats::Case& source, const PolygoniseOptions& options,
                    Progress& progress);
 
