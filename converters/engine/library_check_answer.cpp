@@ -77,7 +77,8 @@ std::string checkedText(const LibraryCheck& check) {
 }
 
 std::string faultCounts(const LibraryCheck& check) {
-  const std::size_t errors = check.faults.counts().errors, warnings = check.faults.counts().warnings;
+  const std::size_t errors = check.faults.counts().errors,
+                    warnings = check.faults.counts().warnings;
   const std::string ofErrors = counted(errors, "error", "errors");
   const std::string ofWarnings = counted(warnings, "warning", "warnings");
   return warnings == 0 ? ofErrors : errors == 0 ? ofWarnings : ofErrors + " and " + ofWarnings;

@@ -44,9 +44,10 @@ public:
     Json json = libraryCheckJson(m_folder, check);
     json["whole"] = isWhole;
     const std::string verdict =
-        isWhole ? "whole" + (check.faults.counts().warnings > 0 ? ", with " + faultCounts(check) : "")
-                : "not whole: " + faultCounts(check) +
-                      (check.faults.counts().errors == 0 ? ", which --strict makes errors" : "");
+        isWhole
+            ? "whole" + (check.faults.counts().warnings > 0 ? ", with " + faultCounts(check) : "")
+            : "not whole: " + faultCounts(check) +
+                  (check.faults.counts().errors == 0 ? ", which --strict makes errors" : "");
     return {std::move(json),
             libraryFaultsText(m_folder, check) +
                 Lines().add(m_folder + ": " + verdict + "; " + checkedText(check)).text(),

@@ -55,13 +55,13 @@ protected:
     return found;
   }
   [[nodiscard]] Status write(const std::string& name, const std::string& content,
-                                     const FileCalls& calls) const {
+                             const FileCalls& calls) const {
     return writeFileAtomically(std::as_bytes(std::span(content)), path(name), calls);
   }
   /// A folder with one file, `content` in "f", and an empty folder.
   [[nodiscard]] Status writeFolder(const std::string& name, const std::string& content,
-                                           PendingFolder::Existing existing,
-                                           const FileCalls& calls = systemCalls()) const {
+                                   PendingFolder::Existing existing,
+                                   const FileCalls& calls = systemCalls()) const {
     auto pending = PendingFolder::beside(path(name), existing, calls);
     if (!pending) return pending.error();
     put(pending->path() / "f", content);

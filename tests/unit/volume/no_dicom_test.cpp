@@ -10,10 +10,9 @@ class NoDicom : public FileTest {};
 TEST_F(NoDicom, AFolderIsRefusedWithTheOptionThatWasOff) {
   std::filesystem::create_directory(path("series"));
   expectRefused(readRefusal(path("series")), {"4: ", "series", "DICOM", "LUMEN_WITH_DICOM"});
-  expectRefused(refusal([&] {
-                  (void)readVolumeHeader(path("series"), VolumeFormat::Dicom, {}, Progress());
-                }),
-                {"4: ", "LUMEN_WITH_DICOM"});
+  expectRefused(
+      refusal([&] { (void)readVolumeHeader(path("series"), VolumeFormat::Dicom, {}, Progress()); }),
+      {"4: ", "LUMEN_WITH_DICOM"});
 }
 
 }  // namespace
