@@ -29,7 +29,7 @@ public:
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen convert head.nrrd head.lumen --seeds head-seeds.json\n"
-           "  lumen convert head.lumen head.glb --color radius\n"
+           "  lumen convert head.lumen head.glb --colour radius\n"
            "  lumen convert aorta.stl aorta.lumen --centerline aorta-centerline.vtp\n"
            "  lumen convert labels.nii.gz arteries.lumen --labels 1=ica,2=mca\n"
            "  lumen convert arteries.swc arteries.lumen";
