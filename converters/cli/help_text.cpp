@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/cli/help_text.h"
 
+#include <algorithm>
+#include <string_view>
+
 namespace lumen::cli {
 
 std::string HelpFormatter::make_option_name(const CLI::Option* option, bool positional) const {
@@ -14,8 +17,11 @@ std::string HelpFormatter::make_option_name(const CLI::Option* option, bool posi
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   if (option->get_positional()) return " ";
-  const std::string text = CLI::Formatter::make_option_opts(option);
-  return text.substr(0, text.find(" " + get_label("Excludes") + ":"));
+  std::string text = CLI::Formatter::make_option_opts(option);
+  text.erase(std::min(text.find(" " + get_label("Excludes") + ":"), text.size()));
+  if (const std::string_view many = " ..."; text.ends_with(many))
+    text.erase(text.size() - many.size());
+  return text;
 }
 
 std::string HelpFormatter::make_group(std::string group, bool positional,

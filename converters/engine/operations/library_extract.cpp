@@ -41,6 +41,7 @@ public:
     const convert::LibraryFile made =
         convert::extractCases(m_source, m_target, m_cases, library, around.progress);
     Json json = librarySummary(made);
+    json["gone"] = Json::array();
     json["origin"] = {{"id", made.origin->id},
                       {"revision", made.origin->revision},
                       {"sha256", made.origin->sha256}};

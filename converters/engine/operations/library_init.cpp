@@ -40,7 +40,10 @@ public:
     m_library.date = revisionDay(m_library.date);
     around.willWrite(m_folder);
     convert::makeLibrary(m_folder, m_library);
-    return {librarySummary(convert::openLibrary(m_folder)),
+    Json json = librarySummary(convert::openLibrary(m_folder));
+    json["gone"] = Json::array();
+    json["origin"] = nullptr;
+    return {std::move(json),
             formats::printable(m_folder) + ": a library without cases, " + m_library.id + "\n"};
   }
 

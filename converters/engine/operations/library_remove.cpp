@@ -34,6 +34,7 @@ public:
     change.commit(day);
     Json json = librarySummary(change.library());
     json["gone"] = change.gone();
+    json["origin"] = nullptr;
     return {std::move(json), formats::printable(m_library) + ": " +
                                  counted(change.library().cases.size(), "case", "cases") +
                                  " left\n" + goneText(change.gone())};
