@@ -1,7 +1,7 @@
 # The document of the viewer, and its server as a page meets it.
 lumen_test(viewer_test
   LIBS lumen_server lumen_httplib
-  LABELS threads slow
+  LABELS slow
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/arguments_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/viewer/document_test.cpp
