@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 FORBIDDEN = re.compile(r"[Jj]son::(parse|accept)\(|\bis_(number|binary)\w*\(|"
                        r"[.>]\s*(template )?get(_to|_ref|_ptr)?<[^>]*\b(double|float|int|long|(u?int\d+|size)_t)\b")
 
-# What reads values that lumen itself has made in memory, and the reader itself.
+# Readers of values that lumen itself has made in memory, and the reader itself.
 ALLOWED = {
     "formats/case/json_value.cpp": "the reader",
     "converters/library/verified_revisions.cpp": "values that were read by the reader before",

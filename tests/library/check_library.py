@@ -132,7 +132,7 @@ def changing(place):
 
 
 def replacing(place):
-    """What is not named again stays: statements, exports, pages, pictures, files; all that goes is listed."""
+    """Parts that are not named again stay: statements, exports, pages, pictures, files; all that goes is listed."""
     place.run("library", "add", "lib", "tube.lumen", "--id", "rich", "--consent", "Given", "--deidentification", "Done", "--no-surface",
               "--picture", "left", "--picture", "best", "--turntable", "2", "--export", "svzerod", "--report", "--viewer", "--file", "note.txt",
               "--code", "FMA:3947:Internal carotid artery")
@@ -167,7 +167,7 @@ def extracting(place):
 
 
 def leaving(place):
-    """What a killed `library index` leaves is no fault, and no part of the next revision."""
+    """Leftovers of a killed `library index` are no fault, and no part of the next revision."""
     left = place.folder / "lib/.lumen-4711-0"
     left.mkdir()
     (left / "page.html").write_text("half")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whom a signature is by, with keys that the programs make for the test.
+// The signer of a signature, with keys that the programs make for the test.
 #include "converters/library/signature.h"
 
 #include <gtest/gtest.h>

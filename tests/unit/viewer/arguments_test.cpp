@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page may write in a request.
+// Values that a page may write in a request.
 #include "viewer/session/arguments.h"
 
 #include <string>
