@@ -131,17 +131,21 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume, const std::strin
 void addTrackRows(OptionTable& table, TrackArguments& track) {
   table.scope(kImage);
   table.group("Tracking");
-  table.file("seeds", track.seeds,
-             "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv)");
+  table.file(
+      "seeds", track.seeds,
+      "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv) [all "
+      "vessels that are found without]");
   table
       .add("seeds-frame", &track.seedsFrame, "FRAME",
            "Frame of the seeds' coordinates, whatever their file says: lps, ras, or voxel "
            "(indices; radii in the file's unit)")
-      .among(wordsOf(kSeedSystems));
+      .among(wordsOf(kSeedSystems))
+      .onlyWith("seeds");
   table
       .add("seeds-unit", &track.seedsUnit, "UNIT",
            "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or um")
-      .among(wordsOf(millimetresByUnit()));
+      .among(wordsOf(millimetresByUnit()))
+      .onlyWith("seeds");
   track.options.addRows(table);
   table.scope(kAnyContent);
   table.group("");

@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/place_seeds.h"
+#include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/click_light.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "formats/container/printable.h"
@@ -106,11 +107,26 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
   return result;
 }
 
+convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
+                                const TrackArguments& track, Progress& progress) {
+  const std::vector<convert::SeedBranch> courses =
+      convert::findVessels(volume, track.options.dark, progress);
+  const std::string none = formats::printable(file) + ": no vessels are found in it";
+  if (courses.empty())
+    throw failed(none +
+                 ", as nothing long and thin stands out of its noise; --seeds states where "
+                 "vessels begin, and --dark that they are darker than their background");
+  convert::TrackResult result = convert::trackCourses(volume, courses, track.options, progress);
+  for (const convert::SeedFailure& failure : result.failures)
+    progress.detail(failure.label + " is no vessel: " + failure.reason);
+  if (result.result.tree.nodeCount() == 0)
+    throw failed(none + ", as no cylinder fits along any of " + std::to_string(courses.size()) +
+                 " candidates; --seeds states where vessels begin");
+  result.failures.clear();
+  return result;
+}
+
 std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
-  if (track.seeds.empty())
-    throw Error(ErrorKind::Usage,
-                "a volume needs --seeds FILE, which says where its vessels begin; if it holds "
-                "labels, lumen convert --mask takes them");
   requireInput(track.seeds, "seeds file");
   if (const std::string other = convert::notA(convert::ContentKind::Seeds, track.seeds);
       !other.empty())

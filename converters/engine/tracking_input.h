@@ -28,8 +28,14 @@ convert::Volume readVolumeFile(const std::filesystem::path& file, const FileForm
 convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
                            const VolumeArguments& volume, Progress& progress);
 
-/// The seeds of --seeds, read by the options. Throws Error(Usage) without the option, and
-/// Error(InvalidInput) for a file that is missing or invalid.
+/// Finds the vessels of `volume`, which is read from `file`, without seeds, and tracks them. Vessels
+/// of which the volume shows no wall are left out, and listed for --verbose. Throws Error(Failed) if
+/// none is left.
+convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
+                                const TrackArguments& track, Progress& progress);
+
+/// The seeds of --seeds, read by the options. Throws Error(InvalidInput) for a file that is
+/// missing or invalid.
 std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track);
 
 /// Tracks `seeds` through the volume. Seeds that cannot be placed in it or that start no track

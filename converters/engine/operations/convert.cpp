@@ -65,7 +65,7 @@ public:
     const FileFormat& from = inputFormat(m_input, m_from);
     m_situation = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
     if (from.kind != FormatKind::Case) requireInScope(*around.table, m_situation, around.progress);
-    if (from.kind == FormatKind::Volume && !m_mask.isGiven()) m_seeds = loadSeeds(m_track);
+    if (from.kind == FormatKind::Volume && !m_track.seeds.empty()) m_seeds = loadSeeds(m_track);
     requireWritable(m_output, contentKind(to));
     around.willWrite(m_output);
 
@@ -97,7 +97,9 @@ private:
     }
     if (m_mask.isGiven()) return caseOfMaskFile(m_input, from, m_volume, m_mask, progress);
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
-    convert::TrackResult tracked = trackSeeds(volume, m_seeds, m_track, progress);
+    convert::TrackResult tracked = m_track.seeds.empty()
+                                       ? trackFound(volume, m_input, m_track, progress)
+                                       : trackSeeds(volume, m_seeds, m_track, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
     return std::move(tracked.result);
   }

@@ -43,12 +43,15 @@ public:
     }
     requireInScope(*around.table, {inputContent(from, false), outputContent(to), m_input, m_output},
                    around.progress);
-    const auto seeds = loadSeeds(m_track);
+    std::vector<convert::SeedBranch> seeds;
+    if (!m_track.seeds.empty()) seeds = loadSeeds(m_track);
     requireWritable(m_output, convert::ContentKind::Case);
     around.willWrite(m_output);
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
-    const convert::TrackResult tracked = trackSeeds(volume, seeds, m_track, around.progress);
+    const convert::TrackResult tracked = m_track.seeds.empty()
+                                             ? trackFound(volume, m_input, m_track, around.progress)
+                                             : trackSeeds(volume, seeds, m_track, around.progress);
     to.writeCase(tracked.result, m_output, {}, around.progress);
     Json json = caseSummary(tracked.result);
     json["reachable"] = reachJson(std::nullopt);

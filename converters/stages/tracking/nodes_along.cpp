@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "converters/base/statistics.h"
 #include "converters/stages/tracking/node_fit.h"
 
 namespace lumen::convert {
@@ -19,33 +20,67 @@ constexpr double kSpacingRadii = 0.5;
 /// Largest distance of a fitted node from the line, and its least and largest radius, in
 /// interpolated radii.
 constexpr double kAsideRadii = 0.7, kNarrowRadii = 0.6, kWideRadii = 1.5;
+/// Least and largest radius where the expected one is as coarse as the voxels.
+constexpr double kCoarseNarrow = 0.5, kCoarseWide = 1.8;
 
 struct Station {
   Vector3d position, direction;
   double radius;
 };
 
-/// Evenly spaced places along a polyline, without its ends.
-std::vector<Station> stationsAlong(std::span<const Vector3d> line, double first, double last) {
-  std::vector<double> at(line.size(), 0.0);
-  for (std::size_t i = 1; i < line.size(); ++i) at[i] = at[i - 1] + (line[i] - line[i - 1]).norm();
-  const double length = at.back();
-  const int count = static_cast<int>(std::floor(length / (kSpacingRadii * std::min(first, last))));
-  std::vector<Station> stations;
-  const auto place = [&](double t) {
-    const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, t);
-    const auto i = static_cast<std::size_t>(above - at.begin());
-    const double share = at[i] > at[i - 1] ? (t - at[i - 1]) / (at[i] - at[i - 1]) : 0.0;
-    return Vector3d(line[i - 1] + share * (line[i] - line[i - 1]));
-  };
-  for (int n = 1; n < count; ++n) {
-    const double t = length * n / count, half = 0.5 * length / count;
-    const Vector3d tangent = place(t + half) - place(t - half);
-    if (!(tangent.norm() > 0)) continue;
-    stations.push_back({place(t), tangent.normalized(), first + (last - first) * n / count});
+/// Places along a polyline, half a radius apart, without its ends.
+class Stations {
+public:
+  explicit Stations(std::span<const Vector3d> line) : m_line(line), m_at(line.size(), 0.0) {
+    for (std::size_t i = 1; i < line.size(); ++i)
+      m_at[i] = m_at[i - 1] + (line[i] - line[i - 1]).norm();
   }
-  return stations;
-}
+
+  /// Evenly spaced, for radii from `first` to `last`.
+  [[nodiscard]] std::vector<Station> between(double first, double last) const {
+    const double length = m_at.back();
+    const int count =
+        static_cast<int>(std::floor(length / (kSpacingRadii * std::min(first, last))));
+    std::vector<Station> out;
+    for (int n = 1; n < count; ++n)
+      add(length * n / count, 0.5 * length / count, first + (last - first) * n / count, out);
+    return out;
+  }
+
+  /// For a radius at each point of the line.
+  [[nodiscard]] std::vector<Station> by(std::span<const double> radii) const {
+    std::vector<Station> out;
+    for (double t = 0; t < m_at.back();) {
+      const auto [i, share] = segmentAt(t);
+      const double radius = radii[i - 1] + share * (radii[i] - radii[i - 1]);
+      if (t > 0) add(t, radius, radius, out);
+      t += kSpacingRadii * radius;
+    }
+    return out;
+  }
+
+private:
+  /// The end of the segment at a length, and the share of that segment before the length.
+  [[nodiscard]] std::pair<std::size_t, double> segmentAt(double t) const {
+    const auto above = std::upper_bound(m_at.begin() + 1, m_at.end() - 1, t);
+    const auto i = static_cast<std::size_t>(above - m_at.begin());
+    const double share = m_at[i] > m_at[i - 1] ? (t - m_at[i - 1]) / (m_at[i] - m_at[i - 1]) : 0.0;
+    return {i, share};
+  }
+  [[nodiscard]] Vector3d place(double t) const {
+    const auto [i, share] = segmentAt(t);
+    return m_line[i - 1] + share * (m_line[i] - m_line[i - 1]);
+  }
+  /// Adds the place at a length with the direction of the chord over `half` on either side.
+  void add(double t, double half, double radius, std::vector<Station>& out) const {
+    const Vector3d tangent =
+        place(std::min(t + half, m_at.back())) - place(std::max(t - half, 0.0));
+    if (tangent.norm() > 0) out.push_back({place(t), tangent.normalized(), radius});
+  }
+
+  std::span<const Vector3d> m_line;
+  std::vector<double> m_at;  ///< mm from the first point
+};
 
 bool inLumen(const TrackedBranch* other, const Vector3d& point) {
   if (!other) return false;
@@ -63,27 +98,62 @@ TrackedNode bridgedNode(const Station& station) {
   return node;
 }
 
+/// The node that fits at a station, of about its radius and course; empty if there is none.
+std::optional<TrackedNode> nodeAt(TrackRun& run, const Station& station, double narrow,
+                                  double wide) {
+  const NodeGuess guess{station.position, station.direction, station.radius, true,
+                        0.5 * kSpacingRadii * station.radius};
+  std::optional<TrackedNode> node = fitNode(run, guess, leastInlierRate(run.context.options)).node;
+  if (!node) return node;
+  const Vector3d aside = node->centre - station.position;
+  if (aside.norm() > kAsideRadii * station.radius || node->radius < narrow * station.radius ||
+      node->radius > wide * station.radius ||
+      node->direction.dot(station.direction) < std::numbers::sqrt2 / 2)
+    node.reset();
+  return node;
+}
+
+/// The median radius of the fitted nodes around one, or 0 if there are too few.
+double radiusAround(const std::vector<std::optional<TrackedNode>>& nodes, std::size_t at) {
+  constexpr std::size_t kReach = 6, kFewest = 4;
+  std::vector<double> radii;
+  const std::size_t end = std::min(nodes.size(), at + kReach + 1);
+  for (std::size_t i = at < kReach ? 0 : at - kReach; i < end; ++i)
+    if (nodes[i]) radii.push_back(nodes[i]->radius);
+  return radii.size() < kFewest ? 0 : upperMedian(radii);
+}
+
 }  // namespace
 
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> line, double first,
                                     double last, const TrackedBranch* parent) {
   std::vector<TrackedNode> nodes;
-  for (const Station& station : stationsAlong(line, first, last)) {
-    const NodeGuess guess{station.position, station.direction, station.radius, true,
-                          0.5 * kSpacingRadii * station.radius};
+  for (const Station& station : Stations(line).between(first, last)) {
     std::optional<TrackedNode> node;
-    if (!inLumen(parent, station.position))
-      node = fitNode(run, guess, leastInlierRate(run.context.options)).node;
-    if (node) {
-      const Vector3d aside = node->centre - station.position;
-      if (aside.norm() > kAsideRadii * station.radius ||
-          node->radius < kNarrowRadii * station.radius ||
-          node->radius > kWideRadii * station.radius ||
-          node->direction.dot(station.direction) < std::numbers::sqrt2 / 2)
-        node.reset();
-    }
+    if (!inLumen(parent, station.position)) node = nodeAt(run, station, kNarrowRadii, kWideRadii);
     nodes.push_back(node ? std::move(*node) : bridgedNode(station));
   }
+  return nodes;
+}
+
+std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> line,
+                                    std::span<const double> radii) {
+  std::vector<Station> stations = Stations(line).by(radii);
+  std::vector<std::optional<TrackedNode>> found;
+  for (const Station& station : stations) {
+    run.context.progress.check();
+    found.push_back(nodeAt(run, station, kCoarseNarrow, kCoarseWide));
+  }
+  const std::vector<std::optional<TrackedNode>> before = found;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const double around = radiusAround(before, i);
+    if (around == 0) continue;
+    stations[i].radius = around;
+    if (!found[i]) found[i] = nodeAt(run, stations[i], kNarrowRadii, kWideRadii);
+  }
+  std::vector<TrackedNode> nodes;
+  for (std::size_t i = 0; i < stations.size(); ++i)
+    nodes.push_back(found[i] ? std::move(*found[i]) : bridgedNode(stations[i]));
   return nodes;
 }
 

@@ -18,4 +18,9 @@ namespace lumen::convert {
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,
                                     double first, double last, const TrackedBranch* parent);
 
+/// The same along a course whose expected radius is known at each of its points, mm; nodes that are
+/// refused are tried again with the radius of the nodes around them.
+std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,
+                                    std::span<const double> radii);
+
 }  // namespace lumen::convert

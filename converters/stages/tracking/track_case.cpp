@@ -10,6 +10,7 @@
 #include "converters/base/edit_steps.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/tracking/corrections.h"
+#include "converters/stages/tracking/follow_courses.h"
 #include "converters/stages/tracking/sac_walls.h"
 #include "converters/stages/tracking/track_by_depth.h"
 #include "converters/stages/tracking/tree_joins.h"
@@ -41,13 +42,17 @@ void correctAdded(TrackedBranch& branch, const TrackedBranch& before, BranchKind
   }
 }
 
+/// The first nodes of all branches: trackByDepth() or followCourses().
+using TrackBranches = void (*)(const TrackContext&, TrackedTree&, Progress&);
+
 /// Tracks the seeds of a tree that are not known, and joins and corrects their branches. Known
 /// branches get wall points only, where new aneurysms open into them. Returns the shape by which
 /// walls were corrected. Throws Error(Cancelled).
-WallShape trackTree(const TrackingVolume& volume, TrackedTree& tree, Progress& progress) {
+WallShape trackTree(const TrackingVolume& volume, TrackBranches trackBranches, TrackedTree& tree,
+                    Progress& progress) {
   const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress);
   progress.begin("track", tree.seeds.size() - tree.known);
-  trackByDepth(context, tree, progress);
+  trackBranches(context, tree, progress);
   extendTips(context, tree);
   joinTree(context, tree);
   reviewWalls(context, tree);
@@ -145,18 +150,32 @@ void dropOtherArrays(AddedTracks& out) {
 
 }  // namespace
 
-TrackResult trackCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                      const TrackOptions& options, Progress& progress) {
+namespace {
+
+TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                    const TrackOptions& options, TrackBranches trackBranches, Progress& progress) {
   const TrackingVolume tracking(volume, seeds, options, progress);
   TrackedTree tree{seeds};
   TrackOptions used = tracking.options();
-  used.pointSpread = trackTree(tracking, tree, progress).pointSpread;
+  used.pointSpread = trackTree(tracking, trackBranches, tree, progress).pointSpread;
 
   TrackResult out{remarksOn(tree), caseOfTracks(tree)};
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
   out.result.metadata.source = describeSource(volume);
   out.result.metadata.steps.push_back({"track", "lumen " LUMEN_VERSION, used.parameters()});
   return out;
+}
+
+}  // namespace
+
+TrackResult trackCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                      const TrackOptions& options, Progress& progress) {
+  return newCase(volume, seeds, options, trackByDepth, progress);
+}
+
+TrackResult trackCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
+                         const TrackOptions& options, Progress& progress) {
+  return newCase(volume, courses, options, followCourses, progress);
 }
 
 AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& known,
@@ -169,7 +188,7 @@ AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& kno
   out.firstNewNode = static_cast<std::uint32_t>(known.tree.nodeCount());
   out.firstNewBranch = static_cast<std::uint32_t>(tree.known);
   if (seeds.empty()) return out;
-  trackTree(volume, tree, progress);
+  trackTree(volume, trackByDepth, tree, progress);
   static_cast<TrackRemarks&>(out) = remarksOn(tree);
   for (std::size_t i = tree.known; i < tree.seeds.size(); ++i)
     if (!tree.branches[i].nodes.empty()) recordEdit(out.result.metadata, sentenceOn(tree.seeds[i]));

@@ -27,6 +27,13 @@ struct TrackResult : TrackRemarks {
 TrackResult trackCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
                       const TrackOptions& options, Progress& progress);
 
+/// Fits vessels along courses: the points of each seed, with radii, lead along the whole vessel, from
+/// its parent's axis to its tip. Vessels whose walls the volume does not show are left out, as
+/// failures; tips are extended as those of clicked vessels are. The result does not depend on the
+/// number of threads. Throws as trackCase() does.
+TrackResult trackCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
+                         const TrackOptions& options, Progress& progress);
+
 struct AddedTracks : TrackRemarks {
   /// The known nodes and branches, under their indices, and the new ones behind them. New nodes
   /// have no models yet. Equal to the known case if nothing was tracked.

@@ -8,8 +8,8 @@
 
 #include "converters/stages/trees_from_surfaces/inside_voxels.h"
 #include "converters/stages/trees_from_surfaces/vessel_lines.h"
-#include "converters/stages/trees_from_surfaces/vessel_paths.h"
 #include "converters/voxels/depth.h"
+#include "converters/voxels/vessel_paths.h"
 #include "converters/voxels/voxel_set.h"
 
 namespace lumen::convert {
@@ -19,7 +19,6 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kNone = VesselPath::kNone;
 constexpr std::size_t kLeastPart = 27;  // voxels of a part that may be a vessel
-constexpr double kTip = 4;    // depths from a tip: the stretch that shows its vessel's width
 constexpr double kReach = 4;  // depths from where a path is trimmed to the vessel's end
 
 /// From the inside as voxels to lines.
@@ -103,37 +102,7 @@ private:
         best = atEnd[e];
       }
     if (best != kNone) return best;
-    const std::uint32_t far = m_paths.farthest(part.front(), m_progress);
-    const std::vector<VesselPath> paths = m_paths.find(far, m_progress);
-    for (const VesselPath& path : paths) {
-      if (path.isSac || path.meets != kNone) continue;
-      const auto tipFirst = [&](bool isStart) {
-        std::vector<std::uint32_t> voxels = path.voxels;
-        if (!isStart) std::reverse(voxels.begin(), voxels.end());
-        const double width = widthAtTip(voxels);
-        if (width <= widest) return;
-        widest = width;
-        best = voxels.front();
-      };
-      tipFirst(false);
-      if (path.parent == kNone) tipFirst(true);
-    }
-    return best == kNone ? far : best;
-  }
-
-  /// The least depth from where the greatest ball at a tip is to a few depths on.
-  [[nodiscard]] double widthAtTip(const std::vector<std::uint32_t>& voxels) const {
-    double width = 0;
-    const Vector3d tip = m_set.position(voxels.front());
-    for (const std::uint32_t i : voxels) {
-      const auto depth = static_cast<double>(m_depths[i]);
-      const double away = (m_set.position(i) - tip).norm();
-      if (away < depth) continue;
-      if (width == 0) width = depth;
-      width = std::min(width, depth);
-      if (away > kTip * depth) break;
-    }
-    return width;
+    return m_paths.widestTip(part.front(), m_progress);
   }
 
   void addPart(std::uint32_t root) {

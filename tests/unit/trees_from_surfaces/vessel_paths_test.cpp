@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vessels one voxel wide: a trunk along x, and a branch that leaves it and comes back beside it.
-#include "converters/stages/trees_from_surfaces/vessel_paths.h"
+#include "converters/voxels/vessel_paths.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/stages/trees_from_surfaces/vessel_paths.h"
+#include "converters/voxels/vessel_paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,9 @@ SkeletonPrice priceIn(const VolumeGeometry& geometry) {
 
 // Share of the depth: balls closer to each other cover about the same.
 constexpr float kBallStep = 0.25F;
-// Share of its parent's depth: a path that is no longer is a corner of that vessel or a bump on it.
-constexpr double kLeastOfParent = 0.5;
 constexpr double kLeastVoxels = 3;
+// Depths from a tip: the stretch that shows the width of its vessel.
+constexpr double kTip = 4;
 // Multiple of the depth in the neck: a path that gets deeper behind it leads into a sac.
 constexpr double kSac = 1.25;
 // Path along the tree over the distance across: beyond this ratio a tip has closed a loop.
@@ -31,31 +31,36 @@ constexpr double kLoop = 4;
 }  // namespace
 
 VesselPaths::VesselPaths(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen,
-                         const Progress& progress)
+                         const Progress& progress, double leastOfParent)
     : m_set(set),
       m_isOpen(isOpen),
       m_skeleton(set, depths, priceIn(set.geometry())),
       m_steps(kMostSteps * set.size(), kNoStep),
+      m_leastOfParent(leastOfParent),
       m_cover(set.size(), kFree),
       m_path(set.size(), kNone),
       m_place(set.size()) {
-  for (std::size_t axes = 1; axes < 4; ++axes)
-    m_lengthOf[axes] =
-        static_cast<float>(set.geometry().voxelSize() * std::sqrt(static_cast<double>(axes)));
+  const Eigen::Vector3d& spacing = set.geometry().spacing;
+  for (unsigned axes = 1; axes < 8; ++axes) {
+    const Eigen::Vector3d along(axes & 1U ? spacing[0] : 0, axes & 2U ? spacing[1] : 0,
+                                axes & 4U ? spacing[2] : 0);
+    m_lengthOf[axes] = static_cast<float>(along.norm());
+  }
   findSteps(progress);
 }
 
 void VesselPaths::findSteps(const Progress& progress) {
-  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()),
-                    [&](std::uint32_t i) {
-                      if (i % 1024 == 0) progress.check();
-                      std::size_t next = kMostSteps * i;
-                      m_set.eachBeside(i, [&](std::uint32_t j, const Eigen::Vector3d& step) {
-                        if (!isOpen(std::min(i, j), std::max(i, j))) return;
-                        const auto axes = static_cast<std::uint32_t>((step.array() != 0).count());
-                        m_steps[next++] = axes << kAxesShift | j;
-                      });
-                    });
+  tbb::parallel_for(
+      std::uint32_t{0}, static_cast<std::uint32_t>(m_set.size()), [&](std::uint32_t i) {
+        if (i % 1024 == 0) progress.check();
+        std::size_t next = kMostSteps * i;
+        m_set.eachBeside(i, [&](std::uint32_t j, const Eigen::Vector3d& step) {
+          if (!isOpen(std::min(i, j), std::max(i, j))) return;
+          const std::uint32_t axes =
+              (step[0] != 0 ? 1U : 0U) | (step[1] != 0 ? 2U : 0U) | (step[2] != 0 ? 4U : 0U);
+          m_steps[next++] = axes << kAxesShift | j;
+        });
+      });
 }
 
 std::vector<std::uint32_t> VesselPaths::partOf(std::uint32_t voxel) const {
@@ -110,7 +115,7 @@ bool VesselPaths::isVessel(VesselPath& path) const {
   }
   const double parent = depthAt(0);
   path.isSac = deepest > kSac * neckThere && length < 6 * deepest;
-  const double least = std::max({path.isSac ? deepest : 2 * deepest, kLeastOfParent * parent,
+  const double least = std::max({path.isSac ? deepest : 2 * deepest, m_leastOfParent * parent,
                                  kLeastVoxels * m_set.geometry().voxelSize()});
   return length > least;
 }
@@ -200,6 +205,37 @@ std::uint32_t VesselPaths::farthest(std::uint32_t from, const Progress& progress
     return m_skeleton.length(a) < m_skeleton.length(b) ||
            (m_skeleton.length(a) == m_skeleton.length(b) && a > b);
   });
+}
+
+double VesselPaths::widthAtStart(const std::vector<std::uint32_t>& voxels) const {
+  double width = 0;
+  const Eigen::Vector3d tip = m_set.position(voxels.front());
+  for (const std::uint32_t i : voxels) {
+    const double away = (m_set.position(i) - tip).norm();
+    if (away < depth(i)) continue;
+    if (width == 0) width = depth(i);
+    width = std::min(width, depth(i));
+    if (away > kTip * depth(i)) break;
+  }
+  return width;
+}
+
+std::uint32_t VesselPaths::widestTip(std::uint32_t voxel, const Progress& progress) {
+  const std::uint32_t far = farthest(voxel, progress);
+  std::uint32_t best = far;
+  double widest = 0;
+  for (const VesselPath& path : find(far, progress)) {
+    if (path.isSac || path.meets != kNone) continue;
+    const auto tryTip = [&](const std::vector<std::uint32_t>& fromTip) {
+      const double width = widthAtStart(fromTip);
+      if (width <= widest) return;
+      widest = width;
+      best = fromTip.front();
+    };
+    tryTip({path.voxels.rbegin(), path.voxels.rend()});
+    if (path.parent == kNone) tryTip(path.voxels);
+  }
+  return best;
 }
 
 }  // namespace lumen::convert

@@ -30,11 +30,15 @@ struct VesselPath {
 /// length by the fourth power of the depth.
 class VesselPaths {
 public:
-  /// All must stay. The voxels are cubes; `depths`: mm from each to the wall; isOpen(a, b): no wall
-  /// lies between two places. Throws Error(Cancelled).
+  /// True if no wall lies between two places.
   using IsOpen = std::function<bool(const Eigen::Vector3d&, const Eigen::Vector3d&)>;
+  /// A path that extends less than this many of its parent's depths beyond that vessel is a corner
+  /// of it or a bump on it.
+  static constexpr double kLeastOfParent = 0.5;
+  /// All must stay; fewer than 2^29 voxels. `depths`: mm from each to the wall. Throws
+  /// Error(Cancelled).
   VesselPaths(const VoxelSet& set, std::span<const float> depths, const IsOpen& isOpen,
-              const Progress& progress);
+              const Progress& progress, double leastOfParent = kLeastOfParent);
 
   /// The paths of the connected part of `root`, where the first begins. A path is kept if its
   /// length outside of the balls of those before it is more than its width; or if it widens behind
@@ -44,17 +48,17 @@ public:
   /// The voxels of a connected part; the given one is the first.
   [[nodiscard]] std::vector<std::uint32_t> partOf(std::uint32_t voxel) const;
 
-  /// The voxel farthest from `from`, in its part.
-  std::uint32_t farthest(std::uint32_t from, const Progress& progress);
+  /// The tip of the widest vessel in the part of `voxel`, where that vessel enters it.
+  std::uint32_t widestTip(std::uint32_t voxel, const Progress& progress);
 
 private:
   enum Cover : std::uint8_t { kFree = 0, kNear = 1, kInBall = 2 };
-  /// A voxel that shares a corner with another, with no wall in between; in the upper two bits the
-  /// number of axes along which it lies beside it.
+  /// A voxel that shares a corner with another, with no wall in between; in the upper three bits
+  /// the axes along which it lies beside it.
   using Step = std::uint32_t;
   static constexpr std::size_t kMostSteps = 26;
   static constexpr Step kNoStep = 0;
-  static constexpr int kAxesShift = 30;
+  static constexpr int kAxesShift = 29;
   static std::uint32_t voxelOf(Step step) { return step & ((1U << kAxesShift) - 1); }
   template <class Visit>
   void eachStep(std::uint32_t i, Visit&& visit) const {
@@ -62,6 +66,11 @@ private:
       visit(voxelOf(m_steps[k]), m_lengthOf[m_steps[k] >> kAxesShift]);
   }
   void findSteps(const Progress& progress);
+  /// The voxel farthest from `from`, in its part.
+  std::uint32_t farthest(std::uint32_t from, const Progress& progress);
+  /// The least depth of a path from where the greatest ball at its first voxel ends to a few depths
+  /// on, mm.
+  [[nodiscard]] double widthAtStart(const std::vector<std::uint32_t>& voxels) const;
   void spread(std::uint32_t root, const Progress& progress);
   [[nodiscard]] VesselPath pathTo(std::uint32_t tip) const;
   [[nodiscard]] bool isVessel(VesselPath& path) const;
@@ -81,7 +90,8 @@ private:
   const IsOpen& m_isOpen;
   Skeleton m_skeleton;
   std::vector<Step> m_steps;          ///< kMostSteps for each voxel, kNoStep behind the last
-  std::array<float, 4> m_lengthOf{};  ///< mm of a step along 1, 2 or 3 axes
+  std::array<float, 8> m_lengthOf{};  ///< mm of a step, by the bits of its axes
+  double m_leastOfParent;
   std::vector<std::uint8_t> m_cover;
   std::vector<std::uint32_t> m_path;   ///< for each voxel on a path, the index of the path
   std::vector<std::uint32_t> m_place;  ///< for each voxel on a path, its position on it

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/finding/background.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/base/statistics.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr int kEdge = 16;        // voxels of a block
+constexpr int kAround = 2;       // blocks on either side that a place compares
+constexpr double kQuiet = 0.25;  // quantile of the blocks that hold background alone
+constexpr double kFromDeviation = 1.4826;
+
+/// Median of a block's voxels, and the median absolute deviation from it.
+struct BlockLevel {
+  float median = 0, deviation = 0;
+};
+
+template <class T>
+BlockLevel levelOf(const std::vector<T>& voxels, const CellBox& cells, const CellBox& block,
+                   float sign) {
+  std::vector<float> values;
+  values.reserve(block.count());
+  block.forEach([&](const Cell& cell) {
+    const auto value = static_cast<float>(voxels[cells.index(cell)]);
+    if (std::isfinite(value)) values.push_back(sign * value);
+  });
+  if (values.empty()) return {};
+  BlockLevel level;
+  level.median = upperMedian(values);
+  for (float& value : values) value = std::abs(value - level.median);
+  level.deviation = upperMedian(values);
+  return level;
+}
+
+}  // namespace
+
+Background::Background(const Volume& volume, float sign, const Progress& progress)
+    : m_voxels(volume.geometry.cells()) {
+  m_blocks.size = (m_voxels.size.array() + kEdge - 1) / kEdge;
+  std::vector<float> medians(m_blocks.count()), deviations(m_blocks.count());
+  std::visit(
+      [&](const auto& voxels) {
+        tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
+          progress.check();
+          const CellBox block{m_blocks.cell(b) * kEdge, Cell::Constant(kEdge)};
+          const BlockLevel level = levelOf(voxels, m_voxels, block.meet(m_voxels), sign);
+          medians[b] = level.median;
+          deviations[b] = level.deviation;
+        });
+        using T = typename std::decay_t<decltype(voxels)>::value_type;
+        if constexpr (std::is_integral_v<T>) m_noise = static_cast<float>(1 / std::sqrt(12.0));
+      },
+      volume.voxels);
+  smoothOver(medians);
+  m_noise = std::max(
+      m_noise,
+      static_cast<float>(kFromDeviation * static_cast<double>(lowerQuantile(deviations, kQuiet))));
+}
+
+void Background::smoothOver(const std::vector<float>& medians) {
+  m_level.resize(medians.size());
+  tbb::parallel_for(std::size_t{0}, medians.size(), [&](std::size_t b) {
+    const Cell at = m_blocks.cell(b);
+    std::vector<float> around;
+    m_blocks.meet(CellBox::between(at - Cell::Constant(kAround), at + Cell::Constant(kAround)))
+        .forEach([&](const Cell& cell) { around.push_back(medians[m_blocks.index(cell)]); });
+    m_level[b] = lowerQuantile(around, kQuiet);
+  });
+}
+
+void Background::alongRow(int y, int z, std::vector<float>& row) const {
+  // place of a voxel between the middles of two blocks
+  const auto between = [&](int voxel, int axis) {
+    const double at = (voxel + 0.5) / kEdge - 0.5;
+    const int low = std::clamp(static_cast<int>(std::floor(at)), 0, m_blocks.size[axis] - 1);
+    const int high = std::min(low + 1, m_blocks.size[axis] - 1);
+    const auto share = static_cast<float>(std::clamp(at - low, 0.0, 1.0));
+    return std::tuple(low, high, share);
+  };
+  const auto [y0, y1, sy] = between(y, 1);
+  const auto [z0, z1, sz] = between(z, 2);
+  std::vector<float> levels(static_cast<std::size_t>(m_blocks.size[0]));
+  for (int bx = 0; bx < m_blocks.size[0]; ++bx) {
+    const auto level = [&](int by, int bz) { return m_level[m_blocks.index(Cell(bx, by, bz))]; };
+    const float low = level(y0, z0) + sy * (level(y1, z0) - level(y0, z0));
+    const float high = level(y0, z1) + sy * (level(y1, z1) - level(y0, z1));
+    levels[static_cast<std::size_t>(bx)] = low + sz * (high - low);
+  }
+  row.resize(static_cast<std::size_t>(m_voxels.size[0]));
+  for (int x = 0; x < m_voxels.size[0]; ++x) {
+    const auto [x0, x1, sx] = between(x, 0);
+    const float low = levels[static_cast<std::size_t>(x0)];
+    row[static_cast<std::size_t>(x)] = low + sx * (levels[static_cast<std::size_t>(x1)] - low);
+  }
+}
+
+}  // namespace lumen::convert

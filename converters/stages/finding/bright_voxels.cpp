@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/finding/bright_voxels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <variant>
+
+#include <tbb/parallel_for.h>
+
+#include "converters/base/statistics.h"
+#include "converters/stages/finding/background.h"
+#include "converters/stages/finding/ridges.h"
+
+namespace lumen::convert {
+namespace {
+
+constexpr double kAboveNoise = 4;    // standard deviations: excess that is no noise
+constexpr std::size_t kBins = 1024;  // of the histogram of excess
+constexpr double kMostLumen = 0.1;   // share of a volume that vessels may fill
+/// Multiples of the median strength of ridges in the background: a vessel has one voxel of the
+/// latter at least, and goes on through voxels of the former.
+constexpr float kWeakRidge = 4, kStrongRidge = 8;
+/// Share of the contrast of wide vessels: no wall is found on a thin vessel that is fainter.
+constexpr float kFaintest = 0.05F;
+/// Strength of the ridge of a thin vessel as a share of its contrast, at the scale that suits it.
+constexpr float kRidgeShare = 0.25F;
+constexpr std::size_t kSampled = 7;  // one voxel in so many shows the background's ridges
+
+enum Mark : std::uint8_t { kBackground = 0, kWeak = 1, kLumen = 2 };
+
+/// Calls visit(index, excess) for every voxel, row by row in parallel, with its brightness over the
+/// background.
+template <class Visit>
+void forEachExcess(const Volume& volume, const Background& background, float sign,
+                   const Progress& progress, const Visit& visit) {
+  const CellBox cells = volume.geometry.cells();
+  std::visit(
+      [&](const auto& voxels) {
+        tbb::parallel_for(0, cells.size[2], [&](int z) {
+          progress.check();
+          std::vector<float> row;
+          for (int y = 0; y < cells.size[1]; ++y) {
+            background.alongRow(y, z, row);
+            const std::size_t first = cells.index(Cell(0, y, z));
+            for (std::size_t x = 0; x < row.size(); ++x)
+              visit(z, first + x, sign * static_cast<float>(voxels[first + x]) - row[x]);
+          }
+        });
+      },
+      volume.voxels);
+}
+
+/// Counts of excess values in bins of equal width from `low` to `high`.
+struct Histogram {
+  float low = 0, high = 0;
+  std::vector<std::size_t> count = std::vector<std::size_t>(kBins, 0);
+
+  [[nodiscard]] std::size_t binOf(float value) const {
+    const float at = (value - low) / (high - low) * static_cast<float>(kBins);
+    return std::min(kBins - 1, static_cast<std::size_t>(std::max(at, 0.0F)));
+  }
+  [[nodiscard]] float valueOf(std::size_t bin) const {
+    return low + (high - low) * static_cast<float>(bin) / static_cast<float>(kBins);
+  }
+  [[nodiscard]] std::size_t countFrom(std::size_t bin) const {
+    std::size_t sum = 0;
+    for (std::size_t i = bin; i < kBins; ++i) sum += count[i];
+    return sum;
+  }
+  /// The bin from `first` on that splits the rest into two classes whose means differ the most, by
+  /// the variance between them (N. Otsu, "A threshold selection method from gray-level histograms",
+  /// 1979).
+  [[nodiscard]] std::size_t split(std::size_t first) const {
+    double all = 0, moment = 0;
+    for (std::size_t i = first; i < kBins; ++i) {
+      all += static_cast<double>(count[i]);
+      moment += static_cast<double>(count[i]) * static_cast<double>(i);
+    }
+    double below = 0, belowMoment = 0, greatest = -1;
+    std::size_t best = first;
+    for (std::size_t i = first; i + 1 < kBins; ++i) {
+      below += static_cast<double>(count[i]);
+      belowMoment += static_cast<double>(count[i]) * static_cast<double>(i);
+      if (below == 0 || below == all) continue;
+      const double apart = belowMoment / below - (moment - belowMoment) / (all - below);
+      const double between = below * (all - below) * apart * apart;
+      if (between <= greatest) continue;
+      greatest = between;
+      best = i + 1;
+    }
+    return best;
+  }
+  /// The median of the values from a bin on.
+  [[nodiscard]] float medianFrom(std::size_t bin) const {
+    const std::size_t half = countFrom(bin) / 2;
+    std::size_t sum = 0;
+    while (bin + 1 < kBins && (sum += count[bin]) <= half) ++bin;
+    return valueOf(bin);
+  }
+};
+
+/// Excess of all voxels that stand out of the noise.
+Histogram histogramOf(const Volume& volume, const Background& background, float sign,
+                      const Progress& progress) {
+  const auto slices = static_cast<std::size_t>(volume.geometry.size[2]);
+  std::vector<float> highest(slices, 0.0F);
+  forEachExcess(volume, background, sign, progress, [&](int z, std::size_t, float excess) {
+    float& high = highest[static_cast<std::size_t>(z)];
+    high = std::max(high, excess);
+  });
+  Histogram all;
+  all.low = static_cast<float>(kAboveNoise) * background.noise();
+  all.high = *std::max_element(highest.begin(), highest.end());
+  if (!(all.high > all.low)) return all;
+  std::vector<Histogram> parts(slices, all);
+  forEachExcess(volume, background, sign, progress, [&](int z, std::size_t, float excess) {
+    Histogram& part = parts[static_cast<std::size_t>(z)];
+    if (excess > part.low) ++part.count[part.binOf(excess)];
+  });
+  for (const Histogram& part : parts)
+    for (std::size_t i = 0; i < kBins; ++i) all.count[i] += part.count[i];
+  return all;
+}
+
+/// The excess of wide vessels: the median of the upper class, or of its own upper class, until it
+/// is no more than vessels may fill.
+float contrastOf(const Histogram& excess, std::size_t voxels) {
+  std::size_t bin = excess.split(0);
+  while (static_cast<double>(excess.countFrom(bin)) > kMostLumen * static_cast<double>(voxels)) {
+    const std::size_t next = excess.split(bin);
+    if (next == bin) break;
+    bin = next;
+  }
+  return excess.medianFrom(bin);
+}
+
+/// Least strengths of the ridges of thin vessels.
+struct RidgeLevels {
+  float weak = 0, strong = 0;
+};
+
+RidgeLevels ridgeLevels(const std::vector<float>& strength, const std::vector<std::uint8_t>& mark,
+                        float contrast) {
+  std::vector<float> found;
+  for (std::size_t i = 0; i < strength.size(); i += kSampled)
+    if (mark[i] == kBackground && strength[i] > 0) found.push_back(strength[i]);
+  const float usual = found.empty() ? 0.0F : upperMedian(found);
+  const float least = kFaintest * kRidgeShare * contrast;
+  return {std::max(kWeakRidge * usual, least), std::max(kStrongRidge * usual, 2 * least)};
+}
+
+/// Adds the weak ridges that are connected with the lumen.
+void growIntoWeak(const CellBox& cells, std::vector<std::uint8_t>& mark, const Progress& progress) {
+  constexpr std::size_t kCheckEvery = 1 << 14;
+  std::vector<std::size_t> reached;
+  const auto from = [&](std::size_t i) {
+    cells.forEachNeighbour(cells.cell(i), [&](const Cell& cell) {
+      const std::size_t j = cells.index(cell);
+      if (mark[j] != kWeak) return;
+      mark[j] = kLumen;
+      reached.push_back(j);
+    });
+  };
+  for (std::size_t i = 0; i < mark.size(); ++i)
+    if (mark[i] == kLumen) from(i);
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    if (k % kCheckEvery == 0) progress.check();
+    from(reached[k]);
+  }
+}
+
+}  // namespace
+
+BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress) {
+  const float sign = dark ? -1.0F : 1.0F;
+  const Background background(volume, sign, progress);
+  const Histogram excess = histogramOf(volume, background, sign, progress);
+  BrightVoxels out;
+  out.noise = static_cast<double>(background.noise());
+  if (excess.countFrom(0) == 0) return out;
+  const CellBox cells = volume.geometry.cells();
+  const float contrast = contrastOf(excess, cells.count());
+  out.contrast = static_cast<double>(contrast);
+
+  std::vector<std::uint8_t> mark(cells.count(), kBackground);
+  const float half = std::max(0.5F * contrast, excess.low);
+  forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
+    if (value > half) mark[i] = kLumen;
+  });
+  const std::vector<float> strength = ridgeStrength(volume, sign, progress);
+  const RidgeLevels least = ridgeLevels(strength, mark, contrast);
+  const float faint = std::max(excess.low, kFaintest * contrast);
+  forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
+    if (mark[i] == kLumen || !(value > faint) || !(strength[i] > least.weak)) return;
+    mark[i] = strength[i] > least.strong ? kLumen : kWeak;
+  });
+  growIntoWeak(cells, mark, progress);
+  for (std::size_t i = 0; i < mark.size(); ++i)
+    if (mark[i] == kLumen) out.indices.push_back(i);
+  return out;
+}
+
+}  // namespace lumen::convert

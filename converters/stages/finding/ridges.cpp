@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/finding/ridges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <variant>
+
+#include <Eigen/Eigenvalues>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace lumen::convert {
+namespace {
+
+constexpr std::array kScales = {1.0, 1.6, 2.5};  // voxels: standard deviations
+constexpr double kCut = 3;                       // standard deviations of a kernel
+constexpr int kBrick = 64;                       // voxels along an edge
+constexpr float kRound = 0.4F;  // least ratio of the curvatures across: a sheet has one
+constexpr float kAlong = 0.5F;  // largest ratio of the curvature along to the lesser one across
+
+/// Half of a symmetric kernel, its middle first.
+std::vector<float> gaussian(double sigma) {
+  std::vector<float> half(static_cast<std::size_t>(std::ceil(kCut * sigma)) + 1);
+  double sum = 0;
+  for (std::size_t i = 0; i < half.size(); ++i) {
+    const double at = static_cast<double>(i) / sigma;
+    half[i] = static_cast<float>(std::exp(-0.5 * at * at));
+    sum += (i == 0 ? 1.0 : 2.0) * static_cast<double>(half[i]);
+  }
+  for (float& weight : half) weight = static_cast<float>(static_cast<double>(weight) / sum);
+  return half;
+}
+
+/// A brick of voxels with a rim, and room to smooth it.
+struct Brick {
+  CellBox box;
+  std::vector<float> voxels, smoothed, buffer;
+
+  /// Copies the voxels; those beyond the volume repeat its faces.
+  template <class T>
+  void take(const std::vector<T>& from, const CellBox& volume, float sign) {
+    voxels.resize(box.count());
+    std::size_t next = 0;
+    const Cell last = volume.high();
+    box.forEach([&](const Cell& cell) {
+      const auto value =
+          static_cast<float>(from[volume.index(cell.cwiseMax(Cell::Zero()).cwiseMin(last))]);
+      voxels[next++] = std::isfinite(value) ? sign * value : 0.0F;
+    });
+  }
+
+  /// Smooths along one axis; voxels nearer to the rim than the kernel is long stay as they are.
+  void smoothAlong(int axis, const std::vector<float>& half) {
+    const auto reach = static_cast<std::ptrdiff_t>(half.size()) - 1;
+    const auto stride = static_cast<std::ptrdiff_t>(box.stride(axis));
+    const auto row = static_cast<std::size_t>(box.size[0]);
+    buffer = smoothed;
+    const std::size_t rows = box.count() / row;
+    const std::ptrdiff_t first = axis == 0 ? reach : 0;
+    const auto end = static_cast<std::ptrdiff_t>(row) - first;
+    for (std::size_t r = 0; r < rows; ++r) {
+      const Cell at = Cell(0, static_cast<int>(r) % box.size[1], static_cast<int>(r) / box.size[1]);
+      if (axis > 0 && (at[axis] < reach || at[axis] >= box.size[axis] - reach)) continue;
+      const float* in = smoothed.data() + r * row;
+      float* out = buffer.data() + r * row;
+      for (std::ptrdiff_t x = first; x < end; ++x) out[x] = half[0] * in[x];
+      for (std::ptrdiff_t k = 1; k <= reach; ++k) {
+        const float weight = half[static_cast<std::size_t>(k)];
+        for (std::ptrdiff_t x = first; x < end; ++x)
+          out[x] += weight * (in[x - k * stride] + in[x + k * stride]);
+      }
+    }
+    smoothed.swap(buffer);
+  }
+};
+
+/// The strength of a ridge whose second derivatives are `hessian`, per mm^2; 0 if it is none.
+float strengthOf(const Eigen::Matrix3f& hessian) {
+  if (!(hessian.trace() < 0)) return 0;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
+  solver.computeDirect(hessian, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3f curved = solver.eigenvalues();  // ascending
+  if (!(curved[1] < 0) || curved[1] > kRound * curved[0]) return 0;
+  return std::abs(curved[2]) > -kAlong * curved[1] ? 0.0F : -curved[1];
+}
+
+/// Second derivatives of the smoothed brick at a voxel, by its neighbours.
+Eigen::Matrix3f hessianAt(const Brick& brick, std::size_t i, const Eigen::Vector3f& spacing) {
+  const float* v = brick.smoothed.data() + i;
+  std::array<std::ptrdiff_t, 3> step{};
+  for (int a = 0; a < 3; ++a)
+    step[static_cast<std::size_t>(a)] = static_cast<std::ptrdiff_t>(brick.box.stride(a));
+  Eigen::Matrix3f h;
+  for (int a = 0; a < 3; ++a) {
+    const std::ptrdiff_t p = step[static_cast<std::size_t>(a)];
+    h(a, a) = (v[p] + v[-p] - 2 * v[0]) / (spacing[a] * spacing[a]);
+    for (int b = 0; b < a; ++b) {
+      const std::ptrdiff_t q = step[static_cast<std::size_t>(b)];
+      h(a, b) = h(b, a) =
+          (v[p + q] + v[-p - q] - v[p - q] - v[q - p]) / (4 * spacing[a] * spacing[b]);
+    }
+  }
+  return h;
+}
+
+}  // namespace
+
+std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progress& progress) {
+  const VolumeGeometry& geometry = volume.geometry;
+  const CellBox cells = geometry.cells();
+  const double voxel = geometry.voxelSize();
+  const Eigen::Vector3f spacing = geometry.spacing.cast<float>();
+  std::vector<float> out(cells.count(), 0.0F);
+  CellBox bricks;
+  bricks.size = (cells.size.array() + kBrick - 1) / kBrick;
+  tbb::enumerable_thread_specific<Brick> workspaces;
+  std::array<std::array<std::vector<float>, 3>, kScales.size()> kernels;
+  Cell rim = Cell::Zero();
+  for (std::size_t s = 0; s < kScales.size(); ++s)
+    for (int a = 0; a < 3; ++a) {
+      auto& half = kernels[s][static_cast<std::size_t>(a)];
+      half = gaussian(kScales[s] * voxel / geometry.spacing[a]);
+      rim[a] = std::max(rim[a], static_cast<int>(half.size()));
+    }
+  const auto work = [&](std::size_t b) {
+    Brick& brick = workspaces.local();
+    const CellBox core = CellBox{bricks.cell(b) * kBrick, Cell::Constant(kBrick)}.meet(cells);
+    brick.box = CellBox::between(core.low - rim, core.high() + rim);
+    std::visit([&](const auto& voxels) { brick.take(voxels, cells, sign); }, volume.voxels);
+    for (std::size_t s = 0; s < kScales.size(); ++s) {
+      progress.check();
+      brick.smoothed = brick.voxels;
+      for (int a = 0; a < 3; ++a) brick.smoothAlong(a, kernels[s][static_cast<std::size_t>(a)]);
+      const auto variance = static_cast<float>(kScales[s] * kScales[s] * voxel * voxel);
+      core.forEach([&](const Cell& cell) {
+        float& best = out[cells.index(cell)];
+        best =
+            std::max(best, variance * strengthOf(hessianAt(brick, brick.box.index(cell), spacing)));
+      });
+    }
+  };
+  tbb::parallel_for(std::size_t{0}, bricks.count(), work);
+  return out;
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vessels along courses that are known over their whole length (docs/method.md, section 1.13).
+#pragma once
+
+#include "converters/stages/tracking/track_run.h"
+#include "converters/stages/tracking/tracked_tree.h"
+
+namespace lumen::convert {
+
+/// Fits cylinders along the courses of a tree's seeds: their points, with radii, lead from the
+/// parent's axis to the tip. A vessel along which too few cylinders fit is none: it gets no nodes,
+/// and its children hang on the vessel before it. The result does not depend on the number of
+/// threads. Throws Error(Cancelled).
+void followCourses(const TrackContext& context, TrackedTree& tree, Progress& progress);
+
+}  // namespace lumen::convert
