@@ -18,7 +18,7 @@ namespace {
 constexpr int kEdge = 16;        // voxels of a block
 constexpr int kAround = 2;       // blocks on either side that a place compares
 constexpr double kQuiet = 0.25;  // quantile of the blocks that hold background alone
-constexpr double kFromDeviation = 1.4826;
+constexpr float kFromDeviation = 1.4826F;
 
 /// Median of a block's voxels, and the median absolute deviation from it.
 struct BlockLevel {
@@ -61,21 +61,30 @@ Background::Background(const Volume& volume, float sign, const Progress& progres
         if constexpr (std::is_integral_v<T>) m_noise = static_cast<float>(1 / std::sqrt(12.0));
       },
       volume.voxels);
-  smoothOver(medians);
-  m_noise = std::max(
-      m_noise,
-      static_cast<float>(kFromDeviation * static_cast<double>(lowerQuantile(deviations, kQuiet))));
+  smoothOver(medians, deviations);
+  std::vector<float> all = deviations;
+  m_noise = std::max(m_noise, kFromDeviation * lowerQuantile(all, kQuiet));
 }
 
-void Background::smoothOver(const std::vector<float>& medians) {
+void Background::smoothOver(const std::vector<float>& medians,
+                            const std::vector<float>& deviations) {
   m_level.resize(medians.size());
+  m_unevenness.resize(medians.size());
   tbb::parallel_for(std::size_t{0}, medians.size(), [&](std::size_t b) {
     const Cell at = m_blocks.cell(b);
-    std::vector<float> around;
+    std::vector<float> levels, spreads;
     m_blocks.meet(CellBox::between(at - Cell::Constant(kAround), at + Cell::Constant(kAround)))
-        .forEach([&](const Cell& cell) { around.push_back(medians[m_blocks.index(cell)]); });
-    m_level[b] = lowerQuantile(around, kQuiet);
+        .forEach([&](const Cell& cell) {
+          levels.push_back(medians[m_blocks.index(cell)]);
+          spreads.push_back(deviations[m_blocks.index(cell)]);
+        });
+    m_level[b] = lowerQuantile(levels, kQuiet);
+    m_unevenness[b] = kFromDeviation * upperMedian(spreads);
   });
+}
+
+float Background::noiseAt(const Cell& cell) const {
+  return std::max(m_noise, m_unevenness[m_blocks.index(cell / kEdge)]);
 }
 
 void Background::alongRow(int y, int z, std::vector<float>& row) const {

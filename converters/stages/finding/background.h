@@ -28,12 +28,14 @@ public:
   /// Standard deviation of the noise, voxel units: the lower quartile over the blocks of 1.4826
   /// times the median absolute deviation; for voxels of whole numbers at least that of rounding.
   [[nodiscard]] float noise() const { return m_noise; }
+  /// The same around a voxel, where tissue is uneven: at least noise().
+  [[nodiscard]] float noiseAt(const Cell& cell) const;
 
 private:
-  void smoothOver(const std::vector<float>& medians);
+  void smoothOver(const std::vector<float>& medians, const std::vector<float>& deviations);
 
   CellBox m_voxels, m_blocks;
-  std::vector<float> m_level;
+  std::vector<float> m_level, m_unevenness;
   float m_noise = 0;
 };
 

@@ -26,6 +26,7 @@ constexpr float kWeakRidge = 4, kStrongRidge = 8;
 constexpr float kFaintest = 0.05F;
 /// Strength of the ridge of a thin vessel as a share of its contrast, at the scale that suits it.
 constexpr float kRidgeShare = 0.25F;
+constexpr int kRidgeBlock = 32;      // voxels along an edge
 constexpr std::size_t kSampled = 7;  // one voxel in so many shows the background's ridges
 
 enum Mark : std::uint8_t { kBackground = 0, kWeak = 1, kLumen = 2 };
@@ -136,20 +137,49 @@ float contrastOf(const Histogram& excess, std::size_t voxels) {
   return excess.medianFrom(bin);
 }
 
-/// Least strengths of the ridges of thin vessels.
-struct RidgeLevels {
-  float weak = 0, strong = 0;
-};
+/// The usual strength of the ridges in the background, by blocks of voxels: noise and texture.
+class UsualRidges {
+public:
+  UsualRidges(const CellBox& cells, const std::vector<float>& strength,
+              const std::vector<std::uint8_t>& mark, const Progress& progress)
+      : m_median(blocksOf(cells).count()), m_blocks(blocksOf(cells)) {
+    std::vector<std::vector<float>> found(m_blocks.count());
+    tbb::parallel_for(std::size_t{0}, m_blocks.count(), [&](std::size_t b) {
+      progress.check();
+      std::size_t n = 0;
+      CellBox{m_blocks.cell(b) * kRidgeBlock, Cell::Constant(kRidgeBlock)}.meet(cells).forEach(
+          [&](const Cell& cell) {
+            if (++n % kSampled != 0) return;
+            const std::size_t i = cells.index(cell);
+            if (mark[i] == kBackground && strength[i] > 0) found[b].push_back(strength[i]);
+          });
+    });
+    std::vector<float> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    const float everywhere = all.empty() ? 0.0F : upperMedian(all);
+    for (std::size_t b = 0; b < found.size(); ++b) {
+      std::vector<float> around;
+      const Cell at = m_blocks.cell(b);
+      m_blocks.meet(CellBox::between(at - Cell::Ones(), at + Cell::Ones()))
+          .forEach([&](const Cell& cell) {
+            const auto& some = found[m_blocks.index(cell)];
+            around.insert(around.end(), some.begin(), some.end());
+          });
+      m_median[b] = std::max(everywhere, around.empty() ? 0.0F : upperMedian(around));
+    }
+  }
 
-RidgeLevels ridgeLevels(const std::vector<float>& strength, const std::vector<std::uint8_t>& mark,
-                        float contrast) {
-  std::vector<float> found;
-  for (std::size_t i = 0; i < strength.size(); i += kSampled)
-    if (mark[i] == kBackground && strength[i] > 0) found.push_back(strength[i]);
-  const float usual = found.empty() ? 0.0F : upperMedian(found);
-  const float least = kFaintest * kRidgeShare * contrast;
-  return {std::max(kWeakRidge * usual, least), std::max(kStrongRidge * usual, 2 * least)};
-}
+  [[nodiscard]] float at(const Cell& cell) const {
+    return m_median[m_blocks.index(cell / kRidgeBlock)];
+  }
+
+private:
+  static CellBox blocksOf(const CellBox& cells) {
+    return {Cell::Zero(), (cells.size.array() + kRidgeBlock - 1) / kRidgeBlock};
+  }
+  std::vector<float> m_median;
+  CellBox m_blocks;
+};
 
 /// Adds the weak ridges that are connected with the lumen.
 void growIntoWeak(const CellBox& cells, std::vector<std::uint8_t>& mark, const Progress& progress) {
@@ -190,11 +220,16 @@ BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& p
     if (value > half) mark[i] = kLumen;
   });
   const std::vector<float> strength = ridgeStrength(volume, sign, progress);
-  const RidgeLevels least = ridgeLevels(strength, mark, contrast);
-  const float faint = std::max(excess.low, kFaintest * contrast);
+  const UsualRidges usual(cells, strength, mark, progress);
+  const float faintRidge = kFaintest * kRidgeShare * contrast;
   forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
-    if (mark[i] == kLumen || !(value > faint) || !(strength[i] > least.weak)) return;
-    mark[i] = strength[i] > least.strong ? kLumen : kWeak;
+    if (mark[i] == kLumen || !(strength[i] > faintRidge)) return;
+    const Cell cell = cells.cell(i);
+    const float noise =
+        std::max(static_cast<float>(kAboveNoise) * background.noiseAt(cell), kFaintest * contrast);
+    if (!(value > noise) || !(strength[i] > kWeakRidge * usual.at(cell))) return;
+    const bool isStrong = strength[i] > std::max(kStrongRidge * usual.at(cell), 2 * faintRidge);
+    mark[i] = isStrong ? kLumen : kWeak;
   });
   growIntoWeak(cells, mark, progress);
   for (std::size_t i = 0; i < mark.size(); ++i)

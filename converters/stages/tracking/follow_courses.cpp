@@ -2,6 +2,7 @@
 #include "converters/stages/tracking/follow_courses.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "converters/base/statistics.h"
 #include "converters/stages/tracking/aneurysm.h"
 #include "converters/stages/tracking/nodes_along.h"
 
@@ -19,10 +21,11 @@ using Eigen::Vector3d;
 using formats::NodeOrigin;
 using formats::StopReason;
 
-constexpr double kThinnestVoxels = 1;    // voxels: what is thinner is blurred to that
-constexpr double kLeastFitted = 0.5;  // share of the nodes of a vessel that are cylinders
+constexpr double kThinnestVoxels = 1;  // voxels: what is thinner is blurred to that
+constexpr double kLeastFitted = 0.5;   // share of the nodes of a vessel that are cylinders
 constexpr std::size_t kFewestFitted = 4;
-constexpr double kAtFaceRadii = 1.5;  // an end this near to a face has left the volume
+constexpr double kShortestVoxels = 4;  // length of a vessel beyond the wall that it leaves
+constexpr double kAtFaceRadii = 1.5;   // an end this near to a face has left the volume
 
 bool isFitted(const TrackedNode& node) {
   return node.origin != NodeOrigin::Bridged;
@@ -35,25 +38,61 @@ void dropBareEnds(std::vector<TrackedNode>& nodes) {
   nodes.erase(nodes.begin(), std::find_if(nodes.begin(), nodes.end(), isFitted));
 }
 
-/// Drops the nodes up to the last one that lies in the lumen of the parent's course, within the
-/// first half.
-void dropInParent(std::vector<TrackedNode>& nodes, const SeedBranch& parent) {
-  const auto isInside = [&](const TrackedNode& node) {
-    return std::any_of(parent.points.begin(), parent.points.end(), [&](const SeedPoint& point) {
-      return (node.centre - point.position).norm() < *point.radius;
-    });
-  };
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (isInside(nodes[i])) first = i + 1;
-  nodes.erase(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(first));
+/// The longest stretch of a vessel that no vessel before it holds.
+struct OutsideStretch {
+  std::size_t first = 0, end = 0;
+  double length = 0;   ///< mm
+  double besides = 0;  ///< greatest radius of the vessels beside it, mm
+};
+
+OutsideStretch outsideOf(std::span<const TrackedBranch* const> before,
+                         const std::vector<TrackedNode>& nodes) {
+  OutsideStretch best, here;
+  double widest = 0;
+  for (std::size_t i = 0; i <= nodes.size(); ++i) {
+    bool isInside = i == nodes.size();
+    for (std::size_t b = 0; !isInside && b < before.size(); ++b) {
+      const ChainPoint at = closestOnChain(before[b]->nodes, nodes[i].centre);
+      isInside = at.distance < at.radius;
+      if (isInside) widest = std::max(widest, at.radius);
+    }
+    if (!isInside) continue;
+    here.end = i;
+    here.length = lengthOf(std::span(nodes).subspan(here.first, here.end - here.first));
+    if (here.length > best.length) best = here;
+    here.first = i + 1;
+  }
+  best.besides = widest;
+  return best;
+}
+
+/// Leaves the stretch of a vessel outside of those that it hangs on. A stretch that is shorter than
+/// these are wide, or than it is wide itself, is a bump of their wall.
+void dropInside(std::span<const TrackedBranch* const> before, double voxel, TrackedBranch& branch) {
+  if (branch.nodes.empty() || before.empty()) return;
+  const OutsideStretch out = outsideOf(before, branch.nodes);
+  std::vector<double> radii;
+  for (std::size_t i = out.first; i < out.end; ++i) radii.push_back(branch.nodes[i].radius);
+  const double own = radii.empty() ? 0 : upperMedian(radii);
+  if (out.length < std::max({out.besides, 2 * own, kShortestVoxels * voxel})) {
+    branch.nodes.clear();
+    branch.failure = "it is a bump on the wall of the vessel that it leaves";
+    return;
+  }
+  if (out.end < branch.nodes.size()) branch.stopReason = StopReason::MetBranch;
+  branch.nodes.erase(branch.nodes.begin() + static_cast<std::ptrdiff_t>(out.end),
+                     branch.nodes.end());
+  branch.nodes.erase(branch.nodes.begin(),
+                     branch.nodes.begin() + static_cast<std::ptrdiff_t>(out.first));
+  dropBareEnds(branch.nodes);
+  branch.clickNode = branch.nodes.size() / 2;
 }
 
 bool isAtFace(const VolumeGeometry& geometry, const TrackedNode& node, double sign) {
   return !geometry.containsWorld(node.centre + sign * kAtFaceRadii * node.radius * node.direction);
 }
 
-TrackedBranch follow(TrackRun& run, const SeedBranch& seed, const SeedBranch* parent) {
+TrackedBranch follow(TrackRun& run, const SeedBranch& seed) {
   const VolumeGeometry& geometry = run.context.volume.geometry();
   const double least = kThinnestVoxels * geometry.voxelSize();
   std::vector<Vector3d> line;
@@ -64,7 +103,6 @@ TrackedBranch follow(TrackRun& run, const SeedBranch& seed, const SeedBranch* pa
   }
   TrackedBranch branch;
   branch.nodes = nodesAlong(run, line, radii);
-  if (parent) dropInParent(branch.nodes, *parent);
   dropBareEnds(branch.nodes);
   const auto fitted =
       static_cast<std::size_t>(std::count_if(branch.nodes.begin(), branch.nodes.end(), isFitted));
@@ -103,11 +141,15 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
       progress.advance();
     });
   };
-  forEach(true, [&](std::size_t i, TrackRun& run) {
-    const int p = parent[i];
-    tree.branches[i] =
-        follow(run, tree.seeds[i], p < 0 ? nullptr : &tree.seeds[static_cast<std::size_t>(p)]);
-  });
+  forEach(true,
+          [&](std::size_t i, TrackRun& run) { tree.branches[i] = follow(run, tree.seeds[i]); });
+  // parents come first and lose what lies in theirs before their children are compared with them
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<const TrackedBranch*> before;
+    for (int p = parent[i]; p >= 0; p = parent[static_cast<std::size_t>(p)])
+      before.push_back(&tree.branches[static_cast<std::size_t>(p)]);
+    dropInside(before, context.volume.geometry().voxelSize(), tree.branches[i]);
+  }
   for (std::size_t i = 0; i < count; ++i) {
     int above = parent[i];
     while (above >= 0 && tree.branches[static_cast<std::size_t>(above)].nodes.empty())
@@ -122,6 +164,24 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
   for (std::size_t i = 0; i < count; ++i) {
     tree.branches[i].parentBranch = parent[i];
     if (parent[i] >= 0 && tree.isVessel(i)) tree.branches[i].startReason = StopReason::Unknown;
+  }
+}
+
+void dropUnsupported(TrackedTree& tree) {
+  std::vector<int> children(tree.branches.size(), 0);
+  for (const TrackedBranch& branch : tree.branches)
+    if (branch.parentBranch >= 0 && !branch.nodes.empty())
+      ++children[static_cast<std::size_t>(branch.parentBranch)];
+  // children come after their parents, but for those that were joined to another vessel
+  for (std::size_t i = tree.branches.size(); i-- > tree.known;) {
+    TrackedBranch& branch = tree.branches[i];
+    if (!tree.isVessel(i) || branch.nodes.empty() || children[i] > 0) continue;
+    const auto fitted = std::count_if(branch.nodes.begin(), branch.nodes.end(), isFitted);
+    if (static_cast<double>(fitted) >= kLeastFitted * static_cast<double>(branch.nodes.size()))
+      continue;
+    branch.failure = "most of it is a bridge through places where no cylinder fits";
+    branch.nodes.clear();
+    if (branch.parentBranch >= 0) --children[static_cast<std::size_t>(branch.parentBranch)];
   }
 }
 

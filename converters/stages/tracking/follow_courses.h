@@ -13,4 +13,7 @@ namespace lumen::convert {
 /// threads. Throws Error(Cancelled).
 void followCourses(const TrackContext& context, TrackedTree& tree, Progress& progress);
 
+/// Drops the vessels without children most of whose nodes are bridges, once all are joined.
+void dropUnsupported(TrackedTree& tree);
+
 }  // namespace lumen::convert

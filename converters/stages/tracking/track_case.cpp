@@ -56,6 +56,7 @@ WallShape trackTree(const TrackingVolume& volume, TrackBranches trackBranches, T
   extendTips(context, tree);
   joinTree(context, tree);
   reviewWalls(context, tree);
+  if (trackBranches == followCourses) dropUnsupported(tree);
   progress.end();
   const WallShape shape = volume.wallShape() ? *volume.wallShape() : wallShapeOf(volume, tree);
   const std::vector<TrackedBranch> before(
