@@ -146,6 +146,11 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
            "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or um")
       .among(wordsOf(millimetresByUnit()))
       .onlyWith("seeds");
+  table
+      .flag(
+          "all-vessels", track.isAllVessels,
+          "Also find the vessels that no seed names; those of the seeds keep their names and walls")
+      .onlyWith("seeds");
   track.options.addRows(table);
   table.scope(kAnyContent);
   table.group("");

@@ -33,6 +33,7 @@ struct VolumeArguments {
 struct TrackArguments {
   std::string seeds;
   std::string seedsFrame, seedsUnit;  ///< empty: those of the seeds file
+  bool isAllVessels = false;          ///< also the vessels that no seed names
   convert::TrackOptions options;
   [[nodiscard]] convert::SeedReading reading() const;
 };

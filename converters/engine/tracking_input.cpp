@@ -77,6 +77,13 @@ std::string doubtAboutSeeds(const convert::Volume& volume,
          " in the background, as seeds of another volume do";
 }
 
+/// Candidates without a wall are no failures of the user's: they are listed for --verbose alone.
+void reportRefused(convert::TrackRemarks& remarks, Progress& progress) {
+  for (const convert::SeedFailure& failure : remarks.failures)
+    progress.detail(failure.label + " is no vessel: " + failure.reason);
+  remarks.failures.clear();
+}
+
 }  // namespace
 
 convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
@@ -117,13 +124,20 @@ convert::TrackResult trackFound(const convert::Volume& volume, const std::string
                  ", as nothing long and thin stands out of its noise; --seeds states where "
                  "vessels begin, and --dark that they are darker than their background");
   convert::TrackResult result = convert::trackCourses(volume, courses, track.options, progress);
-  for (const convert::SeedFailure& failure : result.failures)
-    progress.detail(failure.label + " is no vessel: " + failure.reason);
+  reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0)
     throw failed(none + ", as no cylinder fits along any of " + std::to_string(courses.size()) +
                  " candidates; --seeds states where vessels begin");
-  result.failures.clear();
   return result;
+}
+
+convert::AddedTracks addFound(const convert::TrackingVolume& tracking,
+                              const convert::Volume& volume, const formats::Case& known,
+                              Progress& progress) {
+  const auto courses = convert::findVessels(volume, tracking.options().dark, progress);
+  convert::AddedTracks added = convert::trackCoursesIntoCase(tracking, known, courses, progress);
+  reportRefused(added, progress);
+  return added;
 }
 
 std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
@@ -133,6 +147,18 @@ std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
     throw invalidInput(track.seeds + ": " + other);
   return convert::readSeeds(track.seeds, track.reading());
 }
+
+namespace {
+
+/// Adds the vessels that no seed has tracked.
+void addRest(const convert::Volume& volume, convert::TrackResult& result, Progress& progress) {
+  const convert::TrackingVolume tracking(volume, result.result, progress);
+  convert::AddedTracks added = addFound(tracking, volume, result.result, progress);
+  result.result = std::move(added.result);
+  std::move(added.ends.begin(), added.ends.end(), std::back_inserter(result.ends));
+}
+
+}  // namespace
 
 convert::TrackResult trackSeeds(const convert::Volume& volume,
                                 const std::vector<convert::SeedBranch>& seeds,
@@ -162,6 +188,7 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
   std::move(placed.leftOut.begin(), placed.leftOut.end(), std::back_inserter(result.failures));
   std::move(placed.leftPoints.begin(), placed.leftPoints.end(),
             std::back_inserter(result.missedPoints));
+  if (track.isAllVessels) addRest(volume, result, progress);
   return result;
 }
 

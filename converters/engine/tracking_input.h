@@ -34,6 +34,12 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
 convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
                                 const TrackArguments& track, Progress& progress);
 
+/// Adds to a case that was tracked in `volume` the vessels that it lacks, as trackFound() finds them;
+/// what it has stays as it is. Returns the result with its remarks on the new vessels.
+convert::AddedTracks addFound(const convert::TrackingVolume& tracking,
+                              const convert::Volume& volume, const formats::Case& known,
+                              Progress& progress);
+
 /// The seeds of --seeds, read by the options. Throws Error(InvalidInput) for a file that is
 /// missing or invalid.
 std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track);

@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/statistics.h"
+#include "converters/geometry/box.h"
 #include "converters/stages/tracking/aneurysm.h"
 #include "converters/stages/tracking/nodes_along.h"
 
@@ -38,6 +39,29 @@ void dropBareEnds(std::vector<TrackedNode>& nodes) {
   nodes.erase(nodes.begin(), std::find_if(nodes.begin(), nodes.end(), isFitted));
 }
 
+/// A vessel that is tracked, with the box of its lumen.
+struct Lumen {
+  explicit Lumen(const TrackedBranch& branch) : nodes(branch.nodes) {
+    for (const TrackedNode& node : nodes) box.add(node.centre, node.radius);
+  }
+  /// The radius of the vessel around a point in its lumen; 0 outside.
+  [[nodiscard]] double radiusAround(const Vector3d& point) const {
+    if (!box.contains(point)) return 0;
+    const ChainPoint at = closestOnChain(nodes, point);
+    return at.distance < at.radius ? at.radius : 0;
+  }
+
+  std::span<const TrackedNode> nodes;
+  Box3d box;
+};
+
+/// The greatest radius of the vessels in whose lumen a point lies; 0 if there is none.
+double radiusAround(std::span<const Lumen> vessels, const Vector3d& point) {
+  double radius = 0;
+  for (const Lumen& vessel : vessels) radius = std::max(radius, vessel.radiusAround(point));
+  return radius;
+}
+
 /// The longest stretch of a vessel that no vessel before it holds.
 struct OutsideStretch {
   std::size_t first = 0, end = 0;
@@ -45,18 +69,13 @@ struct OutsideStretch {
   double besides = 0;  ///< greatest radius of the vessels beside it, mm
 };
 
-OutsideStretch outsideOf(std::span<const TrackedBranch* const> before,
-                         const std::vector<TrackedNode>& nodes) {
+OutsideStretch outsideOf(std::span<const Lumen> before, const std::vector<TrackedNode>& nodes) {
   OutsideStretch best, here;
   double widest = 0;
   for (std::size_t i = 0; i <= nodes.size(); ++i) {
-    bool isInside = i == nodes.size();
-    for (std::size_t b = 0; !isInside && b < before.size(); ++b) {
-      const ChainPoint at = closestOnChain(before[b]->nodes, nodes[i].centre);
-      isInside = at.distance < at.radius;
-      if (isInside) widest = std::max(widest, at.radius);
-    }
-    if (!isInside) continue;
+    const double around = i < nodes.size() ? radiusAround(before, nodes[i].centre) : 0;
+    widest = std::max(widest, around);
+    if (i < nodes.size() && around == 0) continue;
     here.end = i;
     here.length = lengthOf(std::span(nodes).subspan(here.first, here.end - here.first));
     if (here.length > best.length) best = here;
@@ -68,7 +87,7 @@ OutsideStretch outsideOf(std::span<const TrackedBranch* const> before,
 
 /// Leaves the stretch of a vessel outside of those that it hangs on. A stretch that is shorter than
 /// these are wide, or than it is wide itself, is a bump of their wall.
-void dropInside(std::span<const TrackedBranch* const> before, double voxel, TrackedBranch& branch) {
+void dropInside(std::span<const Lumen> before, double voxel, TrackedBranch& branch) {
   if (branch.nodes.empty() || before.empty()) return;
   const OutsideStretch out = outsideOf(before, branch.nodes);
   std::vector<double> radii;
@@ -133,7 +152,7 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
     position[tree.seeds[i].label] = static_cast<int>(i);
   }
   const auto forEach = [&](bool isVessel, const auto& work) {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    tbb::parallel_for(tree.known, count, [&](std::size_t i) {
       if (tree.isVessel(i) != isVessel) return;
       context.progress.check();
       TrackRun run(context, Random(context.options.seed, i));
@@ -144,13 +163,16 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
   forEach(true,
           [&](std::size_t i, TrackRun& run) { tree.branches[i] = follow(run, tree.seeds[i]); });
   // parents come first and lose what lies in theirs before their children are compared with them
-  for (std::size_t i = 0; i < count; ++i) {
-    std::vector<const TrackedBranch*> before;
-    for (int p = parent[i]; p >= 0; p = parent[static_cast<std::size_t>(p)])
-      before.push_back(&tree.branches[static_cast<std::size_t>(p)]);
+  for (std::size_t i = tree.known; i < count; ++i) {
+    context.progress.check();
+    std::vector<Lumen> before;
+    for (std::size_t k = 0; k < tree.known; ++k) before.emplace_back(tree.branches[k]);
+    for (int p = parent[i]; p >= static_cast<int>(tree.known);
+         p = parent[static_cast<std::size_t>(p)])
+      before.emplace_back(tree.branches[static_cast<std::size_t>(p)]);
     dropInside(before, context.volume.geometry().voxelSize(), tree.branches[i]);
   }
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = tree.known; i < count; ++i) {
     int above = parent[i];
     while (above >= 0 && tree.branches[static_cast<std::size_t>(above)].nodes.empty())
       above = parent[static_cast<std::size_t>(above)];
@@ -161,10 +183,42 @@ void followCourses(const TrackContext& context, TrackedTree& tree, Progress& pro
         parent[i] < 0 ? nullptr : &tree.branches[static_cast<std::size_t>(parent[i])];
     tree.branches[i] = captureAneurysm(run, tree.seeds[i], above);
   });
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = tree.known; i < count; ++i) {
     tree.branches[i].parentBranch = parent[i];
     if (parent[i] >= 0 && tree.isVessel(i)) tree.branches[i].startReason = StopReason::Unknown;
   }
+}
+
+std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const TrackedTree& tree) {
+  std::vector<Lumen> known;
+  for (std::size_t k = 0; k < tree.known; ++k) known.emplace_back(tree.branches[k]);
+  std::vector<SeedBranch> out;
+  std::unordered_map<std::string, std::string> lastOf;  // the last stretch of each course
+  for (SeedBranch& course : courses) {
+    SeedBranch stretch;
+    std::size_t count = 0;
+    const auto close = [&] {
+      if (stretch.points.size() > 1) {
+        stretch.kind = course.kind;
+        stretch.label = course.label + (count == 0 ? "" : "-" + std::to_string(count + 1));
+        ++count;
+        // one that begins at its parent's axis hangs on that; all others are roots, to be joined
+        const bool isWhole = stretch.points.front().position == course.points.front().position;
+        if (isWhole && course.parent && lastOf.contains(*course.parent))
+          stretch.parent = lastOf.at(*course.parent);
+        lastOf[course.label] = stretch.label;
+        out.push_back(std::move(stretch));
+      }
+      stretch = {};
+    };
+    for (const SeedPoint& point : course.points)
+      if (radiusAround(known, point.position) > 0)
+        close();
+      else
+        stretch.points.push_back(point);
+    close();
+  }
+  return out;
 }
 
 void dropUnsupported(TrackedTree& tree) {

@@ -2,6 +2,8 @@
 // Vessels along courses that are known over their whole length (docs/method.md, section 1.13).
 #pragma once
 
+#include <vector>
+
 #include "converters/stages/tracking/track_run.h"
 #include "converters/stages/tracking/tracked_tree.h"
 
@@ -12,6 +14,10 @@ namespace lumen::convert {
 /// and its children hang on the vessel before it. The result does not depend on the number of
 /// threads. Throws Error(Cancelled).
 void followCourses(const TrackContext& context, TrackedTree& tree, Progress& progress);
+
+/// The stretches of courses outside of the known vessels of a tree. One that begins at the axis of
+/// its parent, of which a stretch is left, keeps it; all others have none.
+std::vector<SeedBranch> stretchesOutside(std::vector<SeedBranch> courses, const TrackedTree& tree);
 
 /// Drops the vessels without children most of whose nodes are bridges, once all are joined.
 void dropUnsupported(TrackedTree& tree);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "converters/base/edit_steps.h"
+#include "converters/base/text.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/tracking/corrections.h"
 #include "converters/stages/tracking/follow_courses.h"
@@ -179,27 +181,74 @@ TrackResult trackCourses(const Volume& volume, const std::vector<SeedBranch>& co
   return newCase(volume, courses, options, followCourses, progress);
 }
 
+namespace {
+
+/// Tracks the seeds behind the known ones of `tree` into a case of the known ones.
+AddedTracks intoCase(const TrackingVolume& volume, const formats::Case& known, TrackedTree& tree,
+                     TrackBranches trackBranches, Progress& progress) {
+  AddedTracks out;
+  out.result = known;
+  out.firstNewNode = static_cast<std::uint32_t>(known.tree.nodeCount());
+  out.firstNewBranch = static_cast<std::uint32_t>(tree.known);
+  const std::size_t added = tree.seeds.size() - tree.known;
+  if (added == 0) return out;
+  trackTree(volume, trackBranches, tree, progress);
+  static_cast<TrackRemarks&>(out) = remarksOn(tree);
+  if (out.failures.size() == added) return out;
+  out.changed = replacePoints(tree, out.result);
+  dropOtherArrays(out);
+  appendTracks(tree, out.result);
+  formats::dropDependentChunks(out.result);
+  return out;
+}
+
+void requireValid(const formats::Case& result) {
+  if (const auto valid = formats::validate(result); !valid)
+    throw invalidInput("the tracked vessels break a rule of the format: " + valid.error().text());
+}
+
+/// Gives seeds names that no branch of a case has.
+void nameAnew(const formats::Case& known, std::vector<SeedBranch>& seeds) {
+  std::set<std::string> used;
+  for (const formats::Branch& branch : known.tree.branches) used.insert(branch.label);
+  std::map<std::string, std::string> names;
+  std::size_t number = 0;
+  for (SeedBranch& seed : seeds) {
+    std::string name;
+    do name = "vessel-" + std::to_string(++number);
+    while (!used.insert(name).second);
+    names[seed.label] = name;
+    seed.label = name;
+    if (seed.parent) seed.parent = names.at(*seed.parent);
+  }
+}
+
+}  // namespace
+
 AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& known,
                           const std::vector<SeedBranch>& seeds, Progress& progress) {
   requireNewLabels(known, seeds);
   TrackedTree tree = trackedTreeOf(known);
   appendParentsFirst(seeds, tree.seeds);
-  AddedTracks out;
-  out.result = known;
-  out.firstNewNode = static_cast<std::uint32_t>(known.tree.nodeCount());
-  out.firstNewBranch = static_cast<std::uint32_t>(tree.known);
-  if (seeds.empty()) return out;
-  trackTree(volume, trackByDepth, tree, progress);
-  static_cast<TrackRemarks&>(out) = remarksOn(tree);
-  for (std::size_t i = tree.known; i < tree.seeds.size(); ++i)
+  AddedTracks out = intoCase(volume, known, tree, trackByDepth, progress);
+  for (std::size_t i = tree.known; i < tree.branches.size(); ++i)
     if (!tree.branches[i].nodes.empty()) recordEdit(out.result.metadata, sentenceOn(tree.seeds[i]));
-  if (out.failures.size() == seeds.size()) return out;
-  out.changed = replacePoints(tree, out.result);
-  dropOtherArrays(out);
-  appendTracks(tree, out.result);
-  formats::dropDependentChunks(out.result);
-  if (const auto valid = formats::validate(out.result); !valid)
-    throw invalidInput("the tracked vessels break a rule of the format: " + valid.error().text());
+  requireValid(out.result);
+  return out;
+}
+
+AddedTracks trackCoursesIntoCase(const TrackingVolume& volume, const formats::Case& known,
+                                 const std::vector<SeedBranch>& courses, Progress& progress) {
+  TrackedTree tree = trackedTreeOf(known);
+  std::vector<SeedBranch> stretches = stretchesOutside(courses, tree);
+  nameAnew(known, stretches);
+  tree.seeds.insert(tree.seeds.end(), stretches.begin(), stretches.end());
+  AddedTracks out = intoCase(volume, known, tree, followCourses, progress);
+  const std::size_t found = out.result.tree.branches.size() - known.tree.branches.size();
+  if (found > 0)
+    recordEdit(out.result.metadata,
+               "found " + counted(found, "vessel", "vessels") + " in the volume without seeds");
+  requireValid(out.result);
   return out;
 }
 

@@ -55,4 +55,10 @@ struct AddedTracks : TrackRemarks {
 AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& known,
                           const std::vector<SeedBranch>& seeds, Progress& progress);
 
+/// Adds the vessels along courses, as trackCourses() fits them, to a case as trackIntoCase() does:
+/// the stretches that the case does not have. New vessels are named vessel-N by numbers that the
+/// case does not use. Throws as trackIntoCase() does.
+AddedTracks trackCoursesIntoCase(const TrackingVolume& volume, const formats::Case& known,
+                                 const std::vector<SeedBranch>& courses, Progress& progress);
+
 }  // namespace lumen::convert
