@@ -115,15 +115,15 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
 }
 
 convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
-                                const TrackArguments& track, Progress& progress) {
+                                const convert::TrackOptions& options, Progress& progress) {
   const std::vector<convert::SeedBranch> courses =
-      convert::findVessels(volume, track.options.dark, progress);
+      convert::findVessels(volume, options.dark, progress);
   const std::string none = formats::printable(file) + ": no vessels are found in it";
   if (courses.empty())
     throw failed(none +
                  ", as nothing long and thin stands out of its noise; --seeds states where "
                  "vessels begin, and --dark that they are darker than their background");
-  convert::TrackResult result = convert::trackCourses(volume, courses, track.options, progress);
+  convert::TrackResult result = convert::trackCourses(volume, courses, options, progress);
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0)
     throw failed(none + ", as no cylinder fits along any of " + std::to_string(courses.size()) +

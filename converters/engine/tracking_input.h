@@ -32,7 +32,7 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
 /// of which the volume shows no wall are left out, and listed for --verbose. Throws Error(Failed) if
 /// none is left.
 convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
-                                const TrackArguments& track, Progress& progress);
+                                const convert::TrackOptions& options, Progress& progress);
 
 /// Adds to a case that was tracked in `volume` the vessels that it lacks, as trackFound() finds them;
 /// what it has stays as it is. Returns the result with its remarks on the new vessels.

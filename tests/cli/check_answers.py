@@ -105,6 +105,9 @@ def make_cases(lumen, folder):
     go = lambda name, *arguments, **more: hold(name, run(lumen, folder, *arguments), " ".join(arguments), **more)
     go("phantom.schema.json", "phantom", "aneurysm", "a.nrrd", "--size", "64", "--truth", "truth.lumen", "--seeds", "seeds.json")
     go("phantom.schema.json", "phantom", "tube", "a.nii.gz", "--size", "32")
+    go("seeds.schema.json", "seeds", "a.nrrd", "proposals.mrk.json")
+    go("convert.schema.json", "convert", "a.nrrd", "proposed.lumen", "--seeds", "proposals.mrk.json")
+    go("convert.schema.json", "convert", "a.nrrd", "found.lumen")
     seeds = json.loads((folder / "seeds.json").read_text())
     vessel = seeds["branches"][0]
     air = dict(vessel, label="air", points=[[1.0, 1.0, 1.0]], radius=0.3)

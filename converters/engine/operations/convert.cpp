@@ -98,7 +98,7 @@ private:
     if (m_mask.isGiven()) return caseOfMaskFile(m_input, from, m_volume, m_mask, progress);
     const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
     convert::TrackResult tracked = m_track.seeds.empty()
-                                       ? trackFound(volume, m_input, m_track, progress)
+                                       ? trackFound(volume, m_input, m_track.options, progress)
                                        : trackSeeds(volume, m_seeds, m_track, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
     return std::move(tracked.result);

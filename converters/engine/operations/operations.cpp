@@ -7,7 +7,7 @@ namespace lumen::engine {
 Engine makeEngine() {
   Engine engine;
   for (const auto make :
-       {makeConvertCommand, makeExportCommand, makeTrackCommand, makeFitCommand, makeInfoCommand,
+       {makeConvertCommand, makeExportCommand, makeTrackCommand, makeSeedsCommand, makeFitCommand, makeInfoCommand,
         makeValidateCommand, makeCompareCommand, makeCheckCommand, makePictureCommand,
         makeReportCommand, makePhantomCommand})
     engine.add(make);

@@ -11,6 +11,7 @@ namespace lumen::engine {
 std::unique_ptr<Command> makeConvertCommand();
 std::unique_ptr<Command> makeExportCommand();
 std::unique_ptr<Command> makeTrackCommand();
+std::unique_ptr<Command> makeSeedsCommand();
 std::unique_ptr<Command> makeFitCommand();
 std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeValidateCommand();

@@ -85,7 +85,8 @@ std::vector<SeedBranch> readSeeds(const fs::path& file, const SeedReading& readi
 }
 
 void writeSeeds(const std::vector<SeedBranch>& seeds, const fs::path& file) {
-  const std::string text = seedsText(seeds);
+  const bool isMarkups = lowerCase(file.filename().string()).ends_with(".mrk.json");
+  const std::string text = isMarkups ? markupsText(seeds) : seedsText(seeds);
   const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
   if (!written) throw failed(printable(file.string()) + ": " + written.error().text());
 }

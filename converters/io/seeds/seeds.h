@@ -67,7 +67,7 @@ struct SeedReading {
 std::vector<SeedBranch> readSeeds(const std::filesystem::path& file,
                                   const SeedReading& reading = {});
 
-/// Writes lumen's own JSON, atomically.
+/// Writes lumen's own JSON, or curves of 3D Slicer if the file's name ends in .mrk.json; atomically.
 void writeSeeds(const std::vector<SeedBranch>& seeds, const std::filesystem::path& file);
 
 }  // namespace lumen::convert

@@ -3,12 +3,17 @@
 #include "converters/io/seeds/seeds_markups.h"
 
 #include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "converters/base/text.h"
 #include "converters/io/seeds/seed_description.h"
 
 namespace lumen::convert {
 namespace {
+
+using OrderedJson = nlohmann::ordered_json;
 
 /// "LPS" (the default), "RAS", or the numbers of older versions: 1 and 0.
 SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
@@ -127,6 +132,42 @@ std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& s
           "alone");
   }
   return branches;
+}
+
+std::string markupsText(const std::vector<SeedBranch>& seeds) {
+  OrderedJson markups = OrderedJson::array();
+  for (const SeedBranch& seed : seeds) {
+    std::string description = "kind=";
+    description += seed.kind == formats::BranchKind::Aneurysm ? "aneurysm" : "vessel";
+    if (seed.parent) description += "; parent=" + *seed.parent;
+    OrderedJson points = OrderedJson::array(), radii = OrderedJson::array();
+    for (const SeedPoint& point : seed.points) {
+      const Eigen::Vector3d& p = point.position;
+      points.push_back({{"position", {p.x(), p.y(), p.z()}}, {"positionStatus", "defined"}});
+      if (point.radius) radii.push_back(*point.radius);
+    }
+    OrderedJson curve = {{"type", seed.points.size() == 1 ? "Fiducial" : "Curve"},
+                         {"name", seed.label},
+                         {"coordinateSystem", "LPS"},
+                         {"coordinateUnits", "mm"}};
+    if (seed.points.size() == 1) {
+      points[0]["label"] = seed.label;
+      points[0]["description"] = description;
+    } else {
+      curve["description"] = description;
+    }
+    curve["controlPoints"] = std::move(points);
+    if (!radii.empty() && radii.size() == seed.points.size())
+      curve["measurements"] = {
+          {{"name", "Radius"}, {"enabled", true}, {"units", "mm"}, {"controlPointValues", radii}}};
+    markups.push_back(std::move(curve));
+  }
+  const OrderedJson root = {
+      {"@schema",
+       "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
+       "Schema/markups-schema-v1.0.3.json#"},
+      {"markups", std::move(markups)}};
+  return root.dump(2) + "\n";
 }
 
 }  // namespace lumen::convert

@@ -14,4 +14,8 @@ namespace lumen::convert {
 std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& stem,
                                      const SeedReading& reading);
 
+/// The text of a Markups file in LPS mm: a curve for each branch, with its radii as a measurement,
+/// and parent and kind in its description.
+std::string markupsText(const std::vector<SeedBranch>& seeds);
+
 }  // namespace lumen::convert

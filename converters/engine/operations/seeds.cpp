@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// lumen seeds: the vessels of a volume as seeds for a person to edit.
+#include "converters/io/seeds/seeds.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "converters/base/vectors.h"
+#include "converters/engine/answer_text.h"
+#include "converters/engine/file_access.h"
+#include "converters/engine/operations/operations.h"
+#include "converters/engine/scope.h"
+#include "converters/engine/tracking_input.h"
+
+namespace lumen::engine {
+
+namespace {
+
+/// Places of the clicks on a vessel, as shares of its nodes: the first near where it begins.
+constexpr double kShares[] = {0.15, 0.5, 0.85};
+
+/// Clicks on the vessels of a case; an aneurysm has one at each of its nodes.
+std::vector<convert::SeedBranch> seedsOn(const formats::Case& value) {
+  const formats::CenterlineTree& tree = value.tree;
+  std::vector<convert::SeedBranch> seeds;
+  for (const formats::Branch& branch : tree.branches) {
+    convert::SeedBranch seed;
+    seed.label = branch.label;
+    seed.kind = branch.kind;
+    const int above = tree.parent[branch.firstNode];
+    if (above >= 0) seed.parent = tree.branches[tree.branch[static_cast<std::size_t>(above)]].label;
+    const auto add = [&](std::uint32_t node) {
+      seed.points.push_back({toEigen(tree.centre[node]), static_cast<double>(tree.radius[node])});
+    };
+    const std::uint32_t last = branch.nodeCount - 1;
+    if (branch.kind == formats::BranchKind::Aneurysm)
+      for (std::uint32_t i = 0; i <= last; ++i) add(branch.firstNode + i);
+    else
+      for (const double share : kShares)
+        add(branch.firstNode + static_cast<std::uint32_t>(share * static_cast<double>(last)));
+    seeds.push_back(std::move(seed));
+  }
+  return seeds;
+}
+
+class SeedsCommand : public Command {
+public:
+  [[nodiscard]] std::string name() const override { return "seeds"; }
+  [[nodiscard]] std::string summary() const override {
+    return "Find the vessels of a volume, and write them as seeds to edit";
+  }
+  [[nodiscard]] std::string example() const override {
+    return "  lumen seeds head.nrrd head.mrk.json        # curves that 3D Slicer shows\n"
+           "  lumen convert head.nrrd head.lumen --seeds head.mrk.json";
+  }
+
+  void addRows(OptionTable& table) override {
+    table.argument("VOLUME", &m_input, formatTitles(canReadVolume));
+    table.argument(
+        "OUT", &m_output,
+        "Seeds to write: curves of 3D Slicer if it ends in .mrk.json, else lumen's JSON");
+    addVolumeRows(table, m_volume);
+    table.scope(kImage);
+    table.group("Tracking");
+    m_options.addRows(table);
+    table.scope(kAnyContent);
+    table.group("");
+    addFormatRow(table, "from", m_from, "VOLUME");
+  }
+
+  Answer run(Surroundings& around) override {
+    requireOrder(m_input, m_output);
+    requireInput(m_input, "volume");
+    const FileFormat& from = inputFormat(m_input, m_from);
+    if (from.kind != FormatKind::Volume) {
+      const std::string other = convert::notA(convert::ContentKind::Volume, m_input);
+      throw unsupported(m_input + ": " +
+                        (other.empty() ? "this is not a volume, which lumen seeds reads" : other));
+    }
+    requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, m_output},
+                   around.progress);
+    requireWritable(m_output, convert::ContentKind::Seeds);
+    around.willWrite(m_output);
+    const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
+    const formats::Case found = trackFound(volume, m_input, m_options, around.progress).result;
+    const std::vector<convert::SeedBranch> seeds = seedsOn(found);
+    convert::writeSeeds(seeds, m_output);
+    Json json;
+    json["seeds"] = seeds.size();
+    json["length_mm"] = caseSummary(found)["length_mm"];
+    return {json, m_output + ": " + counted(seeds.size(), "vessel", "vessels") + "\n"};
+  }
+
+private:
+  std::string m_input, m_output, m_from;
+  VolumeArguments m_volume;
+  convert::TrackOptions m_options;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeSeedsCommand() {
+  return std::make_unique<SeedsCommand>();
+}
+
+}  // namespace lumen::engine
