@@ -48,6 +48,9 @@ public:
   /// The voxels of a connected part; the given one is the first.
   [[nodiscard]] std::vector<std::uint32_t> partOf(std::uint32_t voxel) const;
 
+  /// The voxel farthest from `from`, in its part.
+  std::uint32_t farthest(std::uint32_t from, const Progress& progress);
+
   /// The tip of the widest vessel in the part of `voxel`, where that vessel enters it.
   std::uint32_t widestTip(std::uint32_t voxel, const Progress& progress);
 
@@ -66,8 +69,6 @@ private:
       visit(voxelOf(m_steps[k]), m_lengthOf[m_steps[k] >> kAxesShift]);
   }
   void findSteps(const Progress& progress);
-  /// The voxel farthest from `from`, in its part.
-  std::uint32_t farthest(std::uint32_t from, const Progress& progress);
   /// The least depth of a path from where the greatest ball at its first voxel ends to a few depths
   /// on, mm.
   [[nodiscard]] double widthAtStart(const std::vector<std::uint32_t>& voxels) const;

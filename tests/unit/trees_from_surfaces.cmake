@@ -6,5 +6,4 @@ lumen_test(trees_from_surfaces_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/trees_from_surfaces/closed_mesh_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/trees_from_surfaces/label_mesh_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/trees_from_surfaces/real_meshes_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/trees_from_surfaces/triangle_tree_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/trees_from_surfaces/vessel_paths_test.cpp)
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/trees_from_surfaces/triangle_tree_test.cpp)

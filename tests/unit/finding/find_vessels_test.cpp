@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/finding/find_vessels.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "converters/base/random.h"
+#include "tests/unit/tracking/tube_volume.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A trunk of radius 3 along z with a branch of radius 1.2 that leaves it half way up.
+double fork(const Vector3d& p) {
+  return std::min(capsule(p, {24, 30, 4}, {24, 30, 60}, 3),
+                  capsule(p, {24, 30, 30}, {46, 30, 44}, 1.2));
+}
+
+std::vector<SeedBranch> find(const Volume& volume, bool dark = false) {
+  Progress silent;
+  return findVessels(volume, dark, silent);
+}
+
+double distanceFrom(const SeedBranch& course, const Vector3d& place) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SeedPoint& point : course.points)
+    least = std::min(least, (point.position - place).norm());
+  return least;
+}
+
+void expectFork(const std::vector<SeedBranch>& courses) {
+  ASSERT_EQ(courses.size(), 2U);
+  EXPECT_FALSE(courses[0].parent);
+  EXPECT_EQ(courses[1].parent, courses[0].label);
+  EXPECT_LT(distanceFrom(courses[0], {24, 30, 8}), 2);
+  EXPECT_LT(distanceFrom(courses[0], {24, 30, 56}), 2);
+  EXPECT_LT(distanceFrom(courses[1], {44, 30, 42.73}), 2);
+  for (const SeedBranch& course : courses)
+    for (const SeedPoint& point : course.points) EXPECT_GT(point.radius.value_or(0), 0);
+}
+
+TEST(FindVessels, AForkIsATrunkAndAChild) {
+  expectFork(find(drawVolume(64, 1, fork)));
+}
+
+TEST(FindVessels, DarkVesselsAreFoundAsBrightOnes) {
+  Volume volume = drawVolume(64, 1, fork);
+  for (std::int16_t& voxel : std::get<std::vector<std::int16_t>>(volume.voxels))
+    voxel = static_cast<std::int16_t>(1200 - voxel);
+  expectFork(find(volume, true));
+}
+
+TEST(FindVessels, AVesselOfAFifthOfTheContrastIsFound) {
+  const Volume bright = drawVolume(64, 1, [](const Vector3d& p) {
+    return capsule(p, {16, 16, 4}, {16, 16, 60}, 4);
+  });
+  Volume both = drawVolume(64, 1, [](const Vector3d& p) {
+    return capsule(p, {46, 46, 4}, {46, 46, 60}, 1.5);
+  });
+  auto& voxels = std::get<std::vector<std::int16_t>>(both.voxels);
+  const auto& wide = std::get<std::vector<std::int16_t>>(bright.voxels);
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    voxels[i] = static_cast<std::int16_t>(voxels[i] / 5 + wide[i]);
+  const auto courses = find(both);
+  ASSERT_EQ(courses.size(), 2U);
+  EXPECT_LT(
+      std::min(distanceFrom(courses[0], {46, 46, 32}), distanceFrom(courses[1], {46, 46, 32})),
+      1.5);
+}
+
+TEST(FindVessels, NoiseHoldsNone) {
+  Random random(7, 0);
+  Volume volume = drawVolume(64, 1, [](const Vector3d&) { return 5.0; });
+  for (std::int16_t& voxel : std::get<std::vector<std::int16_t>>(volume.voxels)) {
+    double sum = -6;
+    for (int k = 0; k < 12; ++k) sum += random.uniform();
+    voxel = static_cast<std::int16_t>(std::lround(500 + 50 * sum));
+  }
+  EXPECT_TRUE(find(volume).empty());
+}
+
+TEST(FindVessels, AnEvenVolumeHoldsNone) {
+  EXPECT_TRUE(find(drawVolume(32, 1, [](const Vector3d&) { return 5.0; })).empty());
+}
+
+TEST(FindVessels, VoxelsOfUnequalEdgesKeepLengthsInMillimetres) {
+  Volume volume = drawVolume(64, 1, fork);
+  // every second slice
+  Volume thick;
+  thick.geometry = volume.geometry;
+  thick.geometry.size[2] = 32;
+  thick.geometry.spacing[2] = 2;
+  std::vector<std::int16_t> voxels;
+  const auto& all = std::get<std::vector<std::int16_t>>(volume.voxels);
+  thick.geometry.cells().forEach([&](const Cell& cell) {
+    voxels.push_back(all[volume.geometry.index(Cell(cell[0], cell[1], 2 * cell[2]))]);
+  });
+  thick.voxels = std::move(voxels);
+  expectFork(find(thick));
+}
+
+TEST(FindVessels, ThreadsDoNotChangeTheCourses) {
+  const Volume volume = drawVolume(96, 1, fork);
+  const auto many = find(volume);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const auto few = find(volume);
+  ASSERT_EQ(many.size(), few.size());
+  for (std::size_t i = 0; i < many.size(); ++i) {
+    ASSERT_EQ(many[i].points.size(), few[i].points.size());
+    for (std::size_t k = 0; k < many[i].points.size(); ++k) {
+      EXPECT_EQ(many[i].points[k].position, few[i].points[k].position);
+      EXPECT_EQ(many[i].points[k].radius, few[i].points[k].radius);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lumen::convert

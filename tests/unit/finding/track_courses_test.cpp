@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole trees from volumes without a click, against the truth of phantoms.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "converters/judge/compare/compare.h"
+#include "converters/stages/finding/find_vessels.h"
+#include "converters/stages/phantom/phantom.h"
+#include "converters/stages/tracking/track_case.h"
+#include "tests/unit/tracking/tube_volume.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+
+Phantom phantom(const std::string& name) {
+  PhantomOptions options;
+  options.name = name;
+  Progress silent;
+  return makePhantom(options, silent);
+}
+
+formats::Case treeOf(const Volume& volume, Progress& progress) {
+  return trackCourses(volume, findVessels(volume, false, progress), {}, progress).result;
+}
+
+struct Expected {
+  std::string phantom;
+  std::size_t mostBranches;
+};
+
+class WholeTree : public ::testing::TestWithParam<Expected> {};
+
+TEST_P(WholeTree, CoversTheTruthWithoutAClick) {
+  Progress silent;
+  const Phantom made = phantom(GetParam().phantom);
+  const formats::Case found = treeOf(made.volume, silent);
+  const Comparison comparison = compareCases(found, made.truth, silent);
+  EXPECT_GE(comparison.score.overlap, 0.98);
+  EXPECT_LE(comparison.score.falseLength, 0.5);
+  EXPECT_LE(found.tree.branches.size(), GetParam().mostBranches);
+}
+
+INSTANTIATE_TEST_SUITE_P(Phantoms, WholeTree,
+                         ::testing::Values(Expected{"tube", 1}, Expected{"bifurcation", 2},
+                                           Expected{"hairpin", 1}, Expected{"dropout", 1},
+                                           Expected{"aneurysm", 2}, Expected{"kissing", 3},
+                                           Expected{"companion", 3}),
+                         [](const auto& each) { return each.param.phantom; });
+
+TEST(TrackCourses, ACandidateWithoutAWallIsNoVesselAndItsChildrenHangOnTheOneBefore) {
+  const Volume volume = drawVolume(64, 0.2, [](const Vector3d& p) {
+    return std::min(capsule(p, {4, 6, 0.6}, {4, 6, 12}, 0.8),
+                    capsule(p, {4, 6, 6}, {11, 6, 9}, 0.5));
+  });
+  const auto course = [](const std::string& label, const Vector3d& a, const Vector3d& b,
+                         std::optional<std::string> parent) {
+    SeedBranch seed;
+    seed.label = label;
+    seed.parent = std::move(parent);
+    for (int i = 0; i <= 20; ++i) seed.points.push_back({a + i / 20.0 * (b - a), 0.5});
+    return seed;
+  };
+  Progress silent;
+  const TrackResult out = trackCourses(volume,
+                                       {course("trunk", {4, 6, 0.8}, {4, 6, 11.8}, {}),
+                                        course("nothing", {4, 6, 6}, {4, 12, 6}, "trunk"),
+                                        course("child", {4, 6, 6}, {10.8, 6, 8.9}, "nothing")},
+                                       {}, silent);
+  ASSERT_EQ(out.failures.size(), 1U);
+  EXPECT_EQ(out.failures[0].label, "nothing");
+  const auto& tree = out.result.tree;
+  ASSERT_EQ(tree.branches.size(), 2U);
+  EXPECT_EQ(tree.branches[1].label, "child");
+  const int above = tree.parent[tree.branches[1].firstNode];
+  ASSERT_GE(above, 0);
+  EXPECT_EQ(tree.branch[static_cast<std::size_t>(above)], 0U);
+}
+
+TEST(TrackCourses, ACandidateOnTheWallOfItsParentIsABump) {
+  const Volume volume = drawVolume(64, 0.2, [](const Vector3d& p) {
+    return capsule(p, {6, 6, 0.6}, {6, 6, 12}, 1.5);
+  });
+  SeedBranch trunk, bump;
+  trunk.label = "trunk";
+  bump.label = "bump";
+  bump.parent = "trunk";
+  for (int i = 0; i <= 40; ++i) trunk.points.push_back({{6, 6, 0.8 + i * 0.275}, 1.5});
+  for (int i = 0; i <= 10; ++i) bump.points.push_back({{6 + i * 0.16, 6, 6 + i * 0.1}, 1.0});
+  Progress silent;
+  const TrackResult out = trackCourses(volume, {trunk, bump}, {}, silent);
+  EXPECT_EQ(out.result.tree.branches.size(), 1U);
+}
+
+TEST(TrackCoursesIntoCase, AddsWhatNoSeedHasTrackedAndKeepsTheRest) {
+  Progress silent;
+  const Phantom made = phantom("bifurcation");
+  const TrackResult clicked = trackCase(made.volume, {made.seeds[0]}, {}, silent);
+  const TrackingVolume tracking(made.volume, clicked.result, silent);
+  const AddedTracks added = trackCoursesIntoCase(tracking, clicked.result,
+                                                 findVessels(made.volume, false, silent), silent);
+  const auto &before = clicked.result.tree, &after = added.result.tree;
+  ASSERT_GT(after.branches.size(), before.branches.size());
+  EXPECT_EQ(after.branches[0].label, made.seeds[0].label);
+  EXPECT_TRUE(std::equal(before.centre.begin(), before.centre.end(), after.centre.begin()));
+  EXPECT_GE(compareCases(added.result, made.truth, silent).score.overlap, 0.98);
+  for (std::size_t b = 1; b < after.branches.size(); ++b)
+    EXPECT_GE(after.parent[after.branches[b].firstNode], 0) << after.branches[b].label;
+}
+
+TEST(TrackCoursesIntoCase, AddsNothingToAWholeTree) {
+  Progress silent;
+  const Phantom made = phantom("bifurcation");
+  const TrackResult clicked = trackCase(made.volume, made.seeds, {}, silent);
+  const TrackingVolume tracking(made.volume, clicked.result, silent);
+  const AddedTracks added = trackCoursesIntoCase(tracking, clicked.result,
+                                                 findVessels(made.volume, false, silent), silent);
+  EXPECT_EQ(added.result, clicked.result);
+}
+
+}  // namespace
+}  // namespace lumen::convert
