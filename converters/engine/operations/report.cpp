@@ -79,7 +79,7 @@ public:
     table.file(
         "volume", m_input,
         "Volume that the case was made from: also its projections, and how far the case agrees "
-        "with it, as lumen check tells");
+        "with it, as lumen check reports");
     table.add("title", &m_title, "NAME", "Title of the page [the name of CASE]");
     table
         .add("point-spread", &m_pointSpread, "MM",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lumen validate: all that is wrong in case files.
+// lumen validate: all faults of case files.
 #include <optional>
 #include <utility>
 
@@ -68,7 +68,7 @@ class ValidateCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "validate"; }
   [[nodiscard]] std::string summary() const override {
-    return "Tell all that is wrong in case files; exit with 3 if anything is";
+    return "Report all faults of case files; exit with 3 if there are any";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen validate head.lumen head.lumen.json --privacy";
@@ -81,7 +81,7 @@ public:
              "Report at most N issues of a file, errors first; all are counted")
         .in(WholeRange{0, 1000000});
     table.flag("privacy", m_privacy,
-               "Also warn of texts that may tell who a patient is, such as dates and names");
+               "Also warn of texts that may identify a patient, such as dates and names");
   }
 
   Answer run(Surroundings& around) override {
