@@ -166,8 +166,9 @@ Markup warnings(const ReportFacts& facts) {
     return convert::section(
         "warnings", kTitle,
         paragraph(
-            "None: the case is valid, a tool reaches all of it as far as is known, and no text "
-            "of it looks like a person's."));
+            std::string("None: the case is valid, a tool reaches all of it as far as is known, ") +
+            (facts.sides.empty() ? "" : "the surface that lumen convert makes is whole, ") +
+            "and no text of it looks like a person's."));
   convert::Table table("warning-table", {{"kind", false}, {"what", false}});
   for (const std::string& words : facts.otherWarnings)
     table.row({text("warning"), convert::shortened(words, 600)});

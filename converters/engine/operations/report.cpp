@@ -17,6 +17,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/surface_answer.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/judge/check/check.h"
@@ -139,6 +140,8 @@ private:
     facts.info = convert::describeCase(facts.value, progress);
     addNames(facts);
     if (!facts.value.models || facts.value.tree.nodeCount() == 0) return facts;
+    for (const std::string& sentence : closedSurfaceWarnings(facts.value, progress))
+      facts.otherWarnings.push_back("the surface that lumen convert makes: " + sentence);
     for (const auto& [view, title] : kSides)
       facts.sides.push_back(drawn(facts.value, view, convert::ColorBy::None, title, progress));
     if (!facts.value.tree.inlierRate.empty())

@@ -174,7 +174,11 @@ constexpr const char* kFindings =
     "| 651 | `CLOSED_EDGE` | found | the surface of the case stands across an edge between a node "
     "and "
     "its parent, or a root is outside of it: no tool can be pushed there along the tree; found is "
-    "the length beyond that cannot be reached, in mm |\n";
+    "the length beyond that cannot be reached, in mm |\n"
+    "| 652 | `SURFACE` |  | with `--surface`: the closed surface that `lumen convert` makes leaves "
+    "a "
+    "part of the case out, was opened or cut, or passes through itself; the message is that of "
+    "`lumen convert` |\n";
 
 }  // namespace
 
