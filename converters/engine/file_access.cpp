@@ -28,7 +28,7 @@ std::string errorText(const fs::path& file, formats::Issue error) {
   // nothing of a file that cannot be read or written has a place
   if (error.offset || error.pointer) return prefix + error.text();
   const bool isLimit = error.message.ends_with(std::generic_category().message(EFBIG));
-  return prefix + error.message + (isLimit ? " (ulimit -f tells the shell's limit)" : "");
+  return prefix + error.message + (isLimit ? " (ulimit -f prints the shell's limit)" : "");
 }
 
 /// Files that somebody made or measured are not replaced by files of another kind.
@@ -106,7 +106,7 @@ void requireWritable(const fs::path& path, convert::ContentKind written) {
   const convert::FileContent content = convert::contentOf(path);
   if (isPrecious(content.kind) && content.kind != written)
     throw Error(ErrorKind::Usage, path.string() + ": " + content.sentence() +
-                                      ", which would be lost; another name, please");
+                                      ", which would be lost; choose another name");
   if (path.filename().empty() || fs::is_directory(path, ignored))
     throw failed(path.string() + ": this is a folder, but the output must be a file");
   if (fs::exists(path, ignored)) {

@@ -219,10 +219,9 @@ std::string meshInfoText(const MeshInfo& info) {
   Lines lines;
   lines.add("mesh", counted(r.triangles, "triangle", "triangles") + ", " +
                         counted(r.vertices, "point", "points"));
-  lines.add("unit", info.unit + (info.unitFrom == "file"     ? ", as the file says"
-                                 : info.unitFrom == "option" ? ", as --unit says"
-                                                             : ", by its size"));
-  lines.add("axes", info.file.frameStated ? "LPS" : "not stated; taken as LPS");
+  const MeshFrame frame{info.unit, info.unitFrom, info.file.frameStated};
+  lines.add("unit", frame.unitText());
+  lines.add("axes", frame.axesText());
   lines.add("closed",
             r.closed ? "yes"
                      : "no, " + counted(r.boundaryLoops.size(), "boundary loop", "boundary loops"));

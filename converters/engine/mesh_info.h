@@ -6,6 +6,7 @@
 
 #include "converters/base/progress.h"
 #include "converters/engine/answer_text.h"
+#include "converters/engine/mesh_input.h"
 #include "converters/io/mesh/mesh_file.h"
 #include "converters/stages/repair/mesh_report.h"
 

@@ -65,11 +65,9 @@ std::optional<convert::GivenCenterline> givenCenterline(const MeshArguments& arg
   return given;
 }
 
-/// mm in a unit of the mesh; warns where it had to guess.
-double unitOf(const convert::MeshFile& file, const convert::TriangleMesh& mesh,
-              const std::string& name, const MeshArguments& arguments, Progress& progress) {
-  if (const double stated = millimetresIn(arguments.unit); stated > 0) return stated;
-  if (file.unitMm > 0) return file.unitMm;
+/// The unit of a mesh whose file states none, by the mesh's size; warns where that is not mm.
+std::string guessedUnit(const convert::TriangleMesh& mesh, const std::string& name,
+                        Progress& progress) {
   convert::MeshReport size;
   size.low = size.high = mesh.position.front();
   for (const convert::Triangle& t : mesh.triangle) {
@@ -89,7 +87,15 @@ double unitOf(const convert::MeshFile& file, const convert::TriangleMesh& mesh,
   else if (guess.millimetres != 1)
     progress.warn(name + ": taken to be in " + guess.unit + ": in mm its vessels would have " +
                   std::to_string(radius) + " mm radius; --unit says what they are");
-  return guess.millimetres;
+  return guess.unit;
+}
+
+/// The unit of the mesh and its axes; warns where the unit is a guess that is not mm.
+MeshFrame frameOf(const convert::MeshFile& file, const convert::TriangleMesh& mesh,
+                  const std::string& name, const MeshArguments& arguments, Progress& progress) {
+  if (millimetresIn(arguments.unit) > 0) return {arguments.unit, "option", file.frameStated};
+  if (file.unitMm > 0) return {"mm", "file", file.frameStated};
+  return {guessedUnit(mesh, name, progress), "guess", file.frameStated};
 }
 
 std::string listed(const std::vector<std::string>& sentences) {
@@ -100,8 +106,29 @@ std::string listed(const std::vector<std::string>& sentences) {
 
 }  // namespace
 
-formats::Case caseOfMeshFile(const fs::path& file, const FileFormat& format,
-                             const MeshArguments& arguments, Progress& progress) {
+std::string MeshFrame::unitText() const {
+  return unit + (unitFrom == "file"     ? ", as the file states"
+                 : unitFrom == "option" ? ", as --unit states"
+                                        : ", by its size");
+}
+
+std::string MeshFrame::axesText() const {
+  return frameStated ? "LPS" : "not stated; taken as LPS";
+}
+
+std::string meshFrameLine(const std::optional<MeshFrame>& frame) {
+  if (!frame) return "";
+  return "mesh read    unit " + frame->unitText() + "; axes " + frame->axesText() + "\n";
+}
+
+Json meshFrameJson(const std::optional<MeshFrame>& frame) {
+  if (!frame) return nullptr;
+  return {
+      {"unit", frame->unit}, {"unit_from", frame->unitFrom}, {"frame_stated", frame->frameStated}};
+}
+
+CaseOfMeshFile caseOfMeshFile(const fs::path& file, const FileFormat& format,
+                              const MeshArguments& arguments, Progress& progress) {
   const std::string name = formats::printable(file.string());
   progress.begin("reading", 0);
   const convert::MeshFile read =
@@ -110,13 +137,14 @@ formats::Case caseOfMeshFile(const fs::path& file, const FileFormat& format,
   progress.end();
   for (const std::string& note : read.notes) progress.warn(name + ": " + note);
   if (!repaired.repairs.empty()) progress.warn(name + ": repaired: " + listed(repaired.repairs));
-  const double unit = unitOf(read, repaired.mesh, name, arguments, progress);
+  const MeshFrame frame = frameOf(read, repaired.mesh, name, arguments, progress);
+  const double unit = millimetresIn(frame.unit);
   for (Eigen::Vector3d& p : repaired.mesh.position) p *= unit;
   const auto centerline = givenCenterline(arguments, unit, progress);
   convert::MeshCase made =
       convert::caseOfMesh(std::move(repaired.mesh), name, centerline, {{"unit", unit}}, progress);
   for (const std::string& note : made.notes) progress.warn(note);
-  return std::move(made.result);
+  return {std::move(made.result), frame};
 }
 
 }  // namespace lumen::engine

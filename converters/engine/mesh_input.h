@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "converters/base/progress.h"
+#include "converters/engine/answer_text.h"
 #include "converters/engine/file_format.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
 
@@ -20,10 +22,33 @@ struct MeshArguments {
   SceneArguments scene;         ///< options of a scene
 };
 
+/// Unit and axes that were taken for a mesh.
+struct MeshFrame {
+  std::string unit;          ///< mm, cm, m or um
+  std::string unitFrom;      ///< "option", "file" or "guess"
+  bool frameStated = false;  ///< the file names its axes
+
+  /// "mm, by its size".
+  [[nodiscard]] std::string unitText() const;
+  /// "LPS", or "not stated; taken as LPS".
+  [[nodiscard]] std::string axesText() const;
+};
+
+/// A line for the answer; empty without a mesh.
+std::string meshFrameLine(const std::optional<MeshFrame>& frame);
+/// The frame as an object; null without a mesh.
+Json meshFrameJson(const std::optional<MeshFrame>& frame);
+
+/// The case of a mesh, and the frame that the mesh was taken to have.
+struct CaseOfMeshFile {
+  formats::Case value;
+  MeshFrame frame;
+};
+
 /// Tree and wall points of the mesh in `file`. Repairs and assumptions become warnings. Throws
 /// Error(InvalidInput) for a mesh that is no surface of vessels, and for a centerline that does not
 /// belong to it.
-formats::Case caseOfMeshFile(const std::filesystem::path& file, const FileFormat& format,
-                             const MeshArguments& arguments, Progress& progress);
+CaseOfMeshFile caseOfMeshFile(const std::filesystem::path& file, const FileFormat& format,
+                              const MeshArguments& arguments, Progress& progress);
 
 }  // namespace lumen::engine

@@ -111,7 +111,7 @@ void warnOfPersons(std::span<const std::byte> bytes, const std::string& file,
   };
   warn(file, scanPrivacy(bytes));
   for (const auto& [pointer, text] : convert::textsToLookAt(about))
-    warn("what is told of the case", scanText(*text, pointer));
+    warn("the description of the case", scanText(*text, pointer));
 }
 
 void addPicture(const formats::Case& value, View view, std::optional<double> turn,

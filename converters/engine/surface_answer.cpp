@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "converters/base/error.h"
 #include "converters/judge/facts/check_facts.h"
 #include "formats/container/printable.h"
 
@@ -15,20 +16,36 @@ Json placeJson(const Eigen::Vector3d& p) {
 
 }  // namespace
 
+std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report) {
+  std::vector<std::string> sentences = report.messages;
+  if (report.openedEdges > 0)
+    sentences.push_back(
+        counted(report.openedEdges, "edge", "edges") +
+        " of the tree had no lumen and were opened in the mesh; lumen fit opens models");
+  if (report.crossings > 0)
+    sentences.push_back(
+        counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
+        " through each other; a greater --gap or a smaller --edge may help");
+  for (const Eigen::Vector3d& place : report.cuts)
+    sentences.push_back("the lumen runs into itself at " + convert::placeText(place) +
+                        " mm, where no link joins it; it is cut there");
+  return sentences;
+}
+
+std::vector<std::string> closedSurfaceWarnings(const formats::Case& value, Progress& progress) {
+  if (!value.models || value.tree.nodeCount() == 0) return {};
+  try {
+    return surfaceWarnings(convert::closedSurface(value, {}, progress).report);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::Cancelled) throw;
+    return {std::string("there is no closed surface: ") + error.what()};
+  }
+}
+
 void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
                    Progress& progress) {
-  const std::string name = formats::printable(file) + ": ";
-  for (const std::string& message : report.messages) progress.warn(name + message);
-  if (report.openedEdges > 0)
-    progress.warn(name + counted(report.openedEdges, "edge", "edges") +
-                  " of the tree had no lumen and were opened in the mesh; lumen fit opens models");
-  if (report.crossings > 0)
-    progress.warn(name +
-                  counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
-                  " through each other; a greater --gap or a smaller --edge may help");
-  for (const Eigen::Vector3d& place : report.cuts)
-    progress.warn(name + "the lumen runs into itself at " + convert::placeText(place) +
-                  " mm, where no link joins it; it is cut there");
+  for (const std::string& sentence : surfaceWarnings(report))
+    progress.warn(formats::printable(file) + ": " + sentence);
 }
 
 std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "converters/base/progress.h"
 #include "converters/engine/answer_text.h"
@@ -12,8 +13,16 @@
 
 namespace lumen::engine {
 
-/// Warns of parts that a user should look at: ends that are not flat, vessels that had to be opened
-/// or cut.
+/// Sentences about parts that a user should look at: ends that are not flat, stretches of branches
+/// without a surface, vessels that had to be opened or cut, triangles that pass through each other.
+std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report);
+
+/// The warnings of the closed surface that `lumen convert` makes of a case by default, or the reason
+/// why there is none. Empty for a case without models. Takes as long as the surface. Throws
+/// Error(Cancelled).
+std::vector<std::string> closedSurfaceWarnings(const formats::Case& value, Progress& progress);
+
+/// Warns with surfaceWarnings(), after the name of the file.
 void warnOfSurface(const convert::SurfaceReport& report, const std::string& file,
                    Progress& progress);
 

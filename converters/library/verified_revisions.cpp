@@ -68,7 +68,7 @@ fs::path defaultStateFile() {
     const fs::path home = folder("HOME");
     if (!home.is_absolute())
       throw failed(
-          "neither XDG_STATE_HOME nor HOME tells where to remember what was verified; "
+          "neither XDG_STATE_HOME nor HOME names a folder to remember verified revisions in; "
           "--state FILE does");
     state = home / ".local/state";
   }

@@ -158,6 +158,7 @@ def make_cases(lumen, folder):
     lines = [f"{10 * y + x + 1} 3 {x} {1.2 * y} 0 1 {10 * y + x if x else -1}" for y in (0, 1) for x in range(10)]
     (folder / "two.swc").write_text("\n".join(lines) + "\n")
     go("convert.schema.json", "convert", "two.swc", "two.glb")
+    go("convert.schema.json", "convert", "mesh.ply", "of-mesh.lumen")
     go("export-list.schema.json", "export", "--list")
     go("convert.schema.json", "convert", "two.swc", "two.lumen")
     go("export.schema.json", "export", "sofa", "two.lumen", "two-sofa")
@@ -168,6 +169,7 @@ def make_cases(lumen, folder):
     secret["tree"]["branches"][0]["label"] = "Doe^Jane 1999-12-31"
     (folder / "secret.lumen.json").write_text(json.dumps(secret))
     go("validate.schema.json", "validate", "fitted.lumen", "secret.lumen.json", "--privacy", codes=(3,))
+    go("validate.schema.json", "validate", "fitted.lumen", "truth.lumen", "--surface")
 
 
 def libraries(lumen, folder):

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands say of a case whose surface closes the way, and of where its nodes come from.
+// Reports of the commands about a case whose surface closes the path, and about the origin of its nodes.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "formats/case/case_file.h"
@@ -74,6 +76,32 @@ TEST_F(ReachableTest, ValidateCountsClosedWaysThatItDoesNotList) {
   EXPECT_EQ(file["issues"][0]["severity"], "warning");
   EXPECT_EQ(file["issues"][0]["pointer"], "/tree/parent/11");
   EXPECT_EQ(file["issues"][0]["arguments"]["found"], "8.0");
+}
+
+TEST_F(ReachableTest, ValidateReportsTheSurfacesWarningsWhenAskedFor) {
+  const char* const opened = "edges of the tree had no lumen and were opened in the mesh";
+  const Outcome plain = lumen({"validate", "closed.lumen"});
+  EXPECT_FALSE(contains(plain.out, "SURFACE")) << plain.out;
+  const Outcome asked = lumen({"validate", "closed.lumen", "--surface"});
+  EXPECT_EQ(asked.code, 0) << asked.err;
+  EXPECT_TRUE(contains(asked.out, "closed.lumen: warning SURFACE at file: ")) << asked.out;
+  EXPECT_TRUE(contains(asked.out, opened)) << asked.out;
+  const Outcome strict = lumen({"validate", "closed.lumen", "--surface", "--json", "--strict"});
+  EXPECT_EQ(strict.code, 3);
+  const Json issues = Json::parse(strict.out)["files"][0]["issues"];
+  const auto isSurface = [](const Json& issue) { return issue["number"] == 652; };
+  EXPECT_TRUE(std::any_of(issues.begin(), issues.end(), isSurface)) << issues;
+}
+
+TEST_F(ReachableTest, TheReportListsTheWarningsOfTheSurfaceThatConvertMakes) {
+  const Outcome converted = lumen({"convert", "closed.lumen", "closed.stl"});
+  ASSERT_EQ(converted.code, 0) << converted.err;
+  const char* const opened = "edges of the tree had no lumen and were opened in the mesh";
+  ASSERT_TRUE(contains(converted.err, opened)) << converted.err;
+  ASSERT_EQ(lumen({"report", "closed.lumen", "closed.html"}).code, 0);
+  const std::string page = read("closed.html");
+  EXPECT_TRUE(contains(page, "the surface that lumen convert makes: "));
+  EXPECT_TRUE(contains(page, opened));
 }
 
 TEST_F(ReachableTest, AClosedWayInAFileThatIsNotValidIsNotLookedFor) {

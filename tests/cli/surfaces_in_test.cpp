@@ -58,6 +58,20 @@ protected:
   }
 };
 
+TEST_F(SurfacesInTest, ConvertStatesTheUnitAndTheAxesOfAMesh) {
+  write("tube.obj", tubeObj());
+  const Outcome guessed = lumen({"convert", "tube.obj", "tube.lumen"});
+  ASSERT_EQ(guessed.code, 0) << guessed.err;
+  EXPECT_TRUE(contains(guessed.out, "unit mm, by its size; axes not stated; taken as LPS\n"))
+      << guessed.out;
+  const Outcome stated = lumen({"convert", "tube.obj", "tube.lumen", "--unit", "cm", "--json"});
+  ASSERT_EQ(stated.code, 0) << stated.err;
+  EXPECT_EQ(Json::parse(stated.out)["mesh"],
+            Json({{"unit", "cm"}, {"unit_from", "option"}, {"frame_stated", false}}));
+  const Outcome other = lumen({"convert", "tube.lumen", "copy.lumen", "--json"});
+  EXPECT_TRUE(Json::parse(other.out)["mesh"].is_null()) << other.out;
+}
+
 TEST_F(SurfacesInTest, AMeshBecomesACase) {
   write("tube.obj", tubeObj());
   const Outcome done = lumen({"convert", "tube.obj", "tube.lumen"});

@@ -22,7 +22,7 @@ def usable(sofa, folder):
 
 
 def run(sofa, scene, steps, plugins=(), timeout=3600):
-    """The lines that SOFA prints for so many steps of a scene, and its steps per second."""
+    """The lines that SOFA prints for N steps of a scene, and its steps per second."""
     names = [n for n in PLUGINS if (sofa / "plugins" / n).is_dir()]
     libraries = [sofa / "lib"] + [sofa / "plugins" / n / "lib" for n in names + ["SceneChecking"]]
     environment = dict(os.environ, LD_LIBRARY_PATH=":".join(map(str, libraries)))
@@ -38,7 +38,7 @@ def run(sofa, scene, steps, plugins=(), timeout=3600):
 
 
 def faults(lines):
-    """What SOFA says of components and data that are wrong."""
+    """The warnings of SOFA about components and data that are wrong."""
     return [line for line in lines if "[ERROR]" in line or "[WARNING]" in line or "[FATAL]" in line]
 
 

@@ -156,7 +156,7 @@ Markup missingVessels(const CheckReport& report, const formats::CenterlineTree& 
   Markup content = heading("Vessels that are missing");
   const auto& vessels = report.missing.vessels;
   if (vessels.empty()) {
-    content += paragraph("None that hangs together with the case.");
+    content += paragraph("None that is connected with the case.");
   } else {
     content += paragraph(
         "Bright in the volume, joined to the case, and not in it; the first nine have these "

@@ -39,7 +39,8 @@ struct ReportFacts {
   formats::Case value;
   CaseInfo info;
   FileReport examination;
-  /// Warnings about reading the volume, how the case lies in it, and names of files.
+  /// Warnings about the closed surface, reading the volume, how the case lies in it, and names of
+  /// files.
   std::vector<std::string> otherWarnings;
   std::vector<DrawnView> sides;         ///< none of a case without models
   std::optional<DrawnView> confidence;  ///< none if a case without models or inlier rates

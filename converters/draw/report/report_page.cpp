@@ -129,7 +129,7 @@ void addAgreement(const ReportFacts& facts, Facts& list) {
   list.emplace_back(
       "Vessels of the volume in the case",
       text(percentText(share(report.shownLength, report.shownLength + report.missingLength())) +
-           " of the length that hangs together with it"));
+           " of the length that is connected with it"));
 }
 
 Markup summary(const ReportFacts& facts) {
@@ -166,8 +166,9 @@ Markup warnings(const ReportFacts& facts) {
     return convert::section(
         "warnings", kTitle,
         paragraph(
-            "None: the case is valid, a tool reaches all of it as far as is known, and no text "
-            "of it looks like a person's."));
+            std::string("None: the case is valid, a tool reaches all of it as far as is known, ") +
+            (facts.sides.empty() ? "" : "the surface that lumen convert makes is whole, ") +
+            "and no text of it looks like a person's."));
   convert::Table table("warning-table", {{"kind", false}, {"what", false}});
   for (const std::string& words : facts.otherWarnings)
     table.row({text("warning"), convert::shortened(words, 600)});
@@ -247,7 +248,7 @@ std::string reportPage(const ReportFacts& facts) {
           convert::plotStyle() + "</style>\n</head>\n<body>\n<h1>" + htmlName(facts.title) +
           "</h1>\n";
   Markup body = paragraph(
-      "What a case of vessels holds, how it was made, and how far it agrees with its volume.");
+      "The content of a case of vessels, how it was made, and how far it agrees with its volume.");
   body.html += "<p class=\"notice\">Not a medical device: not for clinical use.</p>\n";
   body += summary(facts);
   for (const auto part : {warnings, sides, branchSection, profileSection, confidenceSection,

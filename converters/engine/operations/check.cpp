@@ -83,7 +83,7 @@ std::string missingText(const convert::CheckReport& report, const formats::Cente
   const double missing = report.missingLength(), whole = report.shownLength + missing;
   return "the case has " + fixed(report.shownLength, 1) + " of " + fixed(whole, 1) + " mm (" +
          convert::percentText(convert::share(report.shownLength, whole)) +
-         ") of the vessels that hang together with it in the volume\n" +
+         ") of the vessels that are connected with it in the volume\n" +
          firstLines(report.missing.vessels, "shorter vessel is not in the case",
                     "shorter vessels are not in the case",
                     [&](const convert::MissingVessel& vessel) {

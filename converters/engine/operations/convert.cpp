@@ -80,8 +80,11 @@ public:
 
 private:
   formats::Case load(const FileFormat& from, Progress& progress) {
-    if (from.kind == FormatKind::Mesh)
-      return caseOfMeshFile(m_input, from, meshArguments(), progress);
+    if (from.kind == FormatKind::Mesh) {
+      CaseOfMeshFile made = caseOfMeshFile(m_input, from, meshArguments(), progress);
+      m_meshFrame = std::move(made.frame);
+      return std::move(made.value);
+    }
     if (from.kind == FormatKind::Case) {
       // rounding makes another case; another encoding does not
       return m_outputOptions.encoding.pointBits != 0 ? readParentCase(m_input)
@@ -134,9 +137,10 @@ private:
     Json json = caseSummary(value);
     json["reachable"] = reachJson(reach);
     json["surface"] = surfaceJson(surface, value);
+    json["mesh"] = meshFrameJson(m_meshFrame);
     return {withRemarks(std::move(json), m_remarks),
-            caseLine(m_output, value) + convert::reachLine(reach) + surfaceLines(surface, value) +
-                endLines(m_remarks)};
+            caseLine(m_output, value) + meshFrameLine(m_meshFrame) + convert::reachLine(reach) +
+                surfaceLines(surface, value) + endLines(m_remarks)};
   }
 
   std::string m_input, m_output, m_from, m_to;
@@ -145,6 +149,7 @@ private:
   TrackArguments m_track;
   convert::FitOptions m_fit;
   MeshArguments m_mesh;
+  std::optional<MeshFrame> m_meshFrame;  ///< none for other inputs
   MaskArguments m_mask;
   OutputOptions m_outputOptions;
   Situation m_situation;

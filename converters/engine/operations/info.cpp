@@ -19,7 +19,7 @@ class InfoCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "info"; }
   [[nodiscard]] std::string summary() const override {
-    return "Tell what a case, a volume, a mesh or a centerline holds";
+    return "Print the content of a case, a volume, a mesh or a centerline";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen info head.lumen --json | jq .radius_mm";

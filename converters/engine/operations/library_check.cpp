@@ -13,7 +13,7 @@ class LibraryCheckCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "library check"; }
   [[nodiscard]] std::string summary() const override {
-    return "Tell all that is wrong with a library; exit with 3 if anything is";
+    return "Report all faults of a library; exit with 3 if there are any";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen library check siphons\n"
@@ -26,7 +26,7 @@ public:
     table.file(
         "resume", m_options.journal,
         "Keep in FILE which cases are whole, and pass over those that nothing has touched since: "
-        "same devices, inodes, sizes and times of change of all their files. What a disk loses by "
+        "same devices, inodes, sizes and times of change of all their files. Damage by the disk "
         "itself is not seen then");
     addFaultsRow(table, m_options.mostFaults);
   }

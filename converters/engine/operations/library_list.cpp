@@ -12,7 +12,7 @@ namespace {
 class LibraryListCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "library list"; }
-  [[nodiscard]] std::string summary() const override { return "Tell what is in a library"; }
+  [[nodiscard]] std::string summary() const override { return "List the cases of a library"; }
   [[nodiscard]] std::string example() const override {
     return "  lumen library list siphons\n"
            "  lumen library list siphons --json | jq '.cases[].id'";

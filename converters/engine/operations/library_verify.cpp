@@ -24,7 +24,8 @@ class LibraryVerifyCommand : public Command {
 public:
   [[nodiscard]] std::string name() const override { return "library verify"; }
   [[nodiscard]] std::string summary() const override {
-    return "Tell whether a library is whole, signed by a key that you trust, and not an older one";
+    return "Report whether a library is whole, signed by a key that you trust, and not an older "
+           "one";
   }
   [[nodiscard]] std::string example() const override {
     return "  lumen library verify siphons --key publisher.pub\n"

@@ -17,6 +17,7 @@
 #include "converters/engine/file_access.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/scope.h"
+#include "converters/engine/surface_answer.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/judge/check/check.h"
@@ -79,7 +80,7 @@ public:
     table.file(
         "volume", m_input,
         "Volume that the case was made from: also its projections, and how far the case agrees "
-        "with it, as lumen check tells");
+        "with it, as lumen check reports");
     table.add("title", &m_title, "NAME", "Title of the page [the name of CASE]");
     table
         .add("point-spread", &m_pointSpread, "MM",
@@ -139,6 +140,8 @@ private:
     facts.info = convert::describeCase(facts.value, progress);
     addNames(facts);
     if (!facts.value.models || facts.value.tree.nodeCount() == 0) return facts;
+    for (const std::string& sentence : closedSurfaceWarnings(facts.value, progress))
+      facts.otherWarnings.push_back("the surface that lumen convert makes: " + sentence);
     for (const auto& [view, title] : kSides)
       facts.sides.push_back(drawn(facts.value, view, convert::ColorBy::None, title, progress));
     if (!facts.value.tree.inlierRate.empty())

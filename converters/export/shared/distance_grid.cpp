@@ -109,7 +109,7 @@ std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTre
 
 void refuseSpacing(double spacing, const std::string& what) {
   std::ostringstream text;
-  text << "--grid " << spacing << ": " << what << "; a wider spacing, please";
+  text << "--grid " << spacing << ": " << what << "; choose a wider spacing";
   throw Error(ErrorKind::Usage, text.str());
 }
 

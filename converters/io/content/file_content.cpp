@@ -90,7 +90,7 @@ std::string useOf(ContentKind kind) {
     case Centerline:
       return "; lumen convert makes a case of a centerline";
     case Mesh:
-      return "; lumen info tells of a mesh, lumen convert makes a case of the surface of vessels";
+      return "; lumen info describes a mesh, lumen convert makes a case of the surface of vessels";
     case Unknown:
     case Other:
       break;

@@ -36,7 +36,7 @@ CaseRecord statedRecord(const fs::path& folder, const LibraryEntry& entry) {
   if (text.size() != entry.recordBytes || sha256(text) != entry.recordSha256)
     throw invalidInput(shown(file) +
                        ": found another file than the one that library.json states by its SHA-256; "
-                       "lumen library check tells what else is amiss");
+                       "lumen library check reports all other faults");
   CaseRecord record = readRecord(text, file);
   if (record.id != entry.id)
     throw invalidInput(shown(file) + ": id: found " + formats::printable(record.id) +

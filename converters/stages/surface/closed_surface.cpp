@@ -117,7 +117,7 @@ private:
     refine(outer, around, edgeOf(m_options));
     mendCrossings(outer, around, m_progress);
     m_progress.check();
-    for (std::string& sentence : thinWalls(outer, around))
+    for (std::string& sentence : thinWalls(outer, around, m_progress))
       m_result.report.messages.push_back(std::move(sentence));
     return thickWall(inner, outer, m_source);
   }

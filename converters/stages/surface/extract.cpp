@@ -14,7 +14,8 @@
 namespace lumen::convert {
 namespace {
 
-constexpr double kNearEnd = 0.03;  // share of an edge: crossings keep off its ends
+constexpr double kNearEnd = 0.03;     // share of an edge: crossings keep off its ends
+constexpr std::size_t kBlock = 1024;  // vertices between two reports of progress
 
 class Extraction {
 public:
@@ -79,9 +80,15 @@ private:
     });
     surface.mesh.position.resize(m_crossings.size());
     surface.node.resize(m_crossings.size());
+    m_progress.begin("extracting", m_crossings.size());
     tbb::parallel_for(std::size_t{0}, m_crossings.size(), [&](std::size_t i) {
+      if (i % kBlock == 0) {
+        m_progress.check();
+        m_progress.advance(std::min(kBlock, m_crossings.size() - i));
+      }
       place(m_crossings[i], surface.mesh.position[i], surface.node[i]);
     });
+    m_progress.end();
     return surface;
   }
 

@@ -24,9 +24,13 @@ std::vector<bool> isOnEnd(const CaseSurface& surface) {
 
 std::size_t mendCrossings(CaseSurface& surface, const SheetField& field, Progress& progress) {
   const std::vector<bool> isFixed = isOnEnd(surface);
+  progress.begin("crossings", 0);
   for (int round = 0;; ++round) {
     const SelfIntersections found = selfIntersections(surface.mesh, kMostPairs, &progress);
-    if (found.pairs.empty() || round == kMostRounds) return found.pairs.size();
+    if (found.pairs.empty() || round == kMostRounds) {
+      progress.end();
+      return found.pairs.size();
+    }
     std::vector<std::uint32_t> moved;
     for (const auto& pair : found.pairs)
       for (const std::uint32_t t : pair)

@@ -17,6 +17,7 @@ namespace lumen::convert {
 namespace {
 
 constexpr std::size_t kMostSentences = 5;
+constexpr std::size_t kBlock = 1024;  // vertices between two reports of progress
 
 struct ThinWall {
   double thickness = 0;
@@ -37,15 +38,22 @@ std::string sentenceOf(const ThinWall& wall, const formats::CenterlineTree& tree
 
 }  // namespace
 
-std::vector<std::string> thinWalls(const CaseSurface& outer, const OffsetField& field) {
+std::vector<std::string> thinWalls(const CaseSurface& outer, const OffsetField& field,
+                                   Progress& progress) {
   const auto& position = outer.mesh.position;
   std::vector<SheetSample> samples(position.size());
   std::vector<double> thickness(position.size(), 0);
+  progress.begin("wall thickness", position.size());
   tbb::parallel_for(std::size_t{0}, position.size(), [&](std::size_t v) {
+    if (v % kBlock == 0) {
+      progress.check();
+      progress.advance(std::min(kBlock, position.size() - v));
+    }
     if (!field.mayTouch(outer.node[v])) return;
     samples[v] = field.at(position[v], outer.node[v]);
     if (samples[v].isSeparated) thickness[v] = field.fromLumen(position[v], outer.node[v]);
   });
+  progress.end();
   const formats::CenterlineTree& tree = field.source().tree;
   std::map<std::pair<std::uint32_t, std::uint32_t>, ThinWall> found;
   for (std::size_t v = 0; v < position.size(); ++v) {

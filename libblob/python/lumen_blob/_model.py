@@ -26,7 +26,7 @@ class Error(Exception):
 
 
 class Answer(NamedTuple):
-    """What is known at n points; of one point, the leading axis is missing."""
+    """Facts at n points; the leading axis is missing for a single point."""
     value: np.ndarray     #: (n,) f, mm
     gradient: np.ndarray  #: (n, 3) of f, no unit; points inwards
     distance: np.ndarray  #: (n,) signed distance to the wall, mm, negative in the lumen

@@ -101,7 +101,7 @@ def report(results):
     text = "# Real volumes\n\n"
     text += ("One click to a vessel, those in `tests/data`, default parameters. Reachable is what a tool can be pushed through "
              "from the roots on. The wall's offset from the half-maximum edge is in voxels, positive where the model is too "
-             "wide. Missing are bright vessels that hang together with the tree, clicked or not; covered is the share of "
+             "wide. Missing are bright vessels that are connected with the tree, clicked or not; covered is the share of "
              "what is seen that the case holds. How each is measured: docs/method.md, section 7.\n\n")
     text += summary(results)
     text += table(["volume", "build", "clicks", "started", "to the visible end", "length mm", "reachable mm", "reachable, %",

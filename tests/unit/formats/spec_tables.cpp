@@ -100,7 +100,7 @@ std::string escaped(const std::string& text) {
   return std::regex_replace(text, std::regex("\\|"), "\\|");
 }
 
-// What a reference leads to says what it is, unless the reference does.
+// Description of a schema, or of the one that it refers to if it has none of its own.
 std::string descriptionOf(const Json& schema, const std::map<std::string, Json>& all) {
   if (schema.contains("description")) return schema["description"];
   if (schema.contains("$ref")) {
@@ -159,12 +159,12 @@ std::string filesWith(const std::string& code, const std::map<std::string, std::
   return files;
 }
 
-// What lumen validate finds beyond the rules.
+// Findings of lumen validate beyond the rules.
 constexpr const char* kFindings =
     "\n<a id=\"findings\"></a>\n"
     "## Findings of lumen validate\n\n"
-    "Warnings, which are errors under `--strict`. Those from 601 to 605 are looked for with\n"
-    "`--privacy` only, and then lead to exit code 3.\n\n"
+    "Warnings, which are errors under `--strict`. `--privacy` alone looks for those from 601 to\n"
+    "605, which then lead to exit code 3.\n\n"
     "| number | code | arguments | meaning |\n|---|---|---|---|\n"
     "| 601 | `PRIVACY_DATE` | found | a text has what may be a date |\n"
     "| 602 | `PRIVACY_PATH` | found | a text has what may be a path or the address of a file |\n"
@@ -174,7 +174,11 @@ constexpr const char* kFindings =
     "| 651 | `CLOSED_EDGE` | found | the surface of the case stands across an edge between a node "
     "and "
     "its parent, or a root is outside of it: no tool can be pushed there along the tree; found is "
-    "the length beyond that cannot be reached, in mm |\n";
+    "the length beyond that cannot be reached, in mm |\n"
+    "| 652 | `SURFACE` |  | with `--surface`: the closed surface that `lumen convert` makes leaves "
+    "a "
+    "part of the case out, was opened or cut, or passes through itself; the message is that of "
+    "`lumen convert` |\n";
 
 }  // namespace
 
@@ -262,7 +266,7 @@ std::string coveragePage(const std::string& specification, const fs::path& testF
   for (const TestReference& reference : testReferences(testFolder))
     tests[reference.number].insert(reference.test);
   std::string text =
-      "# What tests what\n\n"
+      "# Tests of the specification\n\n"
       "Made from the numbers in [the specification](lumen.md) and the comments `spec: M12` above "
       "tests.\n\n## Requirements\n\n| | requirement | tests |\n|---|---|---|\n";
   for (const Requirement& requirement : requirements(specification)) {

@@ -31,7 +31,7 @@ std::string numbered(const std::string& name, std::size_t value) {
   return "| `" + name + "` | " + std::to_string(value) + " |";
 }
 
-// What stands between the fences of the only block of that language.
+// Text between the fences of the only block of that language.
 std::string block(const std::string& language) {
   const std::string text = specification();
   const std::string fence = "```" + language + "\n";

@@ -15,7 +15,7 @@ struct StraightVessel {
   Eigen::Vector3d from, to;
 };
 
-/// Vessels that do not hang together, all of one radius, with a node each half radius and, along them, models that are
+/// Vessels that are not connected, all of one radius, with a node each half radius and, along them, models that are
 /// exact cylinders.
 inline formats::Case straightVessels(const std::vector<StraightVessel>& vessels, double radius) {
   formats::Case value;

@@ -2,9 +2,11 @@
 #include "converters/stages/surface/thick_wall.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -136,6 +138,23 @@ double at(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
+/// Stages in their order, and the units of the current one.
+class Stages : public Progress {
+public:
+  void begin(std::string_view stage, std::size_t total) override {
+    names.emplace_back(stage);
+    m_left = total;
+  }
+  void advance(std::size_t units) override { m_left -= units; }
+  void end() override { areAllDone = areAllDone && m_left == 0; }
+
+  std::vector<std::string> names;
+  bool areAllDone = true;
+
+private:
+  std::atomic<std::size_t> m_left{0};
+};
+
 ClosedSurface wallOf(const formats::Case& source, const Length& thickness) {
   ClosedSurfaceOptions options;
   options.thickness = thickness;
@@ -150,6 +169,19 @@ void expectSolid(const SurfaceMesh& solid, std::ptrdiff_t euler) {
   EXPECT_EQ(facts.badEdges, 0U);
   EXPECT_GT(facts.volume, 0);
   EXPECT_EQ(selfIntersections(meshOf(solid), 5).pairs.size(), 0U);
+}
+
+TEST(ThickWall, EachOfItsLongStagesReportsProgress) {
+  ClosedSurfaceOptions options;
+  options.thickness = Length{0.3, 0};
+  Stages stages;
+  closedSurface(test::forkCase(), options, stages);
+  const std::vector<std::string> lumen = {"lattice", "extracting", "remeshing", "crossings"};
+  std::vector<std::string> both = lumen;
+  both.insert(both.end(), lumen.begin(), lumen.end());
+  both.emplace_back("wall thickness");
+  EXPECT_EQ(stages.names, both);
+  EXPECT_TRUE(stages.areAllDone);
 }
 
 TEST(ThickWall, IsAsThickAsWasAskedInTheCornerOfAForkToo) {

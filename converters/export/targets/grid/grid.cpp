@@ -58,7 +58,7 @@ void requireSound(const ExportInput& input, const GridOptions& options) {
   if (options.half && !wants(options, GridFormat::Vdb))
     throw Error(ErrorKind::Usage, "--half: only --format vdb holds distances of 16 bits");
   if (input.source.tree.branches.size() > kMostBranches)
-    throw unsupported("a grid tells 65535 branches apart, and this case has " +
+    throw unsupported("a grid distinguishes 65535 branches, and this case has " +
                       std::to_string(input.source.tree.branches.size()));
   if (wants(options, GridFormat::Vdb)) requireVdb();
 }

@@ -59,8 +59,7 @@ void addGrid(SceneItem& vessel, const SceneGrid& grid) {
       .set("simulated", 0)
       .set("group", 1);
   vessel
-      .add("DiscreteGridField",
-           "The same for components that ask a ScalarField, which here none does")
+      .add("DiscreteGridField", "Field for components that ask a ScalarField, which here none does")
       .set("name", "field")
       .setFile("file", "distance.mhd");
 }
@@ -147,7 +146,7 @@ void addVessel(SceneItem& root, WallKind wall, const SceneInput& input) {
 
 void addRestShape(SceneItem& root, const Instrument& instrument) {
   SceneItem& node = root.addNode(restNode(instrument),
-                                 "What the " + instrument.name + " is made of, from handle to tip");
+                                 "Sections of the " + instrument.name + ", from handle to tip");
   std::string materials;
   for (const RodSection& section : instrument.sections) {
     const bool isStraight = section.curlDiameter == 0;

@@ -46,9 +46,9 @@ class Method {
 public:
   virtual ~Method() = default;
   [[nodiscard]] virtual std::string name() const = 0;
-  /// What the clock does not see.
+  /// Work outside of the time that is measured.
   virtual void prepare(const Vessel& vessel) = 0;
-  /// Forgets what was kept of points, and makes room for so many.
+  /// Forgets what was kept of points, and makes room for those of `start`.
   virtual void place(const Start& start) { static_cast<void>(start); }
   /// A step of `count` points, the first of which is point `first` of all that were placed. Threads may
   /// ask at the same time for points that differ.
