@@ -7,9 +7,9 @@ namespace lumen::engine {
 Engine makeEngine() {
   Engine engine;
   for (const auto make :
-       {makeConvertCommand, makeExportCommand, makeTrackCommand, makeSeedsCommand, makeFitCommand, makeInfoCommand,
-        makeValidateCommand, makeCompareCommand, makeCheckCommand, makePictureCommand,
-        makeReportCommand, makePhantomCommand})
+       {makeConvertCommand, makeExportCommand, makeTrackCommand, makeSeedsCommand, makeFitCommand,
+        makeInfoCommand, makeValidateCommand, makeCompareCommand, makeCheckCommand,
+        makePictureCommand, makeReportCommand, makePhantomCommand})
     engine.add(make);
 #ifdef LUMEN_WITH_LIBRARY
   for (const auto make :

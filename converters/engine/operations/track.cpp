@@ -49,9 +49,9 @@ public:
     around.willWrite(m_output);
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
-    const convert::TrackResult tracked = m_track.seeds.empty()
-                                             ? trackFound(volume, m_input, m_track.options, around.progress)
-                                             : trackSeeds(volume, seeds, m_track, around.progress);
+    const convert::TrackResult tracked =
+        m_track.seeds.empty() ? trackFound(volume, m_input, m_track.options, around.progress)
+                              : trackSeeds(volume, seeds, m_track, around.progress);
     to.writeCase(tracked.result, m_output, {}, around.progress);
     Json json = caseSummary(tracked.result);
     json["reachable"] = reachJson(std::nullopt);

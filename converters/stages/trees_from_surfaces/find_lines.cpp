@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kNone = VesselPath::kNone;
 constexpr std::size_t kLeastPart = 27;  // voxels of a part that may be a vessel
-constexpr double kReach = 4;  // depths from where a path is trimmed to the vessel's end
+constexpr double kReach = 4;            // depths from where a path is trimmed to the vessel's end
 
 /// From the inside as voxels to lines.
 class LineFinder {

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Trees that lumen finds without a click, beside the truth of synthetic volumes and beside real volumes.
+
+  without_clicks.py DATA FOLDER LUMEN [NAME ...]
+
+Phantoms, ten patients, the arterial trees of DATA drawn in voxels of 0.3 mm, and its volumes; NAMEs choose some. Each is
+converted with default options; a real volume three times, with the random seeds 1 to 3, whose lengths show the spread. Volumes
+are deleted again; cases stay in FOLDER, and so does without_clicks.md, which is printed too.
+"""
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+PHANTOMS = ["tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dropout", "sac-lobes", "companion", "hairpin",
+            "right-angle", "fading", "thick-slices"]
+VOLUMES = [("3DRA", "aneurism-3dra.nrrd"), ("aorta", "aorta/aorta.mha"), ("fistula", "avf/avf.nii"),
+           ("carotid, speed of blood", "more/carotid-pcmr.nrrd")]
+SEEDS = (1, 2, 3)
+
+
+def run(*words):
+    """The JSON answer, seconds of wall and of processor."""
+    begin, before = time.monotonic(), os.times()
+    done = subprocess.run([str(word) for word in words] + ["--json", "--quiet"], capture_output=True, text=True, check=False)
+    after = os.times()
+    if done.returncode != 0: sys.exit(f"without_clicks.py: {' '.join(map(str, words))}\n{done.stderr}")
+    processor = after.children_user + after.children_system - before.children_user - before.children_system
+    return json.loads(done.stdout), time.monotonic() - begin, processor
+
+
+def synthetic(lumen, folder, name, options):
+    """A row of the table of synthetic volumes."""
+    volume, truth, case = folder / f"{name}.nrrd", folder / f"{name}.truth.lumen", folder / f"{name}.lumen"
+    made, _, _ = run(lumen, "phantom", *options, volume, "--truth", truth)
+    found, wall, processor = run(lumen, "convert", volume, case)
+    volume.unlink()
+    score, _, _ = run(lumen, "compare", case, truth)
+    reach = found["reachable"]
+    distance = score["wall_distance_mm"] or {"p90": float("nan")}
+    return (f"| {name} | {made['branches']} | {found['branches']} | {100 * score['overlap']:.1f} % | "
+            f"{100 * score['false_mm'] / made['length_mm']:.2f} % | {100 * reach['length_mm'] / reach['of_mm']:.1f} % | "
+            f"{score['radius_bias_mm'] / made['voxel_size_mm']:+.3f} | {distance['p90'] / made['voxel_size_mm']:.2f} | "
+            f"{wall:.1f} | {processor:.1f} |")
+
+
+def real(lumen, folder, name, file):
+    """A row of the table of real volumes."""
+    lengths = []
+    for seed in SEEDS:
+        case = folder / f"{name.split(',')[0]}-{seed}.lumen"
+        found, wall, processor = run(lumen, "convert", file, case, "--random-seed", seed)
+        lengths.append(found["length_mm"])
+        if seed == SEEDS[0]: first, times, kept = found, (wall, processor), case
+    check, _, _ = run(lumen, "check", file, kept)
+    walls = check["wall"]
+    spread = (max(lengths) - min(lengths)) / (sum(lengths) / len(lengths))
+    return (f"| {name} | {first['branches']} | {lengths[0]:.0f} | {100 * check['coverage_share']:.1f} % | "
+            f"{walls['offset_voxels']['p90_absolute']:.2f} | {100 * walls['beyond_voxel_share']:.1f} % | {100 * spread:.1f} % | "
+            f"{times[0]:.1f} | {times[1]:.1f} |")
+
+
+def main():
+    data, folder, lumen, names = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]).resolve(), set(sys.argv[4:])
+    folder.mkdir(parents=True, exist_ok=True)
+    wanted = lambda name: not names or name in names
+    lines = ["# Trees without a click", "", "`lumen convert VOLUME CASE`, default options. Bias of the radius and the wall's distance",
+             "(90 %) in voxels; times in seconds, of the wall clock and of the processor.", "", "## Synthetic volumes", "",
+             "| volume | true branches | found | length covered | false | reachable | bias | wall, 90 % | wall clock | processor |",
+             "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|"]
+    designs = [(name, [name]) for name in PHANTOMS]
+    designs += [(f"patient-{seed}", ["patient", "--seed", seed]) for seed in range(1, 11)]
+    designs += [(tree.stem, ["--tree", tree, "--voxel", 0.3]) for tree in sorted((data / "arteries").glob("*.swc"))]
+    for name, options in designs:
+        if wanted(name): lines.append(synthetic(lumen, folder, name, options))
+    lines += ["", "## Real volumes", "",
+              "*Held* is the share of the vessels that hang together with the case in the volume, by `lumen check`; *spread* that of",
+              "the lengths of three random seeds.", "",
+              "| volume | vessels | mm | held | wall, 90 % | beyond a voxel | spread | wall clock | processor |",
+              "|---|--:|--:|--:|--:|--:|--:|--:|--:|"]
+    for name, file in VOLUMES:
+        if wanted(name) and (data / file).exists(): lines.append(real(lumen, folder, name, data / file))
+    text = "\n".join(lines) + "\n"
+    (folder / "without_clicks.md").write_text(text)
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
