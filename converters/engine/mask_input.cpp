@@ -51,10 +51,14 @@ convert::LabelNames MaskArguments::names() const {
 formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat& format,
                              const VolumeArguments& volume, const MaskArguments& arguments,
                              Progress& progress) {
+  return caseOfMask(readVolumeFile(file, format, volume, progress), file, arguments, progress);
+}
+
+formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::path& file,
+                         const MaskArguments& arguments, Progress& progress) {
   const std::string name = formats::printable(file.string());
   const convert::LabelNames names = arguments.names();
-  const convert::LabelMask mask =
-      convert::maskOf(readVolumeFile(file, format, volume, progress), names, name);
+  const convert::LabelMask mask = convert::maskOf(volume, names, name);
   if (mask.isGrey)
     progress.warn(name +
                   ": its voxels differ from their neighbours as grey values do, and are taken as "

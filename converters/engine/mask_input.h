@@ -25,6 +25,10 @@ struct MaskArguments {
   [[nodiscard]] convert::LabelNames names() const;
 };
 
+/// Tree and wall points of the labels in `volume`, which was read from `file`; as caseOfMaskFile().
+formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::path& file,
+                         const MaskArguments& arguments, Progress& progress);
+
 /// Tree and wall points of the labels in `file`; a branch has the name of its label where there are
 /// several, or names were given. Throws Error(InvalidInput) for a file without labels, and for
 /// labels that are no vessels.

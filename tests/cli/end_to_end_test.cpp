@@ -59,6 +59,58 @@ TEST_F(TubeTest, ATubeIsFoundAndAnswersHaveTheirStableNames) {
   EXPECT_GT(info["blobs"].get<int>(), info["nodes"].get<int>());
 }
 
+TEST_F(TubeTest, AVolumeIsConvertedWithoutSeeds) {
+  const Outcome done = lumen({"convert", "tube.nrrd", "found.lumen", "--json"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(Json::parse(done.out)["branches"], 1);
+  const Outcome compared = lumen({"compare", "found.lumen", "truth.lumen", "--json"});
+  EXPECT_GE(Json::parse(compared.out)["overlap"].get<double>(), 0.98) << compared.out;
+}
+
+TEST_F(TubeTest, ProposalsOfSeedsAreSeedsInBothFormats) {
+  for (const char* const file : {"found.json", "found.mrk.json"}) {
+    const Outcome proposed = lumen({"seeds", "tube.nrrd", file, "--json"});
+    ASSERT_EQ(proposed.code, 0) << proposed.err;
+    EXPECT_EQ(Json::parse(proposed.out)["seeds"], 1);
+    EXPECT_EQ(Json::parse(read(file)).contains("markups"), std::string(file) == "found.mrk.json");
+    ASSERT_EQ(lumen({"convert", "tube.nrrd", "again.lumen", "--seeds", file}).code, 0) << file;
+    const Outcome compared = lumen({"compare", "again.lumen", "truth.lumen", "--json"});
+    EXPECT_GE(Json::parse(compared.out)["overlap"].get<double>(), 0.98) << file;
+  }
+}
+
+TEST_F(CliTest, AllVesselsAddsThoseThatNoSeedNames) {
+  ASSERT_EQ(lumen({"phantom", "bifurcation", "fork.nrrd", "--truth", "truth.lumen", "--seeds",
+                   "seeds.json"})
+                .code,
+            0);
+  Json seeds = Json::parse(read("seeds.json"));
+  seeds["branches"].erase(seeds["branches"].begin() + 1, seeds["branches"].end());
+  write("trunk.json", seeds.dump());
+  const auto overlap = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> line = {"convert", "fork.nrrd", "fork.lumen", "--seeds", "trunk.json"};
+    line.insert(line.end(), more.begin(), more.end());
+    const Outcome done = lumen(line);
+    EXPECT_EQ(done.code, 0) << done.err;
+    const Outcome compared = lumen({"compare", "fork.lumen", "truth.lumen", "--json"});
+    return Json::parse(compared.out)["overlap"].get<double>();
+  };
+  EXPECT_LT(overlap({}), 0.9);
+  EXPECT_GE(overlap({"--all-vessels"}), 0.98);
+  const auto made = formats::readCaseFile(path("fork.lumen"));
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->tree.branches[0].label, seeds["branches"][0]["label"]);
+}
+
+TEST_F(CliTest, AVolumeWithoutVesselsIsAFailureThatNamesSeeds) {
+  ASSERT_EQ(lumen({"phantom", "tube", "tube.nrrd", "--size", "32"}).code, 0);
+  const Outcome dark = lumen({"convert", "tube.nrrd", "tube.lumen", "--dark"});
+  EXPECT_EQ(dark.code, 1);
+  EXPECT_NE(dark.err.find("no vessels are found"), std::string::npos) << dark.err;
+  EXPECT_NE(dark.err.find("--seeds"), std::string::npos) << dark.err;
+  EXPECT_FALSE(exists("tube.lumen"));
+}
+
 TEST_F(TubeTest, TheTrueTreeComparedToItselfIsPerfectAndHasNoWall) {
   const Outcome compared = lumen({"compare", "truth.lumen", "truth.lumen", "--json"});
   ASSERT_EQ(compared.code, 0) << compared.err;

@@ -35,6 +35,7 @@ const std::map<std::string, std::string> kSamples = {{"from", ""},  // stated by
                                                      {"seeds", "seeds.json"},
                                                      {"seeds-frame", "ras"},
                                                      {"seeds-unit", "cm"},
+                                                     {"all-vessels", "true"},
                                                      {"dark", "true"},
                                                      {"inlier-rate", "0.6"},
                                                      {"inlier-band", "0.12"},
@@ -105,8 +106,8 @@ const std::map<std::string, std::pair<std::string, std::string>> kCompanions = {
 /// Options that the inputs state already, that cannot change a straight tube, or whose effect other tests show: permissions, restatements of what a
 /// file says already, distances between vessels of which there is one, choices that fail on this data, and series of
 /// DICOM.
-const std::set<std::string> kWithoutEffectHere = {"allow-detached", "gap",   "mesh-per",
-                                                  "mesh",           "seeds", "series"};
+const std::set<std::string> kWithoutEffectHere = {
+    "all-vessels", "allow-detached", "gap", "label", "mask", "mesh-per", "mesh", "seeds", "series"};
 
 struct Input {
   std::string file;

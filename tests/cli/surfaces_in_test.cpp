@@ -140,6 +140,9 @@ TEST_F(LabelsInTest, LabelsBecomeTheVesselThatTheyCameFrom) {
   ASSERT_EQ(compared.code, 0) << compared.err;
   const Json score = Json::parse(compared.out);
   EXPECT_GE(score["overlap"].get<double>(), 0.9) << compared.out;
+  // labels are recognised by their voxels
+  ASSERT_EQ(lumen({"convert", "labels.nrrd", "bare.lumen"}).code, 0);
+  EXPECT_EQ(read("bare.lumen"), read("again.lumen"));
   ASSERT_EQ(lumen({"convert", "labels.nrrd", "named.lumen", "--labels", "1=ica"}).code, 0);
   const auto named = formats::readCaseFile(path("named.lumen"));
   ASSERT_TRUE(named);

@@ -111,11 +111,17 @@ TEST_F(UsageTest, WrongArgumentsExitWithTwoAndSayNothingOnStandardOutput) {
   EXPECT_TRUE(entries().empty());
 }
 
-TEST_F(UsageTest, AVolumeWithoutSeedsIsAUsageError) {
-  write("a.nrrd", "");
-  const Outcome refused = lumen({"convert", "a.nrrd", "a.lumen"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(contains(refused.err, "--seeds")) << refused.err;
+TEST_F(UsageTest, OptionsOfSeedsNeedSeeds) {
+  ASSERT_EQ(lumen({"phantom", "tube", "a.nrrd", "--size", "32"}).code, 0);
+  for (const std::vector<std::string>& option : {std::vector<std::string>{"--all-vessels"},
+                                                 {"--seeds-frame", "ras"},
+                                                 {"--seeds-unit", "m"}}) {
+    std::vector<std::string> line = {"convert", "a.nrrd", "a.lumen"};
+    line.insert(line.end(), option.begin(), option.end());
+    const Outcome refused = lumen(line);
+    EXPECT_EQ(refused.code, 2) << option[0];
+    EXPECT_TRUE(contains(refused.err, "--seeds")) << refused.err;
+  }
 }
 
 TEST_F(UsageTest, AMissingInputExitsWithThreeAndIsNamed) {

@@ -99,10 +99,18 @@ private:
       return convert::caseOfCenterline(loaded.file, m_input);
     }
     if (m_mask.isGiven()) return caseOfMaskFile(m_input, from, m_volume, m_mask, progress);
-    const convert::Volume volume = loadVolume(m_input, from, m_volume, progress);
-    convert::TrackResult tracked = m_track.seeds.empty()
-                                       ? trackFound(volume, m_input, m_track.options, progress)
-                                       : trackSeeds(volume, m_seeds, m_track, progress);
+    convert::TrackResult tracked;
+    if (!m_track.seeds.empty()) {
+      tracked =
+          trackSeeds(loadVolume(m_input, from, m_volume, progress), m_seeds, m_track, progress);
+    } else {
+      const convert::Volume volume = readVolumeFile(m_input, from, m_volume, progress);
+      if (convert::holdsLabels(volume)) {
+        progress.detail(m_input + ": its voxels are labels, and all but 0 are taken for vessels");
+        return caseOfMask(volume, m_input, m_mask, progress);
+      }
+      tracked = trackFound(volume, m_input, m_track.options, progress);
+    }
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
     return std::move(tracked.result);
   }

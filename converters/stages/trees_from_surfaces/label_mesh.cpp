@@ -291,6 +291,24 @@ std::uint8_t labelAt(const LabelMask& mask, const formats::Vec3f& place) {
 
 }  // namespace
 
+bool holdsLabels(const Volume& volume) {
+  return std::visit(
+      [](const auto& voxels) {
+        using T = typename std::decay_t<decltype(voxels)>::value_type;
+        constexpr double kLargest = 1e9;  // far more labels than any volume has
+        const auto isLabel = [](T v) {
+          const auto value = static_cast<double>(v);
+          return value >= 0 && value <= kLargest && value == std::floor(value);
+        };
+        if (!std::all_of(voxels.begin(), voxels.end(), isLabel)) return false;
+        const bool hasBackground = std::find(voxels.begin(), voxels.end(), T{}) != voxels.end();
+        const bool hasLabel =
+            std::any_of(voxels.begin(), voxels.end(), [](T v) { return v != T{}; });
+        return hasBackground && hasLabel && !isGrey(voxels);
+      },
+      volume.voxels);
+}
+
 LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::string& name) {
   if (wanted.size() > kMostLabels)
     throw invalidInput(name + ": " + std::to_string(wanted.size()) +

@@ -27,6 +27,10 @@ struct LabelMask {
   bool isGrey = false;  ///< neighbours differ as the grey values of an image do
 };
 
+/// True for whole numbers whose voxels are equal to their neighbours, but at borders, as labels are:
+/// a mask or a label map. One value alone is none.
+bool holdsLabels(const Volume& volume);
+
 /// The voxels with these labels; all but 0, called "label-N", if `wanted` is empty. Throws
 /// Error(InvalidInput), `name` (of the file, printable) first, for voxels that are no whole
 /// numbers, more than 255 labels, and a label that no voxel has; this message lists the labels of

@@ -46,6 +46,10 @@ TEST(LabelMesh, GreyValuesAreToldFromLabels) {
     return 100 + static_cast<int>(50 * (std::sin(2 * p.x()) + std::sin(3 * p.y() + p.z())));
   };
   const auto labels = [](const Vector3d& p) { return 1 + static_cast<int>(p.x() / 4); };
+  EXPECT_FALSE(holdsLabels(drawn({1, 1, 1}, grey)));
+  EXPECT_FALSE(holdsLabels(drawn({1, 1, 1}, [](const Vector3d&) { return 0; })));
+  EXPECT_TRUE(
+      holdsLabels(drawn({1, 1, 1}, [](const Vector3d& p) { return static_cast<int>(p.x() / 4); })));
   EXPECT_TRUE(maskOf(drawn({1, 1, 1}, grey), {}, "m.nrrd").isGrey);
   EXPECT_FALSE(maskOf(drawn({1, 1, 1}, labels), {}, "m.nrrd").isGrey);
 }
