@@ -150,12 +150,8 @@ std::string markupsText(const std::vector<SeedBranch>& seeds) {
                          {"name", seed.label},
                          {"coordinateSystem", "LPS"},
                          {"coordinateUnits", "mm"}};
-    if (seed.points.size() == 1) {
-      points[0]["label"] = seed.label;
-      points[0]["description"] = description;
-    } else {
-      curve["description"] = description;
-    }
+    points[0]["label"] = seed.label;
+    points[0]["description"] = description;
     curve["controlPoints"] = std::move(points);
     if (!radii.empty() && radii.size() == seed.points.size())
       curve["measurements"] = {

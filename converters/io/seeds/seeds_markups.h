@@ -15,7 +15,7 @@ std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& s
                                      const SeedReading& reading);
 
 /// The text of a Markups file in LPS mm: a curve for each branch, with its radii as a measurement,
-/// and parent and kind in its description.
+/// and parent and kind in the description of its first point.
 std::string markupsText(const std::vector<SeedBranch>& seeds);
 
 }  // namespace lumen::convert

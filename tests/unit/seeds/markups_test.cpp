@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // 3D Slicer Markups as seeds.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "converters/io/seeds/seeds.h"
@@ -192,6 +194,35 @@ TEST_F(Markups, AreKnownByTheirContentNotTheirName) {
   const auto seeds = readSeeds(
       write("any.json", R"({"markups": [)" + markup("Curve", point("", "[1, 2, 3]")) + "]}"));
   EXPECT_EQ(seeds[0].label, "any");
+}
+
+TEST_F(Markups, AreWrittenAsTheyAreRead) {
+  SeedBranch trunk, sac, click;
+  trunk.label = "ICA \"left\"";
+  trunk.points = {{{1.1, -2.2, 3.3}, 2.5}, {{4, 5, 6}, 2.25}};
+  sac.label = "sac";
+  sac.kind = BranchKind::Aneurysm;
+  sac.parent = trunk.label;
+  sac.points = {{{2, 3, 4}, 3.0}, {{3, 4, 5}, 4.0}};
+  click.label = "PComA";
+  click.parent = trunk.label;
+  click.points = {{{7, 8, 9}, 0.75}};
+  const auto out = write("out.mrk.json", "");
+  writeSeeds({trunk, sac, click}, out);
+  const auto seeds = readSeeds(out);
+  ASSERT_EQ(seeds.size(), 3U);
+  for (const SeedBranch& wanted : {trunk, sac, click}) {
+    const auto found = std::find_if(seeds.begin(), seeds.end(),
+                                    [&](const SeedBranch& s) { return s.label == wanted.label; });
+    ASSERT_NE(found, seeds.end()) << wanted.label;
+    EXPECT_EQ(found->kind, wanted.kind);
+    EXPECT_EQ(found->parent, wanted.parent);
+    ASSERT_EQ(found->points.size(), wanted.points.size());
+    for (std::size_t i = 0; i < wanted.points.size(); ++i) {
+      EXPECT_EQ(found->points[i].position, wanted.points[i].position);
+      EXPECT_EQ(found->points[i].radius, wanted.points[i].radius);
+    }
+  }
 }
 
 TEST_F(Markups, RealCenterlinesAreRead) {
