@@ -20,6 +20,9 @@ constexpr int kBrick = 64;                       // voxels along an edge
 constexpr float kRound = 0.4F;  // least ratio of the curvatures across: a sheet has one
 constexpr float kAlong = 0.5F;  // largest ratio of the curvature along to the lesser one across
 
+/// Least sum of all curvatures of a ridge in units of its strength, less what rounding may take.
+constexpr float kLeastCurved = (2 - kAlong) * 0.999F;
+
 /// Half of a symmetric kernel, its middle first.
 std::vector<float> gaussian(double sigma) {
   std::vector<float> half(static_cast<std::size_t>(std::ceil(kCut * sigma)) + 1);
@@ -86,6 +89,17 @@ float strengthOf(const Eigen::Matrix3f& hessian) {
   return std::abs(curved[2]) > -kAlong * curved[1] ? 0.0F : -curved[1];
 }
 
+/// The sum of the second derivatives along the axes, the trace of hessianAt().
+float laplacianAt(const Brick& brick, std::size_t i, const Eigen::Vector3f& spacing) {
+  const float* v = brick.smoothed.data() + i;
+  float sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const auto p = static_cast<std::ptrdiff_t>(brick.box.stride(a));
+    sum += (v[p] + v[-p] - 2 * v[0]) / (spacing[a] * spacing[a]);
+  }
+  return sum;
+}
+
 /// Second derivatives of the smoothed brick at a voxel, by its neighbours.
 Eigen::Matrix3f hessianAt(const Brick& brick, std::size_t i, const Eigen::Vector3f& spacing) {
   const float* v = brick.smoothed.data() + i;
@@ -136,8 +150,10 @@ std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progres
       const auto variance = static_cast<float>(kScales[s] * kScales[s] * voxel * voxel);
       core.forEach([&](const Cell& cell) {
         float& best = out[cells.index(cell)];
-        best =
-            std::max(best, variance * strengthOf(hessianAt(brick, brick.box.index(cell), spacing)));
+        const std::size_t i = brick.box.index(cell);
+        // c1 + c2 + c3 <= -(2 - kAlong) |c2| on a ridge, so few voxels need their eigenvalues
+        if (!(-laplacianAt(brick, i, spacing) * variance > kLeastCurved * best)) return;
+        best = std::max(best, variance * strengthOf(hessianAt(brick, i, spacing)));
       });
     }
   };
