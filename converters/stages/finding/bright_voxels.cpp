@@ -30,7 +30,7 @@ constexpr float kFaintest = 0.05F;
 /// Strength of the ridge of a thin vessel as a share of its contrast, at the scale that suits it.
 constexpr float kRidgeShare = 0.25F;
 constexpr int kRidgeBlock = 32;      // voxels along an edge
-constexpr std::size_t kSampled = 7;  // one voxel in so many shows the background's ridges
+constexpr std::size_t kSampled = 7;  // every seventh voxel shows the background's ridges
 
 enum Mark : std::uint8_t { kBackground = 0, kWeak = 1, kLumen = 2 };
 
