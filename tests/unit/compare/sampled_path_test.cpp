@@ -38,6 +38,15 @@ TEST(SampledPath, BeginsWithTheLinkToTheParentNode) {
   EXPECT_EQ(samplePath(value.tree, 1, 0.1, false).samples.size(), 61U);
 }
 
+TEST(SampledPath, ASampleAtTheFirstNodeOfABranchIsNotOnItsLink) {
+  formats::Case value = straightTruth();
+  addLine(value, "b01", {10, 2, 0}, {10, 8, 0}, 0.5, 20);
+  const SampledPath path = samplePath(value.tree, 1, 0.5, true);  // 2 mm of link, 6 mm of branch
+  EXPECT_EQ(path.samples[4].position.y(), 2);
+  EXPECT_TRUE(path.samples[3].onLink);
+  EXPECT_FALSE(path.samples[4].onLink);
+}
+
 TEST(ClosestOn, InterpolatesTheRadiusBetweenSamples) {
   std::vector<PathSample> path = pathOf({0, 1, 2}, 0);
   path[2].radius = 3;

@@ -96,6 +96,28 @@ TEST(LevenbergMarquardt, OneBlobFindsASphere) {
   EXPECT_NEAR(formats::isoRadius(p.kernel, p.kernelParameter, blobs[0].width, p.isoLevel), 1, 1e-6);
 }
 
+TEST(LevenbergMarquardt, ABlobLosesAtMostHalfOfItsWidthInAStep) {
+  const std::vector<Vec3d> points = tubePoints(2, 0);
+  Random random(7);
+  std::size_t atBound = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Blob> blobs;
+    for (int i = 0; i < 3; ++i)
+      blobs.push_back({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                       random.uniform(0.1, 1.5)});
+    const std::vector<Blob> before = blobs;
+    Energy energy(normalised(points, blobs));
+    energy.setPoints(points);
+    minimised(energy, blobs, 0, {2, 1e-12});  // the energy is linearised at both ends of one step
+    for (std::size_t i = 0; i < blobs.size(); ++i) {
+      const double kept = blobs[i].width / before[i].width;
+      EXPECT_GE(kept, 0.5 - 1e-12);
+      if (kept < 0.5 + 1e-12) ++atBound;
+    }
+  }
+  EXPECT_GT(atBound, 0U);
+}
+
 TEST(LevenbergMarquardt, FrozenBlobsStay) {
   Energy energy({});
   energy.setPoints(tubePoints(4, 0));

@@ -56,6 +56,15 @@ TEST(Reachability, MissesNoWallOfAFifthOfTheRadius) {
   EXPECT_TRUE(reach(beadsWithGap(1.9F)).barriers.empty());
 }
 
+TEST(Reachability, StepsAsTheThinnerOfTwoNodesNeeds) {
+  // a ball of radius 1 and one of 0.1 with some hundredths between them: a step of an eighth of the
+  // wider one's radius passes over them
+  Case value = noBeads();
+  addBeads(value, "a", alongX(0, 0.5F, 2), 1);
+  addBeads(value, "thin", alongX(0.5F + 1.09F, 0.05F, 3), 0.1F, 1);
+  EXPECT_EQ(reach(value).barriers.size(), 1U);
+}
+
 TEST(Reachability, NamesTheFirstBarrierOfEachWayOnly) {
   Case value = beadsWithGap(3);
   addBeads(value, "open", {{2, 1.5F, 0}, {2, 2, 0}}, 1, 4);

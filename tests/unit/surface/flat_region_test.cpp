@@ -51,6 +51,18 @@ Facts factsOf(const FlatMesh& mesh) {
   return facts;
 }
 
+TEST(TriangulateRegion, AHoleIsSeenPastTheSidesOfWallsAlone) {
+  // Four thin walls turn around the middle of a room. All corners of the room lie behind them, and
+  // their tips point past the hole.
+  const Loop2 room{{-10, -10}, {1.95, -10},  {2, 1},   {2.05, -10}, {10, -10}, {10, 1.95},
+                   {-1, 2},    {10, 2.05},   {10, 10}, {-1.95, 10}, {-2, -1},  {-2.05, 10},
+                   {-10, 10},  {-10, -1.95}, {1, -2},  {-10, -2.05}};
+  const Loop2 hole = circle(0.2, 8, -1);
+  const Facts facts = factsOf(triangulateRegion(room, {hole}, 1));
+  EXPECT_NEAR(facts.area, areaOf(room) + areaOf(hole), 1e-9);
+  EXPECT_EQ(facts.euler, 0);
+}
+
 TEST(TriangulateRegion, OfADiscIsNearlyEquilateral) {
   const Loop2 loop = circle(1, 40);
   const FlatMesh mesh = triangulateRegion(loop, {}, 2 * M_PI / 40);
