@@ -56,17 +56,6 @@ TEST(Reachability, MissesNoWallOfAFifthOfTheRadius) {
   EXPECT_TRUE(reach(beadsWithGap(1.9F)).barriers.empty());
 }
 
-TEST(Reachability, StepsAsTheThinnerOfTwoNodesNeeds) {
-  // a ball of radius 1 and one of 0.1 with some hundredths between them: steps of an eighth of the
-  // wider one's radius pass over some of these gaps
-  for (const float apart : {1.09F, 1.1F, 1.11F, 1.12F, 1.13F, 1.14F}) {
-    Case value = noBeads();
-    addBeads(value, "a", alongX(0, 0.5F, 2), 1);
-    addBeads(value, "thin", alongX(0.5F + apart, 0.05F, 3), 0.1F, 1);
-    EXPECT_EQ(reach(value).barriers.size(), 1U) << apart;
-  }
-}
-
 TEST(Reachability, NamesTheFirstBarrierOfEachWayOnly) {
   Case value = beadsWithGap(3);
   addBeads(value, "open", {{2, 1.5F, 0}, {2, 2, 0}}, 1, 4);
