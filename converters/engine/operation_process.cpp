@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr unsigned kLongest = 7 * 24 * 3600;  // s: an operation that runs for a week hangs
+constexpr unsigned kLongestRun = 7 * 24 * 3600;  // s: an operation that runs for a week hangs
 
 Json encoded(const Operation& operation, const ProcessOptions& options) {
   Json json{{"name", operation.name}, {"arguments", operation.arguments}};
@@ -90,7 +90,7 @@ OperationEnd runInProcess(const Operation& operation, const ProcessOptions& opti
   call.program = fs::read_symlink("/proc/self/exe");
   call.arguments = {kOperationWord, file.string()};
   call.folder = fs::current_path();
-  call.seconds = kLongest;
+  call.seconds = kLongestRun;
   call.log = log;
   const convert::ProgramResult result = convert::runProgram(call, progress);
   OperationEnd end;

@@ -28,19 +28,33 @@ std::vector<std::string> wordsOf(const std::map<std::string, Value>& named) {
   return words;
 }
 
-/// The numbers of "0.5" or "0.5,0.5,1"; nothing where one of them is no length.
-std::vector<double> spacingIn(const std::string& text) {
+/// The numbers of a text with commas between them; nothing where one of them is out of range.
+std::vector<double> numbersIn(const std::string& text, const NumberRange& range) {
   std::vector<double> values;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
     const char* const first = text.data() + at + (text.compare(at, 1, "+") == 0 ? 1 : 0);
     double value = 0;
     const auto [stop, error] = std::from_chars(first, text.data() + end, value);
-    if (error != std::errc() || stop != text.data() + end || !kPositive.holds(value)) return {};
+    if (error != std::errc() || stop != text.data() + end || !range.holds(value)) return {};
     values.push_back(value);
     at = end + 1;
   }
+  return values;
+}
+
+/// The numbers of "0.5" or "0.5,0.5,1"; nothing where one of them is no length.
+std::vector<double> spacingIn(const std::string& text) {
+  const std::vector<double> values = numbersIn(text, kPositive);
   return values.size() == 1 || values.size() == 3 ? values : std::vector<double>();
+}
+
+constexpr NumberRange kPlace{-kLongest, kLongest};
+
+std::string placeFault(const std::string& text) {
+  if (numbersIn(text, kPlace).size() == 3) return {};
+  return "found " + (text.empty() ? "nothing" : text) +
+         ", expected three coordinates with commas between them, each " + kPlace.text();
 }
 
 std::string spacingFault(const std::string& text) {
@@ -81,6 +95,15 @@ convert::SeedReading TrackArguments::reading() const {
   if (const auto unit = millimetresByUnit().find(seedsUnit); unit != millimetresByUnit().end())
     reading.unit = unit->second;
   return reading;
+}
+
+std::vector<Eigen::Vector3d> TrackArguments::rootPlaces() const {
+  std::vector<Eigen::Vector3d> places;
+  for (const std::string& text : roots) {
+    const std::vector<double> numbers = numbersIn(text, kPlace);
+    places.emplace_back(numbers[0], numbers[1], numbers[2]);
+  }
+  return places;
 }
 
 void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
@@ -133,8 +156,8 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
   table.group("Tracking");
   table.file(
       "seeds", track.seeds,
-      "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv) [all "
-      "vessels that are found without]");
+      "Hints on vessels: names, parents, vessels that have to be there; lumen's seeds JSON, or "
+      "points of 3D Slicer (.mrk.json, .fcsv)");
   table
       .add("seeds-frame", &track.seedsFrame, "FRAME",
            "Frame of the seeds' coordinates, whatever their file says: lps, ras, or voxel "
@@ -147,9 +170,20 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
       .among(wordsOf(millimetresByUnit()))
       .onlyWith("seeds");
   table
-      .flag(
-          "all-vessels", track.isAllVessels,
-          "Also find the vessels that no seed names; those of the seeds keep their names and walls")
+      .add(
+          "root", &track.roots, "X,Y,Z",
+          "Place near the end of a vessel through which blood comes in, mm, LPS [the widest end of "
+          "each tree]. May be given several times")
+      .checkedBy(placeFault)
+      .many()
+      .forInputs(kImage | kLabels);
+  table
+      .flag("only-connected", track.isOnlyConnected,
+            "Leave out trees in which no seed and no --root lies")
+      .forInputs(kImage | kLabels);
+  table
+      .flag("only-seeds", track.isOnlySeeds,
+            "Leave out vessels that no seed names, unless they lead to one that a seed names")
       .onlyWith("seeds");
   track.options.addRows(table);
   table.scope(kAnyContent);

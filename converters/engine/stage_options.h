@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "converters/base/option_table.h"
 #include "converters/engine/mask_input.h"
 #include "converters/engine/mesh_input.h"
@@ -33,9 +35,12 @@ struct VolumeArguments {
 struct TrackArguments {
   std::string seeds;
   std::string seedsFrame, seedsUnit;  ///< empty: those of the seeds file
-  bool isAllVessels = false;          ///< also the vessels that no seed names
+  std::vector<std::string> roots;     ///< texts "X,Y,Z", mm, LPS
+  bool isOnlyConnected = false;       ///< without trees in which no seed and no root lies
+  bool isOnlySeeds = false;           ///< without vessels that no seed names
   convert::TrackOptions options;
   [[nodiscard]] convert::SeedReading reading() const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> rootPlaces() const;
 };
 
 /// Each adds rows whose values are stored in its second argument, which must outlive the table.

@@ -102,32 +102,45 @@ convert::Volume readVolumeFile(const std::filesystem::path& file, const FileForm
   return result;
 }
 
-convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
-                           const VolumeArguments& volume, Progress& progress) {
-  convert::Volume result = readVolumeFile(file, format, volume, progress);
-  const std::string name = formats::printable(file.string()) + ": ";
+void warnOfVoxels(const convert::Volume& volume, const std::string& file, Progress& progress) {
+  const std::string name = formats::printable(file) + ": ";
   try {
-    if (const auto doubt = convert::doubtAbout(result)) progress.warn(name + *doubt);
+    if (const auto doubt = convert::doubtAbout(volume)) progress.warn(name + *doubt);
   } catch (const Error& error) {
     throw Error(error.kind(), name + error.what());
   }
+}
+
+convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& format,
+                           const VolumeArguments& volume, Progress& progress) {
+  convert::Volume result = readVolumeFile(file, format, volume, progress);
+  warnOfVoxels(result, file.string(), progress);
   return result;
 }
 
 convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
                                 const convert::TrackOptions& options, Progress& progress) {
-  const std::vector<convert::SeedBranch> courses =
-      convert::findVessels(volume, options.dark, progress);
   const std::string none = formats::printable(file) + ": no vessels are found in it";
-  if (courses.empty())
+  std::size_t candidates = 0;
+  convert::TrackResult result = trackAnyFound(volume, options, candidates, progress);
+  if (candidates == 0)
     throw failed(none +
                  ", as nothing long and thin stands out of its noise; --seeds states where "
                  "vessels begin, and --dark that they are darker than their background");
+  if (result.result.tree.nodeCount() == 0)
+    throw failed(none + ", as no cylinder fits along any of " + std::to_string(candidates) +
+                 " candidates; --seeds states where vessels begin");
+  return result;
+}
+
+convert::TrackResult trackAnyFound(const convert::Volume& volume,
+                                   const convert::TrackOptions& options, std::size_t& candidates,
+                                   Progress& progress) {
+  const auto courses = convert::findVessels(volume, options.dark, progress);
+  candidates = courses.size();
+  if (courses.empty()) return {};
   convert::TrackResult result = convert::trackCourses(volume, courses, options, progress);
   reportRefused(result, progress);
-  if (result.result.tree.nodeCount() == 0)
-    throw failed(none + ", as no cylinder fits along any of " + std::to_string(courses.size()) +
-                 " candidates; --seeds states where vessels begin");
   return result;
 }
 
@@ -148,31 +161,26 @@ std::vector<convert::SeedBranch> loadSeeds(const TrackArguments& track) {
   return convert::readSeeds(track.seeds, track.reading());
 }
 
-namespace {
-
-/// Adds the vessels that no seed has tracked.
-void addRest(const convert::Volume& volume, convert::TrackResult& result, Progress& progress) {
-  const convert::TrackingVolume tracking(volume, result.result, progress);
-  convert::AddedTracks added = addFound(tracking, volume, result.result, progress);
-  result.result = std::move(added.result);
-  std::move(added.ends.begin(), added.ends.end(), std::back_inserter(result.ends));
-}
-
-}  // namespace
-
-convert::TrackResult trackSeeds(const convert::Volume& volume,
-                                const std::vector<convert::SeedBranch>& seeds,
-                                const TrackArguments& track, Progress& progress) {
+convert::PlacedSeeds placedSeeds(const convert::Volume& volume,
+                                 const std::vector<convert::SeedBranch>& seeds,
+                                 const TrackArguments& track, Progress& progress) {
   const std::string file = formats::printable(track.seeds);
   convert::PlacedSeeds placed = convert::placeSeeds(seeds, volume.geometry, track.seeds);
   if (!placed.advice.empty()) progress.warn(file + ": " + placed.advice);
   warnOfSeeds(file, " is left out: ", placed.leftOut, progress);
   warnOfSeeds(file, " is used without one of its points: ", placed.leftPoints, progress);
-  convert::TrackResult result = convert::trackCase(volume, placed.seeds, track.options, progress);
+  return placed;
+}
+
+void reportOnSeeds(const convert::Volume& volume, const std::vector<convert::SeedBranch>& seeds,
+                   const TrackArguments& track, convert::PlacedSeeds& placed,
+                   convert::TrackResult& result, Progress& progress) {
+  const std::string file = formats::printable(track.seeds);
   warnOfSeeds(file, " started no track: ", result.failures, progress);
   warnOfSeeds(file, " does not pass through its ", result.missedPoints, progress);
   warnOfSeeds(file, " is not joined to its parent: ", result.unjoined, progress);
-  const bool isNone = result.result.tree.nodeCount() == 0;
+  const bool isNone =
+      result.result.tree.nodeCount() == 0 || result.failures.size() == placed.seeds.size();
   if (isNone || 2 * result.failures.size() > placed.seeds.size()) {
     const std::string doubt = doubtAboutSeeds(volume, seeds, placed.seeds, track.options, progress);
     const std::string count = std::to_string(seeds.size()) + " seeds started ";
@@ -188,7 +196,14 @@ convert::TrackResult trackSeeds(const convert::Volume& volume,
   std::move(placed.leftOut.begin(), placed.leftOut.end(), std::back_inserter(result.failures));
   std::move(placed.leftPoints.begin(), placed.leftPoints.end(),
             std::back_inserter(result.missedPoints));
-  if (track.isAllVessels) addRest(volume, result, progress);
+}
+
+convert::TrackResult trackSeeds(const convert::Volume& volume,
+                                const std::vector<convert::SeedBranch>& seeds,
+                                const TrackArguments& track, Progress& progress) {
+  convert::PlacedSeeds placed = placedSeeds(volume, seeds, track, progress);
+  convert::TrackResult result = convert::trackCase(volume, placed.seeds, track.options, progress);
+  reportOnSeeds(volume, seeds, track, placed, result, progress);
   return result;
 }
 

@@ -10,9 +10,9 @@
 namespace lumen::formats {
 namespace {
 
-/// Length of a step, as a share of the lesser radius. A wall is as thick as a blob is wide, so none
-/// fits between two steps.
-constexpr double kStep = 0.125;
+/// Length of a step, as a share of the lesser radius. Steps of an eighth passed over walls in a
+/// case of 165 vessels that a tool with finer steps met.
+constexpr double kStep = 0.03125;
 /// Steps along one edge: bounds the work where an edge is long and thin beyond reason.
 constexpr double kMostSteps = 512;
 

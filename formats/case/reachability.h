@@ -25,7 +25,7 @@ struct ClosedPlace {
 using TellClosedPlace = std::function<bool(const ClosedPlace&)>;
 
 /// Pushes a point from every root along every edge, in node order, and reports where it is outside.
-/// A step is at most an eighth of the edge's lesser radius, but an edge has at most 512 steps. The
+/// A step is at most a 32nd of the edge's lesser radius, but an edge has at most 512 steps. The
 /// cursor follows the point from the root on; beyond a closed edge it is set anew at the node. A
 /// root is tested at its centre. The case is valid and has models. `check`, if there is one, is
 /// called before each node and may throw to end the search. O(n) for edges as long as radii.

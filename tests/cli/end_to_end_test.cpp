@@ -79,27 +79,68 @@ TEST_F(TubeTest, ProposalsOfSeedsAreSeedsInBothFormats) {
   }
 }
 
-TEST_F(CliTest, AllVesselsAddsThoseThatNoSeedNames) {
-  ASSERT_EQ(lumen({"phantom", "bifurcation", "fork.nrrd", "--truth", "truth.lumen", "--seeds",
-                   "seeds.json"})
-                .code,
-            0);
-  Json seeds = Json::parse(read("seeds.json"));
-  seeds["branches"].erase(seeds["branches"].begin() + 1, seeds["branches"].end());
-  write("trunk.json", seeds.dump());
-  const auto overlap = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> line = {"convert", "fork.nrrd", "fork.lumen", "--seeds", "trunk.json"};
-    line.insert(line.end(), more.begin(), more.end());
+/// A fork with its truth and clicks, and the clicks on its trunk alone.
+class ForkTest : public CliTest {
+protected:
+  void SetUp() override {
+    ASSERT_EQ(lumen({"phantom", "bifurcation", "fork.nrrd", "--truth", "truth.lumen", "--seeds",
+                     "seeds.json"})
+                  .code,
+              0);
+    Json seeds = Json::parse(read("seeds.json"));
+    seeds["branches"].erase(seeds["branches"].begin() + 1, seeds["branches"].end());
+    seeds["branches"][0]["label"] = "trunk";
+    write("trunk.json", seeds.dump());
+  }
+  Json converted(const std::vector<std::string>& options) const {
+    std::vector<std::string> line = {"convert", "fork.nrrd", "fork.lumen", "--json"};
+    line.insert(line.end(), options.begin(), options.end());
     const Outcome done = lumen(line);
     EXPECT_EQ(done.code, 0) << done.err;
-    const Outcome compared = lumen({"compare", "fork.lumen", "truth.lumen", "--json"});
-    return Json::parse(compared.out)["overlap"].get<double>();
-  };
-  EXPECT_LT(overlap({}), 0.9);
-  EXPECT_GE(overlap({"--all-vessels"}), 0.98);
-  const auto made = formats::readCaseFile(path("fork.lumen"));
-  ASSERT_TRUE(made);
-  EXPECT_EQ(made->tree.branches[0].label, seeds["branches"][0]["label"]);
+    return Json::parse(done.out);
+  }
+  [[nodiscard]] formats::CenterlineTree tree() const {
+    return (*formats::readCaseFile(path("fork.lumen"))).tree;
+  }
+};
+
+TEST_F(ForkTest, SeedsNameVesselsAndLeaveTheRestThere) {
+  const Json free = converted({}), hinted = converted({"--seeds", "trunk.json"});
+  EXPECT_EQ(hinted["length_mm"], free["length_mm"]);
+  EXPECT_EQ(tree().branches[0].label, "trunk");
+  EXPECT_GT(tree().branches.size(), 1U);
+}
+
+TEST_F(ForkTest, OnlySeedsLeavesOutVesselsWithoutOne) {
+  const Json hinted = converted({"--seeds", "trunk.json", "--only-seeds"});
+  EXPECT_EQ(hinted["branches"], 1);
+  EXPECT_EQ(tree().branches[0].label, "trunk");
+}
+
+TEST_F(ForkTest, SeedsOfAllVesselsGiveTheTrueForks) {
+  ASSERT_EQ(converted({"--seeds", "seeds.json"})["branches"], 3);
+  const Outcome compared = lumen({"compare", "fork.lumen", "truth.lumen", "--json"});
+  EXPECT_GE(Json::parse(compared.out)["overlap"].get<double>(), 0.98);
+}
+
+TEST_F(ForkTest, ARootTurnsTheTree) {
+  converted({});
+  const formats::CenterlineTree before = tree();
+  const formats::Branch& child = before.branches.back();
+  const formats::Vec3f& tip = before.centre[child.firstNode + child.nodeCount - 1];
+  const std::string place =
+      std::to_string(tip.x) + "," + std::to_string(tip.y) + "," + std::to_string(tip.z);
+  converted({"--root", place, "--only-connected"});
+  EXPECT_EQ(tree().branches.front().parentNode, formats::kNoParent);
+  EXPECT_EQ(tree().centre[0], tip);
+  EXPECT_EQ(tree().nodeCount(), before.nodeCount());
+}
+
+TEST_F(ForkTest, ARootOutsideOfVesselsIsAFailure) {
+  const Outcome done = lumen({"convert", "fork.nrrd", "out.lumen", "--root", "1,1,1"});
+  EXPECT_EQ(done.code, 1);
+  EXPECT_NE(done.err.find("--root 1,1,1 lies in no vessel"), std::string::npos) << done.err;
+  EXPECT_FALSE(exists("out.lumen"));
 }
 
 TEST_F(CliTest, AVolumeWithoutVesselsIsAFailureThatNamesSeeds) {

@@ -35,7 +35,9 @@ const std::map<std::string, std::string> kSamples = {{"from", ""},  // stated by
                                                      {"seeds", "seeds.json"},
                                                      {"seeds-frame", "ras"},
                                                      {"seeds-unit", "cm"},
-                                                     {"all-vessels", "true"},
+                                                     {"root", "3.9,3.9,3.9"},
+                                                     {"only-connected", "true"},
+                                                     {"only-seeds", "true"},
                                                      {"dark", "true"},
                                                      {"inlier-rate", "0.6"},
                                                      {"inlier-band", "0.12"},
@@ -107,7 +109,8 @@ const std::map<std::string, std::pair<std::string, std::string>> kCompanions = {
 /// file says already, distances between vessels of which there is one, choices that fail on this data, and series of
 /// DICOM.
 const std::set<std::string> kWithoutEffectHere = {
-    "all-vessels", "allow-detached", "gap", "label", "mask", "mesh-per", "mesh", "seeds", "series"};
+    "allow-detached", "gap",        "label", "mask",  "mesh-per", "mesh",
+    "only-connected", "only-seeds", "root",  "seeds", "series"};
 
 struct Input {
   std::string file;

@@ -29,7 +29,11 @@ protected:
     ASSERT_EQ(blob_model_open(path("case.lumen").c_str(), nullptr, &model), BLOB_OK);
     const std::vector<PushedTool> tools = pushToEveryTip(model);
     EXPECT_FALSE(tools.empty());
-    EXPECT_TRUE(firstClosedNodes(model).empty());
+    for (const std::uint32_t node : firstClosedNodes(model)) {
+      const blob_node closed = blob_model_node(model, node);
+      ADD_FAILURE() << "closed before node " << node << " of radius " << closed.radius << " at "
+                    << closed.centre[0] << ", " << closed.centre[1] << ", " << closed.centre[2];
+    }
     for (const PushedTool& tool : tools) {
       const std::string tip =
           "tip " + std::to_string(tool.tip) + " after " + std::to_string(tool.length) +

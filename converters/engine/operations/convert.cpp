@@ -5,6 +5,7 @@
 #include "converters/engine/answer_text.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/hinted_tracking.h"
 #include "converters/engine/mask_input.h"
 #include "converters/engine/mesh_input.h"
 #include "converters/engine/mesh_options.h"
@@ -65,6 +66,7 @@ public:
     const FileFormat& from = inputFormat(m_input, m_from);
     m_situation = {inputContent(from, m_mask.isGiven()), outputContent(to), m_input, m_output};
     if (from.kind != FormatKind::Case) requireInScope(*around.table, m_situation, around.progress);
+    if (from.kind == FormatKind::Volume) requireHints(m_track);
     if (from.kind == FormatKind::Volume && !m_track.seeds.empty()) m_seeds = loadSeeds(m_track);
     requireWritable(m_output, contentKind(to));
     around.willWrite(m_output);
@@ -98,19 +100,20 @@ private:
       if (cell == 0 && thinnest > 0) cell = convert::coarsestCellFor(thinnest);
       return convert::caseOfCenterline(loaded.file, m_input);
     }
-    if (m_mask.isGiven()) return caseOfMaskFile(m_input, from, m_volume, m_mask, progress);
-    convert::TrackResult tracked;
-    if (!m_track.seeds.empty()) {
-      tracked =
-          trackSeeds(loadVolume(m_input, from, m_volume, progress), m_seeds, m_track, progress);
-    } else {
-      const convert::Volume volume = readVolumeFile(m_input, from, m_volume, progress);
-      if (convert::holdsLabels(volume)) {
-        progress.detail(m_input + ": its voxels are labels, and all but 0 are taken for vessels");
-        return caseOfMask(volume, m_input, m_mask, progress);
-      }
-      tracked = trackFound(volume, m_input, m_track.options, progress);
+    if (m_mask.isGiven()) {
+      formats::Case made = caseOfMaskFile(m_input, from, m_volume, m_mask, progress);
+      applyRoots(made, m_input, m_track);
+      return made;
     }
+    const convert::Volume volume = readVolumeFile(m_input, from, m_volume, progress);
+    if (m_seeds.empty() && convert::holdsLabels(volume)) {
+      progress.detail(m_input + ": its voxels are labels, and all but 0 are taken for vessels");
+      formats::Case made = caseOfMask(volume, m_input, m_mask, progress);
+      applyRoots(made, m_input, m_track);
+      return made;
+    }
+    if (!m_seeds.empty()) warnOfVoxels(volume, m_input, progress);
+    convert::TrackResult tracked = trackVolume(volume, m_input, m_seeds, m_track, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
     return std::move(tracked.result);
   }

@@ -2,6 +2,7 @@
 // lumen track: a volume and seeds to a tree with wall points.
 #include "converters/engine/answer_text.h"
 #include "converters/engine/file_access.h"
+#include "converters/engine/hinted_tracking.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/reachable_answer.h"
 #include "converters/engine/scope.h"
@@ -43,6 +44,7 @@ public:
     }
     requireInScope(*around.table, {inputContent(from, false), outputContent(to), m_input, m_output},
                    around.progress);
+    requireHints(m_track);
     std::vector<convert::SeedBranch> seeds;
     if (!m_track.seeds.empty()) seeds = loadSeeds(m_track);
     requireWritable(m_output, convert::ContentKind::Case);
@@ -50,8 +52,7 @@ public:
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
     const convert::TrackResult tracked =
-        m_track.seeds.empty() ? trackFound(volume, m_input, m_track.options, around.progress)
-                              : trackSeeds(volume, seeds, m_track, around.progress);
+        trackVolume(volume, m_input, seeds, m_track, around.progress);
     to.writeCase(tracked.result, m_output, {}, around.progress);
     Json json = caseSummary(tracked.result);
     json["reachable"] = reachJson(std::nullopt);

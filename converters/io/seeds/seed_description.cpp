@@ -20,8 +20,8 @@ void applyDescription(const std::string& text, SeedBranch& branch,
     const std::string value = trimmed(part.substr(equals + 1));
     if (key == "parent") {
       branch.parent = value;
-    } else if (key == "kind" && branchKind(value)) {
-      branch.kind = *branchKind(value);
+    } else if (key == "kind" && setKind(value, branch)) {
+      continue;
     } else if (key == "radius") {
       const auto radius = parsedNumber(value);
       if (!radius) return refuse("a number after \"radius=\"");
@@ -29,7 +29,8 @@ void applyDescription(const std::string& text, SeedBranch& branch,
         if (!point.radius) point.radius = branch.frame.unit * *radius;
     } else {
       return refuse(
-          "\"parent=LABEL\", \"kind=vessel\", \"kind=aneurysm\" or \"radius=NUMBER\" "
+          "\"parent=LABEL\", \"kind=vessel\", \"kind=aneurysm\", \"kind=root\" or "
+          "\"radius=NUMBER\" "
           "around each \"=\"");
     }
   }

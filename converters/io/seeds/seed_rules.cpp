@@ -94,7 +94,10 @@ Labels checkBranches(std::vector<SeedBranch>& branches, const fs::path& file) {
     normaliseDirection(branch, file);
   }
   for (const auto& branch : branches)
-    if (branch.parent && !index.contains(*branch.parent))
+    if (branch.parent && branch.isRoot)
+      throw invalidInput(branchOf(file, branch) + "it is of kind root and has the parent " +
+                         quotedText(*branch.parent) + "; expected one of both");
+    else if (branch.parent && !index.contains(*branch.parent))
       throw invalidInput(branchOf(file, branch) + "its parent " + quotedText(*branch.parent) +
                          " is unknown; expected the label of another branch");
   return index;

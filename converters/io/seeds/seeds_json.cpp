@@ -50,12 +50,9 @@ SeedBranch parseBranch(const JsonPlace& place, const SeedFrame& frame) {
   SeedBranch branch;
   branch.frame = frame;
   branch.label = place.at("label").text();
-  if (place.has("kind")) {
-    const auto kind = branchKind(place.at("kind").text());
-    if (!kind)
-      place.at("kind").refuse("\"vessel\" or \"aneurysm\" for branch " + quotedText(branch.label));
-    branch.kind = *kind;
-  }
+  if (place.has("kind") && !setKind(place.at("kind").text(), branch))
+    place.at("kind").refuse("\"vessel\", \"aneurysm\" or \"root\" for branch " +
+                            quotedText(branch.label));
   if (place.has("parent")) branch.parent = place.at("parent").text();
   for (const auto& point : place.at("points").elements())
     branch.points.push_back(parsePoint(point, frame));
@@ -71,8 +68,7 @@ std::string jsonText(const Eigen::Vector3d& v) {
 
 std::string branchText(const SeedBranch& branch) {
   std::string text = "    {\n      \"label\": " + json(branch.label).dump() + ",\n";
-  text += branch.kind == formats::BranchKind::Aneurysm ? "      \"kind\": \"aneurysm\",\n"
-                                                       : "      \"kind\": \"vessel\",\n";
+  text += "      \"kind\": \"" + kindOf(branch) + "\",\n";
   if (branch.parent) text += "      \"parent\": " + json(*branch.parent).dump() + ",\n";
   if (branch.direction) text += "      \"direction\": " + jsonText(*branch.direction) + ",\n";
   text += "      \"points\": [\n";

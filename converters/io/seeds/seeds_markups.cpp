@@ -137,8 +137,7 @@ std::vector<SeedBranch> parseMarkups(const JsonPlace& root, const std::string& s
 std::string markupsText(const std::vector<SeedBranch>& seeds) {
   OrderedJson markups = OrderedJson::array();
   for (const SeedBranch& seed : seeds) {
-    std::string description = "kind=";
-    description += seed.kind == formats::BranchKind::Aneurysm ? "aneurysm" : "vessel";
+    std::string description = "kind=" + kindOf(seed);
     if (seed.parent) description += "; parent=" + *seed.parent;
     OrderedJson points = OrderedJson::array(), radii = OrderedJson::array();
     for (const SeedPoint& point : seed.points) {

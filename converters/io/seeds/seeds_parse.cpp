@@ -13,10 +13,16 @@ double scaleOf(const JsonPlace& unit) {
   unit.refuse("\"mm\" or \"m\"; --seeds-unit states another");
 }
 
-std::optional<formats::BranchKind> branchKind(const std::string& word) {
-  if (word == "vessel") return formats::BranchKind::Vessel;
-  if (word == "aneurysm") return formats::BranchKind::Aneurysm;
-  return std::nullopt;
+bool setKind(const std::string& word, SeedBranch& branch) {
+  if (word != "vessel" && word != "aneurysm" && word != "root") return false;
+  branch.kind = word == "aneurysm" ? formats::BranchKind::Aneurysm : formats::BranchKind::Vessel;
+  branch.isRoot = word == "root";
+  return true;
+}
+
+std::string kindOf(const SeedBranch& branch) {
+  if (branch.isRoot) return "root";
+  return branch.kind == formats::BranchKind::Aneurysm ? "aneurysm" : "vessel";
 }
 
 }  // namespace lumen::convert

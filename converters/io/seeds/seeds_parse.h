@@ -13,7 +13,9 @@ namespace lumen::convert {
 /// Millimetres in the unit that `unit` names: "mm" or "m".
 double scaleOf(const JsonPlace& unit);
 
-/// "vessel" or "aneurysm"; empty for another word.
-std::optional<formats::BranchKind> branchKind(const std::string& word);
+/// Sets the kind that "vessel", "aneurysm" or "root" names; false for another word.
+bool setKind(const std::string& word, SeedBranch& branch);
+/// The word of a branch's kind.
+std::string kindOf(const SeedBranch& branch);
 
 }  // namespace lumen::convert

@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 constexpr double kShortest = 5;       // mm
 constexpr double kNarrowest = 1.5;    // voxels
 constexpr double kOffAxis = 0.2;      // radii
+constexpr double kBeyondWall = 1.5;   // of the child's own radii, of a careless click
 constexpr double kFarthestStart = 4;  // radii of the parent, along the vessel
 constexpr double kRadiusAccuracy = 0.09;
 
@@ -99,7 +100,57 @@ SeedBranch click(const formats::CenterlineTree& tree, const formats::Branch& bra
   return seed;
 }
 
+/// The first node that is 1.5 of its own radii beyond the wall of the parent, or the last within
+/// `kFarthestStart` of the parent's radii along the branch.
+std::uint32_t beyondWall(const formats::CenterlineTree& tree, const formats::Branch& branch) {
+  const auto at = static_cast<std::uint32_t>(branch.parentNode);
+  const formats::Branch& parent = tree.branches[tree.branch[at]];
+  const auto isBeyond = [&](std::uint32_t node) {
+    for (std::uint32_t n = parent.firstNode; n < parent.firstNode + parent.nodeCount; ++n)
+      if ((nodeCentre(tree, n) - nodeCentre(tree, node)).norm() <
+          radiusAt(tree, n) + kBeyondWall * radiusAt(tree, node))
+        return false;
+    return true;
+  };
+  const double farthest = kFarthestStart * radiusAt(tree, at) / stepOf(tree, branch);
+  const auto last =
+      branch.firstNode + static_cast<std::uint32_t>(std::min(branch.nodeCount - 1.0, farthest));
+  std::uint32_t node = branch.firstNode;
+  while (node < last && !isBeyond(node)) ++node;
+  return node;
+}
+
+SeedBranch carelessClick(const formats::CenterlineTree& tree, const formats::Branch& branch,
+                         std::int32_t keptNode, Random& random) {
+  SeedBranch seed;
+  seed.label = branch.label;
+  const bool isRoot = keptNode == formats::kNoParent;
+  const std::uint32_t node =
+      branch.parentNode == formats::kNoParent ? branch.firstNode : beyondWall(tree, branch);
+  seed.points.push_back({clickAt(tree, node, random), std::nullopt});
+  if (!isRoot) seed.parent = tree.branches[tree.branch[static_cast<std::uint32_t>(keptNode)]].label;
+  return seed;
+}
+
 }  // namespace
+
+std::vector<SeedBranch> clickCarelessly(const formats::CenterlineTree& tree, double voxel,
+                                        Random& random) {
+  std::vector<bool> kept;
+  std::vector<SeedBranch> seeds;
+  for (const formats::Branch& branch : tree.branches) {
+    kept.push_back(branch.kind == formats::BranchKind::Vessel && isLarge(tree, branch, voxel));
+    if (kept.back())
+      seeds.push_back(carelessClick(tree, branch, keptParent(tree, branch, kept), random));
+  }
+  for (SeedBranch& seed : clickSeeds(tree, random)) {
+    if (seed.kind == formats::BranchKind::Vessel) continue;
+    const auto isParent = [&](const SeedBranch& other) { return other.label == seed.parent; };
+    if (std::none_of(seeds.begin(), seeds.end(), isParent)) seed.parent.reset();
+    seeds.push_back(std::move(seed));
+  }
+  return seeds;
+}
 
 std::vector<SeedBranch> clickLargeVessels(const formats::CenterlineTree& tree, double voxel,
                                           Random& random) {

@@ -102,6 +102,13 @@ std::vector<SeedBranch> clickSeeds(const formats::CenterlineTree& tree, Random& 
 std::vector<SeedBranch> clickLargeVessels(const formats::CenterlineTree& tree, double voxel,
                                           Random& random);
 
+/// The clicks of a person in a hurry: on the vessels of clickLargeVessels(), a fifth of the radius
+/// off the axis, of a child where its axis is 1.5 of its own radii beyond the wall of its parent, or
+/// four of the parent's along the vessel; no radii, no directions. Those of aneurysms are those of
+/// clickSeeds().
+std::vector<SeedBranch> clickCarelessly(const formats::CenterlineTree& tree, double voxel,
+                                        Random& random);
+
 /// Lowers the contrast in proportion to the distance along the tree from the root, by `share` of it
 /// at the farthest end.
 void fadeContrast(Design& design, double share);

@@ -115,6 +115,18 @@ void PhantomOptions::addRows(OptionTable& table) {
   table.add("seed", &seed, "K", "Seed of the random numbers")
       .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
       .recorded("random-seed");
+  table.choice("clicks", isCareless, carelessByName(),
+               "Clicks of --seeds; careless ones lie a fifth of a radius off the axis, 1.5 radii "
+               "beyond the parent's wall, and state neither radius nor direction");
+  table
+      .add("click-drawing", &clickDrawing, "K",
+           "Number of the drawing of clicks: another number makes others on the same volume")
+      .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()});
+}
+
+const std::map<std::string, bool>& carelessByName() {
+  static const std::map<std::string, bool> names = {{"usual", false}, {"careless", true}};
+  return names;
 }
 
 std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() const {

@@ -69,6 +69,8 @@ struct PhantomOptions {
   double sliceThickness = 0;  ///< mm along z; 0: a voxel, or the phantom's own
   double fade = 0;  ///< share of the contrast that is lost at the end farthest from the root
   std::uint64_t seed = 1;
+  bool isCareless = false;         ///< clicks as of a person in a hurry
+  std::uint64_t clickDrawing = 0;  ///< another number: other clicks on the same volume
 
   /// Adds a row for each value above except name and tree, stored in this object.
   void addRows(OptionTable& table);
@@ -83,6 +85,9 @@ struct Phantom {
 };
 
 constexpr int kFewestSlices = 4;
+
+/// Ways to click, by their names.
+const std::map<std::string, bool>& carelessByName();
 
 /// Names of the phantoms, in the order of the table above.
 const std::vector<std::string>& phantomNames();

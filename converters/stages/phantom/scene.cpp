@@ -157,8 +157,10 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
                 "phantom: --slice-thickness is " + shown(scene.slice * options.voxel) +
                     " mm, expected at most " + shown(options.voxel * size / kFewestSlices) +
                     " mm in a volume of " + shown(options.voxel * size) + " mm");
-  Random random(options.seed, kClicks);
-  scene.design.seeds = clickSeeds(scene.design.tree, random);
+  Random random(options.seed, kClicks + options.clickDrawing);
+  scene.design.seeds = options.isCareless
+                           ? clickCarelessly(scene.design.tree, options.voxel, random)
+                           : clickSeeds(scene.design.tree, random);
   return scene;
 }
 
@@ -180,8 +182,9 @@ Scene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   const double slices =
       std::max<double>(kFewestSlices, std::ceil(scene.grid.size[2] / scene.slice));
   scene.grid.size[2] = static_cast<int>(std::ceil(slices * scene.slice));
-  Random random(options.seed, kClicks);
-  scene.design.seeds = clickLargeVessels(tree, options.voxel, random);
+  Random random(options.seed, kClicks + options.clickDrawing);
+  scene.design.seeds = options.isCareless ? clickCarelessly(tree, options.voxel, random)
+                                          : clickLargeVessels(tree, options.voxel, random);
   return scene;
 }
 

@@ -47,7 +47,7 @@ TEST(Reachability, EndsWhereTheWayLeavesTheLumenFirst) {
   ASSERT_EQ(found.barriers.size(), 1U);
   EXPECT_EQ(found.barriers[0].node, 11U);
   EXPECT_GE(found.barriers[0].place.x, 6);
-  EXPECT_LE(found.barriers[0].place.x, 6 + 1.0 / 8 + 1e-6);
+  EXPECT_LE(found.barriers[0].place.x, 6 + 1.0 / 32 + 1e-6);
   EXPECT_NEAR(found.barriers[0].beyond, 3 + 5, 1e-6);
 }
 

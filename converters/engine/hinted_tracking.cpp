@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/engine/hinted_tracking.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "converters/base/error.h"
+#include "converters/base/vectors.h"
+#include "converters/engine/tracking_input.h"
+#include "converters/stages/editing/hints.h"
+#include "converters/stages/editing/inlets.h"
+#include "converters/stages/editing/selection.h"
+#include "converters/stages/tracking/tracking_volume.h"
+#include "formats/container/printable.h"
+
+namespace lumen::engine {
+namespace {
+
+using convert::SeedFailure;
+
+void append(std::vector<SeedFailure>&& from, std::vector<SeedFailure>& to) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+void requireInVessels(const formats::Case& value, const std::string& file,
+                      const TrackArguments& track) {
+  const std::vector<Eigen::Vector3d> places = track.rootPlaces();
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!convert::placeIn(value.tree, places[i]))
+      throw failed(formats::printable(file) + ": --root " + track.roots[i] +
+                   " lies in no vessel that is found; nothing is written");
+}
+
+/// Names of the branches in which the roots lie.
+std::set<std::string> rootLabels(const formats::Case& value, const TrackArguments& track) {
+  std::set<std::string> labels;
+  for (const Eigen::Vector3d& place : track.rootPlaces())
+    if (const auto at = convert::placeIn(value.tree, place))
+      labels.insert(value.tree.branches[at->branch].label);
+  return labels;
+}
+
+/// Leaves out what the user does not want. `named`: branches of seeds.
+void select(formats::Case& value, std::set<std::string> named, const TrackArguments& track) {
+  if (track.isOnlyConnected || track.isOnlySeeds) named.merge(rootLabels(value, track));
+  if (track.isOnlyConnected)
+    convert::deleteBranches(value, convert::unconnectedWith(value.tree, named));
+  if (track.isOnlySeeds) convert::deleteBranches(value, convert::notLeadingTo(value.tree, named));
+}
+
+/// Gives the remarks on ends the names that their branches have now, and drops those of branches
+/// that are gone.
+void renameEnds(const formats::Case& value, std::vector<convert::TrackEnd>& ends) {
+  constexpr double kSamePlace = 1e-3;  // mm: positions of a case are floats
+  const formats::CenterlineTree& tree = value.tree;
+  std::erase_if(ends, [&](convert::TrackEnd& end) {
+    for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
+      if ((toEigen(tree.centre[n]) - end.position).norm() < kSamePlace) {
+        end.label = tree.branches[tree.branch[n]].label;
+        return false;
+      }
+    return true;
+  });
+}
+
+/// Tracks the hints that lie in no vessel into the result.
+void trackRest(const convert::Volume& volume, const std::vector<convert::SeedBranch>& rest,
+               convert::TrackResult& result, Progress& progress) {
+  if (rest.empty()) return;
+  const convert::TrackingVolume tracking(volume, result.result, progress);
+  convert::AddedTracks added = convert::trackIntoCase(tracking, result.result, rest, progress);
+  result.result = std::move(added.result);
+  append(std::move(added.failures), result.failures);
+  append(std::move(added.missedPoints), result.missedPoints);
+  append(std::move(added.unjoined), result.unjoined);
+  std::move(added.ends.begin(), added.ends.end(), std::back_inserter(result.ends));
+}
+
+convert::TrackResult trackHinted(const convert::Volume& volume, const std::string& file,
+                                 const std::vector<convert::SeedBranch>& seeds,
+                                 const TrackArguments& track, Progress& progress) {
+  convert::PlacedSeeds placed = placedSeeds(volume, seeds, track, progress);
+  std::size_t candidates = 0;
+  convert::TrackResult result = trackAnyFound(volume, track.options, candidates, progress);
+  if (result.result.tree.nodeCount() == 0) {
+    result = convert::trackCase(volume, placed.seeds, track.options, progress);
+    reportOnSeeds(volume, seeds, track, placed, result, progress);
+    applyRoots(result.result, file, track);
+    return result;
+  }
+  requireInVessels(result.result, file, track);
+  convert::HintRemarks hints =
+      convert::applyHints(result.result, placed.seeds, track.rootPlaces());
+  append(std::move(hints.missedPoints), result.missedPoints);
+  append(std::move(hints.unjoined), result.unjoined);
+  trackRest(volume, hints.rest, result, progress);
+  for (const SeedFailure& unused : hints.unused)
+    progress.warn(formats::printable(track.seeds) + ": seed \"" +
+                  formats::printable(unused.label) + "\" names no vessel of its own: " +
+                  unused.reason);
+  reportOnSeeds(volume, seeds, track, placed, result, progress);
+  std::set<std::string> named;
+  for (const convert::SeedBranch& seed : placed.seeds) named.insert(seed.label);
+  select(result.result, std::move(named), track);
+  renameEnds(result.result, result.ends);
+  return result;
+}
+
+}  // namespace
+
+convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
+                                 const std::vector<convert::SeedBranch>& seeds,
+                                 const TrackArguments& track, Progress& progress) {
+  if (!seeds.empty()) return trackHinted(volume, file, seeds, track, progress);
+  convert::TrackResult result = trackFound(volume, file, track.options, progress);
+  applyRoots(result.result, file, track);
+  renameEnds(result.result, result.ends);
+  return result;
+}
+
+void applyRoots(formats::Case& target, const std::string& file, const TrackArguments& track) {
+  requireInVessels(target, file, track);
+  convert::beginAt(target, track.rootPlaces());
+  select(target, {}, track);
+}
+
+void requireHints(const TrackArguments& track) {
+  if (track.isOnlyConnected && track.seeds.empty() && track.roots.empty())
+    throw Error(ErrorKind::Usage,
+                "--only-connected does nothing without --seeds or --root, which state the trees to "
+                "keep");
+}
+
+}  // namespace lumen::engine

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vessels of a volume by what it shows and by what the user states: seeds and roots.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "converters/base/progress.h"
+#include "converters/engine/stage_options.h"
+#include "converters/io/seeds/seeds.h"
+#include "converters/stages/tracking/track_case.h"
+
+namespace lumen::engine {
+
+/// Finds and tracks the vessels of `volume`, read from `file`, without seeds. `seeds` name them,
+/// divide and join them, and start tracks of their own where no vessel is found; roots and selections
+/// of `track` apply. Warnings and errors are those of trackFound() and trackSeeds(); also throws
+/// Error(Failed) for a root that lies in no vessel.
+convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
+                                 const std::vector<convert::SeedBranch>& seeds,
+                                 const TrackArguments& track, Progress& progress);
+
+/// Roots and selection of `track` for a case without seeds.
+void applyRoots(formats::Case& target, const std::string& file, const TrackArguments& track);
+
+/// Throws Error(Usage) for --only-connected with neither seeds nor roots.
+void requireHints(const TrackArguments& track);
+
+}  // namespace lumen::engine

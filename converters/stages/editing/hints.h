@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Statements of a person about vessels that a case has already: names and parents (docs/method.md,
+// section 1.14). No hint moves a node or a wall: hints name, divide, turn and join.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/io/seeds/seeds.h"
+#include "formats/case/case.h"
+
+namespace lumen::convert {
+
+struct HintRemarks {
+  /// Hints that lie in no vessel of the case, and aneurysms, whose walls have to be captured: seeds
+  /// for trackIntoCase(). The parent of each is a branch of the case, another of them, or none.
+  std::vector<SeedBranch> rest;
+  std::vector<SeedFailure> missedPoints;  ///< points of a hint that lie outside of its vessel
+  std::vector<SeedFailure> unused;        ///< hints in a vessel that has another hint's name
+  std::vector<SeedFailure> unjoined;      ///< vessels that do not hang on the stated parent
+};
+
+/// Gives the vessels of a valid case that was not fitted the names of the hints that lie in them.
+/// Where several lie in one vessel it is divided between them: at the last branch that leaves it
+/// before the next hint, with which the vessel goes on, or in the middle. Branches with a hint's name, but without the hint, get another name. The
+/// trees begin at `roots`, and where hints of kind root lie and hints that are parents and have none
+/// (inlets.h). A
+/// vessel of another tree than its stated parent is joined to that if the gap is shorter than the
+/// vessel. Aneurysms of the case that lie in one of the hints are deleted. The "edit" step has one
+/// sentence about all. Positions are placed: mm, LPS.
+HintRemarks applyHints(formats::Case& target, const std::vector<SeedBranch>& hints,
+                       std::span<const Eigen::Vector3d> roots = {});
+
+}  // namespace lumen::convert

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/editing/inlets.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "converters/base/vectors.h"
+#include "converters/stages/editing/change.h"
+#include "converters/stages/editing/edit.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using formats::CenterlineTree;
+
+std::vector<std::vector<std::uint32_t>> childrenOf(const CenterlineTree& tree) {
+  std::vector<std::vector<std::uint32_t>> children(tree.nodeCount());
+  for (std::uint32_t i = 0; i < tree.nodeCount(); ++i)
+    if (tree.parent[i] != formats::kNoParent)
+      children[static_cast<std::size_t>(tree.parent[i])].push_back(i);
+  return children;
+}
+
+/// The end of the tree of `from` that is nearest along the vessels: its root, or a tip.
+std::uint32_t nearestEnd(const CenterlineTree& tree, std::uint32_t from) {
+  const auto children = childrenOf(tree);
+  std::vector<double> away(tree.nodeCount(), -1);
+  std::vector<std::uint32_t> reached{from};
+  away[from] = 0;
+  std::uint32_t best = from;
+  double least = std::numeric_limits<double>::infinity();
+  const auto reach = [&](std::uint32_t node, std::uint32_t before) {
+    if (away[node] >= 0) return;
+    away[node] = away[before] + (toEigen(tree.centre[node]) - toEigen(tree.centre[before])).norm();
+    reached.push_back(node);
+  };
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const std::uint32_t node = reached[k];
+    const bool isRoot = tree.parent[node] == formats::kNoParent;
+    if ((isRoot || children[node].empty()) && away[node] < least) {
+      best = node;
+      least = away[node];
+    }
+    if (!isRoot) reach(static_cast<std::uint32_t>(tree.parent[node]), node);
+    for (const std::uint32_t child : children[node]) reach(child, node);
+  }
+  return best;
+}
+
+std::uint32_t indexAfter(const Change& change, std::uint32_t before) {
+  return static_cast<std::uint32_t>(
+      std::find(change.before.begin(), change.before.end(), before) - change.before.begin());
+}
+
+/// Makes a tip the root of its tree.
+Change turn(formats::Case& target, std::uint32_t tip) {
+  const std::uint32_t branch = target.tree.branch[tip];
+  const bool isFirst = target.tree.branches[branch].parentNode == formats::kNoParent;
+  return isFirst ? reverseBranch(target, branch) : makeRoot(target, branch);
+}
+
+/// Cuts a tree between its root and a tip, makes the tip a root, and links both parts. False if
+/// there is no place to cut.
+bool divide(formats::Case& target, std::uint32_t tip) {
+  const CenterlineTree& tree = target.tree;
+  std::uint32_t narrowest = tip;
+  float least = std::numeric_limits<float>::infinity();
+  for (std::uint32_t i = tip; tree.parent[i] != formats::kNoParent;
+       i = static_cast<std::uint32_t>(tree.parent[i])) {
+    if (i == tip || i == tree.branches[tree.branch[i]].firstNode || tree.radius[i] >= least)
+      continue;
+    narrowest = i;
+    least = tree.radius[i];
+  }
+  if (narrowest == tip) return false;
+  const Change cut = cutBefore(target, narrowest, Rest::OwnTree);
+  const std::uint32_t near = indexAfter(cut, narrowest - 1), far = indexAfter(cut, narrowest);
+  const Change turned = turn(target, indexAfter(cut, tip));
+  const std::uint32_t a = indexAfter(turned, near), b = indexAfter(turned, far);
+  target.tree.links.push_back({std::min(a, b), std::max(a, b)});
+  std::sort(target.tree.links.begin(), target.tree.links.end());
+  return true;
+}
+
+}  // namespace
+
+std::optional<NodePlace> placeIn(const CenterlineTree& tree, std::uint32_t branch,
+                                 const Vector3d& point) {
+  std::optional<NodePlace> best;
+  const formats::Branch& record = tree.branches[branch];
+  for (std::uint32_t n = record.firstNode; n < record.firstNode + record.nodeCount; ++n) {
+    const double share = (toEigen(tree.centre[n]) - point).norm() / double{tree.radius[n]};
+    if (share <= (best ? best->share : 1)) best = NodePlace{branch, n, share};
+  }
+  return best;
+}
+
+std::optional<NodePlace> placeIn(const CenterlineTree& tree, const Vector3d& point) {
+  std::optional<NodePlace> best;
+  for (std::uint32_t b = 0; b < tree.branches.size(); ++b) {
+    if (tree.branches[b].kind != formats::BranchKind::Vessel) continue;
+    const auto place = placeIn(tree, b, point);
+    if (place && (!best || place->share < best->share)) best = place;
+  }
+  return best;
+}
+
+std::uint32_t rootAbove(const CenterlineTree& tree, std::uint32_t node) {
+  while (tree.parent[node] != formats::kNoParent)
+    node = static_cast<std::uint32_t>(tree.parent[node]);
+  return node;
+}
+
+std::vector<std::size_t> beginAt(formats::Case& target, std::span<const Vector3d> places) {
+  std::vector<std::size_t> outside;
+  std::vector<formats::Vec3f> inlets;  // centres, as indices change
+  const auto isInlet = [&](std::uint32_t node) {
+    return std::find(inlets.begin(), inlets.end(), target.tree.centre[node]) != inlets.end();
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto place = placeIn(target.tree, places[i]);
+    if (!place) {
+      outside.push_back(i);
+      continue;
+    }
+    const std::uint32_t end = nearestEnd(target.tree, place->node);
+    const std::uint32_t root = rootAbove(target.tree, place->node);
+    const formats::Vec3f centre = target.tree.centre[end];
+    if (end != root && !isInlet(root))
+      turn(target, end);
+    else if (end != root && !divide(target, end))
+      continue;
+    inlets.push_back(centre);
+  }
+  return outside;
+}
+
+}  // namespace lumen::convert
