@@ -92,15 +92,13 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
     return result;
   }
   requireInVessels(result.result, file, track);
-  convert::HintRemarks hints =
-      convert::applyHints(result.result, placed.seeds, track.rootPlaces());
+  convert::HintRemarks hints = convert::applyHints(result.result, placed.seeds, track.rootPlaces());
   append(std::move(hints.missedPoints), result.missedPoints);
   append(std::move(hints.unjoined), result.unjoined);
   trackRest(volume, hints.rest, result, progress);
   for (const SeedFailure& unused : hints.unused)
-    progress.warn(formats::printable(track.seeds) + ": seed \"" +
-                  formats::printable(unused.label) + "\" names no vessel of its own: " +
-                  unused.reason);
+    progress.warn(formats::printable(track.seeds) + ": seed \"" + formats::printable(unused.label) +
+                  "\" names no vessel of its own: " + unused.reason);
   reportOnSeeds(volume, seeds, track, placed, result, progress);
   std::set<std::string> named;
   for (const convert::SeedBranch& seed : placed.seeds) named.insert(seed.label);

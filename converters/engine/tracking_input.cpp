@@ -5,8 +5,10 @@
 #include <iterator>
 
 #include "converters/base/error.h"
+#include "converters/base/shown_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/place_seeds.h"
+#include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/click_light.h"
 #include "converters/stages/tracking/tracking_volume.h"
@@ -136,18 +138,24 @@ convert::TrackResult trackFound(const convert::Volume& volume, const std::string
 convert::TrackResult trackAnyFound(const convert::Volume& volume,
                                    const convert::TrackOptions& options, std::size_t& candidates,
                                    Progress& progress) {
-  const auto courses = convert::findVessels(volume, options.dark, progress);
-  candidates = courses.size();
-  if (courses.empty()) return {};
-  convert::TrackResult result = convert::trackCourses(volume, courses, options, progress);
+  const convert::FoundVessels found = convert::findVessels(volume, options.dark, progress);
+  candidates = found.courses.size();
+  if (found.courses.empty()) return {};
+  convert::TrackResult result = convert::trackCourses(volume, found.courses, options, progress);
   reportRefused(result, progress);
+  if (result.result.tree.nodeCount() == 0) return result;
+  const convert::Surrounding around{
+      [&](const Eigen::Vector3d& point) { return found.isLumen(point); },
+      [&](const Eigen::Vector3d& point) { return volume.geometry.containsWorld(point); }};
+  for (const Eigen::Vector3d& place : convert::untangle(result.result, around))
+    progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
   return result;
 }
 
 convert::AddedTracks addFound(const convert::TrackingVolume& tracking,
                               const convert::Volume& volume, const formats::Case& known,
                               Progress& progress) {
-  const auto courses = convert::findVessels(volume, tracking.options().dark, progress);
+  const auto courses = convert::findVessels(volume, tracking.options().dark, progress).courses;
   convert::AddedTracks added = convert::trackCoursesIntoCase(tracking, known, courses, progress);
   reportRefused(added, progress);
   return added;

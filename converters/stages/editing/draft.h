@@ -31,6 +31,10 @@ struct DraftBranch {
   bool isOther = false;              ///< its nodes have changed, and so has its mean
 };
 
+/// Nodes on the straight line from one node to another, without both, half a radius apart. Throws
+/// Error(InvalidInput) for a line of more than 20000 nodes.
+std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to);
+
 /// Nodes are identified by their place in `nodes`, which for those of the case is their index.
 /// Nodes without a branch are left out of the case that is made of the draft, and so are their
 /// links.

@@ -288,8 +288,7 @@ private:
     const formats::Branch& record = tree().branches[branch];
     std::pair<double, std::uint32_t> best{std::numeric_limits<double>::infinity(), 0};
     for (std::uint32_t n = record.firstNode; n < record.firstNode + record.nodeCount; ++n)
-      best = std::min(
-          best, {(toEigen(tree().centre[n]) - toEigen(tree().centre[node])).norm(), n});
+      best = std::min(best, {(toEigen(tree().centre[n]) - toEigen(tree().centre[node])).norm(), n});
     return best;
   }
 
@@ -307,9 +306,9 @@ private:
       if (tree().branches[b].kind == BranchKind::Aneurysm)
         goes[b] = std::any_of(m_hints.begin(), m_hints.end(), [&](const SeedBranch& hint) {
           return hint.kind == BranchKind::Aneurysm &&
-                 std::any_of(
-                     hint.points.begin(), hint.points.end(),
-                     [&](const SeedPoint& p) { return placeIn(tree(), b, p.position).has_value(); });
+                 std::any_of(hint.points.begin(), hint.points.end(), [&](const SeedPoint& p) {
+                   return placeIn(tree(), b, p.position).has_value();
+                 });
         });
     deleteBranches(m_case, goes);
   }

@@ -49,8 +49,8 @@ std::uint32_t nearestEnd(const CenterlineTree& tree, std::uint32_t from) {
 }
 
 std::uint32_t indexAfter(const Change& change, std::uint32_t before) {
-  return static_cast<std::uint32_t>(
-      std::find(change.before.begin(), change.before.end(), before) - change.before.begin());
+  return static_cast<std::uint32_t>(std::find(change.before.begin(), change.before.end(), before) -
+                                    change.before.begin());
 }
 
 /// Makes a tip the root of its tree.

@@ -23,7 +23,8 @@ constexpr double kSpacing = 0.5;
 /// Nodes of one bridge, as of one branch that is tracked: more means that a radius is wrong.
 constexpr double kLongestBridge = 20000;
 
-/// Nodes on the straight line from a node to a branch's first one, without both.
+}  // namespace
+
 std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
   const Vector3d start = toEigen(from.centre), way = toEigen(to.centre) - start;
   const double first = std::min(from.radius, to.radius), last = to.radius;
@@ -44,6 +45,8 @@ std::vector<DraftNode> bridge(const DraftNode& from, const DraftNode& to) {
   }
   return nodes;
 }
+
+namespace {
 
 /// Drops the bridge from a branch to the node it was joined to. Nodes that carry something else, or
 /// that close a loop, stay, and so does the last.

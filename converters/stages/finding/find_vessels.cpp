@@ -125,15 +125,23 @@ private:
 
 }  // namespace
 
-std::vector<SeedBranch> findVessels(const Volume& volume, bool dark, Progress& progress) {
+bool FoundVessels::isLumen(const Vector3d& point) const {
+  const Vector3d at = geometry.indexFromWorld(point);
+  const Cell cell = at.array().round().cast<int>().matrix();
+  return geometry.cells().contains(cell) &&
+         std::binary_search(lumen.begin(), lumen.end(), geometry.cells().index(cell));
+}
+
+FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   progress.begin("find", 0);
   BrightVoxels bright = findBrightVoxels(volume, dark, progress);
   progress.detail("lumen: " + std::to_string(bright.indices.size()) + " voxels, contrast " +
                   std::to_string(bright.contrast) + ", noise " + std::to_string(bright.noise));
+  FoundVessels found{volume.geometry, bright.indices, {}};
   const VoxelSet set(volume.geometry, std::move(bright.indices));
-  std::vector<SeedBranch> courses = CourseFinder(set, progress).find();
+  found.courses = CourseFinder(set, progress).find();
   progress.end();
-  return courses;
+  return found;
 }
 
 }  // namespace lumen::convert

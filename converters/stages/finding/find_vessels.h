@@ -2,7 +2,10 @@
 // The vessels of a whole volume, found without a click (docs/method.md, section 1.13).
 #pragma once
 
+#include <cstddef>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
@@ -10,11 +13,21 @@
 
 namespace lumen::convert {
 
+/// Courses of vessels, and the voxels that they run through.
+struct FoundVessels {
+  VolumeGeometry geometry;
+  std::vector<std::size_t> lumen;  ///< indices of voxels, ascending
+  std::vector<SeedBranch> courses;
+
+  /// Whether the voxel around a point, mm, LPS, is one of them.
+  [[nodiscard]] bool isLumen(const Eigen::Vector3d& point) const;
+};
+
 /// The courses of all vessels that a volume shows: one seed for each, parents first, whose points
 /// with their radii lie along it, from its parent's axis to its tip. Vessels that hang together are
 /// one tree, from the tip of its widest vessel. An aneurysm's points are inside of it. Radii are as
 /// coarse as the voxels; the tracker measures them. `dark`: vessels are darker than their
 /// background. Throws Error(Cancelled).
-std::vector<SeedBranch> findVessels(const Volume& volume, bool dark, Progress& progress);
+FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress);
 
 }  // namespace lumen::convert

@@ -24,7 +24,7 @@ double fork(const Vector3d& p) {
 
 std::vector<SeedBranch> find(const Volume& volume, bool dark = false) {
   Progress silent;
-  return findVessels(volume, dark, silent);
+  return findVessels(volume, dark, silent).courses;
 }
 
 double distanceFrom(const SeedBranch& course, const Vector3d& place) {

@@ -23,7 +23,7 @@ Phantom phantom(const std::string& name) {
 }
 
 formats::Case treeOf(const Volume& volume, Progress& progress) {
-  return trackCourses(volume, findVessels(volume, false, progress), {}, progress).result;
+  return trackCourses(volume, findVessels(volume, false, progress).courses, {}, progress).result;
 }
 
 struct Expected {
@@ -99,8 +99,8 @@ TEST(TrackCoursesIntoCase, AddsWhatNoSeedHasTrackedAndKeepsTheRest) {
   const Phantom made = phantom("bifurcation");
   const TrackResult clicked = trackCase(made.volume, {made.seeds[0]}, {}, silent);
   const TrackingVolume tracking(made.volume, clicked.result, silent);
-  const AddedTracks added = trackCoursesIntoCase(tracking, clicked.result,
-                                                 findVessels(made.volume, false, silent), silent);
+  const AddedTracks added = trackCoursesIntoCase(
+      tracking, clicked.result, findVessels(made.volume, false, silent).courses, silent);
   const auto &before = clicked.result.tree, &after = added.result.tree;
   ASSERT_GT(after.branches.size(), before.branches.size());
   EXPECT_EQ(after.branches[0].label, made.seeds[0].label);
@@ -115,8 +115,8 @@ TEST(TrackCoursesIntoCase, AddsNothingToAWholeTree) {
   const Phantom made = phantom("bifurcation");
   const TrackResult clicked = trackCase(made.volume, made.seeds, {}, silent);
   const TrackingVolume tracking(made.volume, clicked.result, silent);
-  const AddedTracks added = trackCoursesIntoCase(tracking, clicked.result,
-                                                 findVessels(made.volume, false, silent), silent);
+  const AddedTracks added = trackCoursesIntoCase(
+      tracking, clicked.result, findVessels(made.volume, false, silent).courses, silent);
   EXPECT_EQ(added.result, clicked.result);
 }
 

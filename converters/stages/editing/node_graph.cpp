@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "converters/stages/editing/node_graph.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "converters/base/statistics.h"
+#include "converters/base/vectors.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using formats::BranchKind;
+
+// Radii: what lies nearer to a fork is its own shape, what lies farther may have turned.
+constexpr double kNear = 1, kFar = 4;
+
+}  // namespace
+
+NodeGraph::NodeGraph(Draft& draft)
+    : m_draft(draft), m_isVessel(draft.nodes.size(), false), m_beside(draft.nodes.size()) {
+  for (const DraftBranch& branch : draft.branches) {
+    if (branch.record.kind != BranchKind::Vessel) continue;
+    for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
+      m_isVessel[branch.nodes[i]] = true;
+      if (i > 0) connect(branch.nodes[i - 1], branch.nodes[i]);
+    }
+    if (branch.parent != kNoNode) connect(branch.parent, branch.nodes.front());
+  }
+}
+
+void NodeGraph::connect(std::uint32_t a, std::uint32_t b) {
+  m_beside[a].push_back(b);
+  m_beside[b].push_back(a);
+}
+
+std::vector<std::uint32_t> NodeGraph::formerRoots() const {
+  std::vector<std::uint32_t> roots;
+  for (const DraftBranch& branch : m_draft.branches)
+    if (branch.record.kind == BranchKind::Vessel && branch.parent == kNoNode)
+      roots.push_back(branch.nodes.front());
+  return roots;
+}
+
+void NodeGraph::orient(const std::vector<std::uint32_t>& roots) {
+  m_order.clear();
+  m_parent.assign(m_beside.size(), kNoNode);
+  m_main.assign(m_beside.size(), kNoNode);
+  for (const std::uint32_t root : roots) {
+    std::size_t next = m_order.size();
+    for (m_order.push_back(root); next < m_order.size(); ++next)
+      for (const std::uint32_t j : m_beside[m_order[next]]) {
+        if (j == m_parent[m_order[next]]) continue;
+        m_parent[j] = m_order[next];
+        m_order.push_back(j);
+      }
+  }
+  for (auto node = m_order.rbegin(); node != m_order.rend(); ++node) m_main[*node] = mainOf(*node);
+}
+
+Vector3d NodeGraph::position(std::uint32_t node) const {
+  return toEigen(m_draft.nodes[node].centre);
+}
+
+double NodeGraph::radius(std::uint32_t node) const {
+  return double{m_draft.nodes[node].radius};
+}
+
+std::optional<Arm> NodeGraph::armAlong(std::span<const std::uint32_t> nodes) const {
+  std::vector<float> all;
+  for (std::size_t i = 0; i < std::min<std::size_t>(nodes.size(), 9); ++i)
+    all.push_back(m_draft.nodes[nodes[i]].radius);
+  if (all.size() < 3) return std::nullopt;
+  const double width = double{upperMedian(all)};
+  std::vector<float> radii;
+  std::optional<Vector3d> from;
+  Vector3d to = position(nodes.front());
+  double along = 0;
+  for (std::size_t i = 1; i < nodes.size() && along < kFar * width; ++i) {
+    const Vector3d at = position(nodes[i]);
+    along += (at - position(nodes[i - 1])).norm();
+    if (along < kNear * width) continue;
+    if (!from) from = at;
+    to = at;
+    radii.push_back(m_draft.nodes[nodes[i]].radius);
+  }
+  if (!from || (to - *from).norm() < 0.5 * width) return std::nullopt;
+  return Arm{(to - *from).normalized(), double{upperMedian(radii)}};
+}
+
+std::vector<std::uint32_t> NodeGraph::upstream(std::uint32_t node) const {
+  std::vector<std::uint32_t> nodes;
+  double along = 0;
+  const double reach = 2 * kFar * double{m_draft.nodes[node].radius};
+  for (std::uint32_t i = node; i != kNoNode && along < reach; i = m_parent[i]) {
+    if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
+    nodes.push_back(i);
+  }
+  return nodes;
+}
+
+std::vector<std::uint32_t> NodeGraph::downstream(std::uint32_t node) const {
+  std::vector<std::uint32_t> nodes;
+  double along = 0;
+  const double reach = 2 * kFar * double{m_draft.nodes[node].radius};
+  for (std::uint32_t i = node; i != kNoNode && along < reach; i = m_main[i]) {
+    if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
+    nodes.push_back(i);
+  }
+  return nodes;
+}
+
+// Children have their own main neighbours already.
+std::uint32_t NodeGraph::mainOf(std::uint32_t node) const {
+  const auto into = armAlong(upstream(node));  // against the stream
+  std::uint32_t best = kNoNode, any = kNoNode;
+  double most = -1;
+  for (const std::uint32_t child : m_beside[node]) {
+    if (child == m_parent[node] || m_parent[child] != node) continue;
+    any = child;
+    if (m_beside[node].size() == 2 && m_parent[node] != kNoNode) return child;
+    const auto arm = armAlong(downstream(child));
+    if (!arm) continue;
+    // a vessel that is wider than the one before it is another one that passes by
+    const double width = into ? std::min(arm->radius, into->radius * into->radius / arm->radius)
+                              : arm->radius;
+    const double straight = into ? 0.5 * (1 - into->direction.dot(arm->direction)) : 1;
+    if (width * straight <= most) continue;
+    most = width * straight;
+    best = child;
+  }
+  return best == kNoNode ? any : best;
+}
+
+std::optional<Arm> NodeGraph::armFrom(std::uint32_t end) const {
+  std::vector<std::uint32_t> nodes;
+  std::uint32_t before = kNoNode;
+  double along = 0;
+  const double reach = 2 * kFar * double{m_draft.nodes[end].radius};
+  for (std::uint32_t i = end; i != kNoNode && along < reach;) {
+    if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
+    nodes.push_back(i);
+    std::uint32_t next = kNoNode;
+    float widest = -1;
+    for (const std::uint32_t j : m_beside[i]) {
+      if (j == before || m_draft.nodes[j].radius <= widest) continue;
+      widest = m_draft.nodes[j].radius;
+      next = j;
+    }
+    before = i;
+    i = next;
+  }
+  return armAlong(nodes);
+}
+
+std::optional<std::pair<double, double>> NodeGraph::widthsAround(std::uint32_t a,
+                                                                 std::uint32_t b) const {
+  const auto isAbove = [&](std::uint32_t up, std::uint32_t down) {
+    const std::vector<std::uint32_t> path = upstream(down);
+    return std::find(path.begin(), path.end(), up) != path.end();
+  };
+  const bool isAFirst = isAbove(a, b);
+  if (!isAFirst && !isAbove(b, a)) return std::nullopt;
+  const auto before = armAlong(upstream(isAFirst ? a : b));
+  const auto after = armAlong(downstream(isAFirst ? b : a));
+  if (!before || !after) return std::nullopt;
+  return std::pair(before->radius, after->radius);
+}
+
+void NodeGraph::detach(std::uint32_t node, std::span<const std::uint32_t> stem) {
+  const auto cut = [&](std::uint32_t a, std::uint32_t b) {
+    std::erase(m_beside[a], b);
+    std::erase(m_beside[b], a);
+  };
+  if (m_parent[node] != kNoNode) cut(node, m_parent[node]);
+  m_parent[node] = kNoNode;
+  for (const std::uint32_t gone : stem) {
+    for (const std::uint32_t other : std::vector<std::uint32_t>(m_beside[gone])) cut(gone, other);
+    m_isVessel[gone] = false;
+  }
+}
+
+bool NodeGraph::hangTogether(std::uint32_t a, std::uint32_t b) const {
+  std::vector<bool> isSeen(m_beside.size(), false);
+  std::vector<std::uint32_t> reached{a};
+  isSeen[a] = true;
+  for (std::size_t k = 0; k < reached.size() && !isSeen[b]; ++k)
+    for (const std::uint32_t j : m_beside[reached[k]]) {
+      if (!isSeen[j]) reached.push_back(j);
+      isSeen[j] = true;
+    }
+  return isSeen[b];
+}
+
+void NodeGraph::join(std::uint32_t a, std::uint32_t b) {
+  const bool isLoop = hangTogether(a, b);
+  std::uint32_t last = a;
+  const std::vector<DraftNode> between = bridge(m_draft.nodes[a], m_draft.nodes[b]);
+  for (const DraftNode& node : between) {
+    const auto next = static_cast<std::uint32_t>(m_draft.nodes.size());
+    m_draft.nodes.push_back(node);
+    m_beside.emplace_back();
+    m_isVessel.push_back(true);
+    m_parent.push_back(kNoNode);
+    connect(last, next);
+    last = next;
+  }
+  if (isLoop)
+    m_draft.links.push_back({last, b});
+  else
+    connect(last, b);
+}
+
+std::vector<std::vector<std::uint32_t>> NodeGraph::endsOfTrees() const {
+  std::vector<std::vector<std::uint32_t>> out;
+  std::vector<bool> isSeen(m_beside.size(), false);
+  for (std::uint32_t i = 0; i < m_beside.size(); ++i) {
+    if (isSeen[i] || !m_isVessel[i]) continue;
+    std::vector<std::uint32_t> tree{i}, ends;
+    isSeen[i] = true;
+    for (std::size_t k = 0; k < tree.size(); ++k) {
+      if (m_beside[tree[k]].size() < 2) ends.push_back(tree[k]);
+      for (const std::uint32_t j : m_beside[tree[k]]) {
+        if (!isSeen[j]) tree.push_back(j);
+        isSeen[j] = true;
+      }
+    }
+    out.push_back(std::move(ends));
+  }
+  return out;
+}
+
+std::vector<formats::StopReason> NodeGraph::reasonsAtEnds() const {
+  std::vector<formats::StopReason> reasons(m_beside.size(), formats::StopReason::Unknown);
+  for (const DraftBranch& branch : m_draft.branches)
+    reasons[branch.nodes.back()] = branch.record.stopReason;
+  return reasons;
+}
+
+std::vector<Chain> NodeGraph::chains() const {
+  std::vector<std::vector<Chain>> trees;
+  std::vector<std::size_t> sizes;
+  const auto follow = [&](std::uint32_t node) {
+    std::vector<std::uint32_t> nodes;
+    for (; node != kNoNode; node = m_main[node]) nodes.push_back(node);
+    return nodes;
+  };
+  for (const std::uint32_t root : m_order) {
+    if (m_parent[root] != kNoNode) continue;
+    std::vector<Chain> tree{{kNoNode, follow(root)}};
+    for (std::size_t c = 0; c < tree.size(); ++c)
+      for (std::size_t k = 0; k < tree[c].nodes.size(); ++k) {
+        const std::uint32_t node = tree[c].nodes[k];
+        for (const std::uint32_t child : m_beside[node])
+          if (m_parent[child] == node && child != m_main[node]) tree.push_back({node, follow(child)});
+      }
+    trees.push_back(std::move(tree));
+  }
+  const auto countOf = [](const std::vector<Chain>& tree) {
+    std::size_t count = 0;
+    for (const Chain& chain : tree) count += chain.nodes.size();
+    return count;
+  };
+  std::stable_sort(trees.begin(), trees.end(),
+                   [&](const auto& a, const auto& b) { return countOf(a) > countOf(b); });
+  std::vector<Chain> out;
+  for (std::vector<Chain>& tree : trees)
+    std::move(tree.begin(), tree.end(), std::back_inserter(out));
+  return out;
+}
+
+void NodeGraph::turnDirections() {
+  for (const std::uint32_t node : m_order) {
+    const std::uint32_t to = m_main[node], from = m_parent[node];
+    const Vector3d ahead = (to == kNoNode ? position(node) : position(to)) -
+                           (from == kNoNode ? position(node) : position(from));
+    formats::Vec3f& direction = m_draft.nodes[node].direction;
+    if (toEigen(direction).dot(ahead) < 0) direction = toVec3f(-toEigen(direction));
+  }
+}
+
+}  // namespace lumen::convert

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The nodes of the vessels of a draft as a graph without directions, and the branches that follow
+// from its roots.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "converters/stages/editing/draft.h"
+
+namespace lumen::convert {
+
+/// A vessel between two forks or ends, away from its root.
+struct Chain {
+  std::uint32_t parent = kNoNode;  ///< node that it leaves
+  std::vector<std::uint32_t> nodes;
+};
+
+/// The first stretch of a vessel, from an end or a fork on.
+struct Arm {
+  Eigen::Vector3d direction;  ///< unit, into the vessel
+  double radius = 0;          ///< median, mm
+};
+
+class NodeGraph {
+public:
+  /// Takes the edges of the vessels of a draft, which must stay; aneurysms are left out.
+  explicit NodeGraph(Draft& draft);
+
+  /// First nodes of the draft's branches that have no parent.
+  [[nodiscard]] std::vector<std::uint32_t> formerRoots() const;
+  /// Directs all edges away from the roots, of which each tree has one.
+  void orient(const std::vector<std::uint32_t>& roots);
+  /// Vessels away from the roots, parents first, longest tree first: at a fork the vessel that is
+  /// widest and straightest goes on.
+  [[nodiscard]] std::vector<Chain> chains() const;
+
+  /// The stretch along nodes from their first on; empty if they are shorter than their width.
+  [[nodiscard]] std::optional<Arm> armAlong(std::span<const std::uint32_t> nodes) const;
+  /// The same from an end of the graph on, as far as there is no fork, or through forks ahead.
+  [[nodiscard]] std::optional<Arm> armFrom(std::uint32_t end) const;
+  [[nodiscard]] Eigen::Vector3d position(std::uint32_t node) const;
+  [[nodiscard]] double radius(std::uint32_t node) const;  ///< mm
+  /// Whether more than one vessel leads on from a node.
+  [[nodiscard]] bool isFork(std::uint32_t node) const { return m_beside[node].size() > 2; }
+  /// Radii of a vessel before and behind two of its nodes, mm; empty if they are not of one.
+  [[nodiscard]] std::optional<std::pair<double, double>> widthsAround(std::uint32_t a,
+                                                                      std::uint32_t b) const;
+
+  /// Removes the edge to the node that a vessel hangs on, and its first nodes, `stem`, before `node`.
+  void detach(std::uint32_t node, std::span<const std::uint32_t> stem);
+  /// Joins two nodes by a bridge, or by a link behind a bridge if they hang together already.
+  void join(std::uint32_t a, std::uint32_t b);
+  /// The ends of each tree; of a tree of one node, that.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> endsOfTrees() const;
+  /// For each node the reason why a branch of the draft ended at it.
+  [[nodiscard]] std::vector<formats::StopReason> reasonsAtEnds() const;
+  /// Lets the directions of all nodes point away from the roots.
+  void turnDirections();
+
+private:
+  void connect(std::uint32_t a, std::uint32_t b);
+  [[nodiscard]] bool hangTogether(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] std::vector<std::uint32_t> upstream(std::uint32_t node) const;
+  [[nodiscard]] std::vector<std::uint32_t> downstream(std::uint32_t node) const;
+  [[nodiscard]] std::uint32_t mainOf(std::uint32_t node) const;
+
+  Draft& m_draft;
+  std::vector<bool> m_isVessel;
+  std::vector<std::vector<std::uint32_t>> m_beside;
+  std::vector<std::uint32_t> m_order;   ///< from the roots on
+  std::vector<std::uint32_t> m_parent;  ///< kNoNode for a root
+  std::vector<std::uint32_t> m_main;    ///< the neighbour with which the branch goes on, or kNoNode
+};
+
+}  // namespace lumen::convert
