@@ -76,10 +76,6 @@ def resolve(file, name, files):
 KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/server")
 # Files below that still spell options with their dashes: a list that only gets shorter.
 SPELL_OPTIONS = """
-converters/draw/picture/draw_case.cpp
-converters/draw/report/report_agreement.cpp
-converters/draw/report/report_page.cpp
-converters/draw/report/report_provenance.cpp
 converters/export/export_case.cpp
 converters/export/shared/distance_grid.cpp
 converters/export/shared/insertion.cpp
@@ -96,8 +92,6 @@ converters/export/targets/simvascular/simvascular.cpp
 converters/export/targets/slicer/slicer.cpp
 converters/export/targets/sofa/export_sofa.cpp
 converters/export/targets/steve/steve.cpp
-converters/judge/check/check.cpp
-converters/judge/facts/reachable.cpp
 converters/library/build_list.cpp
 converters/library/change.cpp
 converters/library/check_journal.cpp
@@ -105,10 +99,6 @@ converters/library/record_names.cpp
 converters/library/site/case_files.cpp
 converters/library/site/notes.cpp
 converters/library/verified_revisions.cpp
-converters/stages/phantom/phantom.cpp
-converters/stages/phantom/scene.cpp
-converters/stages/tracking/node_fit.cpp
-converters/stages/tracking/tracking_volume.cpp
 """.split()
 
 
