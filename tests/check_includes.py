@@ -76,22 +76,6 @@ def resolve(file, name, files):
 KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/server")
 # Files below that still spell options with their dashes: a list that only gets shorter.
 SPELL_OPTIONS = """
-converters/export/export_case.cpp
-converters/export/shared/distance_grid.cpp
-converters/export/shared/insertion.cpp
-converters/export/shared/no_vdb.cpp
-converters/export/shared/volume_mesh.cpp
-converters/export/targets/cathsim/export_cathsim.cpp
-converters/export/targets/engines/engines.cpp
-converters/export/targets/grid/grid.cpp
-converters/export/targets/isaac/isaac.cpp
-converters/export/targets/mujoco/export_mujoco.cpp
-converters/export/targets/openfoam/openfoam.cpp
-converters/export/targets/print/print.cpp
-converters/export/targets/simvascular/simvascular.cpp
-converters/export/targets/slicer/slicer.cpp
-converters/export/targets/sofa/export_sofa.cpp
-converters/export/targets/steve/steve.cpp
 converters/library/build_list.cpp
 converters/library/change.cpp
 converters/library/check_journal.cpp
