@@ -76,13 +76,7 @@ def resolve(file, name, files):
 KNOW_OPTIONS = ("converters/engine", "converters/cli", "viewer/server")
 # Files below that still spell options with their dashes: a list that only gets shorter.
 SPELL_OPTIONS = """
-converters/library/build_list.cpp
-converters/library/change.cpp
-converters/library/check_journal.cpp
-converters/library/record_names.cpp
 converters/library/site/case_files.cpp
-converters/library/site/notes.cpp
-converters/library/verified_revisions.cpp
 """.split()
 
 
