@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/place_seeds.h"
 #include "converters/stages/finding/find_vessels.h"
@@ -47,7 +48,7 @@ void warnOfSeeds(const std::string& file, const std::string& what,
                   failures[i].reason);
   if (failures.size() > kMost)
     progress.warn(file + ": and so on for " + std::to_string(failures.size() - kMost) +
-                  " more seeds; --json lists all");
+                  " more seeds; " + kOption.json.shown() + " lists all");
 }
 
 std::string share(std::size_t count, std::size_t seeds) {
@@ -120,14 +121,14 @@ convert::TrackResult trackFound(const convert::Volume& volume, const std::string
       convert::findVessels(volume, options.dark, progress);
   const std::string none = formats::printable(file) + ": no vessels are found in it";
   if (courses.empty())
-    throw failed(none +
-                 ", as nothing long and thin stands out of its noise; --seeds states where "
-                 "vessels begin, and --dark that they are darker than their background");
+    throw failed(none + ", as nothing long and thin stands out of its noise; " +
+                 kOption.seeds.shown() + " states where vessels begin, and " +
+                 kOption.dark.shown() + " that they are darker than their background");
   convert::TrackResult result = convert::trackCourses(volume, courses, options, progress);
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0)
     throw failed(none + ", as no cylinder fits along any of " + std::to_string(courses.size()) +
-                 " candidates; --seeds states where vessels begin");
+                 " candidates; " + kOption.seeds.shown() + " states where vessels begin");
   return result;
 }
 
