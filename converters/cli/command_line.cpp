@@ -14,6 +14,7 @@
 #include <tbb/task_arena.h>
 
 #include "converters/base/message_text.h"
+#include "converters/base/option_name.h"
 #include "converters/cli/commands.h"
 #include "converters/cli/help_text.h"
 #include "converters/cli/interrupt.h"
@@ -199,7 +200,7 @@ int runCommandLine(int argc, const char* const* argv) {
       printError(error.what());
     return exitCode(error.kind());
   } catch (const std::bad_alloc&) {
-    printError("there is not enough memory; --crop reads a part of a volume");
+    printError("there is not enough memory; " + kOption.crop.shown() + " reads a part of a volume");
   } catch (const std::exception& error) {
     printError(std::string("unexpected: ") + error.what());
   }

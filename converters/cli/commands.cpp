@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/cli/commands.h"
 
+#include "converters/base/option_name.h"
 #include "converters/cli/command_completion.h"
 #ifdef LUMEN_WITH_VIEWER
 #include "viewer/server/command_view.h"
@@ -30,7 +31,7 @@ void CommonOptions::addRows(OptionTable& table) {
   table.flag("quiet", quiet, "Print errors and the asked-for answer only");
   table.flag("verbose", verbose, "Also print details").without("quiet");
   table.flag("strict", strict, "Every warning is an error: exit with 3 and write nothing");
-  table.flag("json", json, "Answer with one JSON object on standard output");
+  table.flag(kOption.json.name, json, "Answer with one JSON object on standard output");
 }
 
 OptionRow configRow() {

@@ -9,6 +9,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/option_name.h"
 #include "converters/library/json_values.h"
 #include "converters/library/spdx.h"
 #include "formats/container/printable.h"
@@ -110,18 +111,22 @@ void addAboutRows(OptionTable& table, AboutArguments& about) {
   addWord(table, "modality", about.modality, "Modality of the source",
           {"XA", "CT", "MR", "US", "mesh", "synthetic", "other"});
   table
-      .add("licence", &about.licence, "SPDX",
+      .add(kOption.licence.name, &about.licence, "SPDX",
            "Licence, as an SPDX expression such as CC-BY-4.0 [the library's]")
       .checkedBy(licence());
   addText(table, "attribution", about.attribution, "Names to credit", 1024);
   table.add("doi", &about.doi, "DOI", "Digital object identifier, such as 10.5281/zenodo.1234")
       .checkedBy(checked(convert::isDoi, "a DOI such as 10.5281/zenodo.1234"));
   addText(table, "origin", about.origin, "Source of the data", 1024);
-  addText(table, "consent", about.consent,
-          "Ground on which a patient's case may be given away; required unless --synthetic", 4096);
-  addText(table, "deidentification", about.deidentification,
-          "Method by which identifying data were removed; required unless --synthetic", 4096);
-  table.flag("synthetic", about.synthetic, "No patient is behind the case");
+  addText(table, kOption.consent.name, about.consent,
+          "Ground on which a patient's case may be given away; required unless " +
+              kOption.synthetic.shown(),
+          4096);
+  addText(
+      table, kOption.deidentification.name, about.deidentification,
+      "Method by which identifying data were removed; required unless " + kOption.synthetic.shown(),
+      4096);
+  table.flag(kOption.synthetic.name, about.synthetic, "No patient is behind the case");
   table.group("");
 }
 

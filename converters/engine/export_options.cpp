@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/suggestion.h"
 #include "converters/engine/mesh_options.h"
 #include "formats/container/printable.h"
@@ -45,15 +46,17 @@ const std::map<std::string, convert::Axes> kUp = {{"z", convert::Axes::Lps},
 void addSofaRows(OptionTable& table, convert::ExportOptions& options) {
   convert::SofaOptions& sofa = options.sofa;
   table.group("SOFA");
-  table.choice("instrument", sofa.instrument, kInstruments,
+  table.choice(kOption.instrument.name, sofa.instrument, kInstruments,
                "Instrument that is inserted; a guidewire lies within a catheter");
-  table.choice("wall", sofa.wall, kWalls,
+  table.choice(kOption.wall.name, sofa.wall, kWalls,
                "Wall that it touches: triangles, the models by the plugin LumenSofa, or distances "
                "on a grid");
-  table.choice("dialect", sofa.dialect, kDialects, "Version of SOFA");
-  table.add("step", &sofa.step, "MM", "Distance that it advances in a time step of 0.01 s")
+  table.choice(kOption.dialect.name, sofa.dialect, kDialects, "Version of SOFA");
+  table
+      .add(kOption.step.name, &sofa.step, "MM",
+           "Distance that it advances in a time step of 0.01 s")
       .in(NumberRange{0.001, 1});
-  table.add("insert", &options.insert, "LABEL",
+  table.add(kOption.insert.name, &options.insert, "LABEL",
             "Branch at whose beginning it is inserted [the root]");
 }
 
@@ -68,23 +71,24 @@ void addGridRows(OptionTable& table, convert::ExportOptions& options) {
   for (const auto& entry : kGridFormats) formats.push_back(entry.first);
   table.group("Grid");
   table
-      .add("grid", &options.spacing, "MM",
+      .add(kOption.grid.name, &options.spacing, "MM",
            "Distance between the samples of a grid; 0: by the size of the vessels")
       .in(kNotNegative);
   OptionRow& format = table.add(
-      "format", [&grid](const std::vector<std::string>& words) { setFormats(grid, words); }, "WORD",
+      kOption.format.name,
+      [&grid](const std::vector<std::string>& words) { setFormats(grid, words); }, "WORD",
       "File formats, one or more: " + alternatives(formats));
   format.among(formats).defaults("nrrd").many().delimiter = ',';
   table
-      .add("band", &grid.band, "MM",
+      .add(kOption.band.name, &grid.band, "MM",
            "Distance from the wall beyond which values are clamped, or left out [everywhere; vdb: "
            "3 samples]")
       .in(kPositive);
-  table.flag("half", grid.half, "vdb: distances of 16 bits");
-  table.flag("per-branch", grid.perBranch,
+  table.flag(kOption.half.name, grid.half, "vdb: distances of 16 bits");
+  table.flag(kOption.perBranch.name, grid.perBranch,
              "A grid for each branch and its neighbourhood along the tree, instead of one, in "
              "which vessels that touch are merged");
-  table.flag("exact", grid.exact,
+  table.flag(kOption.exact.name, grid.exact,
              "Distances to the nearest point of the wall in the lumen, too, with a kink at its "
              "axis, instead of libblob's, which are smooth, and right to first order");
 }
@@ -104,17 +108,18 @@ void addOptionalChoice(OptionTable& table, const std::string& name, std::optiona
       .among(names);
 }
 
-bool hasOption(const convert::ExportTarget& target, const std::string& shownName) {
-  return std::find(target.options.begin(), target.options.end(), shownName) != target.options.end();
+bool hasOption(const convert::ExportTarget& target, const OptionRow& row) {
+  return std::any_of(target.options.begin(), target.options.end(),
+                     [&row](const OptionName& option) { return row.name == option.name; });
 }
 
 }  // namespace
 
 void addExportRows(OptionTable& table, convert::ExportOptions& options) {
   table.group("");
-  addOptionalChoice(table, "unit", options.unit, kUnits,
+  addOptionalChoice(table, kOption.unit.name, options.unit, kUnits,
                     "Length unit, where the target leaves a choice [its first of --list]");
-  addOptionalChoice(table, "up", options.axes, kUp,
+  addOptionalChoice(table, kOption.up.name, options.axes, kUp,
                     "Axis that looks up (superior), where the target leaves a choice");
   table.group("Surface");
   addSurfaceRows(table, options.surface);
@@ -127,18 +132,17 @@ convert::OptionTexts exportOptionTexts(const OptionTable& table,
                                        const convert::ExportTarget& target) {
   convert::OptionTexts texts;
   for (const OptionRow& row : table.rows())
-    if (hasOption(target, row.shownName()))
+    if (hasOption(target, row))
       if (std::string text = row.valueText(); !text.empty()) texts[row.shownName()] = text;
   return texts;
 }
 
 void requireTargetOptions(const OptionTable& table, const convert::ExportTarget& target) {
   for (const OptionRow& row : table.rows()) {
-    if (!row.isGiven || row.isArgument || hasOption(target, row.shownName())) continue;
+    if (!row.isGiven || row.isArgument || hasOption(target, row)) continue;
     std::string takers;
     for (const convert::ExportTarget& other : convert::exportTargets())
-      if (hasOption(other, row.shownName()))
-        takers += (takers.empty() ? "" : ", ") + std::string(other.name);
+      if (hasOption(other, row)) takers += (takers.empty() ? "" : ", ") + std::string(other.name);
     if (!takers.empty())
       throw Error(ErrorKind::Usage,
                   row.shownName() + " is for " + takers + ", not for " + std::string(target.name));

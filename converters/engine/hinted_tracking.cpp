@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/editing/hints.h"
@@ -30,7 +31,7 @@ void requireInVessels(const formats::Case& value, const std::string& file,
   const std::vector<Eigen::Vector3d> places = track.rootPlaces();
   for (std::size_t i = 0; i < places.size(); ++i)
     if (!convert::placeIn(value.tree, places[i]))
-      throw failed(formats::printable(file) + ": --root " + track.roots[i] +
+      throw failed(formats::printable(file) + ": " + kOption.root.shown() + " " + track.roots[i] +
                    " lies in no vessel that is found; nothing is written");
 }
 
@@ -128,8 +129,8 @@ void applyRoots(formats::Case& target, const std::string& file, const TrackArgum
 void requireHints(const TrackArguments& track) {
   if (track.isOnlyConnected && track.seeds.empty() && track.roots.empty())
     throw Error(ErrorKind::Usage,
-                "--only-connected does nothing without --seeds or --root, which state the trees to "
-                "keep");
+                kOption.onlyConnected.shown() + " does nothing without " + kOption.seeds.shown() +
+                    " or " + kOption.root.shown() + ", which state the trees to keep");
 }
 
 }  // namespace lumen::engine

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
@@ -62,7 +63,8 @@ formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::p
   if (mask.isGrey)
     progress.warn(name +
                   ": its voxels differ from their neighbours as grey values do, and are taken as "
-                  "labels; expected a segmentation: an image is tracked from --seeds");
+                  "labels; expected a segmentation: an image is tracked from " +
+                  kOption.seeds.shown());
   progress.begin("surface", 0);
   convert::LabelSurface surface = convert::surfaceOf(mask, progress);
   progress.end();

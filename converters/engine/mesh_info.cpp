@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -36,12 +37,11 @@ void chooseUnit(MeshInfo& info, const std::string& name, const std::string& unit
   info.millimetres = guess.millimetres;
   info.unitFrom = "guess";
   if (!guess.plausible)
-    progress.warn(name +
-                  ": its size is not that of vessels in mm, cm or m; taken as mm, --unit "
-                  "says it");
+    progress.warn(name + ": its size is not that of vessels in mm, cm or m; taken as mm, " +
+                  kOption.unit.shown() + " says it");
   else if (guess.millimetres != 1)
     progress.warn(name + ": its size is that of vessels in " + guess.unit +
-                  ", not in mm; taken as " + guess.unit + ", --unit says it");
+                  ", not in mm; taken as " + guess.unit + ", " + kOption.unit.shown() + " says it");
 }
 
 Json pointJson(const Eigen::Vector3d& point, double scale) {

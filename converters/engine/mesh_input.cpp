@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
 #include "converters/geometry/mesh_measures.h"
@@ -83,10 +84,12 @@ std::string guessedUnit(const convert::TriangleMesh& mesh, const std::string& na
   const double radius = 2 * std::abs(size.volume) / size.area;
   if (!guess.plausible)
     progress.warn(name + ": taken to be in mm, although vessels of " + std::to_string(radius) +
-                  " mm radius are implausible, and in cm and m, too; --unit says what they are");
+                  " mm radius are implausible, and in cm and m, too; " + kOption.unit.shown() +
+                  " says what they are");
   else if (guess.millimetres != 1)
     progress.warn(name + ": taken to be in " + guess.unit + ": in mm its vessels would have " +
-                  std::to_string(radius) + " mm radius; --unit says what they are");
+                  std::to_string(radius) + " mm radius; " + kOption.unit.shown() +
+                  " says what they are");
   return guess.unit;
 }
 
@@ -108,7 +111,7 @@ std::string listed(const std::vector<std::string>& sentences) {
 
 std::string MeshFrame::unitText() const {
   return unit + (unitFrom == "file"     ? ", as the file states"
-                 : unitFrom == "option" ? ", as --unit states"
+                 : unitFrom == "option" ? ", as " + kOption.unit.shown() + " states"
                                         : ", by its size");
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/engine/scope.h"
 
 namespace lumen::engine {
@@ -20,7 +21,7 @@ const std::map<std::string, convert::ColorBy> kColorBy = {
     {"confidence", convert::ColorBy::Confidence}};
 
 void setEdge(convert::EdgeLength& edge, const std::string& text) {
-  const convert::Length length = convert::parseLength(text, "--edge");
+  const convert::Length length = convert::parseLength(text, kOption.edge.shown());
   edge.share = length.radii;
   if (length.mm > 0) edge.minimum = edge.maximum = length.mm;
 }
@@ -52,25 +53,25 @@ void addGltfRows(OptionTable& table, OutputOptions& output) {
       .in(WholeRange{1, 8});
   table.choice("mesh-per", mesh.per, kMeshPer, "Meshes of a glTF: one, or one for each branch");
   table
-      .choice("colour", mesh.color, kColorBy,
+      .choice(kOption.colour.name, mesh.color, kColorBy,
               "Colours of a glTF's vertices, which all kinds of colour vision can distinguish")
       .alsoCalled("color");
-  table.flag("meshopt", mesh.meshopt,
+  table.flag(kOption.meshopt.name, mesh.meshopt,
              "Compress glTF with EXT_meshopt_compression, to a micrometre; not for the f3d of "
              "Debian 12, which crashes on any such file");
   table
-      .flag("draco", mesh.draco,
+      .flag(kOption.draco.name, mesh.draco,
             "Compress glTF with KHR_draco_mesh_compression; not for the f3d of Debian 12, which "
             "crashes on any such file")
-      .without("meshopt");
+      .without(kOption.meshopt.name);
   table
       .add("draco-position-bits", &mesh.dracoPositionBits, "N",
            "Bits of a position in the bounding box of the mesh")
       .in(WholeRange{1, 30})
-      .onlyWith("draco");
+      .onlyWith(kOption.draco.name);
   table.add("draco-normal-bits", &mesh.dracoNormalBits, "N", "Bits of a normal")
       .in(WholeRange{2, 30})
-      .onlyWith("draco");
+      .onlyWith(kOption.draco.name);
 }
 
 }  // namespace
@@ -79,16 +80,17 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
   using Texts = std::vector<std::string>;
   table
       .add(
-          "edge", [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
+          kOption.edge.name,
+          [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
           "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
       .defaults(shareText(surface.edge.share))
       .without("patches");
   table
       .add(
-          "extend",
+          kOption.extend.name,
           [&surface](const Texts& texts) {
             for (const std::string& text : texts)
-              surface.extend.push_back(convert::parseEndLength(text, "--extend"));
+              surface.extend.push_back(convert::parseEndLength(text, kOption.extend.shown()));
           },
           "[LABEL=]LENGTH",
           "Flow extensions at all ends, such as 5r or 20mm, or at those of a branch: LABEL=5r")
@@ -96,16 +98,16 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
       .without("patches");
   table
       .add(
-          "thickness",
+          kOption.thickness.name,
           [&surface](const Texts& texts) {
-            surface.thickness = convert::parseLength(texts.back(), "--thickness");
+            surface.thickness = convert::parseLength(texts.back(), kOption.thickness.shown());
           },
           "LENGTH",
           "Thickness of a solid wall around the lumen, such as 0.5 (mm) or 0.2r; lumen reports "
           "where it is thinner because vessels touch")
       .without("patches");
   table
-      .add("max-error", &surface.maxError, "MM",
+      .add(kOption.maxError.name, &surface.maxError, "MM",
            "Drop triangles while the surface stays within this distance of the full one, both "
            "ways; 0: none")
       .in(kNotNegative)
@@ -125,7 +127,7 @@ void addMeshFileRows(OptionTable& table, OutputOptions& output) {
       .defaults("")
       .without("patches");
   table
-      .scaled("gap", surface.gap, "Distance that touching vessels keep",
+      .scaled(kOption.gap.name, surface.gap, "Distance that touching vessels keep",
               "0.1 voxels, or 0.05 of the least radius")
       .without("patches");
   table.flag("open", surface.open, "Leave the flat ends of vessels open").without("patches");

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/engine/scope.h"
 
 namespace lumen::engine {
@@ -110,32 +111,32 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
   table.group("Volume");
   table.scope(kVolumes);
   table
-      .add("series", &volume.series, "ID",
+      .add(kOption.series.name, &volume.series, "ID",
            "DICOM series: its instance UID, or its number in the list that is printed when a "
            "folder holds several")
       .forInputs(kDicom);
   table
-      .add("volume-index", &volume.volumeIndex, "N",
+      .add(kOption.volumeIndex.name, &volume.volumeIndex, "N",
            "Volume of a file that holds several, such as a 4-D NIfTI; the first is 0")
       .in(WholeRange{})
       .forInputs(kFileImage | kFileLabels);
-  OptionRow& crop = table.add("crop", &volume.crop, "I0,I1,J0,J1,K0,K1",
+  OptionRow& crop = table.add(kOption.crop.name, &volume.crop, "I0,I1,J0,J1,K0,K1",
                               "Keep this box of voxel indices only, ends included");
   crop.in(WholeRange{});
   crop.count = 6;
   crop.delimiter = ',';
   table
-      .add("spacing", &volume.spacing, "MM or MM,MM,MM",
+      .add(kOption.spacing.name, &volume.spacing, "MM or MM,MM,MM",
            "Distance of voxels along i, j and k, or of all, in mm, whatever the file says")
       .checkedBy(spacingFault);
   table
-      .add("unit", &volume.unit, "UNIT",
+      .add(kOption.unit.name, &volume.unit, "UNIT",
            "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m or um, "
            "whatever the file says")
       .among(wordsOf(millimetresByUnit()))
       .forInputs(kVolumes | kMeshes | kCenterline);
   table
-      .add("allow-detached", &volume.allowDetached, "PATH",
+      .add(kOption.allowDetached.name, &volume.allowDetached, "PATH",
            "Allow a header to take its voxels, or a scene its mesh, from this file, or from below "
            "this folder; otherwise only from its own folder. May be given several times")
       .checkedBy(fileName())
@@ -155,36 +156,36 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
   table.scope(kImage);
   table.group("Tracking");
   table.file(
-      "seeds", track.seeds,
+      kOption.seeds.name, track.seeds,
       "Hints on vessels: names, parents, vessels that have to be there; lumen's seeds JSON, or "
       "points of 3D Slicer (.mrk.json, .fcsv)");
   table
-      .add("seeds-frame", &track.seedsFrame, "FRAME",
+      .add(kOption.seedsFrame.name, &track.seedsFrame, "FRAME",
            "Frame of the seeds' coordinates, whatever their file says: lps, ras, or voxel "
            "(indices; radii in the file's unit)")
       .among(wordsOf(kSeedSystems))
-      .onlyWith("seeds");
+      .onlyWith(kOption.seeds.name);
   table
-      .add("seeds-unit", &track.seedsUnit, "UNIT",
+      .add(kOption.seedsUnit.name, &track.seedsUnit, "UNIT",
            "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or um")
       .among(wordsOf(millimetresByUnit()))
-      .onlyWith("seeds");
+      .onlyWith(kOption.seeds.name);
   table
       .add(
-          "root", &track.roots, "X,Y,Z",
+          kOption.root.name, &track.roots, "X,Y,Z",
           "Place near the end of a vessel through which blood comes in, mm, LPS [the widest end of "
           "each tree]. May be given several times")
       .checkedBy(placeFault)
       .many()
       .forInputs(kImage | kLabels);
   table
-      .flag("only-connected", track.isOnlyConnected,
-            "Leave out trees in which no seed and no --root lies")
+      .flag(kOption.onlyConnected.name, track.isOnlyConnected,
+            "Leave out trees in which no seed and no root lies")
       .forInputs(kImage | kLabels);
   table
       .flag("only-seeds", track.isOnlySeeds,
             "Leave out vessels that no seed names, unless they lead to one that a seed names")
-      .onlyWith("seeds");
+      .onlyWith(kOption.seeds.name);
   track.options.addRows(table);
   table.scope(kAnyContent);
   table.group("");

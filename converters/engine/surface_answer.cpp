@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/judge/facts/check_facts.h"
 #include "formats/container/printable.h"
 
@@ -25,7 +26,8 @@ std::vector<std::string> surfaceWarnings(const convert::SurfaceReport& report) {
   if (report.crossings > 0)
     sentences.push_back(
         counted(report.crossings, "pair of triangles passes", "pairs of triangles pass") +
-        " through each other; a greater --gap or a smaller --edge may help");
+        " through each other; a greater " + kOption.gap.shown() + " or a smaller " +
+        kOption.edge.shown() + " may help");
   for (const Eigen::Vector3d& place : report.cuts)
     sentences.push_back("the lumen runs into itself at " + convert::placeText(place) +
                         " mm, where no link joins it; it is cut there");
@@ -71,7 +73,7 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
   }
   if (report->overlaps.size() > kMost)
     text += "             and " + std::to_string(report->overlaps.size() - kMost) +
-            " more pairs; --json lists all\n";
+            " more pairs; " + kOption.json.shown() + " lists all\n";
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
 
@@ -54,8 +55,8 @@ std::string endLines(const convert::TrackRemarks& remarks) {
   std::string text;
   for (std::size_t i = 0; i < std::min(open.size(), kMost); ++i) text += endLine(open[i]);
   if (open.size() > kMost)
-    text +=
-        "and so on at " + std::to_string(open.size() - kMost) + " more ends; --json lists all\n";
+    text += "and so on at " + std::to_string(open.size() - kMost) + " more ends; " +
+            kOption.json.shown() + " lists all\n";
   return text;
 }
 

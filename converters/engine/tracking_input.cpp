@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/place_seeds.h"
@@ -49,7 +50,7 @@ void warnOfSeeds(const std::string& file, const std::string& what,
                   failures[i].reason);
   if (failures.size() > kMost)
     progress.warn(file + ": and so on for " + std::to_string(failures.size() - kMost) +
-                  " more seeds; --json lists all");
+                  " more seeds; " + kOption.json.shown() + " lists all");
 }
 
 std::string share(std::size_t count, std::size_t seeds) {
@@ -126,12 +127,12 @@ convert::TrackResult trackFound(const convert::Volume& volume, const std::string
   std::size_t candidates = 0;
   convert::TrackResult result = trackAnyFound(volume, options, candidates, progress);
   if (candidates == 0)
-    throw failed(none +
-                 ", as nothing long and thin stands out of its noise; --seeds states where "
-                 "vessels begin, and --dark that they are darker than their background");
+    throw failed(none + ", as nothing long and thin stands out of its noise; " +
+                 kOption.seeds.shown() + " states where vessels begin, and " +
+                 kOption.dark.shown() + " that they are darker than their background");
   if (result.result.tree.nodeCount() == 0)
     throw failed(none + ", as no cylinder fits along any of " + std::to_string(candidates) +
-                 " candidates; --seeds states where vessels begin");
+                 " candidates; " + kOption.seeds.shown() + " states where vessels begin");
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/export/shared/folder_texts.h"
 
 namespace lumen::convert {
@@ -50,8 +51,8 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
                         Progress& progress) {
   requireParts(target, source);
   ExportFrame frame;
-  frame.unit = choice(options.unit, target.units, "--unit", unitName, target.name);
-  frame.axes = choice(options.axes, target.axes, "--up", upName, target.name);
+  frame.unit = choice(options.unit, target.units, kOption.unit.shown(), unitName, target.name);
+  frame.axes = choice(options.axes, target.axes, kOption.up.shown(), upName, target.name);
   ExportResult result = target.write({source, options, frame, progress}, options);
   result.files.push_back({"README.md", readmeOf(target, frame, result), "", ""});
   result.files.push_back(

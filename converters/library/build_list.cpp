@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/library/record.h"
@@ -186,7 +187,7 @@ Cells namesOf(TableRow row, const std::string& name) {
         name + ": " + line + "found a column " + quotedText(column) +
         ", expected input, seeds, id, targets, title, description, anatomy, codes, " +
         "laterality, modality, synthetic, licence, attribution, doi, origin, " +
-        "consent, deidentification, or an option of lumen convert such as --crop");
+        "consent, deidentification, or an option of lumen convert such as " + kOption.crop.shown());
   }
   if (!holds(names, "input"))
     throw invalidInput(name + ": " + line + "there is no column called input");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "formats/case/atomic_file.h"
 
 namespace lumen::convert {
@@ -50,7 +51,8 @@ private:
     if (fs::exists(caseFile())) return true;
     Operation convert{
         "convert", {fs::absolute(m_plan.row->input).string(), caseFile().string()}, {}};
-    if (!m_plan.row->seeds.empty()) convert.with("seeds", fs::absolute(m_plan.row->seeds).string());
+    if (!m_plan.row->seeds.empty())
+      convert.with(kOption.seeds.name, fs::absolute(m_plan.row->seeds).string());
     for (const auto& [name, value] : m_plan.row->options) convert.with(name.substr(2), value);
     return run(convert);
   }
@@ -73,7 +75,9 @@ private:
   bool hasCase() {
     if (isStaged(m_plan)) return true;
     Operation add{"library add", {m_plan.staged.string(), caseFile().string()}, {}};
-    add.with("id", m_plan.id).with("about", aboutFile().string()).with("recipe", m_plan.recipe.all);
+    add.with(kOption.id.name, m_plan.id)
+        .with("about", aboutFile().string())
+        .with("recipe", m_plan.recipe.all);
     if (!m_plan.row->targets.empty()) add.options.emplace_back("export", m_plan.row->targets);
     return run(add);
   }

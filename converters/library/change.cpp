@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "converters/base/files.h"
+#include "converters/base/option_name.h"
 #include "converters/base/sha256.h"
 #include "converters/library/revision_files.h"
 #include "converters/library/spdx.h"
@@ -159,9 +160,10 @@ void LibraryChange::commit(const std::string& date) {
 
 void requireNewId(const LibraryFile& library, const std::string& id) {
   if (findCase(library, id) != nullptr)
-    throw Error(ErrorKind::Usage, "the library has a case " + id +
-                                      " already; --replace puts a better version in its place, " +
-                                      "--id gives another name");
+    throw Error(ErrorKind::Usage, "the library has a case " + id + " already; " +
+                                      kOption.replace.shown() +
+                                      " puts a better version in its place, " + kOption.id.shown() +
+                                      " gives another name");
 }
 
 const LibraryEntry& requireCase(const LibraryFile& library, const std::string& id) {

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 
 namespace lumen::convert {
 
@@ -35,8 +36,8 @@ std::string readAll(int descriptor, const std::filesystem::path& file) {
     if (n < 0) throw failed(file.string() + ": cannot be read: " + errorText(errno));
     text.append(piece.data(), static_cast<std::size_t>(n));
     if (text.size() > kMostBytes)
-      throw invalidInput(file.string() +
-                         ": found more than 256 MiB, expected a file that --resume made");
+      throw invalidInput(file.string() + ": found more than 256 MiB, expected a file that " +
+                         kOption.resume.shown() + " made");
   }
   return text;
 }
@@ -56,7 +57,8 @@ CheckJournal::CheckJournal(const std::filesystem::path& file, const std::string&
     throw failed(file.string() + ": cannot be opened: " + errorText(errno));
   struct stat status {};
   if (fstat(m_descriptor.get(), &status) != 0 || !S_ISREG(status.st_mode))
-    throw invalidInput(file.string() + ": found no file, expected one that --resume made");
+    throw invalidInput(file.string() + ": found no file, expected one that " +
+                       kOption.resume.shown() + " made");
   if (flock(m_descriptor.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw failed(file.string() +
                  ": another check is using this file; wait for it, or name another");
@@ -68,9 +70,8 @@ CheckJournal::CheckJournal(const std::filesystem::path& file, const std::string&
 /// cut off.
 void CheckJournal::read(const std::string& text, const std::string& head) {
   if (!text.empty() && !text.starts_with(kFormat))
-    throw invalidInput(
-        m_file.string() +
-        ": found something else, expected a file that --resume made; it is left as it is");
+    throw invalidInput(m_file.string() + ": found something else, expected a file that " +
+                       kOption.resume.shown() + " made; it is left as it is");
   if (!text.starts_with(head)) {
     if (ftruncate(m_descriptor.get(), 0) != 0)
       throw failed(m_file.string() + ": cannot be written: " + errorText(errno));

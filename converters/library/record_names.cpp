@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/library/record.h"
 #include "converters/library/spdx.h"
@@ -68,17 +69,16 @@ bool isDoi(const std::string& text) {
 
 std::string missingStatement(const CaseAbout& about) {
   if (about.licence.empty())
-    return "no licence is stated, so nobody may use the case; --licence states one, such as "
-           "CC-BY-4.0";
+    return "no licence is stated, so nobody may use the case; " + kOption.licence.shown() +
+           " states one, such as CC-BY-4.0";
   if (const std::string fault = licenceFault(about.licence); !fault.empty()) return fault;
   if (about.synthetic) return {};
-  const std::string what = about.consent.empty()            ? "consent"
-                           : about.deidentification.empty() ? "de-identification"
-                                                            : "";
-  if (what.empty()) return {};
-  return "no statement of " + what + " for a case that is not said to be synthetic; --" +
-         (what == "consent" ? "consent" : "deidentification") +
-         " gives one, --synthetic says that no patient is behind the case";
+  if (!about.consent.empty() && !about.deidentification.empty()) return {};
+  const bool lacksConsent = about.consent.empty();
+  const OptionName& option = lacksConsent ? kOption.consent : kOption.deidentification;
+  return std::string("no statement of ") + (lacksConsent ? "consent" : "de-identification") +
+         " for a case that is not said to be synthetic; " + option.shown() + " gives one, " +
+         kOption.synthetic.shown() + " says that no patient is behind the case";
 }
 
 std::vector<std::pair<const char*, const std::string*>> textsToLookAt(const CaseAbout& about) {

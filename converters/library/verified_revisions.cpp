@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/library/json_values.h"
 #include "formats/case/atomic_file.h"
 #include "formats/case/case_file.h"
@@ -68,8 +69,8 @@ fs::path defaultStateFile() {
     const fs::path home = folder("HOME");
     if (!home.is_absolute())
       throw failed(
-          "neither XDG_STATE_HOME nor HOME names a folder to remember verified revisions in; "
-          "--state FILE does");
+          "neither XDG_STATE_HOME nor HOME names a folder to remember verified revisions in; " +
+          kOption.state.shown() + " FILE does");
     state = home / ".local/state";
   }
   return state / "lumen/libraries.json";
@@ -79,14 +80,14 @@ VerifiedRevisions::VerifiedRevisions(const fs::path& file) : m_file(file) {
   std::error_code error;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
   if (error)
-    throw failed(file.string() + ": its folder cannot be made: " + error.message() +
-                 "; --state FILE names another place");
+    throw failed(file.string() + ": its folder cannot be made: " + error.message() + "; " +
+                 kOption.state.shown() + " FILE names another place");
   // beside the file, which is replaced
   const fs::path lock = file.string() + ".lock";
   m_lock = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (m_lock < 0)
     throw failed(lock.string() + ": cannot be made: " + std::generic_category().message(errno) +
-                 "; --state FILE names another place");
+                 "; " + kOption.state.shown() + " FILE names another place");
   while (flock(m_lock, LOCK_EX) != 0 && errno == EINTR) continue;
   try {
     m_libraries = readState(file);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules for every option of every command, found in the rows of their tables.
+#include <array>
+#include <bit>
 #include <set>
 
+#include "converters/base/option_name.h"
 #include "converters/cli/command_line.h"
 #include "converters/cli/commands.h"
 #include "tests/cli/run_lumen.h"
@@ -49,6 +52,22 @@ bool isFile(const Argument& argument) {
                              : argument.type == "FILE" || argument.type == "PATH";
 }
 
+/// Names of the options of all commands, without dashes.
+std::set<std::string> everyOptionName() {
+  std::set<std::string> names;
+  const auto take = [&names](const OptionTable& table) {
+    for (const OptionRow& row : table.rows())
+      if (!row.isArgument) names.insert(row.name);
+  };
+  const engine::Engine commands = cli::allCommands();
+  for (const auto& [command, table] : commands.commands()) take(*table);
+  cli::CommonOptions common;
+  OptionTable shared;
+  common.addRows(shared);
+  take(shared);
+  return names;
+}
+
 /// Exit code and standard error of a run in this process; the first argument is the name of a command.
 std::pair<int, std::string> runHere(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {"lumen", engine::firstWord(arguments.front())};
@@ -81,6 +100,13 @@ TEST(OptionsTest, EveryNumberIsRefusedWithWhatWasFoundAndWhatIsExpected) {
     }
   }
   EXPECT_GT(numbers, 50U);
+}
+
+TEST(OptionsTest, EveryNameThatMessagesMentionIsThatOfARow) {
+  using Names = std::array<OptionName, sizeof(OptionNames) / sizeof(OptionName)>;
+  const std::set<std::string> known = everyOptionName();
+  for (const OptionName& option : std::bit_cast<Names>(kOption))
+    EXPECT_TRUE(known.contains(option.name)) << option.shown();
 }
 
 TEST(OptionsTest, ZerosBeforeANumberDoNotMakeItOctal) {

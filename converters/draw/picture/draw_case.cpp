@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/draw/picture/marks.h"
 #include "converters/draw/picture/shade.h"
 #include "converters/io/mesh/vertex_color.h"
@@ -71,10 +72,9 @@ Colours coloursOf(const formats::CenterlineTree& tree, ColorBy by) {
   if (by == ColorBy::None)
     return {{tree.nodeCount(), Light(kVessel[0], kVessel[1], kVessel[2])}, {}};
   if (by == ColorBy::Confidence && tree.inlierRate.empty())
-    throw invalidInput(
-        "--colour confidence: the case says of no node how much of its wall was found, as cases "
-        "that were not tracked do "
-        "not; expected vessel, branch or radius");
+    throw invalidInput(kOption.colour.shown() +
+                       " confidence: the case says of no node how much of its wall was found, as "
+                       "cases that were not tracked do not; expected vessel, branch or radius");
   SurfaceMesh nodes;
   nodes.position.resize(tree.nodeCount());
   nodes.radius = tree.radius;

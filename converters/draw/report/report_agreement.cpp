@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
@@ -29,8 +30,8 @@ std::vector<Markup> placeCells(const formats::CenterlineTree& tree, std::uint32_
 /// A sentence for the rest of a list that is too long for paper.
 Markup moreOf(std::size_t count) {
   if (count <= kPlacesListed) return {};
-  return paragraph("And " + std::to_string(count - kPlacesListed) +
-                   " smaller ones; lumen check --json lists all.");
+  return paragraph("And " + std::to_string(count - kPlacesListed) + " smaller ones; lumen check " +
+                   kOption.json.shown() + " lists all.");
 }
 
 Markup heading(const char* ours) {
@@ -198,9 +199,9 @@ Markup agreementSection(const ReportFacts& facts) {
   constexpr const char* kTitle = "Agreement with the volume";
   if (!facts.volume)
     return convert::section("agreement", kTitle,
-                            paragraph("No volume was given (--volume), so nothing is known of how "
-                                      "far the wall lies from what the volume "
-                                      "shows, and of what is missing."));
+                            paragraph("No volume was given (" + kOption.volume.shown() +
+                                      "), so nothing is known of how far the wall lies from what "
+                                      "the volume shows, and of what is missing."));
   if (!facts.volume->check)
     return convert::section("agreement", kTitle,
                             paragraph("This case has no models, so it has no wall to hold against "

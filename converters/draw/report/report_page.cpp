@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/base/html.h"
+#include "converters/base/option_name.h"
 #include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
@@ -177,7 +178,7 @@ Markup warnings(const ReportFacts& facts) {
   Markup content = table.markup();
   if (facts.examination.unlisted() > 0)
     content += paragraph("And " + std::to_string(facts.examination.unlisted()) +
-                         " more; lumen validate --privacy lists all.");
+                         " more; lumen validate " + kOption.privacy.shown() + " lists all.");
   return convert::section("warnings", kTitle, content);
 }
 
@@ -212,9 +213,9 @@ double projectionScale(const std::vector<DrawnView>& views) {
 Markup projection(const ReportFacts& facts) {
   constexpr const char* kTitle = "The volume and the tree";
   if (!facts.volume)
-    return convert::section(
-        "projection", kTitle,
-        paragraph("There is no projection, as no volume was given (--volume)."));
+    return convert::section("projection", kTitle,
+                            paragraph("There is no projection, as no volume was given (" +
+                                      kOption.volume.shown() + ")."));
   Markup content = paragraph(
       "The greatest intensity along each axis of the volume, and the centerlines of the case. x: "
       "to the patient's "

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/report_page.h"
@@ -63,7 +64,8 @@ std::string relationText(const SourceRelation& source) {
 
 void addVolume(const ReportFacts& facts, Facts& list) {
   if (!facts.volume) {
-    list.emplace_back("Volume of this report", text("none was given (--volume)"));
+    list.emplace_back("Volume of this report",
+                      text("none was given (" + kOption.volume.shown() + ")"));
     return;
   }
   list.emplace_back("Volume of this report", convert::name(facts.volume->name));

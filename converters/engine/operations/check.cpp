@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "converters/base/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/draw/overlay/overlay.h"
 #include "converters/engine/answer_text.h"
@@ -46,7 +47,8 @@ std::string firstLines(const List& list, const std::string& singular, const std:
   for (std::size_t i = 0; i < std::min(kPlacesShown, list.size()); ++i)
     text += line(list[i]) + "\n";
   if (list.size() > kPlacesShown)
-    text += counted(list.size() - kPlacesShown, singular, plural) + "; --json lists them\n";
+    text += counted(list.size() - kPlacesShown, singular, plural) + "; " + kOption.json.shown() +
+            " lists them\n";
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/export_options.h"
 #include "converters/engine/file_access.h"
@@ -26,10 +27,17 @@ namespace {
 
 using convert::exportTargets, convert::ExportTarget, convert::ExportResult;
 
-std::string joined(const std::vector<std::string_view>& words) {
+template <class Word>
+std::string joined(const std::vector<Word>& words) {
   std::string text;
-  for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  for (const Word& word : words) text += (text.empty() ? "" : ", ") + std::string(word);
   return text;
+}
+
+std::vector<std::string> shownNames(const std::vector<OptionName>& options) {
+  std::vector<std::string> names;
+  for (const OptionName& option : options) names.push_back(option.shown());
+  return names;
 }
 
 template <class Value>
@@ -152,7 +160,7 @@ private:
                          {"axes", namesOf(target.axes, convert::axesName)},
                          {"holds", target.holds},
                          {"lacks", target.lacks},
-                         {"options", target.options}});
+                         {"options", shownNames(target.options)}});
       text += (text.empty() ? "" : "\n") +
               Lines()
                   .add(target.name, target.title)
@@ -161,7 +169,7 @@ private:
                                          joined(namesOf(target.axes, convert::axesName)))
                   .add("holds", target.holds)
                   .add("lacks", target.lacks)
-                  .add("options", joined(target.options))
+                  .add("options", joined(shownNames(target.options)))
                   .text();
     }
     return {Json{{"targets", std::move(targets)}}, std::move(text), 0, true};

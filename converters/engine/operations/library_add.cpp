@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/suggestion.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/library_answer.h"
@@ -45,14 +46,14 @@ public:
     table.argument("LIBRARY", &m_library, "Library, as lumen library init makes it");
     table.argument("CASE", &m_case, "Case to add");
     table
-        .add("id", &m_wishes.id, "NAME",
+        .add(kOption.id.name, &m_wishes.id, "NAME",
              "The case's id, which must not identify a patient [case- and a part of its digest]")
         .checkedBy(caseIdText());
-    table.flag("replace", m_wishes.replace,
+    table.flag(kOption.replace.name, m_wishes.replace,
                "Replace the case with this id; statements, exports, pages, pictures and files that "
                "are not named again stay, made anew from the new case");
     table.flag("only", m_isOnly, "Keep nothing of the replaced case but what is named")
-        .onlyWith("replace");
+        .onlyWith(kOption.replace.name);
     addDayRow(table, m_day);
     addAboutRows(table, m_about);
     addFileRows(table);

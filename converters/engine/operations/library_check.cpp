@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library check: all that is wrong with a library.
+#include "converters/base/option_name.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/library_check_answer.h"
 #include "converters/engine/operations/operations.h"
@@ -24,7 +25,7 @@ public:
   void addRows(OptionTable& table) override {
     table.argument("LIBRARY", &m_folder, "Folder of the library");
     table.file(
-        "resume", m_options.journal,
+        kOption.resume.name, m_options.journal,
         "Keep in FILE which cases are whole, and pass over those that nothing has touched since: "
         "same devices, inodes, sizes and times of change of all their files. Damage by the disk "
         "itself is not seen then");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/library_build.h"
 #include "converters/engine/operations/operations.h"
@@ -77,7 +78,7 @@ private:
       if (!fs::exists(work / volume) || !fs::exists(work / seeds))
         (void)around.engine.run(Operation{"phantom", {"patient", (work / volume).string()}, {}}
                                     .with("seeds", (work / seeds).string())
-                                    .with("size", std::to_string(m_size))
+                                    .with(kOption.size.name, std::to_string(m_size))
                                     .with("seed", std::to_string(k)),
                                 around);
       text += volume + "," + seeds + "," + name + ",sofa;svzerod,Arteries grown from seed " +

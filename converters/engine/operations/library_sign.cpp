@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "converters/base/option_name.h"
 #include "converters/engine/library_check_answer.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/library/change.h"
@@ -34,8 +35,9 @@ public:
         "agent has. The program asks for a password if the key has one");
     key.type = "FILE";
     key.required();
-    table.file("resume", m_journal,
-               "Pass over cases in the check that lumen library check --resume FILE found whole");
+    table.file(kOption.resume.name, m_journal,
+               "Pass over cases in the check that lumen library check " + kOption.resume.shown() +
+                   " FILE found whole");
   }
 
   Answer run(Surroundings& around) override {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library verify: whether a library is the one that its publisher signed.
+#include "converters/base/option_name.h"
 #include "converters/engine/about_options.h"
 #include "converters/engine/library_check_answer.h"
 #include "converters/engine/operations/operations.h"
@@ -35,18 +36,18 @@ public:
   void addRows(OptionTable& table) override {
     table.argument("LIBRARY", &m_folder, "Folder of the library");
     table
-        .file("key", m_key,
+        .file(kOption.key.name, m_key,
               "The key that you trust: a public key of minisign or OpenSSH, or a list of allowed "
               "signers (ssh-keygen(1))")
         .required();
     table.add("identity", &m_identity, "NAME", "Accept only this one of the allowed signers");
-    table.file("state", m_state,
+    table.file(kOption.state.name, m_state,
                "Remember in FILE which revisions were verified, and refuse older ones "
                "[$XDG_STATE_HOME/lumen/libraries.json]");
     table
         .flag("no-state", m_isForgetful,
               "Remember nothing: an older revision that was signed once passes")
-        .without("state");
+        .without(kOption.state.name);
     addFaultsRow(table, m_mostFaults);
   }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/base/suggestion.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/file_access.h"
@@ -34,11 +35,11 @@ public:
     // with --tree the first name is that of the output: sortArguments() decides which is which
     table
         .argument("NAME", &m_options.name,
-                  alternatives(convert::phantomNames()) + "; left out with --tree")
+                  alternatives(convert::phantomNames()) + "; left out with " + kOption.tree.shown())
         .isRequired = false;
     table.argument("OUT", &m_output, "Volume to write: " + formatEndings(canWriteVolume))
         .isRequired = false;
-    table.file("tree", m_tree,
+    table.file(kOption.tree.name, m_tree,
                "Draw the arteries of this SWC file, lengths in mm, instead of a named phantom");
     table.file("truth", m_truth, "Also write the true tree, as a case");
     table.file("seeds", m_seeds, "Also write the seeds that a user would click");
@@ -65,11 +66,12 @@ private:
   };
 
   void sortArguments() {
-    const char* const usage = "; usage: lumen phantom NAME OUT, or lumen phantom --tree FILE OUT";
+    const std::string usage =
+        "; usage: lumen phantom NAME OUT, or lumen phantom " + kOption.tree.shown() + " FILE OUT";
     if (!m_tree.empty()) {
       if (!m_output.empty())
-        throw Error(ErrorKind::Usage,
-                    m_options.name + " and --tree are two phantoms, expected one" + usage);
+        throw Error(ErrorKind::Usage, m_options.name + " and " + kOption.tree.shown() +
+                                          " are two phantoms, expected one" + usage);
       m_options.tree = m_tree;
       m_output = std::exchange(m_options.name, {});
     } else if (m_options.name.empty()) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/file_access.h"
@@ -90,20 +91,21 @@ public:
     table.choice("view", m_options.view, kViews,
                  "From which side of the patient; best: along the direction in which the "
                  "vessels extend least");
-    table.choice("colour", m_options.colour, kColours, "Quantity that the colours show")
+    table.choice(kOption.colour.name, m_options.colour, kColours, "Quantity that the colours show")
         .alsoCalled("color");
     table
         .add(
             "size", [this](const std::vector<std::string>& texts) { setSize(texts.back()); }, "WxH",
             "Width and height in pixels; below 160, without scale and sides")
         .defaults("1000x800");
-    table.file("volume", m_volume, "Volume whose projection is drawn behind the vessels");
+    table.file(kOption.volume.name, m_volume,
+               "Volume whose projection is drawn behind the vessels");
     table
         .add("turntable", &m_frames, "N",
              "Write N pictures, NAME-000.png and so on, turned about the picture's upright axis, "
              "all in one scale; they appear together when the last is drawn. 0: one, not turned")
         .in(WholeRange{0, kMostFrames});
-    addVolumeRows(table, m_volumeOptions, "volume");
+    addVolumeRows(table, m_volumeOptions, kOption.volume.name);
   }
 
   Answer run(Surroundings& around) override {
@@ -131,9 +133,9 @@ private:
     requireInput(m_volume, "volume");
     const FileFormat& format = inputFormat(m_volume, "");
     if (format.kind != FormatKind::Volume)
-      throw unsupported(m_volume + ": found a " +
-                        (format.kind == FormatKind::Mesh ? "mesh" : "case") +
-                        ", expected a volume: --volume is drawn behind the vessels");
+      throw unsupported(
+          m_volume + ": found a " + (format.kind == FormatKind::Mesh ? "mesh" : "case") +
+          ", expected a volume: " + kOption.volume.shown() + " is drawn behind the vessels");
     requireInScope(*around.table, {inputContent(format, false), kAnyContent, m_volume, {}},
                    around.progress);
     return loadVolume(m_volume, format, m_volumeOptions, around.progress);

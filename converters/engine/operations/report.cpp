@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/base/privacy.h"
 #include "converters/base/sha256.h"
 #include "converters/draw/overlay/overlay.h"
@@ -78,7 +79,7 @@ public:
     table.argument("CASE", &m_case, "Case");
     table.argument("HTML", &m_output, "Page to write: one file, which needs no network");
     table.file(
-        "volume", m_input,
+        kOption.volume.name, m_input,
         "Volume that the case was made from: also its projections, and how far the case agrees "
         "with it, as lumen check reports");
     table.add("title", &m_title, "NAME", "Title of the page [the name of CASE]");
@@ -87,10 +88,10 @@ public:
              "Blur of the volume, a standard deviation in mm, as for lumen check [what the "
              "case records, else 0]")
         .in(NumberRange{0, 1000})
-        .onlyWith("volume");
+        .onlyWith(kOption.volume.name);
     addFormatRow(table, "from", m_from, "the volume");
-    table.find("from")->onlyWith("volume");
-    addVolumeRows(table, m_volume, "volume");
+    table.find("from")->onlyWith(kOption.volume.name);
+    addVolumeRows(table, m_volume, kOption.volume.name);
   }
 
   Answer run(Surroundings& around) override {
@@ -119,8 +120,8 @@ private:
       const FileFormat& from = inputFormat(m_input, m_from);
       if (from.kind != FormatKind::Volume)
         throw unsupported(m_input + ": this is a " +
-                          (from.kind == FormatKind::Mesh ? "mesh" : "case") +
-                          "; --volume takes the volume that the case was made from");
+                          (from.kind == FormatKind::Mesh ? "mesh" : "case") + "; " +
+                          kOption.volume.shown() + " takes the volume that the case was made from");
       requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, {}},
                      around.progress);
     }
@@ -212,11 +213,14 @@ private:
                        (facts.volume ? facts.volume->projections.size() : 0);
     json["source"] = facts.volume ? Json(facts.volume->source.word()) : Json(nullptr);
     json["warnings"] = facts.warnings();
-    return {std::move(json),
-            formats::printable(m_output) + ": " +
-                counted(facts.value.tree.branches.size(), "branch", "branches") + ", " +
-                counted(facts.warnings(), "warning", "warnings") + ", " + std::to_string(bytes) +
-                " bytes" + (facts.volume ? "" : "; without --volume nothing of the volume") + "\n"};
+    return {
+        std::move(json),
+        formats::printable(m_output) + ": " +
+            counted(facts.value.tree.branches.size(), "branch", "branches") + ", " +
+            counted(facts.warnings(), "warning", "warnings") + ", " + std::to_string(bytes) +
+            " bytes" +
+            (facts.volume ? "" : "; without " + kOption.volume.shown() + " nothing of the volume") +
+            "\n"};
   }
 
   std::string m_case, m_output, m_input, m_title, m_from;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "converters/base/option_name.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/operations/operations.h"
 #include "converters/engine/surface_answer.h"
@@ -95,7 +96,7 @@ public:
         .add("max-issues", &m_maxIssues, "N",
              "Report at most N issues of a file, errors first; all are counted")
         .in(WholeRange{0, 1000000});
-    table.flag("privacy", m_privacy,
+    table.flag(kOption.privacy.name, m_privacy,
                "Also warn of texts that may identify a patient, such as dates and names");
     table.flag("surface", m_surface,
                "Also make the closed surface that lumen convert makes, and report its warnings: "

@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 
 namespace lumen::convert {
@@ -103,13 +104,13 @@ std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTre
   text << std::fixed << std::setprecision(2) << "the grid's samples are " << spacing
        << " mm apart, too wide for the vessels at "
        << counted(static_cast<std::size_t>(lost), "node", "nodes") << " of " << tree.nodeCount()
-       << "; --grid takes a smaller distance";
+       << "; " << kOption.grid.shown() << " takes a smaller distance";
   return {text.str()};
 }
 
 void refuseSpacing(double spacing, const std::string& what) {
   std::ostringstream text;
-  text << "--grid " << spacing << ": " << what << "; choose a wider spacing";
+  text << kOption.grid.shown() << " " << spacing << ": " << what << "; choose a wider spacing";
   throw Error(ErrorKind::Usage, text.str());
 }
 

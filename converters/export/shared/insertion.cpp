@@ -8,6 +8,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -39,7 +40,7 @@ std::uint32_t branchToEnter(const CenterlineTree& tree, const std::string& label
     if (branch.nodeCount > 0 && (label.empty() ? isRoot : branch.label == label)) return b;
   }
   if (label.empty()) throw invalidInput("this case has no vessel that an instrument could enter");
-  throw Error(ErrorKind::Usage, "--insert " + formats::printable(label) +
+  throw Error(ErrorKind::Usage, kOption.insert.shown() + " " + formats::printable(label) +
                                     ": no branch has this label; there is " + labelsOf(tree));
 }
 
@@ -80,7 +81,8 @@ Insertion insertionOf(const CenterlineTree& tree, const std::string& label, doub
     throw invalidInput("branch " + formats::printable(tree.branches[result.branch].label) +
                        ": an instrument that is inserted there needs a lumen of " +
                        fixedText(clearance, 2) + " mm radius and some length, and there is none; " +
-                       "--insert names another branch, --instrument a thinner instrument");
+                       kOption.insert.shown() + " names another branch, " +
+                       kOption.instrument.shown() + " a thinner instrument");
   result.node = way[k];
   result.position = centreOf(tree, way[k]);
   result.radius = tree.radius[way[k]];

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replacement of vdb.cpp where lumen is built without OpenVDB.
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/export/shared/vdb.h"
 
 namespace lumen::convert {
 
 void requireVdb() {
-  throw unsupported(
-      "--format vdb: this lumen was built without OpenVDB (on Debian libopenvdb-dev); it writes "
-      "the other formats");
+  throw unsupported(kOption.format.shown() +
+                    " vdb: this lumen was built without OpenVDB (on Debian libopenvdb-dev); it "
+                    "writes the other formats");
 }
 
 std::string encodeVdb(const GridSource&, const Lattice&, const VdbOptions&, Progress&) {

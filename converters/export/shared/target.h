@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/base/progress.h"
 #include "converters/export/shared/common_options.h"
 #include "converters/export/shared/named_end.h"
@@ -55,8 +56,8 @@ struct TargetRow {
   std::vector<LengthUnit> units;  ///< units that may be chosen, the usual one first
   std::vector<Axes> axes;         ///< axes that may be chosen, the usual ones first
   std::string_view holds;         ///< parts of a case
-  std::string_view lacks;
-  std::vector<std::string_view> options;  ///< options that it takes, besides --unit and --up
+  std::string lacks;
+  std::vector<OptionName> options;  ///< options that it takes, besides --unit and --up
   bool needsModels = true;
   bool needsVessel = true;  ///< one with a length
 };

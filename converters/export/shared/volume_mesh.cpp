@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/run_program.h"
 #include "converters/geometry/disjoint_sets.h"
 
@@ -154,13 +155,14 @@ std::optional<VolumeMesh> volumeMesh(const SurfaceMesh& surface, Progress& progr
   progress.end();
   if (end == ProgramEnd::TookTooLong) {
     why = "TetGen was not done in " + std::to_string(kMostSeconds / 60) +
-          " minutes, so there is no volume mesh; a larger --edge helps";
+          " minutes, so there is no volume mesh; a larger " + kOption.edge.shown() + " helps";
     return {};
   }
   std::optional<VolumeMesh> mesh;
   if (end == ProgramEnd::Done) mesh = readMesh(folder.path());
   if (!mesh || !keepsSurface(surface, *mesh) || !findElements(surface, *mesh)) {
-    why = "TetGen could not fill this surface, so there is no volume mesh; another --edge may help";
+    why = "TetGen could not fill this surface, so there is no volume mesh; another " +
+          kOption.edge.shown() + " may help";
     return {};
   }
   orient(*mesh);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/io/centerline/case_of_centerline.h"
 #include "formats/view/text_rules.h"
 
@@ -66,8 +67,8 @@ double toPatientSpace(CenterlineFile& file, const CenterlineReading& reading) {
                              "be " +
                              formats::shortText(static_cast<float>(extent.diagonal)) +
                              " mm long with radii of up to " +
-                             formats::shortText(static_cast<float>(extent.most)) +
-                             " mm; --unit states another");
+                             formats::shortText(static_cast<float>(extent.most)) + " mm; " +
+                             kOption.unit.shown() + " states another");
   }
   const CenterlineAxes axes = reading.axes.value_or(file.axes);
   for (CenterlinePoint& point : file.points) {

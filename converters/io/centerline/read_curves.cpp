@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/io/centerline/fill_radii.h"
 #include "converters/io/centerline/join_curves.h"
@@ -74,7 +75,8 @@ CenterlineFile readCurves(const fs::path& fileOrFolder) {
     throw invalidInput(name + ": has no curve with radii (" + std::to_string(short_) +
                        " single points, " + std::to_string(without) +
                        " curves without the measurement \"Radius\"); expected curves as Slicer's "
-                       "Extract Centerline makes them; points clicked in a volume go to --seeds");
+                       "Extract Centerline makes them; points clicked in a volume go to " +
+                       kOption.seeds.shown());
   CenterlineFile result = joinCurves(curves);
   result.unit = 1;
   result.axes = CenterlineAxes::Lps;

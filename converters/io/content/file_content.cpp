@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "formats/container/container.h"
 
@@ -84,7 +85,8 @@ std::string useOf(ContentKind kind) {
     case Volume:
       return "; lumen convert and lumen track make a case of a volume";
     case Seeds:
-      return "; --seeds takes seeds, beside the volume that they were clicked in";
+      return "; " + kOption.seeds.shown() +
+             " takes seeds, beside the volume that they were clicked in";
     case Case:
       return "; lumen fit, convert, info, compare and validate take a case";
     case Centerline:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/io/mesh/draco_mesh.h"
 #include "converters/io/mesh/face_kind.h"
 #include "converters/io/mesh/gltf_document.h"
@@ -320,7 +321,8 @@ private:
 std::string encodeGltf(std::span<const SurfaceMesh> levels, bool binary,
                        const WriteMeshOptions& options) {
   if (options.draco && options.meshopt)
-    throw Error(ErrorKind::Usage, "--draco and --meshopt: found both, expected one of them");
+    throw Error(ErrorKind::Usage, kOption.draco.shown() + " and " + kOption.meshopt.shown() +
+                                      ": found both, expected one of them");
   return Scene(levels, options).write(binary);
 }
 

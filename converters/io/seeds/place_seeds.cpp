@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "formats/container/printable.h"
 
@@ -100,27 +101,44 @@ std::optional<std::string> faultOf(const Vector3d& world, const SeedPoint& point
 
 // ---- other readings ----
 
-/// Another reading of coordinates, and the options that select it.
+/// Another reading of coordinates: in a stated system, in m or mm, or both.
 struct OtherReading {
   SeedReading reading;
-  const char *words, *options;
+  const char* words;
 };
 
 constexpr double kMetre = 1000;
 /// Metres first: as voxels, or flipped, all points may lie in the first voxel.
 const std::array kOtherReadings = {
-    OtherReading{{{}, kMetre}, "as metres", "--seeds-unit m"},
-    OtherReading{{SeedSystem::Ras, kMetre},
-                 "as metres in RAS (x and y flipped)",
-                 "--seeds-frame ras --seeds-unit m"},
-    OtherReading{{SeedSystem::Lps, kMetre},
-                 "as metres in LPS (x and y flipped)",
-                 "--seeds-frame lps --seeds-unit m"},
-    OtherReading{{SeedSystem::Ras, {}}, "as RAS (x and y flipped)", "--seeds-frame ras"},
-    OtherReading{{SeedSystem::Lps, {}}, "as LPS (x and y flipped)", "--seeds-frame lps"},
-    OtherReading{{SeedSystem::Voxel, {}}, "as voxel indices", "--seeds-frame voxel"},
-    OtherReading{{{}, 1.0}, "as millimetres", "--seeds-unit mm"},
+    OtherReading{{{}, kMetre}, "as metres"},
+    OtherReading{{SeedSystem::Ras, kMetre}, "as metres in RAS (x and y flipped)"},
+    OtherReading{{SeedSystem::Lps, kMetre}, "as metres in LPS (x and y flipped)"},
+    OtherReading{{SeedSystem::Ras, {}}, "as RAS (x and y flipped)"},
+    OtherReading{{SeedSystem::Lps, {}}, "as LPS (x and y flipped)"},
+    OtherReading{{SeedSystem::Voxel, {}}, "as voxel indices"},
+    OtherReading{{{}, 1.0}, "as millimetres"},
 };
+
+const char* frameWord(SeedSystem system) {
+  switch (system) {
+    case SeedSystem::Lps:
+      return "lps";
+    case SeedSystem::Ras:
+      return "ras";
+    case SeedSystem::Voxel:
+      break;
+  }
+  return "voxel";
+}
+
+/// The options that select a reading: "--seeds-frame ras --seeds-unit m".
+std::string optionsOf(const SeedReading& reading) {
+  std::string text;
+  if (reading.system) text = kOption.seedsFrame.shown() + " " + frameWord(*reading.system);
+  if (!reading.unit) return text;
+  return text + (text.empty() ? "" : " ") + kOption.seedsUnit.shown() +
+         (*reading.unit == kMetre ? " m" : " mm");
+}
 
 Vector3d asInFile(const SeedFrame& frame, const Vector3d& position) {
   return frame.direction(position) / (frame.system == SeedSystem::Voxel ? 1.0 : frame.unit);
@@ -184,7 +202,8 @@ std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry
         });
     if (count <= inside) continue;
     inside = count;
-    advice = std::string("read ") + other.words + " " + insideText(count, points) + other.options;
+    advice = std::string("read ") + other.words + " " + insideText(count, points) +
+             optionsOf(other.reading);
   }
   const double side = 2 * radiusRange(geometry).most;
   if (onlyMetres || asStated > 0 || side >= kSmallVolume) return advice;
@@ -197,7 +216,7 @@ std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry
       });
   if (count <= inside) return advice;
   return "the volume is only " + numberText(side) + " mm long; with its header read as metres " +
-         insideText(count, points) + "--unit m";
+         insideText(count, points) + kOption.unit.shown() + " m";
 }
 
 // ---- placing ----
@@ -278,7 +297,7 @@ std::vector<RereadSeeds> otherReadings(const std::vector<SeedBranch>& seeds,
                                        const VolumeGeometry& geometry) {
   std::vector<RereadSeeds> all;
   for (const OtherReading& other : kOtherReadings) {
-    all.push_back({other.words, other.options, seeds});
+    all.push_back({other.words, optionsOf(other.reading), seeds});
     for (SeedBranch& branch : all.back().seeds) {
       for (SeedPoint& point : branch.points)
         point.position = reread(branch, point.position, other.reading, geometry);

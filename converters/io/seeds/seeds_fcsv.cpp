@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
@@ -96,7 +97,8 @@ private:
       m_system = SeedSystem::Voxel;
     else
       refuse("the coordinate system is " + quotedText(value) +
-             "; expected LPS (or 1), RAS (or 0) or IJK (or 2); --seeds-frame states another");
+             "; expected LPS (or 1), RAS (or 0) or IJK (or 2); " + kOption.seedsFrame.shown() +
+             " states another");
   }
 
   void nameColumns(const std::string& names) {
@@ -124,9 +126,9 @@ private:
 
   void readRow(const std::vector<std::string>& row) {
     if (!m_system)
-      refuse(
-          "no line \"# CoordinateSystem = LPS\" (or RAS) stands before the first point; "
-          "--seeds-frame lps or ras states it, or save the points from 3D Slicer as .mrk.json");
+      refuse("no line \"# CoordinateSystem = LPS\" (or RAS) stands before the first point; " +
+             kOption.seedsFrame.shown() +
+             " lps or ras states it, or save the points from 3D Slicer as .mrk.json");
     const std::size_t needed = std::max({m_column[kX], m_column[kY], m_column[kZ]}) + 1;
     if (row.size() < needed)
       refuse("has " + std::to_string(row.size()) + " columns; expected at least " +

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 
 namespace lumen::convert {
@@ -21,7 +22,7 @@ SeedFrame parseFrame(const JsonPlace& root, const SeedReading& reading) {
   else if (system.text() == "RAS")
     frame.system = SeedSystem::Ras;
   else if (system.text() != "LPS")
-    system.refuse("\"LPS\" or \"RAS\"; --seeds-frame states another");
+    system.refuse("\"LPS\" or \"RAS\"; " + kOption.seedsFrame.shown() + " states another");
   frame.unit = reading.unit ? *reading.unit : scaleOf(units);
   return frame;
 }

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/io/seeds/seed_description.h"
 
@@ -23,7 +24,7 @@ SeedSystem systemOf(const JsonPlace& markup, const SeedReading& reading) {
   const auto& value = place.value();
   if (value.is("LPS") || value.is("1") || value.is(1)) return SeedSystem::Lps;
   if (value.is("RAS") || value.is("0") || value.is(0)) return SeedSystem::Ras;
-  place.refuse("\"LPS\" or \"RAS\"; --seeds-frame states another");
+  place.refuse("\"LPS\" or \"RAS\"; " + kOption.seedsFrame.shown() + " states another");
 }
 
 /// "mm" (the default) or "m"; a coded unit such as ["mm", "UCUM", "millimeter"] is read by its

@@ -4,13 +4,15 @@
 #include <optional>
 #include <string>
 
+#include "converters/base/option_name.h"
+
 namespace lumen::convert {
 
 double scaleOf(const JsonPlace& unit) {
   const std::string& word = unit.text();
   if (word == "mm") return 1;
   if (word == "m") return 1000;
-  unit.refuse("\"mm\" or \"m\"; --seeds-unit states another");
+  unit.refuse("\"mm\" or \"m\"; " + kOption.seedsUnit.shown() + " states another");
 }
 
 bool setKind(const std::string& word, SeedBranch& branch) {

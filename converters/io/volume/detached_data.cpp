@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/io/volume/text_header.h"
 #include "formats/container/printable.h"
 
@@ -99,7 +100,8 @@ std::vector<fs::path> detachedFiles(const fs::path& header, const DetachedNames&
     const bool within = std::any_of(places.begin(), places.end(),
                                     [&](const fs::path& place) { return isWithin(file, place); });
     if (!within)
-      throw refuse("outside of the header's folder; if they are meant, --allow-detached " +
+      throw refuse("outside of the header's folder; if they are meant, " +
+                   kOption.allowDetached.shown() + " " +
                    formats::printable(file.parent_path().string()) + " allows it");
     if (!fs::is_regular_file(file, error)) throw refuse("which is not a regular file");
     files.push_back(std::move(file));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -66,9 +67,9 @@ std::string chooseSeries(const Folder& folder, const std::string& wanted, const 
                        ": holds no DICOM images (its subdirectories are not searched)");
   if (wanted.empty()) {
     if (series.size() == 1) return series.begin()->first;
-    throw invalidInput(
-        path.string() + ": holds " + std::to_string(series.size()) +
-        " DICOM series; choose one with --series, by number or UID:" + listing(folder));
+    throw invalidInput(path.string() + ": holds " + std::to_string(series.size()) +
+                       " DICOM series; choose one with " + kOption.series.shown() +
+                       ", by number or UID:" + listing(folder));
   }
   if (series.contains(wanted)) return wanted;
   std::size_t number = 0;

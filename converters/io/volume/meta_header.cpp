@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/detached_data.h"
 #include "converters/io/volume/image_header.h"
@@ -127,9 +128,10 @@ StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int
   if (unit.empty() || unit == "?") return stated;
   stated.unit = millimetresOf(unit);
   if (!stated.unit && !options.unit)
-    assumptions.push_back("its DistanceUnits are " + cited(unit) +
-                          ", which are not known as a length, so they are taken to be mm; state "
-                          "the unit with --unit");
+    assumptions.push_back(
+        "its DistanceUnits are " + cited(unit) +
+        ", which are not known as a length, so they are taken to be mm; state the unit with " +
+        kOption.unit.shown());
   return stated;
 }
 

@@ -18,6 +18,7 @@
 #include <zlib.h>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/io/volume/nifti_geometry.h"
 #include "converters/io/volume/nifti_header.h"
 #include "converters/io/volume/packed_file.h"
@@ -81,7 +82,8 @@ void checkSpacings(const NiftiHeader& header, const fs::path& path) {
       throw invalidInput(path.string() + ": pixdim states a spacing of " +
                          longNumber(static_cast<double>(header.pixdim[a])) + " along axis " +
                          std::to_string(a + 1) +
-                         "; expected a positive number; state the spacing with --spacing");
+                         "; expected a positive number; state the spacing with " +
+                         kOption.spacing.shown());
 }
 
 void settleGeometry(OpenNifti& file, const fs::path& path, const ReadVolumeOptions& options) {
@@ -94,7 +96,7 @@ void settleGeometry(OpenNifti& file, const fs::path& path, const ReadVolumeOptio
     file.assumptions.push_back(
         "its header states no unit of length that NIfTI has (xyzt_units is " +
         std::to_string(file.header.unitCode) +
-        "), so lengths are taken as mm; state the unit with --unit");
+        "), so lengths are taken as mm; state the unit with " + kOption.unit.shown());
 }
 
 StoredVoxels storedVoxels(const fs::path& path, const NiftiHeader& header, Packing packing,

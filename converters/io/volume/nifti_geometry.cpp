@@ -11,6 +11,7 @@
 #include <nifti/nifti1_io.h>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
@@ -166,7 +167,8 @@ void tellOtherSpacing(const Transform& sform, const Vector3d& spacing,
   const auto off = (lengths - spacing).cwiseQuotient(spacing).cwiseAbs();
   if (!(off.maxCoeff() > kSameSpacing)) return;
   assumptions.push_back("its sform has voxels " + vectorText(lengths) + " apart, its pixdim " +
-                        vectorText(spacing) + "; pixdim is used; state another with --spacing");
+                        vectorText(spacing) + "; pixdim is used; state another with " +
+                        kOption.spacing.shown());
 }
 
 /// The nearest orthogonal axes in RAS and floats; no offset.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/length_units.h"
@@ -175,9 +176,10 @@ std::vector<double> unitsOf(const TextHeader& header, const std::string& field,
   }
   const bool known = std::none_of(units.begin(), units.end(), [](double u) { return u != u; });
   if (known && (units.empty() || units.size() == numbers.size())) return units;
-  assumptions.push_back("its " + field + " are " + formats::printable(text) +
-                        ", which are not all known as lengths, so they are taken to be mm; state "
-                        "the unit with --unit");
+  assumptions.push_back(
+      "its " + field + " are " + formats::printable(text) +
+      ", which are not all known as lengths, so they are taken to be mm; state the unit with " +
+      kOption.unit.shown());
   return {};
 }
 
@@ -192,7 +194,7 @@ void settleUnits(const TextHeader& header, std::vector<Axis>& axes, StatedGeomet
   const auto units = unitsOf(header, field, numbers, assumptions);
   if (units.empty()) return;
   if (units[0] != units[1] || units[0] != units[2])
-    throw header.refusal(field, "one unit for all axes; state it with --unit");
+    throw header.refusal(field, "one unit for all axes; state it with " + kOption.unit.shown());
   stated.unit = units[0];
 }
 

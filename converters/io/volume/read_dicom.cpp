@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/io/volume/dicom_folder.h"
 #include "converters/io/volume/dicom_pixels.h"
 #include "converters/io/volume/stated_geometry.h"
@@ -70,7 +71,7 @@ Vector3d pixelSpacing(const Slice& slice, const ReadVolumeOptions& options) {
     throw invalidInput(
         slice.image->file.string() + ": its pixel spacing (0028,0030) is " +
         (stated ? longNumber((*stated)[0]) + " and " + longNumber((*stated)[1]) : "not stated") +
-        "; expected two positive numbers of mm; state the spacing with --spacing");
+        "; expected two positive numbers of mm; state the spacing with " + kOption.spacing.shown());
   const double none = std::numeric_limits<double>::quiet_NaN();
   return sound ? Vector3d((*stated)[1], (*stated)[0], none) : Vector3d(none, none, none);
 }
@@ -151,9 +152,10 @@ VolumeGeometry stackFrames(const std::vector<Slice>& slices, const ReadVolumeOpt
                            std::vector<std::string>& assumptions) {
   const Slice& first = slices[0];
   if (!first.plane.distance && !options.spacing)
-    throw invalidInput(first.image->file.string() +
-                       ": does not say how far its frames are apart; expected a volume; state the "
-                       "spacing with --spacing");
+    throw invalidInput(
+        first.image->file.string() +
+        ": does not say how far its frames are apart; expected a volume; state the spacing with " +
+        kOption.spacing.shown());
   VolumeGeometry geometry;
   geometry.spacing = pixelSpacing(first, options);
   geometry.spacing[2] = first.plane.distance.value_or(std::numeric_limits<double>::quiet_NaN());

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "converters/base/option_name.h"
 #include "converters/io/volume/image_file.h"
 #include "converters/io/volume/nifti_file.h"
 #include "converters/io/volume/read_dicom.h"
@@ -81,9 +82,9 @@ void checkPlace(const fs::path& path, VolumeFormat format, const ReadVolumeOptio
     throw invalidInput(path.string() +
                        ": is a file; a series can be chosen in a DICOM directory only");
   if (folder && options.volumeIndex)
-    throw invalidInput(path.string() +
-                       ": is a folder of DICOM, in which --series chooses; --volume-index is for "
-                       "files of several volumes");
+    throw invalidInput(path.string() + ": is a folder of DICOM, in which " +
+                       kOption.series.shown() + " chooses; " + kOption.volumeIndex.shown() +
+                       " is for files of several volumes");
   if (!folder) refuseWebPage(path);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
@@ -26,15 +27,15 @@ Eigen::Vector3d settledSpacing(const Eigen::Vector3d& stated, double unit, const
   const auto missing = stated.array().isNaN();
   if (missing.all()) {
     assumptions.emplace_back(
-        "its header states no spacing, so voxels are taken to be 1 mm apart; state it with "
-        "--spacing");
+        "its header states no spacing, so voxels are taken to be 1 mm apart; state it with " +
+        kOption.spacing.shown());
     return Eigen::Vector3d::Ones();
   }
   for (int a = 0; a < 3; ++a)
     if (missing[a])
       throw invalidInput(path.string() + ": its header states no spacing along axis " +
-                         std::to_string(a + 1) +
-                         ", but along others; state all three with --spacing");
+                         std::to_string(a + 1) + ", but along others; state all three with " +
+                         kOption.spacing.shown());
   return unit * stated;
 }
 
@@ -44,7 +45,8 @@ void checkSpacing(const Eigen::Vector3d& spacing, const fs::path& path) {
       throw invalidInput(path.string() + ": the spacing along axis " + std::to_string(a + 1) +
                          " is " + longNumber(spacing[a]) + " mm; expected " +
                          longNumber(kLeastSpacing) + " to " + longNumber(kMostSpacing) +
-                         "; state it with --spacing, or the file's unit with --unit");
+                         "; state it with " + kOption.spacing.shown() +
+                         ", or the file's unit with " + kOption.unit.shown());
 }
 
 }  // namespace
@@ -64,7 +66,7 @@ VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOpt
     assumptions.push_back((stated.unit ? "by the unit that its header states, its spacing is "
                                        : "its header states no unit, so its spacing is taken as ") +
                           spacingText(geometry.spacing) +
-                          " mm, which is unusual; state the unit with --unit");
+                          " mm, which is unusual; state the unit with " + kOption.unit.shown());
   checkGeometry(geometry, path);
   return geometry;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/SVD>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 
 namespace lumen::convert {
 namespace {
@@ -66,7 +67,7 @@ void checkStatedSpacing(const fs::path& path, const std::string& field, int axis
   if (std::isfinite(value) && value > 0) return;
   throw invalidInput(path.string() + ": " + field + " states a spacing of " + longNumber(value) +
                      " along axis " + std::to_string(axis) +
-                     "; expected a positive number; state it with --spacing");
+                     "; expected a positive number; state it with " + kOption.spacing.shown());
 }
 
 void checkRoom(const fs::path& path, double needed, double available, bool compressed) {
@@ -84,10 +85,10 @@ void refuseDimensions(const fs::path& path, unsigned dimensions, const std::stri
 std::uint64_t chosenVolume(const fs::path& path, const std::string& sizes, std::uint64_t volumes,
                            std::optional<int> wanted) {
   if (volumes == 1 && wanted)
-    throw invalidInput(path.string() +
-                       ": holds one volume; --volume-index is for files of several");
+    throw invalidInput(path.string() + ": holds one volume; " + kOption.volumeIndex.shown() +
+                       " is for files of several");
   if (volumes == 1) return 0;
-  const std::string choice = "--volume-index 0 to " + std::to_string(volumes - 1);
+  const std::string choice = kOption.volumeIndex.shown() + " 0 to " + std::to_string(volumes - 1);
   const auto dimensions = 1 + std::count(sizes.begin(), sizes.end(), 'x');
   const std::string what =
       path.string() + ": is " + std::to_string(dimensions) + "-D (" + sizes + ")";

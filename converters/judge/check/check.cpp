@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "formats/case/case_field.h"
@@ -92,10 +93,12 @@ std::size_t countOutside(const Volume& volume, const formats::CenterlineTree& tr
 
 /// The likely reason why a case has no node in the volume.
 std::string likelyReason(const Volume& volume, const formats::CenterlineTree& tree) {
-  const std::pair<Eigen::Vector3d, const char*> reasons[] = {
+  const std::pair<Eigen::Vector3d, std::string> reasons[] = {
       {{-1, -1, 1}, "with x and y negated they do: one of the two is in RAS"},
       {{1000, 1000, 1000}, "times 1000 they do: the case is in metres"},
-      {{1e-3, 1e-3, 1e-3}, "divided by 1000 they do: the volume is in metres; --unit states that"}};
+      {{1e-3, 1e-3, 1e-3},
+       "divided by 1000 they do: the volume is in metres; " + kOption.unit.shown() +
+           " states that"}};
   for (const auto& [factor, reason] : reasons)
     if (countOutside(volume, tree, factor) < tree.nodeCount() / 2) return reason;
   return "they do not belong together, or one of them has another origin or unit";
@@ -124,7 +127,7 @@ EdgeOptions recordedEdgeOptions(const formats::Case& value) {
     const auto blur = step.parameters.find("point-spread");
     if (blur != step.parameters.end())
       if (const auto* s = std::get_if<double>(&blur->second)) options.pointSpread = *s;
-    const auto dark = step.parameters.find("dark");
+    const auto dark = step.parameters.find(kOption.dark.name);
     if (dark != step.parameters.end())
       if (const auto* is = std::get_if<bool>(&dark->second)) options.dark = *is;
   }

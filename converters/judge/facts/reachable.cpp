@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "converters/base/option_name.h"
 #include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "formats/case/case_field.h"
@@ -46,8 +47,8 @@ std::vector<std::string> closedTexts(const Reach& reach) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < count; ++i) texts.push_back(closedText(reach.closed[i]));
   if (const std::size_t more = reach.closed.size() - count; more > 0)
-    texts.push_back("closed at " + counted(more, "place more", "places more") +
-                    "; lumen info --json lists all");
+    texts.push_back("closed at " + counted(more, "place more", "places more") + "; lumen info " +
+                    kOption.json.shown() + " lists all");
   return texts;
 }
 

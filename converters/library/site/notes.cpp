@@ -2,6 +2,7 @@
 #include "converters/library/site/notes.h"
 
 #include "converters/base/html.h"
+#include "converters/base/option_name.h"
 #include "converters/library/site/markup.h"
 
 namespace lumen::convert {
@@ -52,9 +53,10 @@ std::string howToVerify(const LibraryFile& library, const std::string& root,
       " With the whole library on your disk and a key of the publisher that you got elsewhere, "
       "this "
       "verifies every byte:</p>\n";
-  text += copyable("the commands that verify",
-                   "lumen library verify . --key PUBLISHER.pub   # in the folder of the library\n" +
-                       plainCommand(signature));
+  text +=
+      copyable("the commands that verify", "lumen library verify . " + kOption.key.shown() +
+                                               " PUBLISHER.pub   # in the folder of the library\n" +
+                                               plainCommand(signature));
   text += "<p class=\"quiet\">Library " + htmlText(library.id) + ", revision " +
           std::to_string(library.revision) + " of " + htmlText(library.date) + ".</p>\n";
   return text;

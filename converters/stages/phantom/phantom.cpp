@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/phantom/scene.h"
 #include "formats/container/printable.h"
@@ -21,21 +22,22 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-void requireRange(const char* option, double value, double low, double high) {
+void requireRange(const OptionName& option, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  throw Error(ErrorKind::Usage, std::string("phantom: --") + option + " is " +
-                                    formats::shortText(value) + ", expected " +
-                                    formats::shortText(low) + " to " + formats::shortText(high));
+  throw Error(ErrorKind::Usage, "phantom: " + option.shown() + " is " + formats::shortText(value) +
+                                    ", expected " + formats::shortText(low) + " to " +
+                                    formats::shortText(high));
 }
 
 void checkSubject(const PhantomOptions& options) {
   if (!options.tree.empty()) {
     if (!options.name.empty())
       throw Error(ErrorKind::Usage, "phantom: has the name '" + formats::printable(options.name) +
-                                        "' and --tree, expected one of them");
+                                        "' and " + kOption.tree.shown() + ", expected one of them");
     if (options.size != 0)
-      throw Error(ErrorKind::Usage,
-                  "phantom: --size is given with --tree, whose box fits the tree; leave it out");
+      throw Error(ErrorKind::Usage, "phantom: " + kOption.size.shown() + " is given with " +
+                                        kOption.tree.shown() +
+                                        ", whose box fits the tree; leave it out");
     return;
   }
   const std::vector<std::string>& names = phantomNames();
@@ -46,14 +48,15 @@ void checkSubject(const PhantomOptions& options) {
 
 void checkOptions(const PhantomOptions& options) {
   checkSubject(options);
-  if (options.size != 0) requireRange("size", options.size, kSmallestSize, kLargestSize);
-  requireRange("voxel", options.voxel, 0.01, 10);
+  if (options.size != 0) requireRange(kOption.size, options.size, kSmallestSize, kLargestSize);
+  requireRange(kOption.voxel, options.voxel, 0.01, 10);
   if (options.sliceThickness != 0)
-    requireRange("slice-thickness", options.sliceThickness, options.voxel, 100 * options.voxel);
-  requireRange("noise", options.noise, 0, 2);
-  requireRange("bias", options.bias, 0, 2);
-  requireRange("psf", options.psf, 0, 5);
-  requireRange("fade", options.fade, 0, 1);
+    requireRange(kOption.sliceThickness, options.sliceThickness, options.voxel,
+                 100 * options.voxel);
+  requireRange(kOption.noise, options.noise, 0, 2);
+  requireRange(kOption.bias, options.bias, 0, 2);
+  requireRange(kOption.psf, options.psf, 0, 5);
+  requireRange(kOption.fade, options.fade, 0, 1);
 }
 
 formats::Case describeTruth(const Scene& scene, const PhantomOptions& options) {
@@ -64,10 +67,10 @@ formats::Case describeTruth(const Scene& scene, const PhantomOptions& options) {
   step.tool = "lumen " LUMEN_VERSION;
   step.parameters = options.parameters();
   if (options.tree.empty()) {
-    step.parameters["size"] = static_cast<std::int64_t>(scene.grid.size[0]);
+    step.parameters[kOption.size.name] = static_cast<std::int64_t>(scene.grid.size[0]);
   } else {
     step.parameters.erase("name");
-    step.parameters.erase("size");
+    step.parameters.erase(kOption.size.name);
     step.parameters["tree-sha256"] = scene.treeSha256;
   }
   step.parameters.insert(scene.design.notes.begin(), scene.design.notes.end());
@@ -83,35 +86,49 @@ VolumeGeometry geometryOf(const Scene& scene, const Image& image) {
   return geometry;
 }
 
+void addImageRows(PhantomOptions& o, OptionTable& table) {
+  constexpr NumberRange kTwice{0, 2};
+  table
+      .add(kOption.noise.name, &o.noise, "SHARE",
+           "Standard deviation of the noise, as a share of the contrast")
+      .in(kTwice)
+      .recorded();
+  table
+      .add(kOption.bias.name, &o.bias, "SHARE",
+           "Amplitude of the slow bias field, as a share of the contrast")
+      .in(kTwice)
+      .recorded();
+  table
+      .add(kOption.psf.name, &o.psf, "VOXELS",
+           "Standard deviation of the Gaussian point-spread function")
+      .in(NumberRange{0, 5})
+      .recorded();
+}
+
 }  // namespace
 
 void PhantomOptions::addRows(OptionTable& table) {
-  constexpr NumberRange kTwice{0, 2};
   table.group("Phantom");
-  table.add("size", &size, "N", "Voxels along an edge; 0: 128, or 256 for patient; not with --tree")
+  table
+      .add(kOption.size.name, &size, "N",
+           "Voxels along an edge; 0: 128, or 256 for patient; not with " + kOption.tree.shown())
       .in(WholeRange{0, kLargestSize})
       .recorded();
-  table.add("voxel", &voxel, "MM", "Edge of a voxel").in(NumberRange{0.01, 10}).recorded();
+  table.add(kOption.voxel.name, &voxel, "MM", "Edge of a voxel")
+      .in(NumberRange{0.01, 10})
+      .recorded();
   table
-      .add("slice-thickness", &sliceThickness, "MM",
+      .add(kOption.sliceThickness.name, &sliceThickness, "MM",
            "Thickness of a slice along z, which is the mean over it; 0: a voxel, or five for "
            "thick-slices")
       .in(kNotNegative)
       .recorded();
   table
-      .add("fade", &fade, "SHARE",
+      .add(kOption.fade.name, &fade, "SHARE",
            "Share of the contrast that is lost at the end farthest from the root")
       .in(NumberRange{0, 1})
       .recorded();
-  table.add("noise", &noise, "SHARE", "Standard deviation of the noise, as a share of the contrast")
-      .in(kTwice)
-      .recorded();
-  table.add("bias", &bias, "SHARE", "Amplitude of the slow bias field, as a share of the contrast")
-      .in(kTwice)
-      .recorded();
-  table.add("psf", &psf, "VOXELS", "Standard deviation of the Gaussian point-spread function")
-      .in(NumberRange{0, 5})
-      .recorded();
+  addImageRows(*this, table);
   table.add("seed", &seed, "K", "Seed of the random numbers")
       .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
       .recorded("random-seed");
@@ -135,8 +152,8 @@ std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() cons
   copy.addRows(table);
   std::map<std::string, formats::ParameterValue> parameters = table.recordedValues();
   parameters["name"] = name;
-  if (sliceThickness == 0) parameters.erase("slice-thickness");
-  if (fade == 0) parameters.erase("fade");
+  if (sliceThickness == 0) parameters.erase(kOption.sliceThickness.name);
+  if (fade == 0) parameters.erase(kOption.fade.name);
   return parameters;
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/sha256.h"
 #include "converters/geometry/box.h"
 #include "converters/io/centerline/read_swc.h"
@@ -53,13 +54,13 @@ VolumeGeometry gridAround(const Box3d& box, double voxel) {
   const Vector3d size = sizeOf(box, voxel);
   if (!(size.prod() <= kMostVoxels)) {
     const double workable = workableVoxel(box, voxel);
-    throw Error(ErrorKind::Usage, "phantom: a --voxel of " + shown(voxel) + " mm makes " +
-                                      shown(size.x()) + " x " + shown(size.y()) + " x " +
-                                      shown(size.z()) +
-                                      " voxels of the tree, expected at "
-                                      "most 536870912 in all: " +
-                                      (workable <= 10 ? "--voxel " + shown(workable) + " is enough"
-                                                      : "lengths of the file are taken as mm"));
+    throw Error(ErrorKind::Usage,
+                "phantom: a " + kOption.voxel.shown() + " of " + shown(voxel) + " mm makes " +
+                    shown(size.x()) + " x " + shown(size.y()) + " x " + shown(size.z()) +
+                    " voxels of the tree, expected at "
+                    "most 536870912 in all: " +
+                    (workable <= 10 ? kOption.voxel.shown() + " " + shown(workable) + " is enough"
+                                    : "lengths of the file are taken as mm"));
   }
   VolumeGeometry grid;
   grid.spacing.setConstant(voxel);
@@ -93,7 +94,7 @@ void checkEffort(const CenterlineFile& file, double voxel, const std::string& na
   throw invalidInput(name + ": its vessels are " + shown(chordLength(file)) +
                      " mm long and up to " + shown(widest) +
                      " mm in radius, too much to draw in voxels of " + shown(voxel) +
-                     " mm; expected a tree in mm, or a larger --voxel");
+                     " mm; expected a tree in mm, or a larger " + kOption.voxel.shown());
 }
 
 std::string labelOf(std::size_t index) {
@@ -153,10 +154,11 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
   if (options.name == "thick-slices") scene.slice = kNamedSlice;
   if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
   if (size < kFewestSlices * scene.slice)
-    throw Error(ErrorKind::Usage,
-                "phantom: --slice-thickness is " + shown(scene.slice * options.voxel) +
-                    " mm, expected at most " + shown(options.voxel * size / kFewestSlices) +
-                    " mm in a volume of " + shown(options.voxel * size) + " mm");
+    throw Error(ErrorKind::Usage, "phantom: " + kOption.sliceThickness.shown() + " is " +
+                                      shown(scene.slice * options.voxel) +
+                                      " mm, expected at most " +
+                                      shown(options.voxel * size / kFewestSlices) +
+                                      " mm in a volume of " + shown(options.voxel * size) + " mm");
   Random random(options.seed, kClicks + options.clickDrawing);
   scene.design.seeds = options.isCareless
                            ? clickCarelessly(scene.design.tree, options.voxel, random)

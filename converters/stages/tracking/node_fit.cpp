@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "converters/base/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/tracking/wall_support.h"
@@ -149,14 +150,14 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
       return "there is no volume: it lies outside";
     case FitStage::FewWalls:
       return formatted(
-          "at most %.0f rays meet the wall of a vessel, at least %.0f are needed: does it lie in "
-          "one, and are vessels bright (if not: --dark)?",
-          static_cast<double>(best.walls), static_cast<double>(kFewestCandidates));
+                 "at most %.0f rays meet the wall of a vessel, at least %.0f are needed: does it "
+                 "lie in one, and are vessels bright (if not: ",
+                 static_cast<double>(best.walls), static_cast<double>(kFewestCandidates)) +
+             kOption.dark.shown() + ")?";
     case FitStage::LowRate:
-      return formatted(
-          "no cylinder fits: best inlier rate %.2f, at least %.2f is needed (half of "
-          "--inlier-rate)",
-          roundedDown(best.inlierRate), roundedUp(leastInlierRate(context.options)));
+      return formatted("no cylinder fits: best inlier rate %.2f, at least %.2f is needed (half of ",
+                       roundedDown(best.inlierRate), roundedUp(leastInlierRate(context.options))) +
+             kOption.inlierRate.shown() + ")";
     case FitStage::DarkInside:
       return formatted(
           "a cylinder fits, but %.0f %% of what it holds is as dark as what is around it: click in "
@@ -169,10 +170,10 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
       return formatted("a cylinder fits with an inlier rate of %.2f only, ",
                        roundedDown(best.inlierRate), 0) +
              formatted(
-                 "and its wall is %.2f times as strong as noise: expected at least %.2f times "
-                 "(--noise-margin)",
+                 "and its wall is %.2f times as strong as noise: expected at least %.2f times (",
                  roundedDown(best.strength / context.noiseFloor),
-                 roundedUp(context.options.noiseMargin));
+                 roundedUp(context.options.noiseMargin)) +
+             kOption.noiseMargin.shown() + ")";
     case FitStage::Found:
       break;
   }

@@ -2,6 +2,7 @@
 #include "converters/stages/tracking/track_options.h"
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/voxels/bspline.h"
 
 namespace lumen::convert {
@@ -12,7 +13,7 @@ constexpr NumberRange kOpenShare{0, 1, true};
 constexpr int kMostTrials = 1000000;
 
 void addSearchRows(TrackOptions& o, OptionTable& table) {
-  table.add("inlier-rate", &o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
+  table.add(kOption.inlierRate.name, &o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
       .in(kOpenShare)
       .recorded();
   table
@@ -40,7 +41,7 @@ void addAdvanceRows(TrackOptions& o, OptionTable& table) {
       .in(NumberRange{0, 2, true})
       .recorded();
   table
-      .add("noise-margin", &o.noiseMargin, "X",
+      .add(kOption.noiseMargin.name, &o.noiseMargin, "X",
            "A node below the inlier rate needs a wall this many times as strong as noise")
       .in(NumberRange{0, 100})
       .recorded();
@@ -85,7 +86,7 @@ void addVolumeRows(TrackOptions& o, OptionTable& table) {
 
 void TrackOptions::addRows(OptionTable& table) {
   table.group("Volume");
-  table.flag("dark", dark, "Vessels are darker than their background").recorded();
+  table.flag(kOption.dark.name, dark, "Vessels are darker than their background").recorded();
   table.group("Tracking");
   addSearchRows(*this, table);
   addAdvanceRows(*this, table);

@@ -10,6 +10,7 @@
 
 #include "converters/base/edit_steps.h"
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
 #include "converters/stages/tracking/tracked_tree.h"
 
@@ -29,9 +30,9 @@ void checkVoxels(const Eigen::Vector3d& spacing) {
   std::array<char, 256> text{};
   std::snprintf(text.data(), text.size(),
                 "the volume's voxels are %g x %g x %g mm, one edge %.3g times another; expected at "
-                "most %g times: if the spacing is wrong, --spacing states it, else resample",
+                "most %g times: if the spacing is wrong, ",
                 spacing.x(), spacing.y(), spacing.z(), uneven, kLargestEdgeRatio);
-  throw invalidInput(text.data());
+  throw invalidInput(text.data() + kOption.spacing.shown() + " states it, else resample");
 }
 
 /// Vessels have the other sign than stated if their contrast is this many times as large with it.
@@ -48,10 +49,11 @@ void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
   const double contrast = contrastAtClicks(spline, seeds, options, progress);
   if (contrastAtClicks(spline, seeds, other, progress) <= kOtherSignContrasts * contrast) return;
   progress.warn(
-      options.dark ? "most seeds lie where it is brighter than around them, but --dark tracks dark "
-                     "vessels: leave it out if vessels are bright"
-                   : "most seeds lie where it is darker than around them: if vessels are dark, add "
-                     "--dark");
+      options.dark
+          ? "most seeds lie where it is brighter than around them, but " + kOption.dark.shown() +
+                " tracks dark vessels: leave it out if vessels are bright"
+          : "most seeds lie where it is darker than around them: if vessels are dark, add " +
+                kOption.dark.shown());
 }
 
 TrackOptions optionsFor(const formats::Case& tracked) {

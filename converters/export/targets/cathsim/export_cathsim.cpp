@@ -10,6 +10,7 @@
 
 #include "blob.h"
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/mujoco_text.h"
 #include "converters/export/shared/surface.h"
@@ -41,7 +42,7 @@ void requireFew(const SurfaceMesh& coarse) {
   if (coarse.triangle.size() > kMostHulls)
     throw invalidInput("the wall would be " + std::to_string(coarse.triangle.size()) +
                        " convex pieces, expected are at most " + std::to_string(kMostHulls) +
-                       "; a greater --max-error makes fewer");
+                       "; a greater " + kOption.maxError.shown() + " makes fewer");
 }
 
 struct CloseModel {
@@ -116,7 +117,7 @@ TargetRow cathsimRow() {
           .axes = {Axes::Lps},
           .holds = "the surface; the wall as convex pieces; the ends as targets",
           .lacks = "the tree and its radii",
-          .options = {"--edge", "--max-error"}};
+          .options = {kOption.edge, kOption.maxError}};
 }
 
 }  // namespace lumen::convert

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "converters/base/option_name.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/surface.h"
 #include "converters/io/mesh/write_gltf.h"
@@ -76,7 +77,8 @@ ExportResult exportUnity(const ExportInput& input) {
 }
 
 ExportResult exportUnreal(const ExportInput& input) {
-  return exportScene(input, {levelNames(), true, exportText("engines/unreal.md")});
+  return exportScene(input, {levelNames(), true,
+                             exportText("engines/unreal.md", {{"unit", kOption.unit.shown()}})});
 }
 
 ExportResult exportBlender(const ExportInput& input) {
@@ -91,7 +93,7 @@ TargetRow godotRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid with a collider of its triangles; the ends as nodes",
           .lacks = "the tree, its radii and its models",
-          .options = {"--edge", "--max-error", "--thickness"},
+          .options = {kOption.edge, kOption.maxError, kOption.thickness},
           .needsVessel = false};
 }
 
@@ -103,7 +105,7 @@ TargetRow unityRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid in three levels of detail; the ends as nodes",
           .lacks = "the tree, its radii and its models; a collider, which Unity makes",
-          .options = {"--edge", "--max-error", "--thickness"},
+          .options = {kOption.edge, kOption.maxError, kOption.thickness},
           .needsVessel = false};
 }
 
@@ -115,7 +117,7 @@ TargetRow unrealRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid in three levels of detail; the ends as nodes",
           .lacks = "the tree, its radii and its models; a collider, which Unreal makes",
-          .options = {"--edge", "--max-error", "--thickness"},
+          .options = {kOption.edge, kOption.maxError, kOption.thickness},
           .needsVessel = false};
 }
 
@@ -127,7 +129,7 @@ TargetRow blenderRow() {
           .axes = {Axes::Lsa},
           .holds = "the wall as a solid; the ends as empties",
           .lacks = "the tree, its radii and its models",
-          .options = {"--edge", "--max-error", "--thickness"},
+          .options = {kOption.edge, kOption.maxError, kOption.thickness},
           .needsVessel = false};
 }
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/error.h"
+#include "converters/base/option_name.h"
 #include "converters/export/shared/cdf.h"
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/export_text.h"
@@ -53,10 +54,12 @@ void requireSound(const ExportInput& input, const GridOptions& options) {
                       wants(options, GridFormat::Mhd);
   if (input.frame.unit != LengthUnit::Millimetre && isOfMm)
     throw Error(ErrorKind::Usage,
-                "--unit m: readers of nrrd, nifti and mhd take their lengths for mm; --format vdb "
-                "or cdf can be in m");
+                kOption.unit.shown() +
+                    " m: readers of nrrd, nifti and mhd take their lengths for mm; " +
+                    kOption.format.shown() + " vdb or cdf can be in m");
   if (options.half && !wants(options, GridFormat::Vdb))
-    throw Error(ErrorKind::Usage, "--half: only --format vdb holds distances of 16 bits");
+    throw Error(ErrorKind::Usage, kOption.half.shown() + ": only " + kOption.format.shown() +
+                                      " vdb holds distances of 16 bits");
   if (input.source.tree.branches.size() > kMostBranches)
     throw unsupported("a grid distinguishes 65535 branches, and this case has " +
                       std::to_string(input.source.tree.branches.size()));
@@ -240,7 +243,9 @@ ExportResult exportGrid(const ExportInput& input, const GridOptions& options) {
       {"branches.json", branchTable(input.source.tree), "which number is which branch", ""});
   result.losses = gridLosses(plans.front().lattice.spacing, input.source.tree);
   result.ends = endsOf(input.source.tree);
-  result.start = exportText(options.perBranch ? "grid/per-branch.md" : "grid/one.md");
+  result.start = options.perBranch
+                     ? exportText("grid/per-branch.md")
+                     : exportText("grid/one.md", {{"perBranch", kOption.perBranch.shown()}});
   return result;
 }
 
@@ -251,10 +256,10 @@ TargetRow gridRow() {
           .units = {LengthUnit::Millimetre, LengthUnit::Metre},
           .axes = {Axes::Lps},
           .holds = "the signed distance to the wall, and whose lumen a sample is in",
-          .lacks =
-              "what is thinner than two samples; where vessels touch, their walls, but for "
-              "--per-branch",
-          .options = {"--grid", "--format", "--band", "--half", "--per-branch", "--exact"},
+          .lacks = "what is thinner than two samples; where vessels touch, their walls, but for " +
+                   kOption.perBranch.shown(),
+          .options = {kOption.grid, kOption.format, kOption.band, kOption.half, kOption.perBranch,
+                      kOption.exact},
           .needsVessel = false};
 }
 

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "converters/base/option_name.h"
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/npy.h"
@@ -160,7 +161,7 @@ TargetRow isaacRow() {
               "the tree as arrays; a mask; a synthetic attenuation; a wall with physics schemas of "
               "USD, and its ends",
           .lacks = "names of branches, and that an aneurysm is one",
-          .options = {"--edge", "--max-error", "--thickness", "--grid"}};
+          .options = {kOption.edge, kOption.maxError, kOption.thickness, kOption.grid}};
 }
 
 }  // namespace lumen::convert

@@ -10,6 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/insertion.h"
 #include "converters/export/shared/mujoco_text.h"
@@ -88,12 +89,12 @@ void shorten(Wire& wire, const std::vector<SurfaceMesh>& pieces, const ExportInp
                  input.frame.direction(insertion.direction), wire.length(), wire.radius);
   if (free >= wire.length()) return;
   if (free < kLeast)
-    throw invalidInput("branch " +
-                       formats::printable(input.source.tree.branches[insertion.branch].label) +
-                       ": " + fixedText(1e3 * free, 1) +
-                       " mm straight behind its beginning are free of other vessels, and a "
-                       "guidewire that is pushed in there needs " +
-                       fixedText(1e3 * kLeast, 0) + "; --insert takes another branch");
+    throw invalidInput(
+        "branch " + formats::printable(input.source.tree.branches[insertion.branch].label) + ": " +
+        fixedText(1e3 * free, 1) +
+        " mm straight behind its beginning are free of other vessels, and a "
+        "guidewire that is pushed in there needs " +
+        fixedText(1e3 * kLeast, 0) + "; " + kOption.insert.shown() + " takes another branch");
   wire.links = static_cast<int>(free / wire.link);
 }
 
@@ -183,7 +184,7 @@ TargetRow mujocoRow() {
           .axes = {Axes::Lps},
           .holds = "the wall as a solid; a guidewire at the root, pushed by an actuator; the ends",
           .lacks = "the tree and its radii",
-          .options = {"--edge", "--max-error", "--thickness", "--insert"}};
+          .options = {kOption.edge, kOption.maxError, kOption.thickness, kOption.insert}};
 }
 
 }  // namespace lumen::convert

@@ -11,6 +11,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "converters/export/shared/blood.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
@@ -205,7 +206,7 @@ TargetRow openFoamRow() {
           .axes = {Axes::Lps},
           .holds = "the surface with its named ends; a steady flow",
           .lacks = "branches, radii, and that an aneurysm is one",
-          .options = {"--edge", "--max-error", "--extend"}};
+          .options = {kOption.edge, kOption.maxError, kOption.extend}};
 }
 
 }  // namespace lumen::convert

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/targets/print/three_mf.h"
@@ -82,9 +83,9 @@ ExportResult exportPrint(const ExportInput& input) {
   result.remarks.push_back(thicknessText(least));
   result.start += "\nChecked: " + thicknessText(least) + ".\n";
   if (least.thickness < kLeastPrintable)
-    result.losses.push_back(thicknessText(least) + ", less than the " +
-                            fixedText(kLeastPrintable, 2) +
-                            " mm that most printers hold; a greater --thickness may help");
+    result.losses.push_back(
+        thicknessText(least) + ", less than the " + fixedText(kLeastPrintable, 2) +
+        " mm that most printers hold; a greater " + kOption.thickness.shown() + " may help");
   result.surface = std::move(attempt.wall->report);
   return result;
 }
@@ -97,7 +98,7 @@ TargetRow printRow() {
           .axes = {Axes::Lps},
           .holds = "the lumen as a solid; a wall around it, with its least thickness",
           .lacks = "the tree, its radii and its models",
-          .options = {"--edge", "--max-error", "--thickness"},
+          .options = {kOption.edge, kOption.maxError, kOption.thickness},
           .needsVessel = false};
 }
 

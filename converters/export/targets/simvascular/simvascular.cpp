@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
@@ -229,7 +230,7 @@ TargetRow simVascularRow() {
               "branches as paths, radii as circles; the surface with its named ends; a volume "
               "mesh, by TetGen if it is installed",
           .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {"--edge", "--max-error", "--extend"}};
+          .options = {kOption.edge, kOption.maxError, kOption.extend}};
 }
 
 }  // namespace lumen::convert

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "converters/base/vectors.h"
 #include "converters/base/xml_text.h"
 #include "converters/export/shared/export_text.h"
@@ -160,7 +161,7 @@ TargetRow slicerRow() {
           .axes = {Axes::Lps},
           .holds = "the surface; the branches as curves with radii; where they begin; the ends",
           .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {"--edge", "--max-error"}};
+          .options = {kOption.edge, kOption.maxError}};
 }
 
 }  // namespace lumen::convert

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/export_text.h"
@@ -149,8 +150,8 @@ TargetRow sofaRow() {
           .axes = {Axes::Lps},
           .holds = "the case; the surface; an instrument at the root, with friction contact",
           .lacks = "nothing: the case lies beside the scene",
-          .options = {"--edge", "--max-error", "--instrument", "--wall", "--dialect", "--step",
-                      "--insert", "--grid"}};
+          .options = {kOption.edge, kOption.maxError, kOption.instrument, kOption.wall,
+                      kOption.dialect, kOption.step, kOption.insert, kOption.grid}};
 }
 
 }  // namespace lumen::convert

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/base/number_text.h"
+#include "converters/base/option_name.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
@@ -72,7 +73,7 @@ TargetRow steveRow() {
           .axes = {Axes::Lps},
           .holds = "the branches with their radii; the surface; the root as the insertion",
           .lacks = "links that close loops, and that an aneurysm is one",
-          .options = {"--edge", "--max-error"}};
+          .options = {kOption.edge, kOption.maxError}};
 }
 
 }  // namespace lumen::convert
