@@ -128,8 +128,7 @@ Markup confidenceSection(const ReportFacts& facts) {
   if (tree.inlierRate.empty() || tree.nodeCount() == 0)
     return convert::section("confidence", "Confidence",
                             paragraph("This case records no inlier rates, as it was not tracked in "
-                                      "a volume, so there is nothing to say "
-                                      "about confidence."));
+                                      "a volume, so its confidence is unknown."));
   const convert::ConfidenceShares shares = convert::confidenceShares(tree);
   std::string words =
       "The inlier rate of a node is the share of the places on the wall found around it that lie "
