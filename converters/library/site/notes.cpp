@@ -2,7 +2,6 @@
 #include "converters/library/site/notes.h"
 
 #include "converters/base/html.h"
-#include "converters/library/site/markup.h"
 
 namespace lumen::convert {
 
