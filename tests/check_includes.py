@@ -10,7 +10,7 @@ import argparse, pathlib, re, sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
-# What each folder may include besides itself, from the bottom up. A folder that is not here may not exist.
+# Folders that each folder may include besides itself, from the bottom up. A folder that is not here may not exist.
 MAY_INCLUDE = {
     "formats/container": [],
     "formats/field": [],

@@ -11,7 +11,7 @@ on every SIMD path that this processor has; the real angiogram of --data, where 
 files of spec/conformance. A failed run is an output too: its exit status is part of what is hashed.
 The set takes about two minutes on two cores, with --quick half a minute.
 
-What may differ between builds that compute the same is settled before it is hashed, unless --raw:
+Parts that may differ between builds that compute the same are settled before they are hashed, unless --raw:
   - in .lumen files the format's version, and the checksums of header, table and chunks, are zeroed;
   - in texts the format's version reads "0.0";
   - the digest of an earlier output of the run, where a case states what it was made from, is replaced
@@ -152,7 +152,7 @@ def convert_case(folder):
 
 
 def try_options(folder, name):
-    """What only some phantoms are put through: kernels, options, volume formats."""
+    """Runs of some phantoms only: kernels, options, volume formats."""
     for kernel in KERNELS:
         folder.run(f"fit-{kernel}", "fit", "tracked.lumen", f"{kernel}.lumen", "--kernel", kernel)
         folder.run(f"{kernel}-to-ply", "convert", f"{kernel}.lumen", f"{kernel}.ply")
@@ -215,7 +215,7 @@ def angiogram(folder, blob, data):
 
 
 def conformance(folder, blob):
-    """What validation and libblob say of each file of the conformance set."""
+    """Answers of validation and libblob for each file of the conformance set."""
     (folder.path / "spec").symlink_to(ROOT / "spec/conformance")
     folder.seen.add("spec")
     for kind in ("valid", "hostile"):

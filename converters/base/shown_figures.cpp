@@ -23,9 +23,24 @@ std::size_t textWidth(const std::string& text) {
 
 std::string fixed(std::optional<double> value, int digits) {
   if (!value || !std::isfinite(*value)) return "-";
-  std::array<char, 64> text{};
+  std::array<char, 400> text{};  // the greatest double has 309 digits
   std::snprintf(text.data(), text.size(), "%.*f", digits, *value);
   return text.data();
+}
+
+std::string shownFigure(double value) {
+  if (!std::isfinite(value)) return "?";
+  const double size = std::abs(value);
+  return fixed(value, size >= 99.95 ? 0 : size >= 9.995 ? 1 : 2);
+}
+
+std::string shownBytes(std::uint64_t bytes) {
+  if (bytes < 1000) return bytes == 1 ? "1 byte" : std::to_string(bytes) + " bytes";
+  double value = static_cast<double>(bytes) / 1000;
+  std::size_t unit = 0;
+  constexpr std::array<const char*, 4> kUnits = {" kB", " MB", " GB", " TB"};
+  for (; value >= 999.5 && unit + 1 < kUnits.size(); ++unit) value /= 1000;
+  return fixed(value, value >= 9.95 ? 0 : 1) + kUnits[unit];
 }
 
 Lines& Lines::add(std::string_view name, std::string_view value) {

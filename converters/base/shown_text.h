@@ -20,15 +20,15 @@ inline std::string quotedText(const std::string& text) {
   return std::string("\"").append(formats::printable(text.substr(0, shown))).append("...\"");
 }
 
-/// Six significant digits, for people.
-inline std::string numberText(double value) {
+/// At most `digits` significant digits, as a stream writes them, for people.
+inline std::string shownNumber(double value, int digits = 6) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
 }
 
 inline std::string vectorText(const Eigen::Vector3d& v) {
-  return "(" + numberText(v.x()) + ", " + numberText(v.y()) + ", " + numberText(v.z()) + ")";
+  return "(" + shownNumber(v.x()) + ", " + shownNumber(v.y()) + ", " + shownNumber(v.z()) + ")";
 }
 
 }  // namespace lumen::convert

@@ -1,4 +1,4 @@
-# What `cmake --install BUILD --component lumen` installs: the program, its manual page and completion, which are
+# Files that `cmake --install BUILD --component lumen` installs: the program, its manual page and completion, which are
 # made from its own options, the formats with their schemas, and the licences.
 include(GNUInstallDirs)
 

@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "converters/base/shown_text.h"
 #include "converters/engine/reachable_answer.h"
 #include "converters/engine/volume_info.h"
 
@@ -83,20 +84,13 @@ std::string sourceText(const formats::SourceVolume& source) {
   return text.str();
 }
 
-/// A number as a stream writes it.
-std::string plain(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 /// Adds lines for facts that few cases have.
 void addExtras(const convert::CaseInfo& info, Lines& lines) {
   const formats::Metadata& metadata = info.metadata;
   if (info.links > 0) lines.add("links", std::to_string(info.links));
   if (const auto& rounded = metadata.pointQuantisation)
     lines.add("points", "rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
-                            plain(rounded->step) + " mm");
+                            convert::shownNumber(rounded->step) + " mm");
   for (const auto& name : info.nodeArrays) lines.add("node array", name);
   if (!metadata.parentSha256.empty()) lines.add("made from", "sha256 " + metadata.parentSha256);
   if (!metadata.note.empty()) lines.add("note", metadata.note);
@@ -149,7 +143,8 @@ std::string caseInfoText(const convert::CaseInfo& info) {
   if (const auto& e = info.errorOfFit)
     lines.add("error of fit", "median " + fixed(e->median, 4) + ", 90th percentile " +
                                   fixed(e->p90, 4) + ", greatest " + fixed(e->max, 4) + " mm");
-  if (info.metadata.voxelSize) lines.add("voxel size", plain(*info.metadata.voxelSize) + " mm");
+  if (info.metadata.voxelSize)
+    lines.add("voxel size", convert::shownNumber(*info.metadata.voxelSize) + " mm");
   if (info.metadata.source) lines.add("source", sourceText(*info.metadata.source));
   addExtras(info, lines);
   for (const auto& step : info.metadata.steps) lines.add("step", stepText(step));

@@ -43,8 +43,9 @@ void addCenterlineRows(OptionTable& table, CenterlineArguments& centerline) {
   table.group("Centerline");
   table
       .add("frame", &centerline.frame, "FRAME",
-           "Axes of a centerline's coordinates, whatever its file says: lps, or ras [lps where the "
-           "file does not say]")
+           "Axes of a centerline's coordinates, whatever its file states: lps, or ras [lps where "
+           "the "
+           "file does not state them]")
       .among(std::vector<std::string>{"lps", "ras"})
       .forInputs(kCenterline);
   table.group("");

@@ -128,9 +128,9 @@ void applyRoots(formats::Case& target, const std::string& file, const TrackArgum
 
 void requireHints(const TrackArguments& track) {
   if (track.isOnlyConnected && track.seeds.empty() && track.roots.empty())
-    throw Error(ErrorKind::Usage,
-                kOption.onlyConnected.shown() + " does nothing without " + kOption.seeds.shown() +
-                    " or " + kOption.root.shown() + ", which state the trees to keep");
+    throw Error(ErrorKind::Usage, kOption.onlyConnected.shown() + " does nothing without " +
+                                      kOption.seeds.shown() + " or " + kOption.root.shown() +
+                                      ", which state the trees to keep");
 }
 
 }  // namespace lumen::engine

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -83,13 +83,6 @@ Json componentsJson(const MeshInfo& info) {
                     {"area_mm2", jsonNumber(c.area * mm * mm)},
                     {"volume_mm3", jsonNumber(c.volume * mm * mm * mm)}});
   return list;
-}
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(6);
-  text << value;
-  return text.str();
 }
 
 /// mm to a hundredth, without the sign of a zero.
@@ -213,7 +206,7 @@ std::string meshInfoText(const MeshInfo& info) {
   const convert::MeshReport& r = info.report;
   const double mm = info.millimetres;
   const auto box = [&](Eigen::Index a) {
-    return number(r.low[a] * mm) + " to " + number(r.high[a] * mm);
+    return convert::shownNumber(r.low[a] * mm) + " to " + convert::shownNumber(r.high[a] * mm);
   };
   const std::optional<std::int64_t> genus = genusOf(r);
   Lines lines;
@@ -233,9 +226,9 @@ std::string meshInfoText(const MeshInfo& info) {
   lines.add("intersections", (r.allSelfIntersections ? "" : "more than ") +
                                  counted(r.selfIntersections, "pair", "pairs") + " of triangles");
   lines.add("defects", defectsText(r));
-  lines.add("area", number(r.area * mm * mm) + " mm2");
-  lines.add("volume",
-            number(r.volume * mm * mm * mm) + " mm3" + (r.closed ? "" : ", with the loops closed"));
+  lines.add("area", convert::shownNumber(r.area * mm * mm) + " mm2");
+  lines.add("volume", convert::shownNumber(r.volume * mm * mm * mm) + " mm3" +
+                          (r.closed ? "" : ", with the loops closed"));
   lines.add("box", box(0) + ", " + box(1) + ", " + box(2) + " mm");
   lines.add("groups", groupsText(info.file));
   for (const std::string& note : info.file.notes) lines.add("note", note);

@@ -127,12 +127,12 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume) {
   crop.delimiter = ',';
   table
       .add(kOption.spacing.name, &volume.spacing, "MM or MM,MM,MM",
-           "Distance of voxels along i, j and k, or of all, in mm, whatever the file says")
+           "Distance of voxels along i, j and k, or of all, in mm, whatever the file states")
       .checkedBy(spacingFault);
   table
       .add(kOption.unit.name, &volume.unit, "UNIT",
            "Unit of the lengths in a volume's header, a mesh or a centerline: mm, cm, m or um, "
-           "whatever the file says")
+           "whatever the file states")
       .among(wordsOf(millimetresByUnit()))
       .forInputs(kVolumes | kMeshes | kCenterline);
   table
@@ -161,13 +161,13 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
       "points of 3D Slicer (.mrk.json, .fcsv)");
   table
       .add(kOption.seedsFrame.name, &track.seedsFrame, "FRAME",
-           "Frame of the seeds' coordinates, whatever their file says: lps, ras, or voxel "
+           "Frame of the seeds' coordinates, whatever their file states: lps, ras, or voxel "
            "(indices; radii in the file's unit)")
       .among(wordsOf(kSeedSystems))
       .onlyWith(kOption.seeds.name);
   table
       .add(kOption.seedsUnit.name, &track.seedsUnit, "UNIT",
-           "Unit of the seeds' positions and radii, whatever their file says: mm, cm, m or um")
+           "Unit of the seeds' positions and radii, whatever their file states: mm, cm, m or um")
       .among(wordsOf(millimetresByUnit()))
       .onlyWith(kOption.seeds.name);
   table
@@ -211,7 +211,7 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
   table
       .add("mesh", &mesh.scene.mesh, "NAME",
            "Mesh of a scene that the vessels are: the name of its loader or of the loader's node "
-           "[the one in a node that says vessel, or that does not move]")
+           "[the one whose node has vessel in its name, or that does not move]")
       .forInputs(kScene);
   table.scope(kAnyContent);
   table.group("");

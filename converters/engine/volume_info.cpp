@@ -5,6 +5,7 @@
 #include <sstream>
 #include <type_traits>
 
+#include "converters/base/shown_text.h"
 #include "converters/io/volume/read_volume.h"
 #include "converters/io/volume/write_volume.h"
 
@@ -24,12 +25,6 @@ template <std::size_t N>
 std::string joined(const std::array<double, N>& values, std::size_t first, std::size_t count) {
   std::ostringstream text;
   for (std::size_t i = first; i < first + count; ++i) text << (i > first ? "  " : "") << values[i];
-  return text.str();
-}
-
-std::string shortNumber(double value) {
-  std::ostringstream text;
-  text << value;
   return text.str();
 }
 
@@ -94,8 +89,8 @@ std::string volumeInfoText(const VolumeInfo& info) {
        << header.voxelBytes << " bytes of voxels in " << header.storedBytes << " bytes\n";
   if (info.values)
     text << "pixel type  " << info.values->pixelType << "\n"
-         << "values      " << shortNumber(info.values->min) << " to "
-         << shortNumber(info.values->max) << "\n"
+         << "values      " << convert::shownNumber(info.values->min) << " to "
+         << convert::shownNumber(info.values->max) << "\n"
          << "sha256      " << info.values->sha256 << "\n";
   else
     text << "values      not read; --voxels reads them\n";

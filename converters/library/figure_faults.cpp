@@ -36,8 +36,8 @@ public:
   void compare(const std::string& what, const std::optional<double>& found,
                const std::optional<double>& expected) {
     if (found.has_value() != expected.has_value() || (found && !isSame(*found, *expected)))
-      tell(what + " " + (found ? numberText(*found) : "null"),
-           expected ? numberText(*expected) : "null");
+      tell(what + " " + (found ? shownNumber(*found) : "null"),
+           expected ? shownNumber(*expected) : "null");
   }
   void compare(const std::string& what, std::size_t found, std::size_t expected) {
     if (found != expected) tell(what + " " + std::to_string(found), std::to_string(expected));

@@ -73,7 +73,7 @@ public:
       if (!trimmed(line).empty()) last += (last.empty() ? "" : "; ") + trimmed(line);
     }
     if (last.empty()) return m_name + " refused without a word";
-    return m_name + " says: " + formats::printable(last.substr(0, kShownWords));
+    return m_name + " reports: " + formats::printable(last.substr(0, kShownWords));
   }
 
 private:

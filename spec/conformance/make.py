@@ -311,7 +311,7 @@ def vectors(rows):
 
 
 def answers_of(case):
-    """What answers the questions of a case in its JSON encoding."""
+    """Answers to the questions of a case in its JSON encoding."""
     t, m = case["tree"], case.get("models")
     tree = {"centre": vectors(t["centre"]), "radius": list(map(exact, t["radius"])), "parent": list(map(int, t["parent"])),
             "links": [(int(a), int(b)) for a, b in t.get("links", ())]}
@@ -330,7 +330,7 @@ def answered(name, case, questions):
 
 
 def encodings_of(file):
-    """What a basic reader may do, by encoding that it lacks: refuse, or ignore these keys."""
+    """Permitted reactions of a basic reader, by encoding that it lacks: refuse, or ignore these keys."""
     out = {}
     for at in range(64, 64 + 64 * struct.unpack_from("<I", file, 24)[0], 64):
         kind, encoding = file[at:at + 4].decode(), ["", "zstd", "draco"][file[at + 7]] if file[at + 7] < 3 else ""

@@ -67,7 +67,7 @@ def remove(case, pointer):
 
 
 def call(reader, file, questions):
-    """What the reader printed, or the reason why that is nothing."""
+    """Output of the reader as JSON, or the reason why there is none."""
     try:
         done = subprocess.run([*reader, str(file)], input=json.dumps(questions).encode(), capture_output=True, timeout=120)
         if done.returncode != 0:
@@ -78,7 +78,7 @@ def call(reader, file, questions):
 
 
 def wrong_answer(expected, found, keys, tolerance):
-    """What of an answer is not as expected, or None. A vector's numbers are right to a share of its largest."""
+    """First deviation of an answer from the expected one, or None. A vector's numbers are right to a share of its largest."""
     for key in sorted(keys & set(expected)):
         want, have = expected[key], found.get(key)
         if isinstance(want, dict):

@@ -96,7 +96,7 @@ def hold(name, result, what, codes=(0,)):
 
 
 def hold_or_silent(name, result, what):
-    """What fails says nothing on standard output, or says it in the form of the schema."""
+    """Checks that a failed command prints nothing on standard output, or an answer in the form of the schema."""
     if result.returncode == 0 or result.stdout: return hold(name, result, what, (0, 1, 3))
     if result.returncode < 0 or not result.stderr: complain(f"{what}: {result.returncode}, {result.stderr!r}")
 

@@ -100,7 +100,7 @@ private:
     const convert::SheetField field(m_source, blended, {m_said["gap_mm"].get<double>(), 0, 0});
     m_facts = reproduce::distanceFrom(field, surface);
     EXPECT_GT(m_facts.rays, 0U) << name;
-    // What lies off since models disagree is told: no more than that, but for what was then moved with it.
+    // The answer counts vertices that lie off since models disagree; the factor is for those moved with them.
     EXPECT_LE(m_facts.verticesFar, 2 * m_said["offField"].get<std::size_t>())
         << name << ", " << m_facts.vertex.radii << " radii at " << m_facts.vertex.place.transpose();
     const reproduce::EndFacts ends = reproduce::endsOf(m_source, surface);

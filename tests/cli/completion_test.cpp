@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What bash offers with the script of `lumen completion bash`.
+// Completions that bash offers with the script of `lumen completion bash`.
 #include <array>
 #include <cstdio>
 

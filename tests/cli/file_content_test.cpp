@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file is by its content, and that outputs spare what cannot be made again.
+// The kind of a file by its content, and outputs that spare files that cannot be made again.
 #include "converters/io/content/file_content.h"
 
 #include "tests/cli/run_lumen.h"

@@ -14,7 +14,7 @@ namespace lumen::engine {
 
 namespace {
 
-/// What `ask` throws: the kind as its exit code, and the message; empty if it throws nothing.
+/// Error that `ask` throws: the kind as its exit code, and the message; empty if it throws nothing.
 template <class Ask>
 std::string refusal(Ask ask) {
   try {

@@ -4,9 +4,9 @@
 
 hostile_sweep.py --lumen PROGRAM [--all] FOLDER_OR_FILE ...
 
-Of each run it judges: the exit code (0 to 4), the time (at most 2 s), the memory (what the command takes for a small
-good file, and 3 times the file or the volume that it holds, whichever is larger), and that no control character and
-no address is printed. A table lists the runs with a fault (--all: every run), then what was slowest and largest. Files
+Each run is judged by its exit code (0 to 4), its time (at most 2 s), its memory (that of the command for a small
+good file, and 3 times the file or the volume that it holds, whichever is larger), and its output, without control
+characters and addresses. A table lists the runs with a fault (--all: every run), then the slowest and the largest. Files
 are read in place. Exit status: 0 no fault, 1 some."""
 import argparse, collections, json, os, pathlib, re, shutil, signal, subprocess, sys, tempfile, time
 
@@ -91,7 +91,7 @@ def seeds_for(file, middle, folder, good):
 
 
 def faults_of(code, seconds, memory, limit, said):
-    """What a run did that none may."""
+    """Faults of a run: its exit code, its time, its memory and its output."""
     faults = []
     if code < 0:
         faults.append("killed after %d s" % PATIENCE if seconds > PATIENCE else f"signal {-code}")

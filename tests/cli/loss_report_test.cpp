@@ -12,7 +12,7 @@ public:
   std::string text;
 };
 
-/// What is said of a branch whose losses are at nodes of a quarter of a millimetre or more, which
+/// Report on a branch whose losses are at nodes of a quarter of a millimetre or more, which
 /// cells up to a millimetre resolve.
 std::string saidOf(double cell, bool hasSurface) {
   convert::Patches patches;

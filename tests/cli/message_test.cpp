@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens to every message before it is shown, and what is suggested for a slip.
+// Changes of every message before it is shown, and suggestions for a slip.
 #include <string>
 
 #include <gtest/gtest.h>

@@ -34,7 +34,7 @@ struct Decoded {
   std::vector<std::array<std::uint8_t, 3>> pixels;
 };
 
-/// What libpng reads; nothing if it is no whole PNG.
+/// Picture that libpng reads; nothing if it is no whole PNG.
 std::optional<Decoded> decoded(const std::string& bytes) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lumen validate --privacy takes for personal.
+// Texts that lumen validate --privacy takes for personal.
 #include "converters/base/privacy.h"
 
 #include <set>

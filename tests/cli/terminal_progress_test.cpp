@@ -12,7 +12,7 @@ namespace lumen::test {
 
 namespace {
 
-/// What a TerminalProgress prints, on a stream that is no terminal.
+/// Output of a TerminalProgress on a stream that is no terminal.
 class Recorder {
 public:
   explicit Recorder(bool bar, Verbosity verbosity = Verbosity::Normal,

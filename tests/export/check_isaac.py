@@ -53,7 +53,7 @@ def check_graph(folder, tree):
 def check_volumes(folder, points, radii):
     about = json.loads((folder / "metadata.json").read_text())
     expect(list(about) == KEYS, f"metadata.json: {list(about)}")
-    expect("synthetic" in about["source"], "metadata.json does not say that the volume is synthetic")
+    expect("synthetic" in about["source"], "metadata.json does not state that the volume is synthetic")
     mask = load(folder, "vessel_mask.npy", "|u1", about["shape_zyx"])
     mu = load(folder, "mu_volume.npy", "<f4", about["shape_zyx"])
     low, high = about["mu_range"]

@@ -112,7 +112,7 @@ PlaceBox boxOf(const Case& c, const TreeRegion* region) {
   return box;
 }
 
-/// What a grid says at every probe; NaN: nothing.
+/// Answers of a grid at every probe; NaN: none.
 using Answers = std::vector<double>;
 
 void report(const char* name, double spacing, double megabytes, double seconds,

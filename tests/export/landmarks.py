@@ -5,9 +5,9 @@
 landmarks.py LUMEN [--only TARGET...]
 
 The case is a synthetic fork (landmark.swc), asymmetric, so that no two axes and no two ends can be mistaken for one
-another. Of each folder: lumen-export.json agrees with its schema and with the files; its ends, brought back by its
-transform, are those of the surface; what the target's loader finds (loaders.py) lies, by the frame and unit that the
-target is known to have, where the case has it, to 1e-4 mm. Exit status: 0 all, 1 some not, 77 nothing could be read."""
+another. Each folder is checked: lumen-export.json agrees with its schema and with the files; its ends, brought back by its
+transform, are those of the surface; the places that the target's loader finds (loaders.py) are those of the case, by the
+frame and unit that the target is known to have, to 1e-4 mm. Exit status: 0 all, 1 some not, 77 nothing could be read."""
 import argparse, hashlib, json, pathlib, subprocess, sys, tempfile
 try:
     import numpy as np

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What three.js's USD loader makes of a stage, as JSON: node load_usda.mjs FILE NODE_MODULES
+// Result of three.js's USD loader for a stage, as JSON: node load_usda.mjs FILE NODE_MODULES
 // Positions of `wall` and `ends` are in three's world: metres, y up; those of `centerline`, which three does not draw, and
 // schemas are as its parser has them.
 import { readFile } from 'node:fs/promises';

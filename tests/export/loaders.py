@@ -37,7 +37,7 @@ def schema_faults(value, schema):
 
 
 def ends_of_tree(tree):
-    """Of landmark.swc: its first point, and the last ones of its two branches."""
+    """Ends of landmark.swc: its first point, and the last ones of its two branches."""
     return {"inlet": tree[0], "outlet-b000": tree[48], "outlet-b001": tree[63]}
 
 
@@ -177,7 +177,7 @@ def read_slicer(folder):
 
 
 def lib3mf_faults(file):
-    """What lib3mf, the reference reader of the 3MF Consortium, says of a file; none where it is not here."""
+    """Faults that lib3mf, the reference reader of the 3MF Consortium, reports of a file; none where it is not here."""
     name = ctypes.util.find_library("3MF")
     if name is None: return []
     library, model, reader, found, mesh = ctypes.CDLL(name), *(ctypes.c_void_p() for _ in range(4))
@@ -216,7 +216,7 @@ def read_print(folder):
 
 
 def read_engine(scene):
-    """What MuJoCo has of a scene: vertices of each mesh geom, and sites, in the world; m, turned to mm."""
+    """Vertices of each mesh geom, and sites, of a scene in MuJoCo, in the world; m, turned to mm."""
     engine = HERE.parent / "mujoco"
     if not shutil.which("node") or not (engine / "node_modules/@mujoco/mujoco").exists():
         return None, "MuJoCo is not here (npm ci in tests/mujoco)"
@@ -294,7 +294,7 @@ def read_isaac(folder):
 def read_grid(folder):
     """By VTK's reader of MetaImage: in the lumen its samples are libblob's distances at the places that it gives."""
     library = os.environ.get("LUMEN_BLOB_LIBRARY")
-    if not library: return None, "LUMEN_BLOB_LIBRARY does not say where libblob.so is"
+    if not library: return None, "LUMEN_BLOB_LIBRARY does not state where libblob.so is"
     sys.path.insert(0, str(HERE.parent.parent / "libblob/python"))
     import lumen_blob
     from vtkmodules.util.numpy_support import vtk_to_numpy

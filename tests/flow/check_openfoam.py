@@ -72,7 +72,7 @@ def check_case(name, program, folder, parts):
 
 
 def check_split(name, program, folder, flows):
-    """Of a fork, what the resistances of `lumen export svzerod` say of the same outlets."""
+    """Checks that the flow of a fork splits by the resistances of `lumen export svzerod` for the same outlets."""
     lumen(program, folder, "export", "svzerod", f"{name}.lumen", f"{name}0", "--quiet")
     vessels = json.loads((folder / f"{name}0" / "model.json").read_text())["vessels"]
     resistance = {v["boundary_conditions"]["outlet"]: v["zero_d_element_values"]["R_poiseuille"] for v in vessels if "outlet" in v.get("boundary_conditions", {})}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds of every centerline that a reader accepts.
+// Properties of every centerline that a reader accepts.
 #pragma once
 
 #include "converters/io/centerline/centerline_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzz targets of meshes share.
+// Parts that the fuzz targets of meshes share.
 #pragma once
 
 #include <cstddef>

@@ -40,7 +40,7 @@ void checkRules(const std::vector<convert::SeedBranch>& branches) {
   }
 }
 
-/// What is placed in a volume lies in it, with plausible radii, or is accounted for.
+/// Checks that seeds placed in a volume lie in it, with plausible radii, or are accounted for.
 void checkPlaced(const std::vector<convert::SeedBranch>& branches) {
   convert::VolumeGeometry geometry;
   geometry.size = {64, 32, 16};

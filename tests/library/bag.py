@@ -24,7 +24,7 @@ def manifest(path):
 
 
 def bag_faults(bag):
-    """What makes the folder no complete and valid bag (RFC 8493, section 3)."""
+    """Faults that make the folder no complete and valid bag (RFC 8493, section 3)."""
     if (bag / "bagit.txt").read_bytes() != b"BagIt-Version: 1.0\nTag-File-Character-Encoding: UTF-8\n": yield "bagit.txt"
     payload = {p.relative_to(bag).as_posix(): p for p in (bag / "data").rglob("*") if p.is_file() or p.is_symlink()}
     for name in ("manifest-sha256.txt", "tagmanifest-sha256.txt"):
@@ -46,7 +46,7 @@ def bag_faults(bag):
 
 
 def crate_faults(file):
-    """Of an RO-Crate metadata file: what the specification 1.2 requires of it and of its root."""
+    """Faults of an RO-Crate metadata file and its root, by the specification 1.2."""
     document = json.loads(file.read_text("utf-8"))
     if document["@context"] != "https://w3id.org/ro/crate/1.2/context": yield f"{file}: @context"
     by_id = {}

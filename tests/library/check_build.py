@@ -39,7 +39,7 @@ def prepare(lumen, folder, count):
 
 
 def contents(library):
-    """Of every case: its files but for what says when it came (dates, revision)."""
+    """Files of every case, without the statements of when it came (dates, revision)."""
     found = {}
     for file in sorted((library / "data").glob("*/**/*")):
         if file.is_file() and file.name not in ("record.json", "ro-crate-metadata.json"):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What holds of check, sign and verify besides what they find: passwords, missing programs, what is remembered.
+"""Checks check, sign and verify beyond the faults that they find: passwords, missing programs, remembered results.
 
 check_trust.py LUMEN
 
@@ -59,7 +59,7 @@ def passwords(maker, library):
     signature.unlink(missing_ok=True)
     code, shown, echo = typed(maker, b"wrong\n", "sign", library, "--key", key)
     expect("a wrong password: exit code", code, 1)
-    expect("a wrong password: minisign's words", "minisign says: Wrong password" in shown, True)
+    expect("a wrong password: minisign's words", "minisign reports: Wrong password" in shown, True)
     expect("a wrong password: no signature", signature.exists(), False)
     code, shown, echo = typed(maker, b"\x03", "sign", library, "--key", key)
     expect("Ctrl-C at the password: exit code and echo", (code, echo), (130, True))

@@ -35,7 +35,7 @@ def flip_in(path, text):
 
 
 def restate(library, case):
-    """What somebody does who changes a record and makes library.json fit."""
+    """Changes a record and makes library.json fit."""
     file, top = library / "data" / case / "record.json", read_json(library / "library.json")
     record = read_json(file)
     for entry in top["cases"]:

@@ -73,8 +73,8 @@ class Bench:
 
 
 def deepest(model, answer, inlet):
-    """Of the wire's axis past the inlet, mm: the greatest distance to the wall of any record, of the last one, and how
-    far the farthest point is from the lumen; below 0 is in the lumen."""
+    """Greatest distance to the wall of the wire's axis past the inlet, mm, of any record and of the last one, and the
+    distance of the farthest point from the lumen; below 0 is in the lumen."""
     import numpy as np
     worst, cursors = [], None
     origin, out = np.array(inlet["position"]) * 1e3, np.array(inlet["direction"])
@@ -94,7 +94,7 @@ def deepest(model, answer, inlet):
 def figures(bench, name, case, scene, inlet, speed):
     answer, why = bench.simulate(scene, speed)
     if answer is None:
-        print(f"FAILED {name}: the engine says: {why}")
+        print(f"FAILED {name}: the engine reports: {why}")
         bench.failures += 1
         return None
     greatest, last = deepest(bench.open(case), answer, inlet)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the engine has of a scene: node read_scene.mjs SCENE.xml prints vertices of its mesh geoms and places of its
+// Contents of a scene in the engine: node read_scene.mjs SCENE.xml prints vertices of its mesh geoms and places of its
 // sites, by name, in the world, m. The engine moves and turns each mesh to its inertia, and its geom back.
 import { open } from './engine.mjs';
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `lumen report` writes, looked at in a browser. Exit code 77, with what is missing, where that cannot be.
+// Checks pages of `lumen report` in a browser. Exit code 77, with what is missing, where that cannot be.
 // LUMEN: the program; CHROMIUM: the browser; LUMEN_PICTURES: the folder for screenshots and PDF.
 import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";

@@ -51,7 +51,7 @@ def branches_of(case):
 
 
 def vessel_tree(file):
-    """What the module hands to stEVE."""
+    """Arguments that the module hands to stEVE."""
     handed = {}
     class FromMesh:
         def __init__(self, mesh, insertion_position, insertion_direction, branch_list=None, approx_branch_radii=None,
@@ -72,7 +72,7 @@ def vessel_tree(file):
 
 
 def signed_volume(obj):
-    """Of a closed mesh, mm^3: positive if its triangles turn counter-clockwise seen from outside."""
+    """Volume of a closed mesh, mm^3: positive if its triangles turn counter-clockwise seen from outside."""
     points, sum_ = [], 0.0
     for line in open(obj):
         words = line.split()

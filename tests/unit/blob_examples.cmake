@@ -1,4 +1,4 @@
-# What libblob/examples, libblob/python and libblob/wasm build; each part where it is built.
+# Tests of the outputs of libblob/examples, libblob/python and libblob/wasm; each part where it is built.
 lumen_test(blob_examples_test
   LIBS lumen_options catheter_rod
   SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/blob_examples/catheter_test.cpp)

@@ -4,7 +4,7 @@ lumen_test(sofa_test
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/insertion_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/sofa/scene_test.cpp)
 
-# What it exports for simulators, from outside: by SOFA itself where it is, by lists of its components, by a reader of
+# Exports for simulators, checked from outside: by SOFA itself where it is, by lists of its components, by a reader of
 # our own.
 python_test(Sofa.ScenesHaveComponentsAndDataThatExist foreign
   ${CMAKE_CURRENT_SOURCE_DIR}/sofa/check_components.py $<TARGET_FILE:lumen>)

@@ -28,18 +28,6 @@ constexpr double kMargin = 3;  // radii of the widest vessel
 // A browser holds embedded bytes three times while it opens.
 constexpr std::size_t kMostVoxels = std::size_t{192} * 192 * 192;
 
-/// JSON that may stand in a script: it has no "<", which could end the script or begin a comment.
-std::string scriptSafe(const std::string& json) {
-  std::string text;
-  text.reserve(json.size());
-  for (const char c : json)
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  return text;
-}
-
 /// Code that may stand in a script. Only these two texts can end or mislead a script, and bundled
 /// code has them in strings and regular expressions alone, where the backslash changes nothing.
 std::string inlineScript(std::string code) {
@@ -106,7 +94,7 @@ public:
     Json all;
     all["state"] = state;
     all["parts"] = m_parts;
-    return scriptSafe(jsonText(all));
+    return jsonInScript(jsonText(all));
   }
 
 private:
@@ -168,16 +156,13 @@ std::string htmlPage(Session& session, const PageFiles& page, const HtmlOptions&
   state["hasVolume"] = document.volume && (options.volume || !document.value);
   std::string style = fileOf(page, "page.css");
   if (style.find("</style") != style.npos) throw failed("page.css would end its own element");
-  std::string html = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
-  html += "<meta http-equiv=\"Content-Security-Policy\" content=\"";
-  html += kPolicy;
-  html += "\">\n<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
-          htmlText(state["title"].get<std::string>()) + "</title>\n<style>" + style +
-          "</style>\n</head>\n<body>\n";
-  html += "<script type=\"application/json\" id=\"lumen-embedded\">" + embedded.text(state) +
-          "</script>\n<script>" + inlineScript(fileOf(page, "page.js")) +
-          "</script>\n</body>\n</html>\n";
-  return html;
+  PageHead head;
+  head.policy = kPolicy;
+  head.title = state["title"].get<std::string>();
+  head.links = "<style>" + style + "</style>\n";
+  return htmlPage(head, "<script type=\"application/json\" id=\"lumen-embedded\">" +
+                            embedded.text(state) + "</script>\n<script>" +
+                            inlineScript(fileOf(page, "page.js")) + "</script>\n");
 }
 
 }  // namespace lumen::viewer

@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/draw/picture/marks.h"
 #include "converters/draw/picture/shade.h"
 #include "converters/io/mesh/vertex_color.h"
@@ -32,12 +32,6 @@ struct Colours {
   Legend legend;  ///< without colours: none is needed
 };
 
-std::string threeDigits(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
-
 std::vector<Light> lightOf(const SurfaceMesh& values, const ColorScale& scale) {
   std::vector<Light> colours;
   for (const Color& c : colorsOf(values, scale))
@@ -51,9 +45,9 @@ Legend legendOf(const ColorScale& scale) {
   legend.title = isRadius ? "radius, mm" : "confidence, share";
   const double low = double{scale.low}, high = double{scale.high};
   const double middle = isRadius ? std::sqrt(low * high) : 0.5 * (low + high);
-  legend.values = {threeDigits(low)};
+  legend.values = {shownNumber(low, 3)};
   if (high > low)
-    legend.values.insert(legend.values.end(), {threeDigits(middle), threeDigits(high)});
+    legend.values.insert(legend.values.end(), {shownNumber(middle, 3), shownNumber(high, 3)});
   SurfaceMesh steps;
   steps.position.resize(kOfLegend);
   for (std::size_t i = 0; i < kOfLegend; ++i) {

@@ -5,7 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
+
+#include "converters/base/shown_text.h"
 
 namespace lumen::convert {
 
@@ -22,12 +23,6 @@ int letterScale(int width, int height) {
 
 int letterScale(const Picture& picture) {
   return letterScale(picture.width, picture.height);
-}
-
-std::string shortNumber(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", value);
-  return text.data();
 }
 
 }  // namespace
@@ -53,7 +48,7 @@ void drawScaleBar(Picture& picture, const Camera& camera, const Rgb& ink) {
   picture.fill(x, y - scale, x + bar.pixels, y, ink);
   picture.fill(x, y - 3 * scale, x + scale, y + 2 * scale, ink);
   picture.fill(x + bar.pixels - scale, y - 3 * scale, x + bar.pixels, y + 2 * scale, ink);
-  picture.text(x, y - (5 + kLetterHeight) * scale, scale, shortNumber(bar.length) + " mm", ink);
+  picture.text(x, y - (5 + kLetterHeight) * scale, scale, shownNumber(bar.length) + " mm", ink);
 }
 
 std::string sideOf(const Eigen::Vector3d& direction) {

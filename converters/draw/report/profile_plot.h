@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "converters/draw/report/markup.h"
+#include "converters/base/html.h"
 #include "converters/draw/report/tree_profiles.h"
 #include "converters/judge/check/check.h"
 

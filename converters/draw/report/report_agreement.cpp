@@ -10,6 +10,7 @@
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/draw/report/report_page.h"
+#include "converters/draw/report/table.h"
 #include "converters/draw/report/tree_profiles.h"
 #include "formats/case/topology.h"
 
@@ -17,14 +18,14 @@ namespace lumen::convert {
 
 namespace {
 
-using convert::CheckReport, convert::Markup, convert::Offsets, convert::paragraph, convert::text;
+using convert::CheckReport, convert::Offsets;
 
 constexpr std::size_t kPlacesListed = 25;  // places of each kind
 
 /// A place in the case: the branch's label and coordinates.
 std::vector<Markup> placeCells(const formats::CenterlineTree& tree, std::uint32_t node,
                                const Eigen::Vector3d& place) {
-  return {convert::name(labelOf(tree, node)), text(placeText(place))};
+  return {name(labelOf(tree, node)), text(placeText(place))};
 }
 
 /// A sentence for the rest of a list that is too long for paper.
@@ -35,7 +36,7 @@ Markup moreOf(std::size_t count) {
 }
 
 Markup heading(const char* ours) {
-  return {convert::element("h3", text(ours)).html + "\n"};
+  return {element("h3", text(ours)).html + "\n"};
 }
 
 /// mm of the vessels for each Agreement.
@@ -55,7 +56,7 @@ Markup wallFacts(const CheckReport& report, const formats::CenterlineTree& tree)
     return text(fixed(mm, 3) + " mm, " + fixed(mm / voxel, 2) + " voxels");
   };
   const double whole = report.shownLength + report.missingLength();
-  return convert::factList(
+  return factList(
       {{"One voxel", text(fixed(voxel, 3) + " mm; blur taken as " +
                           fixed(report.options.pointSpread, 3) + " mm")},
        {"Samples of the wall",
@@ -99,8 +100,7 @@ Markup wallTable(const CheckReport& report, const formats::CenterlineTree& tree)
                text(std::to_string(o.beside))});
   };
   for (const std::uint32_t b : convert::inTreeOrder(tree))
-    row(text(std::to_string(number++)), convert::name(report.branches[b].label),
-        report.branches[b].offsets);
+    row(text(std::to_string(number++)), name(report.branches[b].label), report.branches[b].offsets);
   row({}, text("all"), report.offsets);
   return table.markup();
 }
@@ -198,14 +198,14 @@ Markup agreementLegend(bool withMissing) {
 Markup agreementSection(const ReportFacts& facts) {
   constexpr const char* kTitle = "Agreement with the volume";
   if (!facts.volume)
-    return convert::section("agreement", kTitle,
-                            paragraph("No volume was given (" + kOption.volume.shown() +
-                                      "), so nothing is known of how far the wall lies from what "
-                                      "the volume shows, and of what is missing."));
+    return section("agreement", kTitle,
+                   paragraph("No volume was given (" + kOption.volume.shown() +
+                             "), so nothing is known of how far the wall lies from what "
+                             "the volume shows, and of what is missing."));
   if (!facts.volume->check)
-    return convert::section("agreement", kTitle,
-                            paragraph("This case has no models, so it has no wall to hold against "
-                                      "the volume; lumen fit makes them of wall points."));
+    return section("agreement", kTitle,
+                   paragraph("This case has no models, so it has no wall to hold against "
+                             "the volume; lumen fit makes them of wall points."));
   const CheckReport& report = *facts.volume->check;
   const formats::CenterlineTree& tree = facts.value.tree;
   Markup content = paragraph(
@@ -216,7 +216,7 @@ Markup agreementSection(const ReportFacts& facts) {
   content += darkPlaces(report, tree);
   content += shortEnds(report, tree);
   content += missingVessels(report, tree);
-  return convert::section("agreement", kTitle, content);
+  return section("agreement", kTitle, content);
 }
 
 }  // namespace lumen::convert

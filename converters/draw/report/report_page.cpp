@@ -11,13 +11,12 @@
 #include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
+#include "converters/draw/report/table.h"
 #include "converters/draw/report/tree_profiles.h"
 
 namespace lumen::convert {
 
 namespace {
-
-using convert::Facts, convert::Markup, convert::element, convert::paragraph, convert::text;
 
 // Nothing may be fetched or run: pictures and style are in the file.
 constexpr const char* kPolicy =
@@ -158,13 +157,13 @@ Markup summary(const ReportFacts& facts) {
   list.emplace_back(
       "Warnings",
       text(facts.warnings() == 0 ? "none" : std::to_string(facts.warnings()) + ", listed below"));
-  return convert::factList(list);
+  return factList(list);
 }
 
 Markup warnings(const ReportFacts& facts) {
   constexpr const char* kTitle = "Warnings";
   if (facts.examination.counts.total() + facts.otherWarnings.size() == 0)
-    return convert::section(
+    return section(
         "warnings", kTitle,
         paragraph(
             std::string("None: the case is valid, a tool reaches all of it as far as is known, ") +
@@ -172,26 +171,26 @@ Markup warnings(const ReportFacts& facts) {
             "and no text of it looks like a person's."));
   convert::Table table("warning-table", {{"kind", false}, {"what", false}});
   for (const std::string& words : facts.otherWarnings)
-    table.row({text("warning"), convert::shortened(words, 600)});
+    table.row({text("warning"), shortened(words, 600)});
   for (const Remark& remark : facts.examination.remarks)
-    table.row({text(remark.severity), convert::shortened(remark.text, 600)});
+    table.row({text(remark.severity), shortened(remark.text, 600)});
   Markup content = table.markup();
   if (facts.examination.unlisted() > 0)
     content += paragraph("And " + std::to_string(facts.examination.unlisted()) +
                          " more; lumen validate " + kOption.privacy.shown() + " lists all.");
-  return convert::section("warnings", kTitle, content);
+  return section("warnings", kTitle, content);
 }
 
 Markup sides(const ReportFacts& facts) {
   constexpr const char* kTitle = "From four sides";
   if (facts.sides.empty())
-    return convert::section("sides", kTitle,
-                            paragraph("There are no pictures, as this case has no models, so no "
-                                      "surface; lumen fit makes them of wall points."));
+    return section("sides", kTitle,
+                   paragraph("There are no pictures, as this case has no models, so no "
+                             "surface; lumen fit makes them of wall points."));
   Markup figures;
   for (const DrawnView& view : facts.sides)
-    figures += convert::pngFigure(view.png, text(view.title), "The case, " + view.title);
-  return convert::section("sides", kTitle, element("div", figures));
+    figures += pngFigure(view.png, text(view.title), "The case, " + view.title);
+  return section("sides", kTitle, element("div", figures));
 }
 
 /// mm on paper for a pixel of the projections: they fill the width, stacked or the first two side
@@ -213,9 +212,9 @@ double projectionScale(const std::vector<DrawnView>& views) {
 Markup projection(const ReportFacts& facts) {
   constexpr const char* kTitle = "The volume and the tree";
   if (!facts.volume)
-    return convert::section("projection", kTitle,
-                            paragraph("There is no projection, as no volume was given (" +
-                                      kOption.volume.shown() + ")."));
+    return section("projection", kTitle,
+                   paragraph("There is no projection, as no volume was given (" +
+                             kOption.volume.shown() + ")."));
   Markup content = paragraph(
       "The greatest intensity along each axis of the volume, and the centerlines of the case. x: "
       "to the patient's "
@@ -224,11 +223,11 @@ Markup projection(const ReportFacts& facts) {
   const double scale = projectionScale(facts.volume->projections);
   Markup figures;
   for (const DrawnView& view : facts.volume->projections)
-    figures += convert::pngFigure(view.png, text(view.title),
-                                  "Projection of the volume with the centerlines, " + view.title,
-                                  "style=\"width: " + fixed(scale * view.width, 1) + "mm\"");
+    figures += pngFigure(view.png, text(view.title),
+                         "Projection of the volume with the centerlines, " + view.title,
+                         "style=\"width: " + fixed(scale * view.width, 1) + "mm\"");
   content += element("div", figures, "class=\"panels\"");
-  return convert::section("projection", kTitle, content);
+  return section("projection", kTitle, content);
 }
 
 const char* signing() {
@@ -241,22 +240,21 @@ const char* signing() {
 }  // namespace
 
 std::string reportPage(const ReportFacts& facts) {
-  std::string page = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
-  page += std::string("<meta http-equiv=\"Content-Security-Policy\" content=\"") + kPolicy +
-          "\">\n<meta name=\"viewport\" content=\"width=device-width\">\n";
-  page += "<meta name=\"generator\" content=\"lumen " LUMEN_VERSION "\">\n";
-  page += "<title>" + htmlText(facts.title) + "</title>\n<style>" + kStyle + footStyle(facts) +
-          convert::plotStyle() + "</style>\n</head>\n<body>\n<h1>" + htmlName(facts.title) +
-          "</h1>\n";
-  Markup body = paragraph(
+  PageHead head;
+  head.policy = kPolicy;
+  head.meta = {{"generator", "lumen " LUMEN_VERSION}};
+  head.title = facts.title;
+  head.links = kStyle + footStyle(facts) + convert::plotStyle();
+  head.links = "<style>" + head.links + "</style>\n";
+  Markup body{"<h1>" + htmlName(facts.title) + "</h1>\n"};
+  body += paragraph(
       "The content of a case of vessels, how it was made, and how far it agrees with its volume.");
   body.html += "<p class=\"notice\">Not a medical device: not for clinical use.</p>\n";
   body += summary(facts);
   for (const auto part : {warnings, sides, branchSection, profileSection, confidenceSection,
                           agreementSection, projection, parameterSection, provenanceSection})
     body += part(facts);
-  page += body.html + signing() + "</body>\n</html>\n";
-  return page;
+  return htmlPage(head, body.html + signing());
 }
 
 }  // namespace lumen::convert

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "converters/draw/report/markup.h"
+#include "converters/base/html.h"
 #include "converters/draw/report/report_facts.h"
 
 namespace lumen::convert {
@@ -15,13 +15,13 @@ namespace lumen::convert {
 std::string reportPage(const ReportFacts& facts);
 
 // Sections of the page, each with its heading.
-convert::Markup branchSection(const ReportFacts& facts);      ///< report_vessels.cpp
-convert::Markup profileSection(const ReportFacts& facts);     ///< report_vessels.cpp
-convert::Markup confidenceSection(const ReportFacts& facts);  ///< report_vessels.cpp
-convert::Markup agreementSection(const ReportFacts& facts);   ///< report_agreement.cpp
+Markup branchSection(const ReportFacts& facts);      ///< report_vessels.cpp
+Markup profileSection(const ReportFacts& facts);     ///< report_vessels.cpp
+Markup confidenceSection(const ReportFacts& facts);  ///< report_vessels.cpp
+Markup agreementSection(const ReportFacts& facts);   ///< report_agreement.cpp
 /// Legend of the colours of agreement; `withMissing`: of missing vessels, too. report_agreement.cpp
-convert::Markup agreementLegend(bool withMissing);
-convert::Markup parameterSection(const ReportFacts& facts);   ///< report_provenance.cpp
-convert::Markup provenanceSection(const ReportFacts& facts);  ///< report_provenance.cpp
+Markup agreementLegend(bool withMissing);
+Markup parameterSection(const ReportFacts& facts);   ///< report_provenance.cpp
+Markup provenanceSection(const ReportFacts& facts);  ///< report_provenance.cpp
 
 }  // namespace lumen::convert

@@ -17,16 +17,13 @@ namespace lumen::convert {
 
 namespace {
 
-using convert::Facts, convert::Markup, convert::text;
-
 constexpr std::size_t kMostOfAText = 400;   // bytes of a parameter on paper
 constexpr std::size_t kMostOfANote = 4000;  // bytes
 constexpr const char* kTool = "lumen " LUMEN_VERSION;
 
 /// A number with the digits that a stream writes, or a text of a case.
 Markup valueText(const formats::ParameterValue& value) {
-  if (const auto* words = std::get_if<std::string>(&value))
-    return convert::shortened(*words, kMostOfAText);
+  if (const auto* words = std::get_if<std::string>(&value)) return shortened(*words, kMostOfAText);
   std::ostringstream out;
   std::visit([&](const auto& v) { out << std::boolalpha << v; }, value);
   return text(out.str());
@@ -44,7 +41,7 @@ std::string spaced(const Numbers& numbers, const char* between) {
 }
 
 Markup digest(const std::string& sha256) {
-  return convert::element("code", text(sha256));
+  return element("code", text(sha256));
 }
 
 void addGeometry(const std::string& whose, const formats::SourceVolume& volume, Facts& facts) {
@@ -68,7 +65,7 @@ void addVolume(const ReportFacts& facts, Facts& list) {
                       text("none was given (" + kOption.volume.shown() + ")"));
     return;
   }
-  list.emplace_back("Volume of this report", convert::name(facts.volume->name));
+  list.emplace_back("Volume of this report", name(facts.volume->name));
   list.emplace_back("It is the source", text(relationText(facts.volume->source)));
   if (!facts.volume->source.isKnown || facts.volume->source.difference)
     addGeometry("This volume", facts.volume->geometry, list);
@@ -89,36 +86,35 @@ Markup parameterSection(const ReportFacts& facts) {
   constexpr const char* kTitle = "Parameters";
   const std::vector<formats::Step>& steps = facts.value.metadata.steps;
   if (steps.empty())
-    return convert::section(
-        "parameters", kTitle,
-        convert::paragraph("This case records no step, so how it was made is not known."));
-  Markup content = convert::paragraph("Every recorded step, the oldest first; lengths in mm.");
+    return section("parameters", kTitle,
+                   paragraph("This case records no step, so how it was made is not known."));
+  Markup content = paragraph("Every recorded step, the oldest first; lengths in mm.");
   std::size_t number = 1;
   for (const formats::Step& step : steps) {
     Markup heading = text(std::to_string(number++) + ". ");
-    heading += convert::name(step.name);
+    heading += name(step.name);
     heading.html += " (";
-    heading += convert::name(step.tool);
+    heading += name(step.tool);
     heading.html += ")";
-    content += convert::element("h3", heading);
+    content += element("h3", heading);
     Markup list;
     for (const auto& [key, value] : step.parameters) {
-      Markup pair = convert::name(key);
+      Markup pair = name(key);
       pair.html += " ";
-      pair += convert::element("b", valueText(value));
-      list += convert::element("li", pair);
+      pair += element("b", valueText(value));
+      list += element("li", pair);
       list.html += "\n";
     }
-    content += step.parameters.empty() ? convert::paragraph("No parameters.")
-                                       : convert::element("ul", list, "class=\"parameters\"");
+    content += step.parameters.empty() ? paragraph("No parameters.")
+                                       : element("ul", list, "class=\"parameters\"");
   }
-  return convert::section("parameters", kTitle, content);
+  return section("parameters", kTitle, content);
 }
 
 Markup provenanceSection(const ReportFacts& facts) {
   const formats::Metadata& metadata = facts.value.metadata;
   Facts list;
-  list.emplace_back("Case", convert::name(facts.caseName));
+  list.emplace_back("Case", name(facts.caseName));
   list.emplace_back("Size", text(std::to_string(facts.bytes) + " bytes"));
   list.emplace_back("SHA-256 of the case", digest(facts.sha256));
   list.emplace_back(
@@ -134,13 +130,12 @@ Markup provenanceSection(const ReportFacts& facts) {
     list.emplace_back("Wall points", text("rounded to " + std::to_string(rounded->bits) +
                                           " bits, steps of " + fixed(rounded->step, 6) + " mm"));
   for (const std::string& array : facts.info.nodeArrays)
-    list.emplace_back("Node array", convert::name(array));
+    list.emplace_back("Node array", name(array));
   for (const std::string& extension : metadata.extensionsUsed)
-    list.emplace_back("Extension", convert::name(extension));
+    list.emplace_back("Extension", name(extension));
   list.emplace_back("This report", text(kTool));
-  if (!metadata.note.empty())
-    list.emplace_back("Note", convert::shortened(metadata.note, kMostOfANote));
-  return convert::section("provenance", "Provenance", convert::factList(list));
+  if (!metadata.note.empty()) list.emplace_back("Note", shortened(metadata.note, kMostOfANote));
+  return section("provenance", "Provenance", factList(list));
 }
 
 }  // namespace lumen::convert

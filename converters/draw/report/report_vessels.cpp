@@ -11,13 +11,12 @@
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/report_page.h"
+#include "converters/draw/report/table.h"
 #include "converters/draw/report/tree_profiles.h"
 
 namespace lumen::convert {
 
 namespace {
-
-using convert::Markup, convert::element, convert::paragraph, convert::text;
 
 /// Reason why tracking stopped, for people.
 std::string stopText(const std::string& reason) {
@@ -48,7 +47,7 @@ std::string parentText(const formats::CenterlineTree& tree, const formats::Branc
 Markup plotCaption(std::size_t number, const BranchInfo& branch) {
   Markup caption = element("b", text(std::to_string(number)));
   caption.html += ' ';
-  caption += convert::name(branch.label);
+  caption += name(branch.label);
   return element("figcaption", caption);
 }
 
@@ -73,7 +72,7 @@ std::optional<double> acceptedRate(const formats::Metadata& metadata) {
 Markup branchSection(const ReportFacts& facts) {
   const formats::CenterlineTree& tree = facts.value.tree;
   if (tree.branches.empty())
-    return convert::section("branches", "Vessels", paragraph("This case has no vessels."));
+    return section("branches", "Vessels", paragraph("This case has no vessels."));
   const std::vector<std::size_t> numbers = numbersOf(tree);
   convert::Table table("branch-table", {{"no."},
                                         {"vessel", false},
@@ -88,7 +87,7 @@ Markup branchSection(const ReportFacts& facts) {
                                         {"why tracking stopped", false}});
   for (const std::uint32_t b : convert::inTreeOrder(tree)) {
     const BranchInfo& info = facts.info.branches[b];
-    table.row({text(std::to_string(numbers[b])), convert::name(info.label), text(info.kind),
+    table.row({text(std::to_string(numbers[b])), name(info.label), text(info.kind),
                text(parentText(tree, tree.branches[b], numbers)), text(std::to_string(info.nodes)),
                text(fixed(info.length, 1)), text(fixed(info.radius.mean, 2)),
                text(fixed(info.radius.min, 2)), text(fixed(info.radius.max, 2)),
@@ -99,14 +98,13 @@ Markup branchSection(const ReportFacts& facts) {
       "leaves. Length: from the wall "
       "of that vessel on. Radius: mean, least and greatest. Confidence: the mean inlier rate.");
   content += table.markup();
-  return convert::section("branches", "Vessels", content);
+  return section("branches", "Vessels", content);
 }
 
 Markup profileSection(const ReportFacts& facts) {
   const std::vector<convert::TreeProfile> profiles = convert::treeProfiles(facts.value.tree);
   if (profiles.empty())
-    return convert::section("profiles", "Radius along each vessel",
-                            paragraph("This case has no vessels."));
+    return section("profiles", "Radius along each vessel", paragraph("This case has no vessels."));
   Markup content = paragraph(
       std::string("Red: the radius. ") +
       (facts.value.tree.inlierRate.empty() ? "This case records no confidence. "
@@ -122,16 +120,15 @@ Markup profileSection(const ReportFacts& facts) {
     plots.html += '\n';
   }
   content += element("div", plots, "class=\"profiles\"");
-  return convert::section("profiles", "Radius along each vessel", content);
+  return section("profiles", "Radius along each vessel", content);
 }
 
 Markup confidenceSection(const ReportFacts& facts) {
   const formats::CenterlineTree& tree = facts.value.tree;
   if (tree.inlierRate.empty() || tree.nodeCount() == 0)
-    return convert::section("confidence", "Confidence",
-                            paragraph("This case records no inlier rates, as it was not tracked in "
-                                      "a volume, so there is nothing to say "
-                                      "about confidence."));
+    return section("confidence", "Confidence",
+                   paragraph("This case records no inlier rates, as it was not tracked in "
+                             "a volume, so its confidence is unknown."));
   const convert::ConfidenceShares shares = convert::confidenceShares(tree);
   std::string words =
       "The inlier rate of a node is the share of the places on the wall found around it that lie "
@@ -144,13 +141,13 @@ Markup confidenceSection(const ReportFacts& facts) {
   Markup content = paragraph(words);
   Markup pair = element("figure", convert::confidenceBars(shares));
   if (facts.confidence)
-    pair += convert::pngFigure(facts.confidence->png,
-                               {"<span class=\"viridis\"></span> from 0 (dark blue) to 1 (yellow)"},
-                               "The case, coloured by confidence");
+    pair += pngFigure(facts.confidence->png,
+                      {"<span class=\"viridis\"></span> from 0 (dark blue) to 1 (yellow)"},
+                      "The case, coloured by confidence");
   else
     pair += paragraph("There is no picture, as this case has no models.");
   content += element("div", pair, "class=\"pair\"");
-  return convert::section("confidence", "Confidence", content);
+  return section("confidence", "Confidence", content);
 }
 
 }  // namespace lumen::convert

@@ -100,7 +100,7 @@ std::string readmeOf(const TargetRow& target, const ExportFrame& frame,
   std::string text = "# Vessels for " + std::string(target.title) + "\n\n" + result.start;
   text += "\n## Files\n\n" + filesTable(result);
   text += "\n## Units and frame\n\nLengths are in " + std::string(unitName(frame.unit)) +
-          " unless a file says otherwise. Axes are those of the patient: " +
+          " unless a file states otherwise. Axes are those of the patient: " +
           std::string(axesText(frame.axes)) + ", " + std::string(axesName(frame.axes)) +
           ".\nThe origin is that of the volume that the case was made from.\n";
   for (const std::string& loss : result.losses) text += "\n" + markdownText(loss) + ".\n";

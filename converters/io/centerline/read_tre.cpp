@@ -98,7 +98,7 @@ private:
     else if (key == "ElementType")
       takeType(object, value);
     else if (key == "CompressedData" && isTrue(value))
-      refuse("says that data are compressed; lumen reads them as they are");
+      refuse("states that data are compressed; lumen reads them as they are");
     else if (key == "ElementSpacing")
       object.spacing = threeOf(value);
     else if (key == "Offset" || key == "Position")

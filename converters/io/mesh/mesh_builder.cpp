@@ -122,7 +122,8 @@ void StatedFrame::look(std::string_view comment) {
 MeshFile finishStated(MeshBuilder& builder, const StatedFrame& frame) {
   builder.file.frameStated = frame.ras || frame.lps;
   if (frame.millimetres) builder.file.unitMm = 1;
-  if (frame.ras) builder.file.notes.emplace_back("the file says RAS: x and y were negated, to LPS");
+  if (frame.ras)
+    builder.file.notes.emplace_back("the file states RAS: x and y were negated, to LPS");
   return builder.finish(frame.ras);
 }
 

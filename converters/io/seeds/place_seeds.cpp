@@ -71,7 +71,7 @@ std::string outsideText(const Vector3d& world, const VolumeGeometry& geometry) {
     high = high.cwiseMax(geometry.worldFromIndex(at));
   }
   const Vector3d nearest = geometry.worldFromIndex(heldInside(geometry, index, 0));
-  return "lies " + numberText((world - nearest).norm()) + " mm outside of the volume: it is at " +
+  return "lies " + shownNumber((world - nearest).norm()) + " mm outside of the volume: it is at " +
          vectorText(world) + " mm LPS (voxel " + vectorText(index) +
          "), and the volume reaches from " + vectorText(low) + " to " + vectorText(high) +
          " mm, in " + std::to_string(geometry.size[0]) + " x " + std::to_string(geometry.size[1]) +
@@ -79,14 +79,14 @@ std::string outsideText(const Vector3d& world, const VolumeGeometry& geometry) {
 }
 
 std::string radiusText(double radius, const RadiusRange& range) {
-  std::string text = "has a radius of " + numberText(radius) + " mm; expected " +
-                     numberText(range.least) + " to " + numberText(range.most) +
+  std::string text = "has a radius of " + shownNumber(radius) + " mm; expected " +
+                     shownNumber(range.least) + " to " + shownNumber(range.most) +
                      " mm in this volume (a tenth of its finest voxel edge, half of its longest "
                      "side)";
   if (range.has(1e-3 * radius))
-    text += "; in micrometres it would be one of " + numberText(1e-3 * radius) + " mm";
+    text += "; in micrometres it would be one of " + shownNumber(1e-3 * radius) + " mm";
   if (range.has(1e3 * radius))
-    text += "; in metres it would be one of " + numberText(1e3 * radius) + " mm";
+    text += "; in metres it would be one of " + shownNumber(1e3 * radius) + " mm";
   return text;
 }
 
@@ -215,7 +215,7 @@ std::string adviceFor(const std::vector<SeedBranch>& seeds, const VolumeGeometry
         return worldOf(branch, position, metres);
       });
   if (count <= inside) return advice;
-  return "the volume is only " + numberText(side) + " mm long; with its header read as metres " +
+  return "the volume is only " + shownNumber(side) + " mm long; with its header read as metres " +
          insideText(count, points) + kOption.unit.shown() + " m";
 }
 

@@ -33,7 +33,7 @@ void checkPoint(const SeedBranch& branch, std::size_t i, const fs::path& file) {
   if (!p.position.allFinite())
     refuse("is " + vectorText(p.position) + "; expected finite coordinates");
   if (p.radius && !(std::isfinite(*p.radius) && *p.radius > 0))
-    refuse("has radius " + numberText(*p.radius) +
+    refuse("has radius " + shownNumber(*p.radius) +
            "; expected a positive number, or no radius where it is not known");
   if (!p.radius && branch.kind == formats::BranchKind::Aneurysm)
     refuse("has no radius; expected the distance to the wall at each point of an aneurysm");

@@ -88,8 +88,8 @@ void checkStream(const DicomImage& image, const std::vector<std::byte>& stream) 
   throw invalidInput("its compressed pixels are " + std::to_string(header->columns) + " x " +
                      std::to_string(header->rows) + " with " + std::to_string(header->components) +
                      " components of " + std::to_string(header->bits) +
-                     " bits; expected what its elements say, " + std::to_string(image.columns) +
-                     " x " + std::to_string(image.rows) + ", 1 of at most " +
+                     " bits; expected, by its elements, " + std::to_string(image.columns) + " x " +
+                     std::to_string(image.rows) + ", 1 of at most " +
                      std::to_string(image.bitsAllocated));
 }
 

@@ -57,7 +57,7 @@ Space anatomicalSpace(const TextHeader& header, std::vector<std::string>& assump
     space.toLps = Vector3d(1, -1, 1);
   } else if (name == "scannerxyz" || name == "3drighthanded" || name == "3dlefthanded") {
     assumptions.push_back("its space is " + cited(header.text("space")) +
-                          ", which does not say where the patient's left, back and head are; its "
+                          ", which does not state where the patient's left, back and head are; its "
                           "axes are taken to run there (LPS)");
   } else {
     throw header.refusal("space",

@@ -93,8 +93,8 @@ public:
 
   std::string bytes(std::uint64_t expected) {
     if (m_packing.zlib) return unpacked(expected);
-    const std::uint64_t said = headers(1)[0];
-    if (said != expected) refuseSize(said, expected);
+    const std::uint64_t stated = headers(1)[0];
+    if (stated != expected) refuseSize(stated, expected);
     if (expected > m_bytes.mostLeft()) refuse("ends before its data do");
     std::string data = m_bytes.read(expected);
     if (data.size() < expected) refuse("ends before its data do");
@@ -135,8 +135,8 @@ public:
   }
 
 private:
-  [[noreturn]] void refuseSize(std::uint64_t said, std::uint64_t expected) const {
-    refuse("says that it has " + std::to_string(said) + " bytes; expected " +
+  [[noreturn]] void refuseSize(std::uint64_t stated, std::uint64_t expected) const {
+    refuse("states a size of " + std::to_string(stated) + " bytes; expected " +
            std::to_string(expected));
   }
 
@@ -171,14 +171,13 @@ private:
     if (blocks == 0 && expected == 0) return {};
     const std::vector<std::uint64_t> sizes = headers(2);
     if (blocks > m_bytes.mostLeft() / m_packing.headerBytes)
-      refuse("says that it has " + std::to_string(blocks) +
-             " blocks, more than its bytes can hold");
+      refuse("states " + std::to_string(blocks) + " blocks, more than its bytes can hold");
     const std::uint64_t full = blocks - (sizes[1] != 0 ? 1 : 0);
     if ((full > 0 && sizes[0] > expected / full) || sizes[1] > expected ||
         full * sizes[0] + sizes[1] != expected)
-      refuse("says that it has " + std::to_string(blocks) + " blocks of " +
-             std::to_string(sizes[0]) + " bytes, the last of " + std::to_string(sizes[1]) +
-             "; expected " + std::to_string(expected) + " bytes");
+      refuse("states " + std::to_string(blocks) + " blocks of " + std::to_string(sizes[0]) +
+             " bytes, the last of " + std::to_string(sizes[1]) + "; expected " +
+             std::to_string(expected) + " bytes");
     const std::vector<std::uint64_t> packed = headers(blocks);
     std::string data;
     for (std::size_t b = 0; b < packed.size(); ++b)
@@ -189,7 +188,7 @@ private:
   void unpack(std::uint64_t packedSize, std::uint64_t size, std::string& data) {
     if (packedSize > m_bytes.mostLeft()) refuse("ends before its data do");
     if (size / kMostPerPackedByte > packedSize)
-      refuse("says that " + std::to_string(packedSize) + " bytes unpack to " +
+      refuse("states that " + std::to_string(packedSize) + " bytes unpack to " +
              std::to_string(size) + ", more than zlib can pack");
     const std::string packed = m_bytes.read(packedSize);
     if (packed.size() < packedSize) refuse("ends before its data do");

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "converters/base/html.h"
+#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/library/site/case_page.h"
 #include "converters/library/site/case_texts.h"
 #include "converters/library/site/citation.h"
-#include "converters/library/site/markup.h"
 #include "converters/library/site/notes.h"
 
 namespace lumen::convert {

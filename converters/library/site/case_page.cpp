@@ -3,8 +3,8 @@
 
 #include "converters/base/html.h"
 #include "converters/library/site/case_texts.h"
-#include "converters/library/site/markup.h"
 #include "converters/library/site/notes.h"
+#include "converters/library/site/page_frame.h"
 
 namespace lumen::convert {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "converters/base/html.h"
+#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/library/site/case_page.h"
 #include "converters/library/site/case_texts.h"
-#include "converters/library/site/markup.h"
 #include "converters/library/site/pictures.h"
 
 namespace lumen::convert {
@@ -33,13 +33,7 @@ std::string image(const CaseRecord& record, const std::string& path,
 
 /// A row of a list of terms; nothing for an empty description. `html` is ready.
 std::string term(const std::string& name, const std::string& html) {
-  if (html.empty()) return {};
-  std::string row = "<div><dt>";
-  row += name;
-  row += "</dt><dd>";
-  row += html;
-  row += "</dd></div>\n";
-  return row;
+  return html.empty() ? std::string() : factRow(name, {html}).html;
 }
 
 std::string textTerm(const std::string& name, const std::string& text) {

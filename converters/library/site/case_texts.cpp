@@ -3,9 +3,10 @@
 
 #include <cmath>
 
+#include "converters/base/html.h"
+#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/library/library_file.h"
-#include "converters/library/site/markup.h"
 
 namespace lumen::convert {
 
@@ -23,6 +24,13 @@ std::string galleryFigures(const CaseFigures& figures) {
   return "<span>" + counted(figures.branches, "vessel", "vessels") + "</span> · <span>" +
          shownFigure(figures.length) + " mm</span> · <span>radius " +
          shownFigure(figures.radiusMin) + "–" + shownFigure(figures.radiusMax) + " mm</span>";
+}
+
+std::string doiLink(const std::string& doi) {
+  if (doi.empty()) return {};
+  return element("a", name(doi),
+                 "rel=\"external noreferrer\" href=\"https://doi.org/" + addressOf(doi) + "\"")
+      .html;
 }
 
 double rounded(double value) {

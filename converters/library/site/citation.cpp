@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/library/site/citation.h"
 
-#include "converters/library/site/markup.h"
+#include "converters/base/html.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {

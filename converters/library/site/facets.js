@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a library's cases is looked for: the cases, what they are told apart by, and the state of the search, which is also what stands
+// The search among a library's cases: the cases, their facets, and the state of the search, which also stands
 // behind the "#" of the address. It touches no element; gallery.js shows it.
 "use strict";
 globalThis.lumenFacets = (() => {
@@ -18,7 +18,7 @@ globalThis.lumenFacets = (() => {
     };
   });
 
-  /** What cases are told apart by; of several values of one, a case has any; of several of these, all. */
+  /** Facets of cases. A case matches several values of one facet if it has any, and several facets if it matches all. */
   const kFacets = [
     { key: "anatomy", title: "Anatomy", of: c => c.anatomy || "not stated" },
     { key: "side", title: "Side", of: c => c.side },
@@ -78,7 +78,7 @@ globalThis.lumenFacets = (() => {
     return words.toString();
   }
 
-  /** What is found: the cases in order, and for each facet how many cases each value would give, the others being as they are. */
+  /** Result of the search: the cases in order, and for each facet how many cases each value would give, the others being as they are. */
   function find(state) {
     const words = folded(state.words).split(/\s+/).filter(word => word !== "");
     const ranges = kRanges.map(({ key, of }) => ({ of, ends: state.ranges.get(key) })).filter(({ ends }) => ends[0] !== null || ends[1] !== null);

@@ -8,8 +8,8 @@
 #include "converters/base/html.h"
 #include "converters/base/text.h"
 #include "converters/library/site/case_texts.h"
-#include "converters/library/site/markup.h"
 #include "converters/library/site/notes.h"
+#include "converters/library/site/page_frame.h"
 #include "converters/library/site/pictures.h"
 #include "formats/container/printable.h"
 
@@ -167,12 +167,14 @@ std::string searchRow(const CaseRecord& record) {
     words += printable(code.name) + " " + printable(code.code) + " ";
   for (const std::vector<CasePlace>* const places : {&record.insertions, &record.ends})
     for (const CasePlace& place : *places) words += printable(place.name) + " ";
-  return jsonInScript(nlohmann::ordered_json::array(
+  using Json = nlohmann::ordered_json;
+  const Json row = Json::array(
       {record.id, printable(about.title), printable(about.anatomy), printable(about.laterality),
        printable(about.modality), about.synthetic ? 1 : 0, printable(about.licence),
        record.figures.branches, record.figures.aneurysms, rounded(record.figures.length),
        rounded(record.figures.radiusMin), rounded(record.figures.radiusMax),
-       picturesOf(record).thumbnail, trimmed(words)}));
+       picturesOf(record).thumbnail, trimmed(words)});
+  return jsonInScript(row.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace lumen::convert

@@ -3,7 +3,6 @@
 
 #include "converters/base/html.h"
 #include "converters/base/option_name.h"
-#include "converters/library/site/markup.h"
 
 namespace lumen::convert {
 

@@ -85,10 +85,30 @@ bool divide(formats::Case& target, std::uint32_t tip) {
 
 }  // namespace
 
+namespace {
+
+/// Distance over radius from a point to the stretch between a branch's parent and its first node,
+/// outside of the parent's ball: a vessel begins at the wall that it leaves. Infinite without one.
+double shareBeforeFirst(const CenterlineTree& tree, const formats::Branch& record,
+                        const Vector3d& point) {
+  if (record.parentNode == formats::kNoParent) return std::numeric_limits<double>::infinity();
+  const auto parent = static_cast<std::size_t>(record.parentNode);
+  const Vector3d from = toEigen(tree.centre[parent]), to = toEigen(tree.centre[record.firstNode]);
+  const double length = (to - from).norm(), wall = double{tree.radius[parent]};
+  if (length <= wall) return std::numeric_limits<double>::infinity();
+  const Vector3d along = (to - from) / length;
+  const double t = std::clamp((point - from).dot(along), wall, length);
+  return (from + t * along - point).norm() / double{tree.radius[record.firstNode]};
+}
+
+}  // namespace
+
 std::optional<NodePlace> placeIn(const CenterlineTree& tree, std::uint32_t branch,
                                  const Vector3d& point) {
   std::optional<NodePlace> best;
   const formats::Branch& record = tree.branches[branch];
+  const double first = shareBeforeFirst(tree, record, point);
+  if (first <= 1) best = NodePlace{branch, record.firstNode, first};
   for (std::uint32_t n = record.firstNode; n < record.firstNode + record.nodeCount; ++n) {
     const double share = (toEigen(tree.centre[n]) - point).norm() / double{tree.radius[n]};
     if (share <= (best ? best->share : 1)) best = NodePlace{branch, n, share};

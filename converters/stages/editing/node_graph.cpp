@@ -123,8 +123,8 @@ std::uint32_t NodeGraph::mainOf(std::uint32_t node) const {
     const auto arm = armAlong(downstream(child));
     if (!arm) continue;
     // a vessel that is wider than the one before it is another one that passes by
-    const double width = into ? std::min(arm->radius, into->radius * into->radius / arm->radius)
-                              : arm->radius;
+    const double width =
+        into ? std::min(arm->radius, into->radius * into->radius / arm->radius) : arm->radius;
     const double straight = into ? 0.5 * (1 - into->direction.dot(arm->direction)) : 1;
     if (width * straight <= most) continue;
     most = width * straight;
@@ -253,7 +253,8 @@ std::vector<Chain> NodeGraph::chains() const {
       for (std::size_t k = 0; k < tree[c].nodes.size(); ++k) {
         const std::uint32_t node = tree[c].nodes[k];
         for (const std::uint32_t child : m_beside[node])
-          if (m_parent[child] == node && child != m_main[node]) tree.push_back({node, follow(child)});
+          if (m_parent[child] == node && child != m_main[node])
+            tree.push_back({node, follow(child)});
       }
     trees.push_back(std::move(tree));
   }

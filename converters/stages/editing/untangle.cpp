@@ -24,7 +24,7 @@ using formats::BranchKind;
 constexpr double kReachRadii = 4;     // of both ends together: a longer gap is no crossing
 constexpr double kAheadCosine = 0.8;  // of an end and the way to the other
 constexpr double kFacingCosine = 0.7;
-constexpr double kTouching = 1.25;    // of both radii: vessels whose axes are this near touch
+constexpr double kTouching = 1.25;   // of both radii: vessels whose axes are this near touch
 constexpr double kLikeRadii = 1.4;   // ratio of the radii of one vessel on both sides
 constexpr double kLeastShare = 0.5;  // of the widest end: an end that leaves the volume is the root
 
@@ -103,15 +103,13 @@ private:
     const Vector3d gap = b.position - a.position;
     const double length = gap.norm(), wide = a.radius + b.radius;
     double reach = kReachRadii * wide;
-    if (a.isStart() && b.isStart())
-      reach = std::max(reach, 2 * (m_graph.radius(a.parent) + wide));
+    if (a.isStart() && b.isStart()) reach = std::max(reach, 2 * (m_graph.radius(a.parent) + wide));
     const double ratio = std::max(a.radius, b.radius) / std::min(a.radius, b.radius);
     if (length > reach || ratio > kLikeRadii) return std::nullopt;
     const double facing = -a.outward.dot(b.outward);
     if (facing < kFacingCosine) return std::nullopt;
     double ahead = 1;
-    if (length > 0.5 * wide)
-      ahead = std::min(a.outward.dot(gap), -b.outward.dot(gap)) / length;
+    if (length > 0.5 * wide) ahead = std::min(a.outward.dot(gap), -b.outward.dot(gap)) / length;
     if (ahead < kAheadCosine || !isOpen(a.position, b.position)) return std::nullopt;
     if (a.isStart() && b.isStart() && !crosses(a, b)) return std::nullopt;
     return length / wide + 2 * (2 - facing - ahead) + 2 * std::log(ratio);
@@ -135,7 +133,8 @@ private:
   [[nodiscard]] bool crosses(const VesselEnd& a, const VesselEnd& b) const {
     // one that hangs on the stem of the other crosses what the stem hangs on
     const bool isOnB = isAtStem(a.parent, b), isOnA = isAtStem(b.parent, a);
-    const auto widths = m_graph.widthsAround(isOnB ? b.parent : a.parent, isOnA ? a.parent : b.parent);
+    const auto widths =
+        m_graph.widthsAround(isOnB ? b.parent : a.parent, isOnA ? a.parent : b.parent);
     if (!widths) return true;
     const auto [before, after] = *widths;
     const double left = before * before * before - std::pow(a.radius, 3) - std::pow(b.radius, 3);

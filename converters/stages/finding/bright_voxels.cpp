@@ -19,8 +19,8 @@ namespace {
 constexpr double kAboveNoise = 4;    // standard deviations: excess that is no noise
 constexpr std::size_t kBins = 1024;  // of the histogram of excess
 constexpr double kMostLumen = 0.1;   // share of a volume that vessels may fill
-/// Share of the background that is on a ridge by noise or texture: 24 % in white noise. What there
-/// is in a fifth of that is no background.
+/// Share of the background that is on a ridge by noise or texture: 24 % in white noise. A part
+/// with ridges at a fifth of that or less is no background.
 constexpr double kFewRidges = 0.05;
 /// Multiples of the usual ridge: a vessel has one voxel of the latter at least, and goes on through
 /// voxels of the former. In white noise one voxel of 1000 exceeds 3.2, and none of 885,000 5.6.

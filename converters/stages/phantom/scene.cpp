@@ -10,6 +10,7 @@
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/base/sha256.h"
+#include "converters/base/shown_text.h"
 #include "converters/geometry/box.h"
 #include "converters/io/centerline/read_swc.h"
 #include "converters/stages/phantom/smooth_chain.h"
@@ -30,12 +31,6 @@ constexpr double kNamedSlice = 5;          // voxels, of the phantom with thick 
 // A stream of its own, so that the clicks do not change when the drawing does.
 constexpr std::uint64_t kClicks = 0x636c69636b73ULL;
 
-std::string shown(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 // Voxels along each edge, as whole numbers that need not fit any integer.
 Vector3d sizeOf(const Box3d& box, double voxel) {
   return (((box.high - box.low) / voxel).array().ceil() + 1 + 2 * kMarginVoxels).matrix();
@@ -54,13 +49,14 @@ VolumeGeometry gridAround(const Box3d& box, double voxel) {
   const Vector3d size = sizeOf(box, voxel);
   if (!(size.prod() <= kMostVoxels)) {
     const double workable = workableVoxel(box, voxel);
-    throw Error(ErrorKind::Usage,
-                "phantom: a " + kOption.voxel.shown() + " of " + shown(voxel) + " mm makes " +
-                    shown(size.x()) + " x " + shown(size.y()) + " x " + shown(size.z()) +
-                    " voxels of the tree, expected at "
-                    "most 536870912 in all: " +
-                    (workable <= 10 ? kOption.voxel.shown() + " " + shown(workable) + " is enough"
-                                    : "lengths of the file are taken as mm"));
+    throw Error(
+        ErrorKind::Usage,
+        "phantom: a " + kOption.voxel.shown() + " of " + shownNumber(voxel) + " mm makes " +
+            shownNumber(size.x()) + " x " + shownNumber(size.y()) + " x " + shownNumber(size.z()) +
+            " voxels of the tree, expected at "
+            "most 536870912 in all: " +
+            (workable <= 10 ? kOption.voxel.shown() + " " + shownNumber(workable) + " is enough"
+                            : "lengths of the file are taken as mm"));
   }
   VolumeGeometry grid;
   grid.spacing.setConstant(voxel);
@@ -91,9 +87,9 @@ void checkEffort(const CenterlineFile& file, double voxel, const std::string& na
       chordLength(file) / (0.5 * voxel) + 2 * static_cast<double>(file.points.size());
   const double draws = nodes * std::pow(2 * widest / voxel + 3, 3);
   if (nodes <= static_cast<double>(formats::kMaxNodes) / 4 && draws <= kMostDraws) return;
-  throw invalidInput(name + ": its vessels are " + shown(chordLength(file)) +
-                     " mm long and up to " + shown(widest) +
-                     " mm in radius, too much to draw in voxels of " + shown(voxel) +
+  throw invalidInput(name + ": its vessels are " + shownNumber(chordLength(file)) +
+                     " mm long and up to " + shownNumber(widest) +
+                     " mm in radius, too much to draw in voxels of " + shownNumber(voxel) +
                      " mm; expected a tree in mm, or a larger " + kOption.voxel.shown());
 }
 
@@ -154,11 +150,11 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
   if (options.name == "thick-slices") scene.slice = kNamedSlice;
   if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
   if (size < kFewestSlices * scene.slice)
-    throw Error(ErrorKind::Usage, "phantom: " + kOption.sliceThickness.shown() + " is " +
-                                      shown(scene.slice * options.voxel) +
-                                      " mm, expected at most " +
-                                      shown(options.voxel * size / kFewestSlices) +
-                                      " mm in a volume of " + shown(options.voxel * size) + " mm");
+    throw Error(ErrorKind::Usage,
+                "phantom: " + kOption.sliceThickness.shown() + " is " +
+                    shownNumber(scene.slice * options.voxel) + " mm, expected at most " +
+                    shownNumber(options.voxel * size / kFewestSlices) + " mm in a volume of " +
+                    shownNumber(options.voxel * size) + " mm");
   Random random(options.seed, kClicks + options.clickDrawing);
   scene.design.seeds = options.isCareless
                            ? clickCarelessly(scene.design.tree, options.voxel, random)

@@ -126,11 +126,11 @@ std::optional<std::string> doubtAbout(const Volume& volume) {
   const Values values =
       std::visit([](const auto& voxels) { return valuesOf(voxels); }, volume.voxels);
   if (!values.second)
-    throw invalidInput("every voxel is " + numberText(values.first) +
+    throw invalidInput("every voxel is " + shownNumber(values.first) +
                        ", so there is nothing to track; expected an angiogram");
   if (values.hasMore) return std::nullopt;
   const auto [low, high] = std::minmax(values.first, *values.second);
-  return "its voxels are " + numberText(low) + " or " + numberText(high) +
+  return "its voxels are " + shownNumber(low) + " or " + shownNumber(high) +
          " only, as in a mask; expected the intensities of an angiogram: walls will be as coarse "
          "as the voxels, so give the image that the mask was made from, if there is one";
 }

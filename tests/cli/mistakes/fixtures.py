@@ -46,11 +46,11 @@ class Store:
             return target
 
     def bytes(self, name):
-        """What is in the file of that name."""
+        """Bytes of the file of that name."""
         return self.path(name).read_bytes()
 
     def text(self, name):
-        """What is in the file of that name, as text."""
+        """Text of the file of that name."""
         return self.bytes(name).decode()
 
     def lumen(self, *arguments):

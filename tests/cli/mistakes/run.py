@@ -40,7 +40,7 @@ def state(folder):
 
 
 def run(command, folder, lumen):
-    """What the command prints, with its exit code as the last line, and what is wrong with that or with its traces."""
+    """Output of the command, with its exit code as the last line, and the faults of that or of its traces."""
     before = state(folder)
     environment = {"PATH": f"{lumen.parent}:/usr/bin:/bin", "HOME": str(folder), "LC_ALL": "C.UTF-8"}
     try:

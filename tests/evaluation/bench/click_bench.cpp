@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one click costs on the public 3DRA: the vessel under it, its track, and the models that are new or
+// Costs of one click on the public 3DRA: the vessel under it, its track, and the models that are new or
 // stale with it.
 //
 // click_bench VOLUME CASE LABEL... prints, for each branch of the case, milliseconds of the processor: the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user would begin with instead: vesselness at several scales.
+// Alternative that a user would begin with: vesselness at several scales.
 #pragma once
 
 #include "converters/voxels/volume.h"

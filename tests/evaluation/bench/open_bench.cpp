@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What opening and reading a case costs: time, memory, pages of the file, and bytes per node beside
+// Costs of opening and reading a case: time, memory, pages of the file, and bytes per node beside
 // the same data as JSON and as VTK's PolyData. open_bench [FILE.lumen...]: real cases too.
 #include <chrono>
 #include <cstdio>

@@ -108,7 +108,7 @@ void judge(const WallPoints& points, const Circle& found, const Circle& truth, S
   }
 }
 
-/// Of every search, with all points and with trimmed ones.
+/// Sums of every search, with all points and with trimmed ones.
 using ImageSums = std::array<std::array<Sums, kSearches>, 2>;
 
 void judgeFocus(const std::array<WallPoints, kSearches>& points, const Circle& truth,

@@ -48,7 +48,7 @@ def phantom(lumen, folder, name, *options):
 
 
 def subjects(data):
-    """Of each case its name, and what makes its file."""
+    """Pairs of a case's name and the function that makes its file."""
     for kind in KINDS:
         yield kind, lambda lumen, folder, kind=kind: phantom(lumen, folder, kind, kind)
     for seed in range(1, 11):

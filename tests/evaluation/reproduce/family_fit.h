@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What noise alone costs: the error of a least-squares fit of the family of shapes that the points
+// Cost of noise alone: the error of a least-squares fit of the family of shapes that the points
 // are of. A fit without bias that does not know the shape has a larger one.
 #pragma once
 

@@ -82,7 +82,7 @@ struct Runs {
   double known = 0;            ///< median of the 90th percentiles of a fit that knows the shape, mm
 };
 
-/// What the noise alone costs a fit of the right family, by the same measure and number of runs.
+/// Error that noise alone causes in a fit of the right family, by the same measure and number of runs.
 double knownShape(const ConvolutionShape& shape, const std::vector<Vector3d>& points,
                   std::uint64_t index) {
   const FamilyFit fit(shape, points, Random(7, index));

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What becomes of the real volumes: clicks, reachable length, agreement of the walls, ends.
+"""Results on the real volumes: clicks, reachable length, agreement of the walls, ends.
 
   real_volumes.py DATA FOLDER LUMEN [BEFORE]
 
 Converts the volumes of DATA (aneurism-3dra.nrrd, aorta/aorta.mha, avf/avf.nii) by the clicks in tests/data with the program
 LUMEN, and with an older one, BEFORE, whose cases LUMEN judges as well. The cases stay in FOLDER; so do real_volumes.md,
-which is printed too, and real_volumes.json. There is no truth for these volumes: `lumen check` tells where the walls lie
-beside the half-maximum edges of the volume, and what bright vessels are left out.
+which is printed too, and real_volumes.json. There is no truth for these volumes: `lumen check` reports where the walls lie
+beside the half-maximum edges of the volume, and which bright vessels are left out.
 
 A click started if its label is not among those that failed. It reaches the visible end if, besides, no open end of its
 branch has a vessel beyond it that `lumen check` sees; a root has two ends. Ends at another vessel are not open.

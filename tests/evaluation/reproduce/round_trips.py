@@ -214,8 +214,8 @@ def main():
             real.append([name, str(error).replace(str(data) + "/", "")] + [""] * 7)
     text = "# Round trips\n\nA surface becomes a case, and the case a surface again, by default parameters. First the "
     text += "distance of the new wall to the source, then that of the source's wall to the new surface, each as median, 99 % "
-    text += "and greatest of 20 000 points, evenly by area, without flat ends. Of walls with a thickness, the lumen "
-    text += "leaves out the outer side.\n\n"
+    text += "and greatest of 20 000 points, evenly by area, without flat ends. The lumen of a wall with a "
+    text += "thickness leaves out the outer side.\n\n"
     if phantoms:
         text += table("Phantoms, in the mean edge length of the source", phantoms)
     if real:

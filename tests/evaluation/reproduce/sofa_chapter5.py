@@ -147,7 +147,7 @@ def report(results, sizes):
 
 
 def gathered(folder, walls):
-    """What this run and earlier ones have measured, by part and wall."""
+    """Measurements of this run and of earlier ones, by part and wall."""
     results = {}
     for part in PARTS:
         for name in walls:

@@ -2,7 +2,7 @@
 """Scenes of SOFA in which BeamAdapter's controller pushes an instrument into a vessel, whose wall is a case (the plugin
 LumenSofa) or a triangle mesh (SOFA's own collision). Both have the same instrument, solver, friction and distances.
 
-Units: mm, kg, s; so forces are mN and Young's moduli kPa. What SOFA v25.06 wants: a straight section is the first one (its
+Units: mm, kg, s; so forces are mN and Young's moduli kPa. SOFA v25.06 requires: a straight section is the first one (its
 rest shape counts its start twice); the spring that holds the base takes its rest place from the first frame, not from the grid;
 triangles face inwards, or LocalMinDistance finds nothing from inside; a system that is not built (build_lcp) costs the least.
 """
@@ -99,7 +99,7 @@ def wall_text(scene):
 
 
 def contact_text(scene):
-    """What is in the instrument's node for its contact."""
+    """Components of the instrument's node for its contact."""
     if scene.case:
         r = scene.instrument.radius
         return (f'    <BeamBlobContact name="contact" field="@/vessel/wall" interpolation="@interpolation" radius="{r}" '

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a written surface is, and how far it is from the field of its case: measured on the file, without what
-// the program knows of the surface that it made. Lengths in mm, places in LPS.
+// Facts of a written surface, and its distance from the field of its case: measured on the file, without
+// the program's knowledge of the surface that it made. Lengths in mm, places in LPS.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the surface in a file is, beside the case that it was made of, as one JSON object.
+// Facts of the surface in a file, beside the case that it was made of, as one JSON object.
 #include <cstdio>
 #include <exception>
 #include <string>

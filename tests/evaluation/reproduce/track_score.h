@@ -11,7 +11,7 @@
 
 namespace lumen::reproduce {
 
-/// Of a vessel of the truth.
+/// Outcome for a vessel of the truth.
 struct BranchOutcome {
   std::string label;
   double radius = 0;  ///< mean of the true nodes, voxels
@@ -22,7 +22,7 @@ struct BranchOutcome {
   convert::CenterlineScore score;
 };
 
-/// Of a tracked vessel; its first nodes are left out as far as they lie in the true parent's lumen.
+/// Outcome for a node of a tracked vessel; first nodes in the true parent's lumen are left out.
 struct NodeOutcome {
   double trueRadius = 0;   ///< at the nearest point of the true branch, voxels
   double radiusError = 0;  ///< found minus true, voxels

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the project uses of TBB, on std::thread: for ThreadSanitizer, which cannot see how TBB's library, built
+// Functions of TBB that the project uses, on std::thread: for ThreadSanitizer, which cannot see how TBB's library, built
 // without it, hands work from thread to thread, and reports each as a race.
 #pragma once
 

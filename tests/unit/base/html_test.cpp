@@ -36,5 +36,29 @@ TEST(Html, AnAddressHoldsItsBytes) {
   EXPECT_EQ(dataAddress("text/plain", ""), "data:text/plain;base64,");
 }
 
+TEST(Html, ALongTextIsCutBetweenCharacters) {
+  EXPECT_EQ(shortened("ääää", 100).html, "<bdi>ääää</bdi>");
+  EXPECT_EQ(shortened("ääää", 5).html, "<bdi>ää</bdi> … (8 bytes)");
+  EXPECT_EQ(shortened(std::string(100000, '<'), 10).html.size(),
+            std::string("<bdi></bdi> … (100000 bytes)").size() + 9 * 4);
+}
+
+TEST(Html, AltTextsAreEscaped) {
+  const std::string html = pngFigure("x", text("a"), "\"><script>").html;
+  EXPECT_EQ(html.find("<script>"), html.npos) << html;
+}
+
+TEST(Html, AddressesAndScriptsTakeAnyText) {
+  EXPECT_EQ(addressOf("a+b/c d\"<é"), "a%2Bb/c%20d%22%3C%C3%A9");
+  EXPECT_EQ(jsonInScript("[\"</script>&\xE2\x80\xA8\xE2\x80\xA9\"]"),
+            "[\"\\u003c/script\\u003e\\u0026\\u2028\\u2029\"]");
+}
+
+TEST(Html, ATitleOfAPageIsText) {
+  PageHead head;
+  head.title = "</title>";
+  EXPECT_NE(htmlPage(head, "").find("<title>&lt;/title&gt;</title>"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace lumen

@@ -76,7 +76,7 @@ struct Push {
   void run(int steps) {
     for (int i = 0; i < steps; ++i) rod_step(&r, &around, 50);
   }
-  /// Of the rod's surface beyond the exact wall, mm.
+  /// Greatest distance of the rod's surface beyond the exact wall, mm.
   [[nodiscard]] double deepest() const {
     double most = -1e9;
     for (std::size_t i = 0; i < r.free_count; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written reads back as the same tree, whatever the order of its nodes.
+// A written centerline reads back as the same tree, for any order of its nodes.
 #include "converters/io/centerline/write_centerline.h"
 
 #include <cmath>

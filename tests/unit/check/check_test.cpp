@@ -42,7 +42,7 @@ double tubeRadius(const Phantom& tube) {
 
 class TubeCheck : public ::testing::TestWithParam<double> {};
 
-// What section 7.1 of docs/method.md promises: 0.03 voxel, and a twentieth of the offset, as an edge
+// Promise of section 7.1 of docs/method.md: 0.03 voxel, and a twentieth of the offset, as an edge
 // that lies far from the wall has fewer samples on its far side.
 TEST_P(TubeCheck, OffsetIsHowMuchTheModelIsTooWide) {
   const double error = GetParam() * kVoxel;

@@ -69,7 +69,7 @@ Nodes oldNodes(const Case& value, const Change& change, const std::string& label
   return {first, first + branch.nodeCount};
 }
 
-/// What the parent of a branch was before; -1 for a root.
+/// Parent of a branch before the edit; -1 for a root.
 int oldParent(const Case& value, const Change& change, const std::string& label) {
   const std::int32_t node = branchOf(value, label).parentNode;
   return node == kNoParent ? -1 : static_cast<int>(change.before[static_cast<std::size_t>(node)]);

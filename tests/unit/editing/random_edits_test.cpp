@@ -89,7 +89,7 @@ std::multiset<std::uint32_t> oldAround(const formats::Neighbours& around, std::u
   return out;
 }
 
-/// What every edit leaves as it was.
+/// Expects the values that every edit leaves as they were.
 void expectKept(const Case& was, const Case& now, const Change& change) {
   ASSERT_EQ(change.before.size(), now.tree.nodeCount());
   ASSERT_TRUE(std::is_sorted(change.stale.begin(), change.stale.end()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What contact_bench counts, on two tubes that touch: the exact field knows them apart, a grid does not.
+// Counts of contact_bench on two tubes that touch: the exact field knows them apart, a grid does not.
 #include <algorithm>
 #include <array>
 #include <cmath>

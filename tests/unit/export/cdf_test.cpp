@@ -20,7 +20,7 @@ using namespace convert;
 
 namespace {
 
-/// What Bullet's shape says at a place of the file, or nothing.
+/// Distance of Bullet's shape at a place of the file, or nothing.
 std::optional<double> ask(btSdfCollisionShape& shape, double x, double y, double z,
                           btVector3* normal = nullptr) {
   btScalar distance = 0;

@@ -73,7 +73,7 @@ private:
   fs::path m_directory;
 };
 
-/// What reached the disk, in order: inodes that were flushed, and 0 for a rename or an exchange.
+/// Events that reached the disk, in order: inodes that were flushed, and 0 for a rename or an exchange.
 struct Journal {
   std::vector<ino_t> steps;
   FileCalls calls = {[this](int descriptor) {

@@ -21,7 +21,7 @@ struct JsonSample {
   double value;  ///< the double nearest to the text
 };
 
-/// What Python and JavaScript write now, or wrote once where there is no Python.
+/// Texts that Python and JavaScript write now, or wrote once where there is no Python.
 inline std::string writtenNumbers() {
   const std::string folder = LUMEN_TEST_DATA "/json/";
   std::string text;

@@ -21,7 +21,7 @@ struct Range {
   [[nodiscard]] bool holds(std::uint64_t at) const { return at >= first && at < first + size; }
 };
 
-// What the new values are compared with: another place may be at fault as well.
+// Places that the new values are compared with: another place may be at fault as well.
 std::vector<Range> otherPlaces(const Bytes& file, const Issue& issue, const Range& changed) {
   std::vector<Range> others;
   const auto data = [&](const char* type) { return Range{dataOf(file, type), 6 * 24}; };

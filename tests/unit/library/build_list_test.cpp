@@ -28,7 +28,7 @@ protected:
   [[nodiscard]] std::vector<BuildRow> read(const std::string& text) const {
     return readBuildList(text, list());
   }
-  /// What the refusal says after the name of the file.
+  /// Text of the refusal after the name of the file.
   [[nodiscard]] std::string refusal(const std::string& text) const {
     try {
       (void)read(text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is kept between runs: cases that are whole, and revisions that were verified.
+// Records between runs: cases that are whole, and revisions that were verified.
 #include <thread>
 
 #include <gtest/gtest.h>

@@ -17,7 +17,6 @@
 #include "converters/library/site/case_texts.h"
 #include "converters/library/site/citation.h"
 #include "converters/library/site/gallery_page.h"
-#include "converters/library/site/markup.h"
 #include "converters/library/site/pictures.h"
 #include "tests/unit/library/made_library.h"
 
@@ -176,24 +175,9 @@ TEST_F(SiteTest, WhatSomebodyElseMadeIsNotReplacedAndLinksAreNotFollowed) {
   EXPECT_TRUE(fs::exists(m_folder / "data/a/record.json"));
 }
 
-TEST(SiteMarkupTest, AddressesAndScriptsTakeAnyText) {
-  EXPECT_EQ(addressOf("a+b/c d\"<é"), "a%2Bb/c%20d%22%3C%C3%A9");
-  EXPECT_EQ(jsonInScript({"</script>&\xE2\x80\xA8\xE2\x80\xA9", "\xFF"}),
-            "[\"\\u003c/script\\u003e\\u0026\\u2028\\u2029\",\"\xEF\xBF\xBD\"]");
+TEST(SiteTextsTest, ADoiLinksToItsPage) {
   EXPECT_EQ(doiLink(""), "");
   EXPECT_NE(doiLink("10.1/a\"b").find("href=\"https://doi.org/10.1/a%22b\""), std::string::npos);
-}
-
-TEST(SiteMarkupTest, NumbersHaveTheDigitsThatMatter) {
-  EXPECT_EQ(shownFigure(3614.2), "3614");
-  EXPECT_EQ(shownFigure(61.24), "61.2");
-  EXPECT_EQ(shownFigure(0.519), "0.52");
-  EXPECT_EQ(shownFigure(NAN), "?");
-  EXPECT_EQ(shownBytes(1), "1 byte");
-  EXPECT_EQ(shownBytes(999), "999 bytes");
-  EXPECT_EQ(shownBytes(1000), "1.0 kB");
-  EXPECT_EQ(shownBytes(16433984), "16 MB");
-  EXPECT_EQ(shownBytes(999'600), "1.0 MB");
 }
 
 TEST(SiteGalleryTest, TitlesAreInTheOrderThatPeopleExpect) {

@@ -25,7 +25,7 @@ inline std::vector<std::string> hostileLabels() {
 
 /// A prism with `around` corners along z, 4 mm long with `rings` rings of edges, of radius 1 mm:
 /// group 0 its wall, group 1 the inlet at z = 0, group 2 the outlet. The flat ends have a vertex in
-/// their middle. Of `labels`, the first is the lower half's, the last the upper half's; the groups of
+/// their middle. The first of `labels` is the lower half's, the last the upper half's; the groups of
 /// the ends are called after these.
 inline convert::SurfaceMesh cappedTube(const std::vector<std::string>& labels, int around = 12,
                                        int rings = 4) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a test reads of a glTF file, by tinygltf.
+// Parts of a glTF file that tests read, by tinygltf.
 #pragma once
 
 #define TINYGLTF_NO_INCLUDE_STB_IMAGE

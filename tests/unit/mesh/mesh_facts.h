@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a test wants to know about a triangle mesh.
+// Facts of a triangle mesh that tests need.
 #pragma once
 
 #include <cstddef>

@@ -32,7 +32,7 @@ bool meets(const TriangleMesh& mesh) {
   return !selfIntersections(mesh).pairs.empty();
 }
 
-// What CGAL finds in a manifold, as sorted pairs.
+// Self-intersections that CGAL finds in a manifold, as sorted pairs.
 Pairs byCgal(const TriangleMesh& mesh) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;

@@ -17,7 +17,7 @@ SofaLoader loader(const std::string& text, const std::string& wanted = "") {
   return vesselLoader(sofaLoaders(text, "s.scn"), wanted, "s.scn");
 }
 
-/// What is thrown: the exit code and the message.
+/// Error that is thrown: the exit code and the message.
 std::string refusal(const std::string& text, const std::string& wanted = "") {
   try {
     loader(text, wanted);

@@ -42,7 +42,7 @@ double distanceToAxis(const Truth& truth, const Eigen::Vector3d& point) {
   return (point - truth.centre).cross(truth.axis).norm();
 }
 
-/// What the search finds with default options.
+/// Result of the search with default options.
 Cylinder search(const Candidates& points, const ExpectedCylinder& expected, Random& random) {
   CylinderWorkspace workspace;
   return estimateCylinder(CylinderSearch(TrackOptions{}), points, expected, random, workspace);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracks of real angiograms from the clicks in tests/data. What they should find was judged on
-// projections of the volumes.
+// Tracks of real angiograms from the clicks in tests/data. The vessels that they should find were
+// judged on projections of the volumes.
 #include <algorithm>
 #include <filesystem>
 

@@ -32,7 +32,7 @@ TEST(ClosedMesh, FindsFlatCaps) {
   EXPECT_NEAR(closed.ends[0].centre.x() + closed.ends[1].centre.x(), 20, 1e-9);
 }
 
-/// What a profile of places along x and radii encloses, the first and last of radius 0, turned round x.
+/// Surface of revolution round x of a profile of places and radii, the first and last of radius 0.
 TriangleMesh turned(const std::vector<std::pair<double, double>>& profile) {
   constexpr std::uint32_t around = 32;
   TriangleMesh mesh;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the native library says at a position, for from_disk.test.mjs: ask_blob MODEL.lumen X Y Z prints the distance to
+/* Answers of the native library at a position, for from_disk.test.mjs: ask_blob MODEL.lumen X Y Z prints the distance to
  * the wall, mm, with all digits, and the node. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -22,7 +22,7 @@ function tube(p: number[]): { distance: number; normal: number[] } {
   return { distance: r - kRadius, normal: away.map(a => a / r) };
 }
 
-/** What the wire uses of libblob, with the answers of that tube. */
+/** Functions of libblob that the wire uses, with the answers of that tube. */
 function model(): Model {
   return {
     batch: (count: number) => {

@@ -106,7 +106,7 @@ void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOpti
   const SceneItem scene = makeScene(input, options);
   const auto about = aboutScene(input, options);
   result.files.push_back(
-      {"scene.scn", printXml(scene, about), "the scene; data that have units say them", ""});
+      {"scene.scn", printXml(scene, about), "the scene; data with units state them", ""});
   result.files.push_back({"scene.py", printPython(scene, about), "the same for SofaPython3", ""});
   result.others.push_back(
       {"positions.txt", "written by a run: points along the instruments, each tenth step"});

@@ -37,7 +37,7 @@ Edges edgesOf(const formats::CenterlineTree& tree) {
   return edges;
 }
 
-// Dijkstra's algorithm. What lies behind a node that is too far is looked at too, as it may be wider.
+// Dijkstra's algorithm. Nodes behind one that is too far are visited too, as they may be wider.
 std::vector<std::uint32_t> vesselAround(const Edges& edges, const std::vector<double>& radius,
                                         double greatest, std::uint32_t station) {
   constexpr double kReach = 4;

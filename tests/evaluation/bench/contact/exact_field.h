@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the benchmark counts against: where the wall of the case is for a tool whose place along the tree is
+// Reference of the benchmark: the distance to the wall of the case for a tool whose place along the tree is
 // known.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What contact_bench has measured.
+// Measurements of contact_bench.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a method gets wrong. Counted, not judged.
+// Errors of a method, counted and not judged.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@
 
 namespace lumen::bench {
 
-/// Of a 0.014 inch guidewire, mm.
+/// Radius of a 0.014 inch guidewire, mm.
 constexpr double kWireRadius = 0.178;
-/// What is not counted: differences of less than this share of the vessel's radius.
+/// Share of the vessel's radius below which differences are not counted.
 constexpr double kTolerance = 0.05;
 
-/// What is true at a point.
+/// True distance and radius at a point.
 struct Truth {
   double distance = 0;  ///< mm, negative in the lumen
   double radius = 0;    ///< of the vessel, mm
@@ -36,7 +36,7 @@ struct Tally {
 /// outside.
 void countWires(const std::vector<Truth>& truth, const double* distance, Tally& tally);
 
-/// What is true of each point of a frame, of so many wires.
+/// Truth at each point of a frame with N environments.
 std::vector<Truth> truthOf(const ExactField& exact, const Wires& wires, std::size_t frame,
                            std::size_t environments);
 

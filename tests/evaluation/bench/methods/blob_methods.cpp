@@ -4,7 +4,7 @@
 namespace lumen::bench {
 namespace {
 
-// What a query reads of tool points.
+// Tool points as rows that a query reads.
 const double (*rows(const double* points))[3] {
   return reinterpret_cast<const double(*)[3]>(points);
 }

@@ -7,7 +7,7 @@
 
 namespace lumen::bench {
 
-/// What of a triangle a point lies on: a corner, the edge that starts there, or the inside.
+/// Part of a triangle that a point lies on: a corner, the edge that starts there, or the inside.
 enum class Feature : std::uint8_t { A, B, C, AB, BC, CA, Face };
 
 inline float dot3(const float* a, const float* b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a search for the nearest triangle may keep from step to step: the wall is no farther than it was,
-// and the way that the point has gone since.
+// State that a search for the nearest triangle may keep from step to step: the wall is no farther than its
+// last distance and the path of the point since.
 #pragma once
 
 #include <array>

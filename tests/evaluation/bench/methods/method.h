@@ -54,7 +54,7 @@ public:
   /// ask at the same time for points that differ.
   virtual void query(std::size_t first, const double* points, std::size_t count,
                      const Answers& answers) = 0;
-  /// Of the structure that answers, 0 if unknown.
+  /// Size of the structure that answers, 0 if unknown.
   [[nodiscard]] virtual double megabytes() const { return 0; }
   /// Passes over all frames that query_bench takes.
   [[nodiscard]] virtual int passes() const { return 200; }

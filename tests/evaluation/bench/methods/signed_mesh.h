@@ -17,7 +17,7 @@ class SignedMesh {
 public:
   using Vector = std::array<float, 3>;
 
-  /// Of a mesh that stays where it is. One that is not closed has no signs.
+  /// Takes a mesh, which must stay where it is. A mesh that is not closed has no signs.
   void prepare(const Triangles& mesh);
 
   /// The point of face `face` that is nearest to p goes to q.

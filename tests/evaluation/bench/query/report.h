@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What query_bench has measured, as tables and a picture.
+// Measurements of query_bench, as tables and a picture.
 #pragma once
 
 #include <string>
