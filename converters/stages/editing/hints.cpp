@@ -107,7 +107,7 @@ public:
       : m_case(target), m_hints(hints), m_labels(labelsOf(hints)) {}
 
   HintRemarks apply(std::span<const Vector3d> roots) {
-    const formats::Metadata before = m_case.metadata;
+    const std::vector<formats::Step> before = m_case.metadata.steps;
     makeRoots(roots);
     freeNames();
     name();
@@ -115,7 +115,7 @@ public:
     for (const SeedBranch& hint : m_hints) join(hint);
     dropSacs();
     giveRest();
-    m_case.metadata = before;
+    m_case.metadata.steps = before;
     if (m_named > 0)
       recordEdit(m_case.metadata,
                  "named " + counted(m_named, "vessel", "vessels") + " as seeds state");

@@ -198,7 +198,7 @@ private:
   }
 
   void rebuild() {
-    const formats::Metadata before = m_case.metadata;
+    const std::vector<formats::Step> before = m_case.metadata.steps;
     const std::vector<formats::StopReason> reasons = m_graph.reasonsAtEnds();
     std::vector<DraftBranch> branches;
     for (Chain& chain : m_graph.chains()) {
@@ -206,7 +206,7 @@ private:
       branch.record.kind = BranchKind::Vessel;
       branch.record.label = "vessel-" + std::to_string(branches.size() + 1);
       branch.record.stopReason = reasons[chain.nodes.back()];
-      branch.record.meanInlierRate = 0.0F;
+      if (!m_case.tree.inlierRate.empty()) branch.record.meanInlierRate = 0.0F;  // until finish()
       branch.parent = chain.parent;
       branch.nodes = std::move(chain.nodes);
       branch.isOther = true;
@@ -221,7 +221,7 @@ private:
     m_draft.branches = std::move(branches);
     m_graph.turnDirections();
     m_draft.finish(m_case, "untangled");
-    m_case.metadata = before;
+    m_case.metadata.steps = before;  // no person has edited the case
   }
 
   formats::Case& m_case;

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vessels that were found, as one vessel each: crossings, inlets and forks, on cases of beads.
+#include "converters/stages/editing/untangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "formats/case/validate.h"
+#include "unit/formats/beads.h"
+
+namespace lumen::convert {
+namespace {
+
+using Eigen::Vector3d;
+using formats::Case;
+using formats::kNoParent;
+using formats::Vec3f;
+using formats::test::addBeads;
+using formats::test::alongX;
+
+/// All is lumen; the volume is a box around the origin with faces at 20 mm.
+const Surrounding kEverywhere{
+    [](const Vector3d&) { return true; },
+    [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() < 20; }};
+
+/// `count` places from one on, half a millimetre apart.
+std::vector<Vec3f> along(const Vector3d& from, const Vector3d& direction, int count) {
+  std::vector<Vec3f> places;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d p = from + 0.5 * i * direction.normalized();
+    places.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()),
+                      static_cast<float>(p.z())});
+  }
+  return places;
+}
+
+Case withoutModels(Case value) {
+  value.models.reset();
+  return value;
+}
+
+std::string faultOf(const Case& value) {
+  const auto valid = formats::validate(value);
+  return valid ? "" : valid.error().text();
+}
+
+std::size_t rootsOf(const Case& value) {
+  const auto& branches = value.tree.branches;
+  return static_cast<std::size_t>(std::count_if(
+      branches.begin(), branches.end(), [](const auto& b) { return b.parentNode == kNoParent; }));
+}
+
+/// A vessel along x of a radius that a skeleton leaves on both sides along y, where a second one of
+/// radius 0.8 crosses it; `after`: radius of the first behind the crossing.
+Case crossing(float after) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "first", alongX(-10, 0.5F, 41), 1);
+  addBeads(value, "up", along({0, 1.5, 0}, {0, 1, 0}, 20), 0.8F, 20);
+  addBeads(value, "down", along({0, -1.5, 0}, {0, -1, 0}, 20), 0.8F, 20);
+  for (std::size_t n = 21; n < 41; ++n) value.tree.radius[n] = after;
+  return withoutModels(value);
+}
+
+TEST(Untangle, AVesselThatCrossesAnotherIsOneOfItsOwn) {
+  Case value = crossing(1);
+  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(faultOf(value), "");
+  ASSERT_EQ(value.tree.branches.size(), 2U);
+  EXPECT_EQ(rootsOf(value), 2U);
+  // a bridge leads across
+  EXPECT_GT(value.tree.nodeCount(), 81U);
+}
+
+TEST(Untangle, AVesselThatLosesWhatItsBranchesCarryDivides) {
+  // 1 - 2 x 0.63 ^ 3 = 0.5, the cube of 0.79
+  Case value = crossing(0.79F);
+  for (std::size_t n = 41; n < 81; ++n) value.tree.radius[n] = 0.63F;
+  EXPECT_TRUE(untangle(value, kEverywhere).empty());
+  EXPECT_EQ(rootsOf(value), 1U);
+  EXPECT_EQ(value.tree.branches.size(), 3U);
+}
+
+TEST(Untangle, NothingIsJoinedThroughTheBackground) {
+  Case value = crossing(1);
+  Surrounding apart = kEverywhere;
+  apart.isLumen = [](const Vector3d& p) { return std::abs(p.y()) > 1.4; };
+  EXPECT_TRUE(untangle(value, apart).empty());
+}
+
+TEST(Untangle, TipsThatFaceOneAnotherAreOneVessel) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "a", alongX(-10, 0.5F, 17), 1);
+  addBeads(value, "b", along({10, 0, 0}, {-1, 0, 0}, 17), 0.9F);
+  value = withoutModels(value);
+  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(value.tree.branches.size(), 1U);
+  EXPECT_EQ(faultOf(value), "");
+  // directions agree with the order of nodes
+  for (std::size_t n = 1; n < value.tree.nodeCount(); ++n) {
+    const float step = value.tree.centre[n].x - value.tree.centre[n - 1].x;
+    EXPECT_GT(step * value.tree.direction[n].x, 0) << n;
+  }
+}
+
+TEST(Untangle, TipsOfOtherWidthOrSideStayApart) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "a", alongX(-10, 0.5F, 17), 1);
+  addBeads(value, "wide", along({10, 0, 0}, {-1, 0, 0}, 17), 1.6F);
+  addBeads(value, "beside", along({0, 4, 0}, {0, 1, 0}, 17), 1);
+  value = withoutModels(value);
+  EXPECT_TRUE(untangle(value, kEverywhere).empty());
+  EXPECT_EQ(rootsOf(value), 3U);
+}
+
+TEST(Untangle, AJoinThatClosesALoopIsALink) {
+  // a ring whose two halves leave one trunk and meet on the other side
+  Case value = formats::test::noBeads();
+  addBeads(value, "trunk", alongX(-18, 0.5F, 21), 1);
+  for (const int side : {-1, 1}) {
+    std::vector<Vec3f> half;
+    for (int i = 2; i < 75; ++i) {
+      const double angle = 3.05 * i / 74;
+      half.push_back({static_cast<float>(-8 + 12 * (1 - std::cos(angle))),
+                      static_cast<float>(side * 12 * std::sin(angle)), 0});
+    }
+    addBeads(value, side < 0 ? "left" : "right", half, 0.7F, 20);
+  }
+  value = withoutModels(value);
+  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(faultOf(value), "");
+  EXPECT_EQ(value.tree.links.size(), 1U);
+  EXPECT_EQ(rootsOf(value), 1U);
+}
+
+TEST(Untangle, ATreeBeginsAtItsWidestEndThatLeavesTheVolume) {
+  Case value = formats::test::noBeads();
+  // the widest end lies inside; another leaves, and is more than half as wide
+  addBeads(value, "first", along({0, 0, 0}, {1, 0, 0}, 40), 1);
+  for (std::size_t n = 0; n < 40; ++n)
+    value.tree.radius[n] = 1.5F - 0.5F * static_cast<float>(n) / 39;
+  value = withoutModels(value);
+  untangle(value, kEverywhere);
+  EXPECT_NEAR(value.tree.centre[0].x, 19.5, 1e-6);
+  // where that is less than half as wide, it is an outlet
+  for (std::size_t n = 0; n < 40; ++n)
+    value.tree.radius[n] = 0.4F + 1.6F * static_cast<float>(n) / 39;
+  untangle(value, kEverywhere);
+  EXPECT_NEAR(value.tree.centre[0].x, 0, 1e-6);
+}
+
+TEST(Untangle, TheStraightestOfLikeWidthKeepsTheBranch) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "trunk", along({-19.5, 0, 0}, {1, 0, 0}, 30), 1);
+  addBeads(value, "bent", along({-4, 1.6, 0}, {0.3, 1, 0}, 20), 0.8F, 29);
+  addBeads(value, "straight", along({-4, -0.5, 0}, {1, -0.3, 0}, 20), 0.8F, 29);
+  value = withoutModels(value);
+  untangle(value, kEverywhere);
+  ASSERT_EQ(value.tree.branches.size(), 2U);
+  EXPECT_EQ(value.tree.branches[0].nodeCount, 50U);
+  EXPECT_LT(value.tree.centre[49].y, 0);
+  EXPECT_EQ(value.tree.branches[0].label, "vessel-1");
+}
+
+TEST(Untangle, AneurysmsStayOnTheirNodes) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "trunk", along({-19.5, 0, 0}, {1, 0, 0}, 30), 1);
+  addBeads(value, "sac", along({-10, 2, 0}, {0, 1, 0}, 3), 1.5F, 19);
+  value.tree.branches[1].kind = formats::BranchKind::Aneurysm;
+  value = withoutModels(value);
+  untangle(value, kEverywhere);
+  ASSERT_EQ(value.tree.branches.size(), 2U);
+  EXPECT_EQ(value.tree.branches[1].label, "aneurysm-1");
+  const auto parent = static_cast<std::size_t>(value.tree.branches[1].parentNode);
+  EXPECT_EQ(value.tree.centre[parent].x, -10);
+}
+
+}  // namespace
+}  // namespace lumen::convert
