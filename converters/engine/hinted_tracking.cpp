@@ -46,10 +46,9 @@ std::set<std::string> rootLabels(const formats::Case& value, const TrackArgument
 
 /// Leaves out what the user does not want. `named`: branches of seeds.
 void select(formats::Case& value, std::set<std::string> named, const TrackArguments& track) {
-  if (track.isOnlyConnected || track.isOnlySeeds) named.merge(rootLabels(value, track));
-  if (track.isOnlyConnected)
-    convert::deleteBranches(value, convert::unconnectedWith(value.tree, named));
-  if (track.isOnlySeeds) convert::deleteBranches(value, convert::notLeadingTo(value.tree, named));
+  if (!track.isOnlyConnected) return;
+  named.merge(rootLabels(value, track));
+  convert::deleteBranches(value, convert::unconnectedWith(value.tree, named));
 }
 
 /// Gives the remarks on ends the names that their branches have now, and drops those of branches
@@ -113,8 +112,9 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
 convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
                                  const std::vector<convert::SeedBranch>& seeds,
                                  const TrackArguments& track, Progress& progress) {
-  if (!seeds.empty()) return trackHinted(volume, file, seeds, track, progress);
-  convert::TrackResult result = trackFound(volume, file, track.options, progress);
+  if (track.isAllVessels) return trackHinted(volume, file, seeds, track, progress);
+  convert::TrackResult result = seeds.empty() ? trackFound(volume, file, track.options, progress)
+                                              : trackSeeds(volume, seeds, track, progress);
   applyRoots(result.result, file, track);
   renameEnds(result.result, result.ends);
   return result;

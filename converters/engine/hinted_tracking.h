@@ -12,9 +12,10 @@
 
 namespace lumen::engine {
 
-/// Finds and tracks the vessels of `volume`, read from `file`, without seeds. `seeds` name them,
-/// divide and join them, and start tracks of their own where no vessel is found; roots and selections
-/// of `track` apply. Warnings and errors are those of trackFound() and trackSeeds(); also throws
+/// Tracks the vessels of `volume`, read from `file`: those of `seeds`, or all that are found where
+/// there are none or `track` wants all vessels. In the last case seeds are hints: they name what is
+/// found, divide and join it, and start tracks of their own where no vessel is. Roots and selection of
+/// `track` apply. Warnings and errors are those of trackFound() and trackSeeds(); also throws
 /// Error(Failed) for a root that lies in no vessel.
 convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
                                  const std::vector<convert::SeedBranch>& seeds,

@@ -157,8 +157,8 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
   table.group("Tracking");
   table.file(
       kOption.seeds.name, track.seeds,
-      "Hints on vessels: names, parents, vessels that have to be there; lumen's seeds JSON, or "
-      "points of 3D Slicer (.mrk.json, .fcsv)");
+      "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv) [all "
+      "vessels that are found without]");
   table
       .add(kOption.seedsFrame.name, &track.seedsFrame, "FRAME",
            "Frame of the seeds' coordinates, whatever their file states: lps, ras, or voxel "
@@ -183,8 +183,10 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
             "Leave out trees in which no seed and no root lies")
       .forInputs(kImage | kLabels);
   table
-      .flag("only-seeds", track.isOnlySeeds,
-            "Leave out vessels that no seed names, unless they lead to one that a seed names")
+      .flag(
+          "all-vessels", track.isAllVessels,
+          "Find all vessels as without seeds, and take the seeds as hints: they name, divide, turn "
+          "and join what is found, and start tracks where nothing is")
       .onlyWith(kOption.seeds.name);
   track.options.addRows(table);
   table.scope(kAnyContent);

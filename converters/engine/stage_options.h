@@ -37,7 +37,7 @@ struct TrackArguments {
   std::string seedsFrame, seedsUnit;  ///< empty: those of the seeds file
   std::vector<std::string> roots;     ///< texts "X,Y,Z", mm, LPS
   bool isOnlyConnected = false;       ///< without trees in which no seed and no root lies
-  bool isOnlySeeds = false;           ///< without vessels that no seed names
+  bool isAllVessels = false;  ///< seeds are hints on the vessels that are found without them
   convert::TrackOptions options;
   [[nodiscard]] convert::SeedReading reading() const;
   [[nodiscard]] std::vector<Eigen::Vector3d> rootPlaces() const;

@@ -104,21 +104,16 @@ protected:
   }
 };
 
-TEST_F(ForkTest, SeedsNameVesselsAndLeaveTheRestThere) {
-  const Json free = converted({}), hinted = converted({"--seeds", "trunk.json"});
+TEST_F(ForkTest, SeedsAreHintsOnAllVessels) {
+  const Json free = converted({}), hinted = converted({"--seeds", "trunk.json", "--all-vessels"});
   EXPECT_EQ(hinted["length_mm"], free["length_mm"]);
   EXPECT_EQ(tree().branches[0].label, "trunk");
   EXPECT_GT(tree().branches.size(), 1U);
+  EXPECT_EQ(converted({"--seeds", "trunk.json"})["branches"], 1);
 }
 
-TEST_F(ForkTest, OnlySeedsLeavesOutVesselsWithoutOne) {
-  const Json hinted = converted({"--seeds", "trunk.json", "--only-seeds"});
-  EXPECT_EQ(hinted["branches"], 1);
-  EXPECT_EQ(tree().branches[0].label, "trunk");
-}
-
-TEST_F(ForkTest, SeedsOfAllVesselsGiveTheTrueForks) {
-  ASSERT_EQ(converted({"--seeds", "seeds.json"})["branches"], 3);
+TEST_F(ForkTest, HintsOnAllVesselsGiveTheTrueForks) {
+  ASSERT_EQ(converted({"--seeds", "seeds.json", "--all-vessels"})["branches"], 2);
   const Outcome compared = lumen({"compare", "fork.lumen", "truth.lumen", "--json"});
   EXPECT_GE(Json::parse(compared.out)["overlap"].get<double>(), 0.98);
 }

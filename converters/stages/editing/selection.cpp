@@ -57,14 +57,4 @@ std::vector<bool> unconnectedWith(const formats::CenterlineTree& tree,
   return goes;
 }
 
-std::vector<bool> notLeadingTo(const formats::CenterlineTree& tree,
-                               const std::set<std::string>& labels) {
-  std::vector<bool> goes(tree.branches.size(), true);
-  for (auto b = static_cast<std::uint32_t>(goes.size()); b-- > 0;) {
-    if (labels.contains(tree.branches[b].label)) goes[b] = false;
-    if (!goes[b]) goes[above(tree, b)] = false;
-  }
-  return goes;
-}
-
 }  // namespace lumen::convert

@@ -18,8 +18,4 @@ void deleteBranches(formats::Case& target, const std::vector<bool>& goes);
 std::vector<bool> unconnectedWith(const formats::CenterlineTree& tree,
                                   const std::set<std::string>& labels);
 
-/// Marks of all branches but the named ones and those between them and their roots.
-std::vector<bool> notLeadingTo(const formats::CenterlineTree& tree,
-                               const std::set<std::string>& labels);
-
 }  // namespace lumen::convert

@@ -133,7 +133,8 @@ void PhantomOptions::addRows(OptionTable& table) {
       .in(WholeRange{0, std::numeric_limits<std::int64_t>::max()})  // cases store a signed number
       .recorded("random-seed");
   table.choice("clicks", isCareless, carelessByName(),
-               "Manner of clicking the seeds; careless clicks lie a fifth of a radius off the axis, 1.5 radii "
+               "Manner of clicking the seeds; careless clicks lie a fifth of a radius off the "
+               "axis, 1.5 radii "
                "beyond the parent's wall, and state neither radius nor direction");
   table
       .add("click-drawing", &clickDrawing, "K",

@@ -15,6 +15,8 @@ import sys
 import time
 from pathlib import Path
 
+from forks import right_forks
+
 PHANTOMS = ["tube", "helix", "bifurcation", "kissing", "aneurysm", "stenosis", "dropout", "sac-lobes", "companion", "hairpin",
             "right-angle", "fading", "thick-slices"]
 VOLUMES = [("3DRA", "aneurism-3dra.nrrd"), ("aorta", "aorta/aorta.mha"), ("fistula", "avf/avf.nii"),
@@ -40,9 +42,11 @@ def synthetic(lumen, folder, name, options):
     volume.unlink()
     score, _, _ = run(lumen, "compare", case, truth)
     reach = found["reachable"]
+    forks, right = right_forks(lumen, case, truth)
     distance = score["wall_distance_mm"] or {"p90": float("nan")}
     return (f"| {name} | {made['branches']} | {found['branches']} | {100 * score['overlap']:.1f} % | "
             f"{100 * score['false_mm'] / made['length_mm']:.2f} % | {100 * reach['length_mm'] / reach['of_mm']:.1f} % | "
+            f"{right} of {forks} | "
             f"{score['radius_bias_mm'] / made['voxel_size_mm']:+.3f} | {distance['p90'] / made['voxel_size_mm']:.2f} | "
             f"{wall:.1f} | {processor:.1f} |")
 
@@ -68,9 +72,9 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     wanted = lambda name: not names or name in names
     lines = ["# Trees without a click", "", "`lumen convert VOLUME CASE`, default options. Bias of the radius and the wall's distance",
-             "(90 %) in voxels; times in seconds, of the wall clock and of the processor.", "", "## Synthetic volumes", "",
-             "| volume | true branches | found | length covered | false | reachable | bias | wall, 90 % | wall clock | processor |",
-             "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|"]
+             "(90 %) in voxels; times in seconds, of the wall clock and of the processor. *Right forks* are those of forks.py.", "", "## Synthetic volumes", "",
+             "| volume | true branches | found | length covered | false | reachable | right forks | bias | wall, 90 % | wall clock | processor |",
+             "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"]
     designs = [(name, [name]) for name in PHANTOMS]
     designs += [(f"patient-{seed}", ["patient", "--seed", seed]) for seed in range(1, 11)]
     designs += [(tree.stem, ["--tree", tree, "--voxel", 0.3]) for tree in sorted((data / "arteries").glob("*.swc"))]

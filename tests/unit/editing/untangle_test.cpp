@@ -21,17 +21,16 @@ using formats::test::addBeads;
 using formats::test::alongX;
 
 /// All is lumen; the volume is a box around the origin with faces at 20 mm.
-const Surrounding kEverywhere{
-    [](const Vector3d&) { return true; },
-    [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() < 20; }};
+const Surrounding kEverywhere{[](const Vector3d&) { return true; },
+                              [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() < 20; }};
 
 /// `count` places from one on, half a millimetre apart.
 std::vector<Vec3f> along(const Vector3d& from, const Vector3d& direction, int count) {
   std::vector<Vec3f> places;
   for (int i = 0; i < count; ++i) {
     const Vector3d p = from + 0.5 * i * direction.normalized();
-    places.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()),
-                      static_cast<float>(p.z())});
+    places.push_back(
+        {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
   }
   return places;
 }
