@@ -89,22 +89,12 @@ std::optional<Arm> NodeGraph::armAlong(std::span<const std::uint32_t> nodes) con
   return Arm{(to - *from).normalized(), double{upperMedian(radii)}};
 }
 
-std::vector<std::uint32_t> NodeGraph::upstream(std::uint32_t node) const {
+std::vector<std::uint32_t> NodeGraph::follow(std::uint32_t node,
+                                             const std::vector<std::uint32_t>& next) const {
   std::vector<std::uint32_t> nodes;
   double along = 0;
-  const double reach = 2 * kFar * double{m_draft.nodes[node].radius};
-  for (std::uint32_t i = node; i != kNoNode && along < reach; i = m_parent[i]) {
-    if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
-    nodes.push_back(i);
-  }
-  return nodes;
-}
-
-std::vector<std::uint32_t> NodeGraph::downstream(std::uint32_t node) const {
-  std::vector<std::uint32_t> nodes;
-  double along = 0;
-  const double reach = 2 * kFar * double{m_draft.nodes[node].radius};
-  for (std::uint32_t i = node; i != kNoNode && along < reach; i = m_main[i]) {
+  const double reach = 2 * kFar * radius(node);
+  for (std::uint32_t i = node; i != kNoNode && along < reach; i = next[i]) {
     if (!nodes.empty()) along += (position(i) - position(nodes.back())).norm();
     nodes.push_back(i);
   }
@@ -113,14 +103,14 @@ std::vector<std::uint32_t> NodeGraph::downstream(std::uint32_t node) const {
 
 // Children have their own main neighbours already.
 std::uint32_t NodeGraph::mainOf(std::uint32_t node) const {
-  const auto into = armAlong(upstream(node));  // against the stream
+  const auto into = armAlong(follow(node, m_parent));  // against the stream
   std::uint32_t best = kNoNode, any = kNoNode;
   double most = -1;
   for (const std::uint32_t child : m_beside[node]) {
     if (child == m_parent[node] || m_parent[child] != node) continue;
     any = child;
     if (m_beside[node].size() == 2 && m_parent[node] != kNoNode) return child;
-    const auto arm = armAlong(downstream(child));
+    const auto arm = armAlong(follow(child, m_main));
     if (!arm) continue;
     // a vessel that is wider than the one before it is another one that passes by
     const double width =
@@ -157,13 +147,13 @@ std::optional<Arm> NodeGraph::armFrom(std::uint32_t end) const {
 std::optional<std::pair<double, double>> NodeGraph::widthsAround(std::uint32_t a,
                                                                  std::uint32_t b) const {
   const auto isAbove = [&](std::uint32_t up, std::uint32_t down) {
-    const std::vector<std::uint32_t> path = upstream(down);
+    const std::vector<std::uint32_t> path = follow(down, m_parent);
     return std::find(path.begin(), path.end(), up) != path.end();
   };
   const bool isAFirst = isAbove(a, b);
   if (!isAFirst && !isAbove(b, a)) return std::nullopt;
-  const auto before = armAlong(upstream(isAFirst ? a : b));
-  const auto after = armAlong(downstream(isAFirst ? b : a));
+  const auto before = armAlong(follow(isAFirst ? a : b, m_parent));
+  const auto after = armAlong(follow(isAFirst ? b : a, m_main));
   if (!before || !after) return std::nullopt;
   return std::pair(before->radius, after->radius);
 }
@@ -241,20 +231,20 @@ std::vector<formats::StopReason> NodeGraph::reasonsAtEnds() const {
 std::vector<Chain> NodeGraph::chains() const {
   std::vector<std::vector<Chain>> trees;
   std::vector<std::size_t> sizes;
-  const auto follow = [&](std::uint32_t node) {
+  const auto branchFrom = [&](std::uint32_t node) {
     std::vector<std::uint32_t> nodes;
     for (; node != kNoNode; node = m_main[node]) nodes.push_back(node);
     return nodes;
   };
   for (const std::uint32_t root : m_order) {
     if (m_parent[root] != kNoNode) continue;
-    std::vector<Chain> tree{{kNoNode, follow(root)}};
+    std::vector<Chain> tree{{kNoNode, branchFrom(root)}};
     for (std::size_t c = 0; c < tree.size(); ++c)
       for (std::size_t k = 0; k < tree[c].nodes.size(); ++k) {
         const std::uint32_t node = tree[c].nodes[k];
         for (const std::uint32_t child : m_beside[node])
           if (m_parent[child] == node && child != m_main[node])
-            tree.push_back({node, follow(child)});
+            tree.push_back({node, branchFrom(child)});
       }
     trees.push_back(std::move(tree));
   }

@@ -66,8 +66,9 @@ public:
 private:
   void connect(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] bool hangTogether(std::uint32_t a, std::uint32_t b) const;
-  [[nodiscard]] std::vector<std::uint32_t> upstream(std::uint32_t node) const;
-  [[nodiscard]] std::vector<std::uint32_t> downstream(std::uint32_t node) const;
+  /// Nodes from one on, each followed by its `next`, over the reach of an arm.
+  [[nodiscard]] std::vector<std::uint32_t> follow(std::uint32_t node,
+                                                  const std::vector<std::uint32_t>& next) const;
   [[nodiscard]] std::uint32_t mainOf(std::uint32_t node) const;
 
   Draft& m_draft;
