@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -66,6 +65,20 @@ void renameEnds(const formats::Case& value, std::vector<convert::TrackEnd>& ends
   });
 }
 
+std::set<std::string> labelsOf(const std::vector<convert::SeedBranch>& seeds) {
+  std::set<std::string> labels;
+  for (const convert::SeedBranch& seed : seeds) labels.insert(seed.label);
+  return labels;
+}
+
+/// Roots and selection for a case of which `seeds` name the vessels to keep.
+void apply(formats::Case& target, const std::string& file,
+           const std::vector<convert::SeedBranch>& seeds, const TrackArguments& track) {
+  requireInVessels(target, file, track);
+  convert::beginAt(target, track.rootPlaces());
+  select(target, labelsOf(seeds), track);
+}
+
 /// Tracks the hints that lie in no vessel into the result.
 void trackRest(const convert::Volume& volume, const std::vector<convert::SeedBranch>& rest,
                convert::TrackResult& result, Progress& progress) {
@@ -88,7 +101,7 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
   if (result.result.tree.nodeCount() == 0) {
     result = convert::trackCase(volume, placed.seeds, track.options, progress);
     reportOnSeeds(volume, seeds, track, placed, result, progress);
-    applyRoots(result.result, file, track);
+    apply(result.result, file, seeds, track);
     return result;
   }
   requireInVessels(result.result, file, track);
@@ -100,9 +113,7 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
     progress.warn(formats::printable(track.seeds) + ": seed \"" + formats::printable(unused.label) +
                   "\" names no vessel of its own: " + unused.reason);
   reportOnSeeds(volume, seeds, track, placed, result, progress);
-  std::set<std::string> named;
-  for (const convert::SeedBranch& seed : placed.seeds) named.insert(seed.label);
-  select(result.result, std::move(named), track);
+  select(result.result, labelsOf(placed.seeds), track);
   renameEnds(result.result, result.ends);
   return result;
 }
@@ -115,15 +126,13 @@ convert::TrackResult trackVolume(const convert::Volume& volume, const std::strin
   if (track.isAllVessels) return trackHinted(volume, file, seeds, track, progress);
   convert::TrackResult result = seeds.empty() ? trackFound(volume, file, track.options, progress)
                                               : trackSeeds(volume, seeds, track, progress);
-  applyRoots(result.result, file, track);
+  apply(result.result, file, seeds, track);
   renameEnds(result.result, result.ends);
   return result;
 }
 
 void applyRoots(formats::Case& target, const std::string& file, const TrackArguments& track) {
-  requireInVessels(target, file, track);
-  convert::beginAt(target, track.rootPlaces());
-  select(target, {}, track);
+  apply(target, file, {}, track);
 }
 
 void requireHints(const TrackArguments& track) {

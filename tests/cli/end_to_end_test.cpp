@@ -112,6 +112,12 @@ TEST_F(ForkTest, SeedsAreHintsOnAllVessels) {
   EXPECT_EQ(converted({"--seeds", "trunk.json"})["branches"], 1);
 }
 
+TEST_F(ForkTest, OnlyConnectedKeepsTheTreesOfSeedsWithAndWithoutAllVessels) {
+  EXPECT_EQ(converted({"--seeds", "trunk.json", "--only-connected"})["branches"], 1);
+  EXPECT_EQ(converted({"--seeds", "seeds.json", "--all-vessels", "--only-connected"})["branches"],
+            2);
+}
+
 TEST_F(ForkTest, HintsOnAllVesselsGiveTheTrueForks) {
   ASSERT_EQ(converted({"--seeds", "seeds.json", "--all-vessels"})["branches"], 2);
   const Outcome compared = lumen({"compare", "fork.lumen", "truth.lumen", "--json"});

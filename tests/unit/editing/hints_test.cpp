@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What seeds state about vessels that are there already, on cases of beads.
+// Hints on the vessels of cases of beads: names, divisions, parents, roots.
 #include "converters/stages/editing/hints.h"
 
 #include <algorithm>
