@@ -20,12 +20,20 @@ inline Case noBeads() {
   return value;
 }
 
-/// Appends a branch with a node and its ball at every place; returns its first node.
+/// Appends a model of one ball.
+inline void addBall(BlobbyModels& models, const Vec3f& centre, float radius) {
+  models.centre.push_back(centre);
+  models.width.push_back(static_cast<float>(
+      widthForRadius(models.kernel, models.kernelParameter, double{radius}, models.isoLevel)));
+  models.offset.push_back(static_cast<std::uint32_t>(models.centre.size()));
+}
+
+/// Appends a branch with a node at every place, and its ball if the case has models; returns its first
+/// node.
 inline std::uint32_t addBeads(Case& value, const std::string& label,
                               const std::vector<Vec3f>& places, float radius,
                               std::int32_t parent = kNoParent) {
   CenterlineTree& tree = value.tree;
-  BlobbyModels& models = *value.models;
   const auto first = static_cast<std::uint32_t>(tree.nodeCount());
   Branch branch;
   branch.label = label;
@@ -42,10 +50,7 @@ inline std::uint32_t addBeads(Case& value, const std::string& label,
     tree.height.push_back(length);
     tree.parent.push_back(i == 0 ? parent : static_cast<std::int32_t>(first + i - 1));
     tree.branch.push_back(static_cast<std::uint32_t>(tree.branches.size()));
-    models.centre.push_back(places[i]);
-    models.width.push_back(static_cast<float>(
-        widthForRadius(models.kernel, models.kernelParameter, double{radius}, models.isoLevel)));
-    models.offset.push_back(static_cast<std::uint32_t>(models.centre.size()));
+    if (value.models) addBall(*value.models, places[i], radius);
   }
   tree.branches.push_back(std::move(branch));
   return first;
