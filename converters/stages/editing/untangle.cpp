@@ -14,6 +14,7 @@
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/stages/editing/draft.h"
 #include "converters/stages/editing/node_graph.h"
+#include "converters/stages/editing/smooth_axes.h"
 
 namespace lumen::convert {
 namespace {
@@ -220,6 +221,7 @@ private:
     }
     m_draft.branches = std::move(branches);
     m_graph.turnDirections();
+    smoothAxes(m_draft);
     m_draft.finish(m_case, "untangled");
     m_case.metadata.steps = before;  // no person has edited the case
   }

@@ -18,7 +18,8 @@ struct Surrounding {
   std::function<bool(const Eigen::Vector3d&)> isInside;  ///< it lies in the volume
 };
 
-/// Corrects the topology of a valid case without models; no node moves, and no wall.
+/// Corrects the topology of a valid case without models. Measured nodes and walls stay; bridged nodes
+/// follow their neighbours (smooth_axes.h).
 ///
 /// - Two ends that face one another through the lumen, of like direction and width, are one vessel:
 ///   two that leave a third on both sides cross it, and are joined to one another instead; a tip and

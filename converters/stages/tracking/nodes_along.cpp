@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "converters/base/statistics.h"
+#include "converters/geometry/axis_curve.h"
 #include "converters/stages/tracking/node_fit.h"
 
 namespace lumen::convert {
@@ -23,10 +24,7 @@ constexpr double kAsideRadii = 0.7, kNarrowRadii = 0.6, kWideRadii = 1.5;
 /// Least and largest radius where the expected one is as coarse as the voxels.
 constexpr double kCoarseNarrow = 0.5, kCoarseWide = 1.8;
 
-struct Station {
-  Vector3d position, direction;
-  double radius;
-};
+using Station = AxisPoint;
 
 /// Places along a polyline, half a radius apart, without its ends.
 class Stations {
@@ -113,14 +111,93 @@ std::optional<TrackedNode> nodeAt(TrackRun& run, const Station& station, double 
   return node;
 }
 
+/// The nodes that fit at stations; empty where none does.
+using Fits = std::vector<std::optional<TrackedNode>>;
+
 /// The median radius of the fitted nodes around one, or 0 if there are too few.
-double radiusAround(const std::vector<std::optional<TrackedNode>>& nodes, std::size_t at) {
+double radiusAround(const Fits& nodes, std::size_t at) {
   constexpr std::size_t kReach = 6, kFewest = 4;
   std::vector<double> radii;
   const std::size_t end = std::min(nodes.size(), at + kReach + 1);
   for (std::size_t i = at < kReach ? 0 : at - kReach; i < end; ++i)
     if (nodes[i]) radii.push_back(nodes[i]->radius);
   return radii.size() < kFewest ? 0 : upperMedian(radii);
+}
+
+/// Takes away the fitted nodes that lie behind the one before them, or that one if fewer of its
+/// points are inliers: cylinders may slide along the vessel.
+void dropReversals(Fits& nodes) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i]) continue;
+    while (!kept.empty() && !isAhead(*nodes[kept.back()], *nodes[i]) &&
+           nodes[kept.back()]->inlierRate < nodes[i]->inlierRate) {
+      nodes[kept.back()].reset();
+      kept.pop_back();
+    }
+    if (kept.empty() || isAhead(*nodes[kept.back()], *nodes[i]))
+      kept.push_back(i);
+    else
+      nodes[i].reset();
+  }
+}
+
+AxisPoint axisAt(const TrackedNode& node) {
+  return {node.centre, node.direction, node.radius};
+}
+
+double lengthOf(std::span<const Station> course) {
+  double length = 0;
+  for (std::size_t i = 1; i < course.size(); ++i)
+    length += (course[i].position - course[i - 1].position).norm();
+  return length;
+}
+
+/// The stations of a course between two nodes that fit, moved aside so that it meets both.
+std::vector<Station> movedCourse(const TrackedNode& a, const TrackedNode& b,
+                                 std::span<const Station> course) {
+  const auto aside = [](const TrackedNode& node, const Station& station) -> Vector3d {
+    const Vector3d to = node.centre - station.position;
+    return to - station.direction.dot(to) * station.direction;
+  };
+  const Vector3d first = aside(a, course.front()), last = aside(b, course.back());
+  std::vector<Station> moved;
+  for (std::size_t i = 1; i + 1 < course.size(); ++i) {
+    const double t = static_cast<double>(i) / static_cast<double>(course.size() - 1);
+    moved.push_back(course[i]);
+    moved.back().position += (1 - t) * first + t * last;
+    moved.back().radius = (1 - t) * a.radius + t * b.radius;
+  }
+  return moved;
+}
+
+/// True if no station of a curve lies farther than its radius from that of the course.
+bool isNear(std::span<const Station> curve, std::span<const Station> course) {
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    if ((curve[i].position - course[i].position).norm() > curve[i].radius) return false;
+  return true;
+}
+
+/// Moves the stations at which no node fits: a course through voxels has kinks where vessels fork
+/// or touch. Between two nodes that fit they lie on the curve that these point along, or, where
+/// that leaves the course, on the course, moved so that it meets both. `fit` tries them there.
+template <class Fit>
+void bridge(std::vector<Station>& stations, Fits& nodes, const Fit& fit) {
+  std::size_t last = nodes.size();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i]) continue;
+    const std::size_t a = std::exchange(last, i);
+    if (a + 1 >= i) continue;
+    const auto course = std::span(stations).subspan(a, i - a + 1);
+    const std::vector<Station> moved = movedCourse(*nodes[a], *nodes[i], course);
+    const std::vector<Station> curve =
+        curveBetween(axisAt(*nodes[a]), axisAt(*nodes[i]), moved.size(), lengthOf(course));
+    const std::vector<Station>& taken = isNear(curve, moved) ? curve : moved;
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      stations[a + 1 + k] = taken[k];
+      nodes[a + 1 + k] = fit(taken[k]);
+    }
+  }
 }
 
 }  // namespace
@@ -139,18 +216,23 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> line,
                                     std::span<const double> radii) {
   std::vector<Station> stations = Stations(line).by(radii);
-  std::vector<std::optional<TrackedNode>> found;
+  Fits found;
   for (const Station& station : stations) {
     run.context.progress.check();
     found.push_back(nodeAt(run, station, kCoarseNarrow, kCoarseWide));
   }
-  const std::vector<std::optional<TrackedNode>> before = found;
+  const Fits before = found;
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const double around = radiusAround(before, i);
     if (around == 0) continue;
     stations[i].radius = around;
     if (!found[i]) found[i] = nodeAt(run, stations[i], kNarrowRadii, kWideRadii);
   }
+  dropReversals(found);
+  bridge(stations, found,
+         [&](const Station& station) { return nodeAt(run, station, kNarrowRadii, kWideRadii); });
+  dropReversals(found);
+  bridge(stations, found, [](const Station&) { return std::nullopt; });
   std::vector<TrackedNode> nodes;
   for (std::size_t i = 0; i < stations.size(); ++i)
     nodes.push_back(found[i] ? std::move(*found[i]) : bridgedNode(stations[i]));

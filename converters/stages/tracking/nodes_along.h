@@ -19,7 +19,8 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector
                                     double first, double last, const TrackedBranch* parent);
 
 /// The same along a course whose expected radius is known at each of its points, mm; nodes that are
-/// refused are tried again with the radius of the nodes around them.
+/// refused are tried again with the radius of the nodes around them, and then along the curve between
+/// those that fit, on which they stay if they are bridged.
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,
                                     std::span<const double> radii);
 

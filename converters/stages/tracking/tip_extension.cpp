@@ -111,7 +111,11 @@ bool appendAlongPath(TrackRun& run, std::vector<TrackedNode>& nodes, std::span<c
       if (!last) continue;
       found.push_back(std::move(*last));
     }
-    std::move(found.begin(), found.end(), std::back_inserter(nodes));
+    const TrackedNode& tip = nodes.back();
+    const auto ahead = std::find_if(found.begin(), found.end(),
+                                    [&](const TrackedNode& node) { return isAhead(tip, node); });
+    if (ahead == found.end()) continue;
+    std::move(ahead, found.end(), std::back_inserter(nodes));
     return true;
   }
   return false;

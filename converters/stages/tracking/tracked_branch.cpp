@@ -27,6 +27,10 @@ TrackedNode reversed(TrackedNode node) {
   return node;
 }
 
+bool isAhead(const TrackedNode& node, const TrackedNode& next) {
+  return (next.centre - node.centre).dot(node.direction + next.direction) > 0;
+}
+
 void reverseTrack(std::vector<TrackedNode>& nodes) {
   std::reverse(nodes.begin(), nodes.end());
   for (TrackedNode& node : nodes) node = reversed(std::move(node));

@@ -48,6 +48,9 @@ constexpr const char* kTrackedAlready =
 /// A node with the opposite direction.
 TrackedNode reversed(TrackedNode node);
 
+/// True if `next` lies ahead of `node`, as both point.
+bool isAhead(const TrackedNode& node, const TrackedNode& next);
+
 /// Reverses the order and the direction of nodes.
 void reverseTrack(std::vector<TrackedNode>& nodes);
 
