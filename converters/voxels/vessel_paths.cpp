@@ -96,6 +96,24 @@ VesselPath VesselPaths::pathTo(std::uint32_t tip) const {
   return path;
 }
 
+bool VesselPaths::leavesVolume(std::uint32_t tip) const {
+  const VolumeGeometry& geometry = m_set.geometry();
+  const Cell cell = m_set.cell(tip);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double voxels = depth(tip) / geometry.spacing[axis];
+    if (cell[axis] < voxels || geometry.cells().size[axis] - 1 - cell[axis] < voxels) return true;
+  }
+  return false;
+}
+
+double VesselPaths::widthAround(std::uint32_t i) const {
+  double width = depth(i);
+  m_set.eachWithin(i, depth(i), [&](std::uint32_t j) {
+    if (m_path[j] != kNone) width = std::max(width, depth(j));
+  });
+  return width;
+}
+
 bool VesselPaths::isVessel(VesselPath& path) const {
   if (path.voxels.size() < 2) return false;
   if (path.parent == kNone) return true;
@@ -105,7 +123,8 @@ bool VesselPaths::isVessel(VesselPath& path) const {
   if (out >= path.voxels.size()) return false;
   const double length = m_skeleton.length(path.voxels.back()) - m_skeleton.length(path.voxels[out]);
   const auto depthAt = [&](std::size_t i) { return depth(path.voxels[i]); };
-  double deepest = 0, neck = depthAt(0), neckThere = depthAt(0);
+  // the parent's path may turn off its vessel before the place where this one leaves it
+  double deepest = 0, neck = widthAround(path.voxels.front()), neckThere = neck;
   for (std::size_t i = 0; i < path.voxels.size(); ++i) {
     neck = std::min(neck, depthAt(i));
     if (i >= out && depthAt(i) > deepest) {
@@ -114,7 +133,8 @@ bool VesselPaths::isVessel(VesselPath& path) const {
     }
   }
   const double parent = depthAt(0);
-  path.isSac = deepest > kSac * neckThere && length < 6 * deepest;
+  path.isSac =
+      deepest > kSac * neckThere && length < 6 * deepest && !leavesVolume(path.voxels.back());
   const double least = std::max({path.isSac ? deepest : 2 * deepest, m_leastOfParent * parent,
                                  kLeastVoxels * m_set.geometry().voxelSize()});
   return length > least;

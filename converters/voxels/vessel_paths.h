@@ -74,6 +74,10 @@ private:
   [[nodiscard]] double widthAtStart(const std::vector<std::uint32_t>& voxels) const;
   void spread(std::uint32_t root, const Progress& progress);
   [[nodiscard]] VesselPath pathTo(std::uint32_t tip) const;
+  /// Whether the ball around a voxel reaches a face of the volume.
+  [[nodiscard]] bool leavesVolume(std::uint32_t tip) const;
+  /// The greatest depth of the paths within the ball around a voxel, mm.
+  [[nodiscard]] double widthAround(std::uint32_t i) const;
   [[nodiscard]] bool isVessel(VesselPath& path) const;
   void findLoop(VesselPath& path) const;
   void cover(const VesselPath& path);

@@ -124,22 +124,12 @@ double radiusAround(const Fits& nodes, std::size_t at) {
   return radii.size() < kFewest ? 0 : upperMedian(radii);
 }
 
-/// Takes away the fitted nodes that lie behind the one before them, or that one if fewer of its
-/// points are inliers: cylinders may slide along the vessel.
-void dropReversals(Fits& nodes) {
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!nodes[i]) continue;
-    while (!kept.empty() && !isAhead(*nodes[kept.back()], *nodes[i]) &&
-           nodes[kept.back()]->inlierRate < nodes[i]->inlierRate) {
-      nodes[kept.back()].reset();
-      kept.pop_back();
-    }
-    if (kept.empty() || isAhead(*nodes[kept.back()], *nodes[i]))
-      kept.push_back(i);
-    else
-      nodes[i].reset();
-  }
+void dropTurnedBack(Fits& nodes) {
+  std::vector<const TrackedNode*> fitted;
+  for (const auto& node : nodes) fitted.push_back(node ? &*node : nullptr);
+  const std::vector<bool> isBack = turnedBack(fitted);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (isBack[i]) nodes[i].reset();
 }
 
 AxisPoint axisAt(const TrackedNode& node) {
@@ -228,10 +218,10 @@ std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Vector3d> lin
     stations[i].radius = around;
     if (!found[i]) found[i] = nodeAt(run, stations[i], kNarrowRadii, kWideRadii);
   }
-  dropReversals(found);
+  dropTurnedBack(found);
   bridge(stations, found,
          [&](const Station& station) { return nodeAt(run, station, kNarrowRadii, kWideRadii); });
-  dropReversals(found);
+  dropTurnedBack(found);
   bridge(stations, found, [](const Station&) { return std::nullopt; });
   std::vector<TrackedNode> nodes;
   for (std::size_t i = 0; i < stations.size(); ++i)

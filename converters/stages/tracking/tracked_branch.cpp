@@ -28,7 +28,38 @@ TrackedNode reversed(TrackedNode node) {
 }
 
 bool isAhead(const TrackedNode& node, const TrackedNode& next) {
-  return (next.centre - node.centre).dot(node.direction + next.direction) > 0;
+  const Eigen::Vector3d way = next.centre - node.centre;
+  return way.dot(node.direction) > 0 && way.dot(next.direction) > 0;
+}
+
+std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes) {
+  std::vector<bool> out(nodes.size(), false);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!nodes[i]) continue;
+    while (!kept.empty() && !isAhead(*nodes[kept.back()], *nodes[i]) &&
+           nodes[kept.back()]->inlierRate < nodes[i]->inlierRate) {
+      out[kept.back()] = true;
+      kept.pop_back();
+    }
+    out[i] = !kept.empty() && !isAhead(*nodes[kept.back()], *nodes[i]);
+    if (!out[i]) kept.push_back(i);
+  }
+  return out;
+}
+
+void dropTurnedBack(TrackedBranch& branch) {
+  std::vector<const TrackedNode*> nodes;
+  for (const TrackedNode& node : branch.nodes) nodes.push_back(&node);
+  const std::vector<bool> isBack = turnedBack(nodes);
+  std::vector<TrackedNode> kept;
+  std::size_t click = 0;
+  for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
+    if (i == branch.clickNode) click = kept.size();
+    if (!isBack[i]) kept.push_back(std::move(branch.nodes[i]));
+  }
+  branch.nodes = std::move(kept);
+  branch.clickNode = branch.nodes.empty() ? 0 : std::min(click, branch.nodes.size() - 1);
 }
 
 void reverseTrack(std::vector<TrackedNode>& nodes) {

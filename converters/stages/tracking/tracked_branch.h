@@ -48,14 +48,21 @@ constexpr const char* kTrackedAlready =
 /// A node with the opposite direction.
 TrackedNode reversed(TrackedNode node);
 
-/// True if `next` lies ahead of `node`, as both point.
+/// True if the way from `node` to `next` leads ahead in the directions of both.
 bool isAhead(const TrackedNode& node, const TrackedNode& next);
+
+/// For each node, whether it lies behind the one before it, or before one behind it of which more
+/// points are inliers: cylinders may slide along a vessel. Nodes that are null are left out.
+std::vector<bool> turnedBack(std::span<const TrackedNode* const> nodes);
 
 /// Reverses the order and the direction of nodes.
 void reverseTrack(std::vector<TrackedNode>& nodes);
 
 /// Makes a branch run from its last node to its first.
 void turnRound(TrackedBranch& branch);
+
+/// Drops the nodes of a branch that turn back.
+void dropTurnedBack(TrackedBranch& branch);
 
 /// The sum of the distances between consecutive nodes, mm.
 double lengthOf(std::span<const TrackedNode> nodes);

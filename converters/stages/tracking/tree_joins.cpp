@@ -239,8 +239,10 @@ void extendTips(const TrackContext& context, TrackedTree& tree) {
   for (const std::size_t i : vessels.newMembers())
     if (isBothWays(vessels[i])) turnRound(vessels[i]);
   extendTipsIf(context, vessels, isBothWays);
-  for (const std::size_t i : vessels.newMembers())
+  for (const std::size_t i : vessels.newMembers()) {
     if (isBothWays(vessels[i])) turnRound(vessels[i]);
+    dropTurnedBack(vessels[i]);
+  }
 }
 
 void joinTree(const TrackContext& context, TrackedTree& tree) {
