@@ -123,7 +123,8 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
 convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
                                  const std::vector<convert::SeedBranch>& seeds,
                                  const TrackArguments& track, Progress& progress) {
-  if (track.isAllVessels) return trackHinted(volume, file, seeds, track, progress);
+  if (!seeds.empty() && !track.isSeedsOnly)
+    return trackHinted(volume, file, seeds, track, progress);
   convert::TrackResult result = seeds.empty() ? trackFound(volume, file, track.options, progress)
                                               : trackSeeds(volume, seeds, track, progress);
   apply(result.result, file, seeds, track);

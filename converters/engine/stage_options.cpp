@@ -157,8 +157,8 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
   table.group("Tracking");
   table.file(
       kOption.seeds.name, track.seeds,
-      "Where vessels begin: lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv) [all "
-      "vessels that are found without]");
+      "Hints on the vessels that are found (name, parent, kind, inlet), and starts of others: "
+      "lumen's seeds JSON, or points of 3D Slicer (.mrk.json, .fcsv) [none]");
   table
       .add(kOption.seedsFrame.name, &track.seedsFrame, "FRAME",
            "Frame of the seeds' coordinates, whatever their file states: lps, ras, or voxel "
@@ -183,10 +183,9 @@ void addTrackRows(OptionTable& table, TrackArguments& track) {
             "Leave out trees in which no seed and no root lies")
       .forInputs(kImage | kLabels);
   table
-      .flag(
-          "all-vessels", track.isAllVessels,
-          "Find all vessels as without seeds, and take the seeds as hints: they name, divide, turn "
-          "and join what is found, and start tracks where nothing is")
+      .flag("seeds-only", track.isSeedsOnly,
+            "Track from the seeds alone, instead of taking them as hints on the vessels that are "
+            "found without them")
       .onlyWith(kOption.seeds.name);
   track.options.addRows(table);
   table.scope(kAnyContent);

@@ -20,8 +20,7 @@ std::vector<AxisPoint> curveBetween(const AxisPoint& from, const AxisPoint& to, 
     const double t = static_cast<double>(i) / static_cast<double>(count + 1), u = 1 - t;
     const Vector3d position = u * u * (1 + 2 * t) * from.position +
                               t * t * (1 + 2 * u) * to.position + t * u * (u * first - t * last);
-    const Vector3d tangent =
-        6 * t * u * across + u * (1 - 3 * t) * first + t * (1 - 3 * u) * last;
+    const Vector3d tangent = 6 * t * u * across + u * (1 - 3 * t) * first + t * (1 - 3 * u) * last;
     curve.push_back({position, tangent.norm() > 0 ? tangent.normalized() : from.direction,
                      u * from.radius + t * to.radius});
   }

@@ -105,7 +105,7 @@ protected:
 };
 
 TEST_F(ForkTest, SeedsAreHintsOnAllVessels) {
-  const Json free = converted({}), hinted = converted({"--seeds", "trunk.json", "--all-vessels"});
+  const Json free = converted({}), hinted = converted({"--seeds", "trunk.json"});
   EXPECT_EQ(hinted["length_mm"], free["length_mm"]);
   EXPECT_EQ(tree().branches[0].label, "trunk");
   EXPECT_GT(tree().branches.size(), 1U);
@@ -114,12 +114,11 @@ TEST_F(ForkTest, SeedsAreHintsOnAllVessels) {
 
 TEST_F(ForkTest, OnlyConnectedKeepsTheTreesOfSeedsWithAndWithoutAllVessels) {
   EXPECT_EQ(converted({"--seeds", "trunk.json", "--only-connected"})["branches"], 1);
-  EXPECT_EQ(converted({"--seeds", "seeds.json", "--all-vessels", "--only-connected"})["branches"],
-            2);
+  EXPECT_EQ(converted({"--seeds", "seeds.json", "--only-connected"})["branches"], 2);
 }
 
 TEST_F(ForkTest, HintsOnAllVesselsGiveTheTrueForks) {
-  ASSERT_EQ(converted({"--seeds", "seeds.json", "--all-vessels"})["branches"], 2);
+  ASSERT_EQ(converted({"--seeds", "seeds.json"})["branches"], 2);
   const Outcome compared = lumen({"compare", "fork.lumen", "truth.lumen", "--json"});
   EXPECT_GE(Json::parse(compared.out)["overlap"].get<double>(), 0.98);
 }

@@ -37,7 +37,7 @@ const std::map<std::string, std::string> kSamples = {{"from", ""},  // stated by
                                                      {"seeds-unit", "cm"},
                                                      {"root", "3.9,3.9,3.9"},
                                                      {"only-connected", "true"},
-                                                     {"all-vessels", "true"},
+                                                     {"seeds-only", "true"},
                                                      {"dark", "true"},
                                                      {"inlier-rate", "0.6"},
                                                      {"inlier-band", "0.12"},
@@ -109,8 +109,8 @@ const std::map<std::string, std::pair<std::string, std::string>> kCompanions = {
 /// file says already, distances between vessels of which there is one, choices that fail on this data, and series of
 /// DICOM.
 const std::set<std::string> kWithoutEffectHere = {
-    "all-vessels", "allow-detached", "gap",  "label", "mask",  "mesh-per",
-    "mesh",        "only-connected", "root", "seeds", "series"};
+    "seeds-only", "allow-detached", "gap",  "label", "mask",  "mesh-per",
+    "mesh",       "only-connected", "root", "seeds", "series"};
 
 struct Input {
   std::string file;

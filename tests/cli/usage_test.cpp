@@ -113,7 +113,7 @@ TEST_F(UsageTest, WrongArgumentsExitWithTwoAndSayNothingOnStandardOutput) {
 
 TEST_F(UsageTest, OptionsOfSeedsNeedSeeds) {
   ASSERT_EQ(lumen({"phantom", "tube", "a.nrrd", "--size", "32"}).code, 0);
-  for (const std::vector<std::string>& option : {std::vector<std::string>{"--all-vessels"},
+  for (const std::vector<std::string>& option : {std::vector<std::string>{"--seeds-only"},
                                                  {"--only-connected"},
                                                  {"--seeds-frame", "ras"},
                                                  {"--seeds-unit", "m"}}) {

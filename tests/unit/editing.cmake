@@ -1,10 +1,11 @@
 lumen_test(editing_test
   LABELS memory
-  LIBS lumen_editing lumen_base lumen_centerline lumen_fitting lumen_phantom
+  LIBS lumen_editing lumen_base lumen_geometry lumen_centerline lumen_fitting lumen_phantom
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/edit_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/hints_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/random_edits_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/smooth_axes_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/editing/untangle_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/formats/sample_case.cpp)
 target_include_directories(editing_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -3,8 +3,11 @@
 #include "converters/voxels/vessel_paths.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "converters/voxels/depth.h"
 
 namespace lumen::convert {
 namespace {
@@ -70,6 +73,35 @@ TEST(VesselPaths, TheFarthestVoxelIsTheTrunksOtherEnd) {
   const std::uint32_t start = set.find(vessels.geometry.index({0, 1, 1}));
   EXPECT_EQ(set.cell(paths.farthest(start, Progress())), Cell(60, 1, 1));
   EXPECT_EQ(paths.partOf(start).size(), set.size());
+}
+
+/// A trunk along x, eleven voxels wide, from a face of the volume to `end`, and a longer branch of
+/// five that leaves it along y before.
+std::vector<VesselPath> pathsOfFork(int end) {
+  VolumeGeometry geometry;
+  geometry.size = {60, 90, 15};
+  std::vector<std::size_t> indices;
+  for (int z = 0; z < 15; ++z)
+    for (int y = 0; y < 90; ++y)
+      for (int x = 0; x < 60; ++x) {
+        const bool isTrunk = x < end && std::hypot(y - 8, z - 7) <= 5.5;
+        const bool isBranch = y > 8 && y < 85 && std::hypot(x - 38, z - 7) <= 2.5;
+        if (isTrunk || isBranch) indices.push_back(geometry.index({x, y, z}));
+      }
+  const VoxelSet set(geometry, indices);
+  const std::vector<float> depths = depthsOf(
+      set, [&](std::size_t i) { return set.find(i) != VoxelSet::kNone; }, Progress());
+  const VesselPaths::IsOpen isOpen = open;
+  VesselPaths paths(set, depths, isOpen, Progress());
+  return paths.find(set.find(geometry.index({0, 8, 7})), Progress());
+}
+
+TEST(VesselPaths, ATrunkBehindALongerBranchIsNoSac) {
+  for (const int end : {60, 54}) {
+    const std::vector<VesselPath> paths = pathsOfFork(end);
+    ASSERT_EQ(paths.size(), 2U) << end;
+    EXPECT_FALSE(paths[1].isSac) << end;
+  }
 }
 
 }  // namespace
