@@ -319,7 +319,13 @@ private:
           std::find(m_unplaced.begin(), m_unplaced.end(), &hint) != m_unplaced.end();
       if (!isUnplaced && hint.kind == BranchKind::Vessel) continue;
       SeedBranch seed = hint;
-      if (seed.parent && m_holder.contains(*seed.parent)) seed.parent = m_holder.at(*seed.parent);
+      if (seed.parent && m_holder.contains(*seed.parent)) {
+        // the lumen shows which vessel it leaves; a way from its parent may lead along others
+        if (seed.kind == BranchKind::Vessel)
+          seed.parent.reset();
+        else
+          seed.parent = m_holder.at(*seed.parent);
+      }
       if (!seed.parent && seed.kind == BranchKind::Aneurysm)
         if (const auto place = placeIn(tree(), seed.points.front().position))
           seed.parent = tree().branches[place->branch].label;

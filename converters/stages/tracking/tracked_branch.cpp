@@ -62,6 +62,20 @@ void dropTurnedBack(TrackedBranch& branch) {
   branch.clickNode = branch.nodes.empty() ? 0 : std::min(click, branch.nodes.size() - 1);
 }
 
+void dropDome(TrackedBranch& branch) {
+  constexpr double kNarrow = 0.6;
+  std::vector<TrackedNode>& nodes = branch.nodes;
+  const auto isNarrow = [&] {
+    const TrackedNode& last = nodes.back();
+    return std::any_of(nodes.rbegin(), nodes.rend(), [&](const TrackedNode& node) {
+      return last.radius < kNarrow * node.radius &&
+             (last.centre - node.centre).norm() < node.radius;
+    });
+  };
+  while (nodes.size() > 1 && isNarrow()) nodes.pop_back();
+  branch.clickNode = nodes.empty() ? 0 : std::min(branch.clickNode, nodes.size() - 1);
+}
+
 void reverseTrack(std::vector<TrackedNode>& nodes) {
   std::reverse(nodes.begin(), nodes.end());
   for (TrackedNode& node : nodes) node = reversed(std::move(node));

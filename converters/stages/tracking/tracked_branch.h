@@ -64,6 +64,10 @@ void turnRound(TrackedBranch& branch);
 /// Drops the nodes of a branch that turn back.
 void dropTurnedBack(TrackedBranch& branch);
 
+/// Drops the last nodes of a branch that narrow to less than six tenths within a radius: cylinders
+/// in the dome in which the lumen of a vessel ends.
+void dropDome(TrackedBranch& branch);
+
 /// The sum of the distances between consecutive nodes, mm.
 double lengthOf(std::span<const TrackedNode> nodes);
 

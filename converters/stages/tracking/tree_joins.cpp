@@ -236,11 +236,16 @@ void extendTips(const TrackContext& context, TrackedTree& tree) {
   const auto isBothWays = [](const TrackedBranch& branch) {
     return branch.parentBranch < 0 && branch.startReason != StopReason::Unknown;
   };
-  for (const std::size_t i : vessels.newMembers())
+  for (const std::size_t i : vessels.newMembers()) {
+    dropDome(vessels[i]);
     if (isBothWays(vessels[i])) turnRound(vessels[i]);
+  }
   extendTipsIf(context, vessels, isBothWays);
   for (const std::size_t i : vessels.newMembers()) {
-    if (isBothWays(vessels[i])) turnRound(vessels[i]);
+    if (isBothWays(vessels[i])) {
+      dropDome(vessels[i]);
+      turnRound(vessels[i]);
+    }
     dropTurnedBack(vessels[i]);
   }
 }
