@@ -138,11 +138,11 @@ void nameByLabelMap(const convert::Volume& volume, const std::string& file,
     throw invalidInput(name + ": is no volume; expected a volume of labels");
   const convert::LabelNames table = arguments.table(map);
   const convert::Volume labels = readVolumeFile(map, format, {}, progress);
-  convert::LabelMask mask = convert::maskOf(labels, {}, name);
-  if (mask.isGrey)
+  if (!convert::holdsLabels(labels))
     throw invalidInput(name +
-                       ": its voxels differ from their neighbours as grey values do; expected "
-                       "labels");
+                       ": its voxels are no labels; expected whole numbers that are equal to "
+                       "their neighbours but at borders, and 0 around vessels");
+  convert::LabelMask mask = convert::maskOf(labels, {}, name);
   if (convert::labelledWithin(mask, volume.geometry) == 0)
     throw invalidInput(name + ": none of its labels lies within " + formats::printable(file) +
                        "; the labels' volume is around " + extentText(mask.geometry) +

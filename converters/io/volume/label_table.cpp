@@ -36,8 +36,7 @@ void addName(const std::string& place, const std::string& value, const std::stri
     throw invalidInput(place + "found the label " + quotedText(value) +
                        ", expected a whole number from 0 to 16777216");
   if (*label == 0) return;
-  if (name.empty())
-    throw invalidInput(place + "the label " + value + " has no name; expected one");
+  if (name.empty()) throw invalidInput(place + "the label " + value + " has no name; expected one");
   if (const auto fault = formats::checkText(name, formats::kMaxNameBytes, ""))
     throw invalidInput(place + "the name " + quotedText(name) +
                        " is no label of a branch; expected at most 255 bytes of UTF-8 without "
@@ -53,7 +52,8 @@ std::string placeOf(const std::string& file, std::size_t line) {
 LabelNames namesOfJson(const std::string& text, const fs::path& file) {
   JsonFile json(text, file);
   const JsonPlace root(json);
-  if (!root.value().isObject()) root.refuse("an object of names by labels, such as {\"1\": \"BA\"}");
+  if (!root.value().isObject())
+    root.refuse("an object of names by labels, such as {\"1\": \"BA\"}");
   LabelNames names;
   for (const formats::JsonMember& member : root.value().members()) {
     const std::string key(member.key);
@@ -94,15 +94,17 @@ std::optional<std::size_t> columnOf(const std::vector<std::string>& header,
 
 LabelNames namesOfCsv(const std::string& text, const std::string& file) {
   const std::vector<CsvRow> rows = csvRows(text, file);
-  if (rows.empty()) throw invalidInput(file + ": is empty; expected a row LABEL,NAME for each label");
+  if (rows.empty())
+    throw invalidInput(file + ": is empty; expected a row LABEL,NAME for each label");
   std::size_t value = 0, name = 1, first = 0;
   if (!integerOf(rows[0].cells[0])) {
     const auto valueColumn =
         columnOf<5>(rows[0].cells, {"value", "labelvalue", "label", "index", "id"});
     const auto nameColumn = columnOf<1>(rows[0].cells, {"name"});
     if (!valueColumn || !nameColumn)
-      throw invalidInput(placeOf(file, rows[0].line) + "found " + quotedText(rows[0].cells[0]) +
-                         ", expected a row LABEL,NAME, or a header with the columns value and name");
+      throw invalidInput(
+          placeOf(file, rows[0].line) + "found " + quotedText(rows[0].cells[0]) +
+          ", expected a row LABEL,NAME, or a header with the columns value and name");
     value = *valueColumn;
     name = *nameColumn;
     first = 1;
@@ -122,10 +124,10 @@ LabelNames namesOfCsv(const std::string& text, const std::string& file) {
 /// (K. Yang et al., "Benchmarking the CoW with the TopCoW Challenge", arXiv:2312.17670). 13 and 14 are
 /// not in use.
 const LabelNames& topcow() {
-  static const LabelNames names = {
-      {1, "BA"},    {2, "R-PCA"},  {3, "L-PCA"},  {4, "R-ICA"}, {5, "R-MCA"},
-      {6, "L-ICA"}, {7, "L-MCA"},  {8, "R-Pcom"}, {9, "L-Pcom"}, {10, "Acom"},
-      {11, "R-ACA"}, {12, "L-ACA"}, {15, "3rd-A2"}};
+  static const LabelNames names = {{1, "BA"},     {2, "R-PCA"}, {3, "L-PCA"},  {4, "R-ICA"},
+                                   {5, "R-MCA"},  {6, "L-ICA"}, {7, "L-MCA"},  {8, "R-Pcom"},
+                                   {9, "L-Pcom"}, {10, "Acom"}, {11, "R-ACA"}, {12, "L-ACA"},
+                                   {15, "3rd-A2"}};
   return names;
 }
 
@@ -145,8 +147,7 @@ LabelNames readLabelTable(const fs::path& file) {
   LabelNames names = first != text.npos && text[first] == '{' ? namesOfJson(text, file)
                      : text.starts_with(kSlicerTable)         ? namesOfSlicerTable(text, name)
                                                               : namesOfCsv(text, name);
-  if (names.empty())
-    throw invalidInput(name + ": names no label but 0; expected names of labels");
+  if (names.empty()) throw invalidInput(name + ": names no label but 0; expected names of labels");
   return names;
 }
 

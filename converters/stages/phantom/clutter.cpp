@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 
 constexpr double kVeinContrast = 0.6, kStentContrast = 2.0;  // shares of the vessels' contrast
 constexpr double kVeinReach = 1e6, kStentReach = 4, kVoidReach = 2.5;  // radii to either side
-constexpr double kVoidCore = 1.5;    // radii to either side, where the loss is full
-constexpr double kVoidLoss = 0.95;   // share of the contrast that flow loses
+constexpr double kVoidCore = 1.5;   // radii to either side, where the loss is full
+constexpr double kVoidLoss = 0.95;  // share of the contrast that flow loses
 constexpr std::uint64_t kStream = 0x636c7574746572ULL;  // a stream of its own for each kind
 
 Random randomOf(Clutter kind, std::uint64_t seed) {

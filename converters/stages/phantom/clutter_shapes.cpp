@@ -79,8 +79,8 @@ std::optional<Stretch> pickStretch(const formats::CenterlineTree& tree, double r
   return Stretch{middle, middle - std::min(before, steps), middle + std::min(after, steps)};
 }
 
-Bone::Bone(const formats::CenterlineTree& tree, const Stretch& stretch, double extent,
-           double voxel, Random& random)
+Bone::Bone(const formats::CenterlineTree& tree, const Stretch& stretch, double extent, double voxel,
+           Random& random)
     : m_voxel(voxel) {
   const double radius = radiusOf(tree, stretch.middle);
   m_axis = sideOf(tree, stretch.middle, random);
@@ -148,8 +148,8 @@ Design veinAlong(const formats::CenterlineTree& tree, const Stretch& stretch, do
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto node = stretch.first + static_cast<std::uint32_t>(i);
     const double radius = radiusOf(tree, node), vein = kVeinWidth * radius;
-    const double angle =
-        begin + kPi * static_cast<double>(i) / std::max(1.0, static_cast<double>(frames.size() - 1));
+    const double angle = begin + kPi * static_cast<double>(i) /
+                                     std::max(1.0, static_cast<double>(frames.size() - 1));
     path.push_back({nodeCentre(tree, node) + kVeinApart * (radius + vein) *
                                                  (std::cos(angle) * frames[i].first +
                                                   std::sin(angle) * frames[i].second),

@@ -67,32 +67,30 @@ SideBranches addFront(const Side& side, TreeBuilder& builder) {
   const auto carotid = static_cast<std::int32_t>(made.carotid);
   builder.add(side.name("MCA"), carotid,
               side.curve({top, {12, 18, 27}, {7, 20, 26}, {0, 20, 26}}, kMiddle, 0.9 * kMiddle));
-  made.anterior =
-      builder.add(side.name("ACA"), carotid,
-                  side.curve({top,
-                              {19, 16, 24},
-                              {23, 14, 23},
-                              {24, 12, 27},
-                              {24.4, 10.8, 29.4},
-                              {23, 9, 40},
-                              {23, 9, 51}},
-                             kAnterior, kAnterior2));
+  made.anterior = builder.add(side.name("ACA"), carotid,
+                              side.curve({top,
+                                          {19, 16, 24},
+                                          {23, 14, 23},
+                                          {24, 12, 27},
+                                          {24.4, 10.8, 29.4},
+                                          {23, 9, 40},
+                                          {23, 9, 51}},
+                                         kAnterior, kAnterior2));
   return made;
 }
 
 // Posterior cerebral artery, and the posterior communicating artery, which is linked to it.
 void addBack(const Side& side, std::uint32_t basilar, std::uint32_t carotid, TreeBuilder& builder) {
   const Vector3d tip(25.5, 32, 26), meeting(21, 31.2, 27);
-  const std::uint32_t posterior = builder.add(
-      side.name("PCA"), static_cast<std::int32_t>(basilar),
-      side.curve({tip,
-                  {24, 31.4, 27},
-                  {22.5, 31, 27},
-                  meeting,
-                  {18, 31.6, 27},
-                  {12, 36, 27},
-                  {12, 51, 29}},
-                 kPosterior, kPosterior2));
+  const std::uint32_t posterior = builder.add(side.name("PCA"), static_cast<std::int32_t>(basilar),
+                                              side.curve({tip,
+                                                          {24, 31.4, 27},
+                                                          {22.5, 31, 27},
+                                                          meeting,
+                                                          {18, 31.6, 27},
+                                                          {12, 36, 27},
+                                                          {12, 51, 29}},
+                                                         kPosterior, kPosterior2));
   // on the carotid's axis, at four fifths of its curve's parameter
   const double u = 0.8, v = 1 - u;
   const Vector3d start = v * v * v * Vector3d(15, 25, 0) + 3 * v * v * u * Vector3d(15, 25, 8) +
@@ -110,10 +108,9 @@ Design designWillis(const Frame& frame) {
   const Side right(frame, false), left(frame, true);
   const SideBranches rightFront = addFront(right, builder);
   const SideBranches leftFront = addFront(left, builder);
-  const std::uint32_t basilar =
-      builder.add("BA", formats::kNoParent,
-                  right.curve({{25, 36, 0}, {25, 36, 8}, {26.5, 33, 18}, {25.5, 32, 26}}, kBasilar,
-                              kBasilar));
+  const std::uint32_t basilar = builder.add(
+      "BA", formats::kNoParent,
+      right.curve({{25, 36, 0}, {25, 36, 8}, {26.5, 33, 18}, {25.5, 32, 26}}, kBasilar, kBasilar));
   addBack(right, basilar, rightFront.carotid, builder);
   addBack(left, basilar, leftFront.carotid, builder);
   const Vector3d begin(24, 12, 27), end(27, 12, 27);

@@ -58,7 +58,7 @@ public:
     for (std::uint32_t n = from; n < run.end; ++n) lengths[m_label[n]] += share(n, from, run.end);
     const auto most = std::max_element(lengths.begin() + 1, lengths.end());
     const double whole = length({0, from, run.end});
-    const bool isEnough = *most > 0 && (*most > width({0, from, run.end}) || 2 * *most > whole);
+    const bool isEnough = *most > 0 && (*most > width({0, from, run.end}) || 2 * *most >= whole);
     return isEnough ? static_cast<std::uint8_t>(most - lengths.begin()) : std::uint8_t{0};
   }
 
@@ -161,10 +161,10 @@ Naming nameBranches(const LabelMask& mask, formats::Case& value) {
   std::vector<formats::Branch> branches;
   std::vector<std::string> wanted;  // for each of them; empty: none
   for (const formats::Branch& branch : tree.branches) {
-    const std::vector<Run> runs = branch.kind == formats::BranchKind::Vessel
-                                      ? labelled.stretches(branch)
-                                      : std::vector<Run>{{0, branch.firstNode,
-                                                          branch.firstNode + branch.nodeCount}};
+    const std::vector<Run> runs =
+        branch.kind == formats::BranchKind::Vessel
+            ? labelled.stretches(branch)
+            : std::vector<Run>{{0, branch.firstNode, branch.firstNode + branch.nodeCount}};
     done.divided += runs.size() > 1 ? 1 : 0;
     for (const Run& run : runs) {
       formats::Branch part = branch;

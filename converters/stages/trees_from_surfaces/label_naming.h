@@ -23,7 +23,7 @@ struct Naming {
 /// - A branch with stretches of several labels, each longer than it is wide there, is divided where one
 ///   follows the other; nodes without a label belong to the stretch before them, or after.
 /// - A branch has the name of the label with the greatest length along it, the lower value of two that
-///   are equal, if that is longer than the branch is wide or than half of it; one without keeps its name.
+///   are equal, if that is longer than the branch is wide or is at least half of it; one without keeps its name.
 /// - Branches of one name are "NAME", "NAME-2" and so on in the order of the tree.
 Naming nameBranches(const LabelMask& mask, formats::Case& value);
 

@@ -41,14 +41,16 @@ struct Change {
   double deepest = 0;   ///< mm: least distance of a brighter voxel from the wall; negative: within
   double farthest = 0;  ///< mm: greatest
   int brightest = 0;
+  double sum = 0;  ///< of all differences
 };
 
 Change changeOf(const std::string& clutter) {
   const Phantom clean = made(""), phantom = made(clutter);
   const TubeTreeDistance wall(clean.truth.tree);
-  Change change{0, 0, 1e9, -1e9, 0};
+  Change change{0, 0, 1e9, -1e9, 0, 0};
   for (std::size_t i = 0; i < voxelsOf(clean).size(); ++i) {
     const int difference = voxelsOf(phantom)[i] - voxelsOf(clean)[i];
+    change.sum += difference;
     change.darker += difference < -100 ? 1 : 0;
     if (difference <= 100) continue;
     ++change.brighter;
@@ -111,10 +113,8 @@ TEST(Clutter, AStentLiesInTheWallAlone) {
 TEST(Clutter, AVoidLosesTheSignalOfAStretch) {
   const Change loss = changeOf("void");
   EXPECT_EQ(loss.brighter, 0U);
-  // five radii of 0.5 mm long, pi 0.25 mm^2 wide, 0.008 mm^3 a voxel
-  const double whole = 5 * 0.5 * 3.14159 * 0.25 / 0.008;
-  EXPECT_GT(static_cast<double>(loss.darker), 0.6 * whole);
-  EXPECT_LT(static_cast<double>(loss.darker), 1.2 * whole);
+  // 95 % over three radii of 0.5 mm, half of it over one more on both sides together, 0.785 mm^2 wide
+  EXPECT_NEAR(loss.sum * 0.2 * 0.2 * 0.2 / 1000, -0.785 * 0.95 * 4 * 0.5, 0.02 * 1.49);
 }
 
 TEST(Clutter, AKindIsEqualAloneAndWithOthers) {
@@ -122,7 +122,7 @@ TEST(Clutter, AKindIsEqualAloneAndWithOthers) {
   std::size_t compared = 0;
   for (std::size_t i = 0; i < voxelsOf(clean).size(); ++i)
     if (voxelsOf(clean)[i] == 100 && voxelsOf(vein)[i] != 100) {
-      EXPECT_EQ(voxelsOf(both)[i], voxelsOf(vein)[i]);
+      EXPECT_NEAR(voxelsOf(both)[i], voxelsOf(vein)[i], 1);  // as the sums are rounded otherwise
       ++compared;
     }
   EXPECT_GT(compared, 1000U);

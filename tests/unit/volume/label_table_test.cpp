@@ -74,21 +74,21 @@ TEST_F(LabelTableTest, TopcowHasThirteenClasses) {
 
 TEST_F(LabelTableTest, SegmentsOfSlicerNameThemselves) {
   const std::string head = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n";
-  EXPECT_EQ(segmentNames(write("a.seg.nrrd",
-                               head +
-                                   "Segment0_LabelValue:=1\nSegment0_Layer:=0\nSegment0_Name:=BA\n"
-                                   "Segment11_Name:=left ICA\nSegment11_LabelValue:=12\n"
-                                   "Segment2_LabelValue:=1\nSegment2_Layer:=1\nSegment2_Name:=x\n"
-                                   "Segmentation_ContainedRepresentationNames:=Binary labelmap|\n\n"
-                                   "Segment3_LabelValue:=7\nSegment3_Name:=data\n")),
-            kTwo);
+  EXPECT_EQ(
+      segmentNames(write("a.seg.nrrd",
+                         head + "Segment0_LabelValue:=1\nSegment0_Layer:=0\nSegment0_Name:=BA\n"
+                                "Segment11_Name:=left ICA\nSegment11_LabelValue:=12\n"
+                                "Segment2_LabelValue:=1\nSegment2_Layer:=1\nSegment2_Name:=x\n"
+                                "Segmentation_ContainedRepresentationNames:=Binary labelmap|\n\n"
+                                "Segment3_LabelValue:=7\nSegment3_Name:=data\n")),
+      kTwo);
   EXPECT_TRUE(segmentNames(write("b.nrrd", head + "\nx")).empty());
   EXPECT_TRUE(segmentNames(write("c.nii", "Segment0_LabelValue:=1\n")).empty());
-  EXPECT_THROW((void)segmentNames(write("d.nrrd", head +
-                                                      "Segment0_LabelValue:=1\nSegment0_Name:=a\n"
-                                                      "Segment1_LabelValue:=1\nSegment1_Name:=b\n"
-                                                      "\n")),
-               Error);
+  EXPECT_THROW(
+      (void)segmentNames(write("d.nrrd", head + "Segment0_LabelValue:=1\nSegment0_Name:=a\n"
+                                                "Segment1_LabelValue:=1\nSegment1_Name:=b\n"
+                                                "\n")),
+      Error);
 }
 
 TEST_F(LabelTableTest, MessagesStatePlaceAndExpectation) {
@@ -96,9 +96,10 @@ TEST_F(LabelTableTest, MessagesStatePlaceAndExpectation) {
             "a.csv: line 2: names the label 1 twice, expected each once");
   EXPECT_EQ(refusal("a.csv", "value,name\nx,BA\n"),
             "a.csv: line 2: found the label \"x\", expected a whole number from 0 to 16777216");
-  EXPECT_EQ(refusal("a.csv", "artery,colour\n"),
-            "a.csv: line 1: found \"artery\", expected a row LABEL,NAME, or a header with the columns "
-            "value and name");
+  EXPECT_EQ(
+      refusal("a.csv", "artery,colour\n"),
+      "a.csv: line 1: found \"artery\", expected a row LABEL,NAME, or a header with the columns "
+      "value and name");
   EXPECT_EQ(refusal("a.csv", "1\n"), "a.csv: line 1: found 1 cell, expected a label and a name");
   EXPECT_EQ(refusal("a.csv", "1,\n"), "a.csv: line 1: the label 1 has no name; expected one");
   EXPECT_EQ(refusal("a.csv", "-1,BA\n"),
