@@ -114,9 +114,9 @@ def cluttered(lumen, folder, name, options):
             continue
         score, _, _ = run(lumen, "compare", case, truth)
         forks, right = right_forks(lumen, case, truth)
-        figures = (score["overlap"] * made["length_mm"], score["false_mm"])
+        figures = (made["length_mm"] - score["missed_mm"], score["false_mm"])
         clean = clean or figures
-        rows.append(f"| {name} | {kind} | {json.loads(done.stdout)['branches']} | {100 * score['overlap']:.1f} % | {figures[0] - clean[0]:+.1f} | "
+        rows.append(f"| {name} | {kind} | {json.loads(done.stdout)['branches']} | {100 * figures[0] / made['length_mm']:.1f} % | {figures[0] - clean[0]:+.1f} | "
                     f"{figures[1]:.1f} | {figures[1] - clean[1]:+.1f} | {right} of {forks} |")
     return rows
 
@@ -152,7 +152,7 @@ def main():
         if wanted(name): lines.append(synthetic(lumen, folder, name, options))
     if wanted("willis"):
         lines += ["", inlets_and_links(lumen, folder / "willis.lumen", folder / "willis.truth.lumen")]
-    lines += ["", "## Clutter", "", "`lumen phantom --clutter`, then `lumen track` with default options. *Change* is that against the clean phantom, mm.", "",
+    lines += ["", "## Clutter", "", "`lumen phantom --clutter`, then `lumen track` with default options. *Length covered* is the true length less what is missed, whatever else is found; *change* that against the clean phantom, mm.", "",
               "| volume | clutter | found | length covered | change | false, mm | change | right forks |",
               "|---|---|--:|--:|--:|--:|--:|--:|"]
     for name, options in CLUTTERED:
