@@ -29,6 +29,10 @@ struct OptionNames {
   OptionName crop{"crop"};
   OptionName allowDetached{"allow-detached"};
   OptionName volume{"volume"};
+  // volumes of labels
+  OptionName labels{"labels"};
+  OptionName labelMap{"label-map"};
+  OptionName labelTable{"label-table"};
   // seeds and tracking
   OptionName seeds{"seeds"};
   OptionName seedsFrame{"seeds-frame"};
@@ -66,6 +70,7 @@ struct OptionNames {
   OptionName voxel{"voxel"};
   OptionName sliceThickness{"slice-thickness"};
   OptionName fade{"fade"};
+  OptionName clutter{"clutter"};
   OptionName noise{"noise"};
   OptionName bias{"bias"};
   OptionName psf{"psf"};

@@ -8,9 +8,14 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
+#include "converters/base/vectors.h"
+#include "converters/engine/file_access.h"
 #include "converters/engine/stage_options.h"
 #include "converters/engine/tracking_input.h"
+#include "converters/io/volume/write_volume.h"
 #include "converters/stages/trees_from_surfaces/case_of_mesh.h"
+#include "converters/stages/trees_from_surfaces/label_naming.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -33,6 +38,34 @@ std::pair<std::int64_t, std::string> namedLabel(std::string_view word) {
   return {value, std::string(rest.substr(1))};
 }
 
+/// Gives the labels of a mask the names of a table, where it has them.
+void useTable(const convert::LabelNames& table, convert::LabelMask& mask) {
+  for (std::size_t i = 0; i < mask.values.size(); ++i)
+    if (const auto found = table.find(mask.values[i]); found != table.end())
+      mask.names[i] = found->second;
+}
+
+/// The middle of a volume, mm, LPS, and the lengths of its edges.
+std::string extentText(const convert::VolumeGeometry& geometry) {
+  const Eigen::Vector3d size = geometry.cells().size.cast<double>();
+  return convert::vectorText(geometry.worldFromIndex(0.5 * (size.array() - 1).matrix())) +
+         " with edges of " + convert::vectorText(size.cwiseProduct(geometry.spacing)) + " mm";
+}
+
+/// Gives the remarks on ends the names of the branches on whose nodes they lie.
+void renameEnds(const formats::CenterlineTree& tree, std::vector<convert::TrackEnd>& ends) {
+  for (convert::TrackEnd& end : ends) {
+    const auto nearest = std::min_element(tree.centre.begin(), tree.centre.end(),
+                                          [&](const formats::Vec3f& a, const formats::Vec3f& b) {
+                                            return (toEigen(a) - end.position).squaredNorm() <
+                                                   (toEigen(b) - end.position).squaredNorm();
+                                          });
+    if (nearest == tree.centre.end()) return;
+    end.label =
+        tree.branches[tree.branch[static_cast<std::size_t>(nearest - tree.centre.begin())]].label;
+  }
+}
+
 }  // namespace
 
 convert::LabelNames MaskArguments::names() const {
@@ -49,6 +82,14 @@ convert::LabelNames MaskArguments::names() const {
   return names;
 }
 
+convert::LabelNames MaskArguments::table(const std::filesystem::path& file) const {
+  if (labelTable.empty()) return convert::segmentNames(file);
+  const std::vector<std::string>& known = convert::builtInLabelTables();
+  if (std::find(known.begin(), known.end(), labelTable) == known.end())
+    requireInput(labelTable, "table of labels");
+  return convert::readLabelTable(labelTable);
+}
+
 formats::Case caseOfMaskFile(const std::filesystem::path& file, const FileFormat& format,
                              const VolumeArguments& volume, const MaskArguments& arguments,
                              Progress& progress) {
@@ -59,7 +100,10 @@ formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::p
                          const MaskArguments& arguments, Progress& progress) {
   const std::string name = formats::printable(file.string());
   const convert::LabelNames names = arguments.names();
-  const convert::LabelMask mask = convert::maskOf(volume, names, name);
+  const convert::LabelNames table =
+      arguments.labels.empty() ? arguments.table(file) : convert::LabelNames{};
+  convert::LabelMask mask = convert::maskOf(volume, names, name);
+  useTable(table, mask);
   if (mask.isGrey)
     progress.warn(name +
                   ": its voxels differ from their neighbours as grey values do, and are taken as "
@@ -78,8 +122,41 @@ formats::Case caseOfMask(const convert::Volume& volume, const std::filesystem::p
   // no wall is known better than to a voxel of the labels
   std::optional<double>& voxel = made.result.metadata.voxelSize;
   voxel = std::max(voxel.value_or(0), mask.geometry.voxelSize());
-  if (mask.names.size() > 1 || !arguments.labels.empty()) nameBranches(mask, made.result);
+  if (mask.names.size() > 1 || !arguments.labels.empty() || !table.empty())
+    convert::nameBranches(mask, made.result);
   return std::move(made.result);
+}
+
+void nameByLabelMap(const convert::Volume& volume, const std::string& file,
+                    const MaskArguments& arguments, formats::Case& target,
+                    std::vector<convert::TrackEnd>& ends, Progress& progress) {
+  const std::string& map = arguments.labelMap;
+  const std::string name = formats::printable(map);
+  requireInput(map, "label map");
+  const FileFormat& format = inputFormat(map, "");
+  if (format.kind != FormatKind::Volume)
+    throw invalidInput(name + ": is no volume; expected a volume of labels");
+  const convert::LabelNames table = arguments.table(map);
+  const convert::Volume labels = readVolumeFile(map, format, {}, progress);
+  if (!convert::holdsLabels(labels))
+    throw invalidInput(name +
+                       ": its voxels are no labels; expected whole numbers that are equal to "
+                       "their neighbours but at borders, and 0 around vessels");
+  convert::LabelMask mask = convert::maskOf(labels, {}, name);
+  if (convert::labelledWithin(mask, volume.geometry) == 0)
+    throw invalidInput(name + ": none of its labels lies within " + formats::printable(file) +
+                       "; the labels' volume is around " + extentText(mask.geometry) +
+                       ", expected labels of the volume around " + extentText(volume.geometry));
+  useTable(table, mask);
+  const convert::Naming done = convert::nameBranches(mask, target);
+  if (done.named == 0) progress.warn(name + ": no branch lies on its labels; names stay");
+  progress.detail(name + ": names " + std::to_string(done.named) + " branches, " +
+                  std::to_string(done.bare) + " lie on no label, " + std::to_string(done.divided) +
+                  " were divided between labels");
+  renameEnds(target.tree, ends);
+  target.metadata.steps.push_back({"label-map",
+                                   "lumen " LUMEN_VERSION,
+                                   {{"label-map-sha256", convert::describeSource(labels).sha256}}});
 }
 
 }  // namespace lumen::engine

@@ -218,6 +218,22 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
   table.group("");
 }
 
+void addLabelMapRows(OptionTable& table, MaskArguments& mask) {
+  table
+      .file(
+          kOption.labelMap.name, mask.labelMap,
+          "Volume of labels by which the branches that are found get their names; its grid may be "
+          "another")
+      .forInputs(kImage)
+      .without(kOption.seeds.name);
+  table
+      .file(
+          kOption.labelTable.name, mask.labelTable,
+          "Names of the labels: a JSON object, comma-separated values, a colour table of 3D Slicer "
+          "(.ctbl), or topcow [those in the header of a .seg.nrrd]")
+      .without(kOption.labels.name);
+}
+
 void addMaskRows(OptionTable& table, MaskArguments& mask) {
   table.group("Surface");
   table.scope(kLabels);
@@ -227,11 +243,13 @@ void addMaskRows(OptionTable& table, MaskArguments& mask) {
       .in(WholeRange{1, 1 << 24})
       .without("mask");
   table
-      .add("labels", &mask.labels, "LIST",
+      .add(kOption.labels.name, &mask.labels, "LIST",
            "The volume holds labels, and these are of vessels, such as 1=ica,2=mca; branches get "
            "their names")
       .without("mask")
       .without("label");
+  table.scope(kVolumes);
+  addLabelMapRows(table, mask);
   table.scope(kAnyContent);
   table.group("");
 }

@@ -49,6 +49,8 @@ void addVolumeRows(OptionTable& table, VolumeArguments& volume);
 void addVolumeRows(OptionTable& table, VolumeArguments& volume, const std::string& file);
 void addTrackRows(OptionTable& table, TrackArguments& track);
 void addMeshRows(OptionTable& table, MeshArguments& mesh);
+/// --label-map and --label-table.
+void addLabelMapRows(OptionTable& table, MaskArguments& mask);
 void addMaskRows(OptionTable& table, MaskArguments& mask);
 void addFitRows(OptionTable& table, convert::FitOptions& fit);
 void addEncodingRows(OptionTable& table, formats::EncodeOptions& encoding);

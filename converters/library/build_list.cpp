@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
-#include <csv.h>
 #include <nlohmann/json.hpp>
 
+#include "converters/base/csv_rows.h"
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
@@ -38,49 +37,8 @@ bool holds(const List& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-struct TableRow {
-  std::size_t line = 0;  ///< the row's first line; the first is 1
-  Cells cells;
-};
-
-struct Table {
-  std::vector<TableRow> rows;
-  TableRow row;
-};
-
 std::string linePrefix(std::size_t line) {
   return "line " + std::to_string(line) + ": ";
-}
-
-/// Rows and cells as libcsv finds them; throws for breaches of RFC 4180.
-std::vector<TableRow> rowsOf(const std::string& text, const std::string& name) {
-  csv_parser parser{};
-  if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL) != 0)
-    throw failed("comma-separated values cannot be read");
-  const std::unique_ptr<csv_parser, void (*)(csv_parser*)> owner(&parser, csv_free);
-  Table table;
-  const auto cell = [](void* bytes, std::size_t size, void* data) {
-    static_cast<Table*>(data)->row.cells.push_back(
-        trimmed(std::string(static_cast<const char*>(bytes), size)));
-  };
-  const auto row = [](int, void* data) {
-    auto& all = *static_cast<Table*>(data);
-    all.rows.push_back(std::exchange(all.row, {}));
-  };
-  bool isRead = true;
-  // lines are counted here, as libcsv does not report them
-  for (std::size_t at = 0, line = 1; isRead && at < text.size(); ++at) {
-    const bool isEnd = text[at] == '\n' || text[at] == '\r';
-    if (table.row.line == 0 && !isEnd) table.row.line = line;
-    isRead = csv_parse(&parser, &text[at], 1, cell, row, &table) == 1;
-    line += text[at] == '\n' ? 1 : 0;
-  }
-  if (!isRead || csv_fini(&parser, cell, row, &table) != 0)
-    throw invalidInput(
-        name + ": " + linePrefix(table.row.line) +
-        "found a quote inside of a text, or one without an end; expected comma-" +
-        "separated values in which a text with quotes is \"quoted \"\"like this\"\"\"");
-  return std::move(table.rows);
 }
 
 /// The parts between semicolons, without those that are empty.
@@ -174,7 +132,7 @@ BuildRow rowOf(const Cells& names, const Cells& cells, const fs::path& folder) {
   return row;
 }
 
-Cells namesOf(TableRow row, const std::string& name) {
+Cells namesOf(CsvRow row, const std::string& name) {
   const std::string line = linePrefix(row.line);
   Cells names = std::move(row.cells);
   for (std::string& column : names) {
@@ -219,8 +177,8 @@ void requireDifferentIds(const std::vector<BuildRow>& rows, std::vector<std::str
 std::vector<BuildRow> readBuildList(const std::string& text, const fs::path& file) {
   const std::string name = formats::printable(file.string());
   constexpr std::string_view kMark = "\xEF\xBB\xBF";  // spreadsheets write it
-  std::vector<TableRow> table =
-      rowsOf(text.starts_with(kMark) ? text.substr(kMark.size()) : text, name);
+  std::vector<CsvRow> table =
+      csvRows(text.starts_with(kMark) ? text.substr(kMark.size()) : text, name);
   if (table.empty()) throw invalidInput(name + ": is empty; expected a row of names first");
   const Cells names = namesOf(std::move(table.front()), name);
   std::vector<BuildRow> rows;

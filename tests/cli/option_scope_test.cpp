@@ -63,6 +63,8 @@ const std::map<std::string, std::string> kSamples = {{"from", ""},  // stated by
                                                      {"mask", "true"},
                                                      {"label", "1"},
                                                      {"labels", "1=artery"},
+                                                     {"label-map", "labels.nrrd"},
+                                                     {"label-table", "topcow"},
                                                      {"kernel", "gaussian"},
                                                      {"kernel-parameter", "0.3"},
                                                      {"cohesion-weight", "1e-4"},
@@ -109,7 +111,7 @@ const std::map<std::string, std::pair<std::string, std::string>> kCompanions = {
 /// file says already, distances between vessels of which there is one, choices that fail on this data, and series of
 /// DICOM.
 const std::set<std::string> kWithoutEffectHere = {
-    "seeds-only", "allow-detached", "gap",  "label", "mask",  "mesh-per",
+    "seeds-only", "allow-detached", "gap",  "label", "label-map", "mask", "mesh-per",
     "mesh",       "only-connected", "root", "seeds", "series"};
 
 struct Input {

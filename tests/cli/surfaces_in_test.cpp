@@ -149,6 +149,55 @@ TEST_F(LabelsInTest, LabelsBecomeTheVesselThatTheyCameFrom) {
   EXPECT_EQ(named->tree.branches[0].label, "ica");
 }
 
+TEST_F(LabelsInTest, ALabelMapNamesWhatIsFoundBesideIt) {
+  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"}).code, 0);
+  ASSERT_EQ(lumen({"check", "tube.nrrd", "tracked.lumen", "--mask", "labels.nrrd"}).code, 0);
+  write("table.csv", "value,name\n1,ica\n");
+  const auto nameBy = [&](std::vector<std::string> line) {
+    const Outcome done = lumen(std::move(line));
+    EXPECT_EQ(done.code, 0) << done.err;
+    const auto named = formats::readCaseFile(path("named.lumen"));
+    return named ? named->tree.branches[0].label + " of " + named->metadata.steps[1].name : "";
+  };
+  EXPECT_EQ(nameBy({"track", "tube.nrrd", "named.lumen", "--label-map", "labels.nrrd"}),
+            "label-1 of label-map");
+  EXPECT_EQ(nameBy({"track", "tube.nrrd", "named.lumen", "--label-map", "labels.nrrd",
+                    "--label-table", "table.csv"}),
+            "ica of label-map");
+  EXPECT_EQ(nameBy({"convert", "tube.nrrd", "named.lumen", "--label-map", "labels.nrrd",
+                    "--label-table", "topcow"}),
+            "BA of label-map");
+  EXPECT_EQ(nameBy({"convert", "labels.nrrd", "named.lumen", "--label-table", "table.csv"}),
+            "ica of fit");
+}
+
+TEST_F(LabelsInTest, LabelMapsThatCannotBeAreMistakes) {
+  ASSERT_EQ(lumen({"convert", "tube.nrrd", "tracked.lumen", "--seeds", "seeds.json"}).code, 0);
+  ASSERT_EQ(lumen({"check", "tube.nrrd", "tracked.lumen", "--mask", "labels.nrrd"}).code, 0);
+  write("twice.csv", "1,ica\n1,mca\n");
+  const auto refusal = [&](std::vector<std::string> line, int code) {
+    line.insert(line.begin(), {"track", "tube.nrrd", "x.lumen"});
+    const Outcome done = lumen(std::move(line));
+    EXPECT_EQ(done.code, code) << done.err;
+    EXPECT_FALSE(exists("x.lumen"));
+    return done.err;
+  };
+  EXPECT_TRUE(contains(refusal({"--label-map", "labels.nrrd", "--label-table", "twice.csv"}, 3),
+                       "twice.csv: line 2: names the label 1 twice"));
+  EXPECT_TRUE(contains(refusal({"--label-table", "topcow"}, 2),
+                       "--label-table does nothing without --label-map"));
+  EXPECT_TRUE(contains(refusal({"--label-map", "labels.nrrd", "--seeds", "seeds.json"}, 2),
+                       "exclude one another"));
+  EXPECT_TRUE(contains(refusal({"--label-map", "truth.lumen"}, 3), "expected a volume of labels"));
+  // the labels of another place
+  std::string text = read("labels.nrrd");
+  const std::size_t at = text.find("space origin: (");
+  ASSERT_NE(at, text.npos);
+  text.insert(at + 15, "9");
+  write("far.nrrd", text);
+  EXPECT_TRUE(contains(refusal({"--label-map", "far.nrrd"}, 3), "none of its labels lies within"));
+}
+
 TEST_F(LabelsInTest, LabelsThatCannotBeAreMistakes) {
   for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
            {"convert", "tube.nrrd", "x.lumen", "--labels", "ica"},

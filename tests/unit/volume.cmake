@@ -1,13 +1,14 @@
 find_package(ZLIB REQUIRED)
 lumen_test(volume_test
   LABELS memory threads
-  LIBS lumen_volume
+  LIBS lumen_volume lumen_label_table
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/bspline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_nifti_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/detached_data_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/header_geometry_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/hostile_volume_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/label_table_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/leaks.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/nifti_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/volume/read_volume_test.cpp

@@ -109,11 +109,15 @@ private:
     if (m_seeds.empty() && convert::holdsLabels(volume)) {
       progress.detail(m_input + ": its voxels are labels, and all but 0 are taken for vessels");
       formats::Case made = caseOfMask(volume, m_input, m_mask, progress);
+      if (!m_mask.labelMap.empty())
+        nameByLabelMap(volume, m_input, m_mask, made, m_remarks.ends, progress);
       applyRoots(made, m_input, m_track);
       return made;
     }
     if (!m_seeds.empty()) warnOfVoxels(volume, m_input, progress);
     convert::TrackResult tracked = trackVolume(volume, m_input, m_seeds, m_track, progress);
+    if (!m_mask.labelMap.empty())
+      nameByLabelMap(volume, m_input, m_mask, tracked.result, tracked.ends, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
     return std::move(tracked.result);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen track: a volume and seeds to a tree with wall points.
+#include "converters/base/option_name.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/hinted_tracking.h"
@@ -28,6 +29,8 @@ public:
     table.argument("OUT", &m_output, "Case to write, " + formatEndings(canWriteCase));
     addVolumeRows(table, m_volume);
     addTrackRows(table, m_track);
+    addLabelMapRows(table, m_labels);
+    table.find(kOption.labelTable.name)->onlyWith(kOption.labelMap.name);
     addFormatRow(table, "from", m_from, "VOLUME");
     addFormatRow(table, "to", m_to, "OUT");
   }
@@ -51,8 +54,9 @@ public:
     around.willWrite(m_output);
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
-    const convert::TrackResult tracked =
-        trackVolume(volume, m_input, seeds, m_track, around.progress);
+    convert::TrackResult tracked = trackVolume(volume, m_input, seeds, m_track, around.progress);
+    if (!m_labels.labelMap.empty())
+      nameByLabelMap(volume, m_input, m_labels, tracked.result, tracked.ends, around.progress);
     to.writeCase(tracked.result, m_output, {}, around.progress);
     Json json = caseSummary(tracked.result);
     json["reachable"] = reachJson(std::nullopt);
@@ -65,6 +69,7 @@ private:
   std::string m_input, m_output, m_from, m_to;
   VolumeArguments m_volume;
   TrackArguments m_track;
+  MaskArguments m_labels;
 };
 
 }  // namespace

@@ -11,10 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-double radiusOf(const formats::CenterlineTree& tree, std::uint32_t node) {
-  return static_cast<double>(tree.radius[node]);
-}
-
 // The node at arc length `s` from the start of the branch; nodes are evenly spaced.
 std::uint32_t nodeAt(const formats::CenterlineTree& tree, const formats::Branch& branch, double s) {
   const double height = static_cast<double>(tree.height[branch.firstNode]);

@@ -112,6 +112,15 @@ std::uint32_t TreeBuilder::add(const std::string& label, std::int32_t parent, co
   return index;
 }
 
+void TreeBuilder::link(std::uint32_t from, std::uint32_t to) {
+  formats::CenterlineTree& tree = m_design.tree;
+  const formats::Branch& branch = tree.branches[from];
+  const std::uint32_t last = branch.firstNode + branch.nodeCount - 1;
+  const auto other = static_cast<std::uint32_t>(nearestNode(to, nodeCentre(tree, last)));
+  tree.links.push_back({std::min(last, other), std::max(last, other)});
+  std::sort(tree.links.begin(), tree.links.end());
+}
+
 void fadeContrast(Design& design, double share) {
   const formats::CenterlineTree& tree = design.tree;
   std::vector<double> way;
@@ -136,6 +145,10 @@ Eigen::Vector3d nodeCentre(const formats::CenterlineTree& tree, std::uint32_t no
 Eigen::Vector3d nodeDirection(const formats::CenterlineTree& tree, std::uint32_t node) {
   const formats::Vec3f& v = tree.direction[node];
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
+double radiusOf(const formats::CenterlineTree& tree, std::uint32_t node) {
+  return static_cast<double>(tree.radius[node]);
 }
 
 std::pair<Eigen::Vector3d, Eigen::Vector3d> normalsOf(const Eigen::Vector3d& w) {

@@ -62,6 +62,9 @@ public:
   std::uint32_t add(const std::string& label, std::int32_t parent, const Path& path,
                     formats::BranchKind kind = formats::BranchKind::Vessel);
 
+  /// Links the last node of a branch to the node of another branch that is nearest to it.
+  void link(std::uint32_t from, std::uint32_t to);
+
   [[nodiscard]] const formats::CenterlineTree& tree() const { return m_design.tree; }
   Design& design() { return m_design; }
 
@@ -74,6 +77,8 @@ private:
 
 Eigen::Vector3d nodeCentre(const formats::CenterlineTree& tree, std::uint32_t node);
 Eigen::Vector3d nodeDirection(const formats::CenterlineTree& tree, std::uint32_t node);
+
+double radiusOf(const formats::CenterlineTree& tree, std::uint32_t node);
 
 /// Two unit vectors that make a right-handed orthonormal frame with the unit vector `w`. Not
 /// planeBasis() of vectors.h, which turns them otherwise: phantoms would change.
@@ -126,6 +131,7 @@ Design designHairpin(const Frame& frame);
 Design designRightAngle(const Frame& frame);
 Design designFading(const Frame& frame);
 Design designThickSlices(const Frame& frame);
+Design designWillis(const Frame& frame);
 Design designPatient(const Frame& frame, std::uint64_t seed, Progress& progress);
 
 }  // namespace lumen::convert

@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/io/volume/write_volume.h"
+#include "converters/stages/phantom/clutter.h"
 #include "converters/stages/phantom/scene.h"
 #include "formats/container/printable.h"
 #include "formats/view/text_rules.h"
@@ -57,6 +58,7 @@ void checkOptions(const PhantomOptions& options) {
   requireRange(kOption.bias, options.bias, 0, 2);
   requireRange(kOption.psf, options.psf, 0, 5);
   requireRange(kOption.fade, options.fade, 0, 1);
+  (void)clutterOf(options.clutter);
 }
 
 formats::Case describeTruth(const Scene& scene, const PhantomOptions& options) {
@@ -111,7 +113,8 @@ void PhantomOptions::addRows(OptionTable& table) {
   table.group("Phantom");
   table
       .add(kOption.size.name, &size, "N",
-           "Voxels along an edge; 0: 128, or 256 for patient; not with " + kOption.tree.shown())
+           "Voxels along an edge; 0: 128, or 256 for patient and willis; not with " +
+               kOption.tree.shown())
       .in(WholeRange{0, kLargestSize})
       .recorded();
   table.add(kOption.voxel.name, &voxel, "MM", "Edge of a voxel")
@@ -127,6 +130,11 @@ void PhantomOptions::addRows(OptionTable& table) {
       .add(kOption.fade.name, &fade, "SHARE",
            "Share of the contrast that is lost at the end farthest from the root")
       .in(NumberRange{0, 1})
+      .recorded();
+  table
+      .add(kOption.clutter.name, &clutter, "LIST",
+           "Structures and losses that disturb finding and are not part of the truth, such as "
+           "bone,vein,streaks,stent,void")
       .recorded();
   addImageRows(*this, table);
   table.add("seed", &seed, "K", "Seed of the random numbers")
@@ -154,6 +162,7 @@ std::map<std::string, formats::ParameterValue> PhantomOptions::parameters() cons
   std::map<std::string, formats::ParameterValue> parameters = table.recordedValues();
   parameters["name"] = name;
   if (sliceThickness == 0) parameters.erase(kOption.sliceThickness.name);
+  if (clutter.empty()) parameters.erase(kOption.clutter.name);
   if (fade == 0) parameters.erase(kOption.fade.name);
   return parameters;
 }
@@ -162,7 +171,7 @@ const std::vector<std::string>& phantomNames() {
   static const std::vector<std::string> names = {
       "tube",        "helix",   "bifurcation",  "kissing",   "aneurysm",
       "stenosis",    "dropout", "sac-lobes",    "companion", "hairpin",
-      "right-angle", "fading",  "thick-slices", "patient"};
+      "right-angle", "fading",  "thick-slices", "willis",    "patient"};
   return names;
 }
 
@@ -170,10 +179,13 @@ Phantom makePhantom(const PhantomOptions& options, Progress& progress) {
   checkOptions(options);
   Scene scene =
       options.tree.empty() ? sceneOfName(options, progress) : sceneOfTree(options, progress);
+  const std::set<Clutter> clutter = clutterOf(options.clutter);
   // drawing, two passes of the blur, and the noise each report every slice
   progress.begin("phantom", 3 * static_cast<std::size_t>(scene.grid.size[2]) +
-                                static_cast<std::size_t>(scene.grid.size[1]));
+                                static_cast<std::size_t>(scene.grid.size[1]) +
+                                clutterSteps(clutter, scene.design, scene.grid));
   Image image = drawOccupancy(scene.design, scene.grid, progress);
+  addClutter(clutter, scene.design, scene.grid, options.seed, image, progress);
   blur(image, options.psf, progress);
   if (scene.slice != 1) image = averageSlices(image, scene.slice);
 

@@ -29,6 +29,7 @@
 // | right-angle | narrow children that leave a wide parent at a right angle |
 // | fading | contrast that falls along the tree |
 // | thick-slices | a fork in slices of five voxels |
+// | willis | a circle of Willis: three inlets, and communicating arteries as links |
 // | patient | a random tree |
 //
 // Shapes scale with the volume's edge. Radii of the small phantoms are given for 25.4 mm (128
@@ -37,6 +38,9 @@
 // more; it has 40 branches from 45 mm on, in proportion fewer in smaller volumes, and its branches
 // get shorter with the volume. Its step in the metadata names the two vessels that touch
 // ("kissing").
+//
+// `willis` keeps its radii of 2 to 0.7 mm in volumes of 51 mm, and scales by no less than 0.5 and no
+// more than 1.5. --clutter (clutter.h) adds to each of them.
 //
 // A tree from a file is smoothed by the rule of smooth_chain.h. Its branches are b000, b001 and so
 // on, its seeds those of the vessels that are longer than 5 mm and wide enough to be tracked
@@ -60,14 +64,16 @@ namespace lumen::convert {
 struct PhantomOptions {
   std::string name;            ///< one of phantomNames(); empty with a tree
   std::filesystem::path tree;  ///< an SWC file in mm; empty with a name
-  int size = 0;         ///< voxels along an edge; 0: the phantom's own (128; patient 256); a tree's
-                        ///< box follows from it
+  int size =
+      0;  ///< voxels along an edge; 0: the phantom's own (128; patient and willis 256); a tree's
+          ///< box follows from it
   double voxel = 0.2;   ///< mm
   double noise = 0.05;  ///< standard deviation, as a share of the vessels' contrast
   double bias = 0.1;    ///< amplitude of the slow bias field, as a share of the contrast
   double psf = 0.6;     ///< standard deviation of the Gaussian point-spread function, in voxels
   double sliceThickness = 0;  ///< mm along z; 0: a voxel, or the phantom's own
-  double fade = 0;  ///< share of the contrast that is lost at the end farthest from the root
+  double fade = 0;      ///< share of the contrast that is lost at the end farthest from the root
+  std::string clutter;  ///< empty, or kinds of clutter.h with commas between them
   std::uint64_t seed = 1;
   bool isCareless = false;         ///< clicks as of a person in a hurry
   std::uint64_t clickDrawing = 0;  ///< another number: other clicks on the same volume

@@ -13,6 +13,7 @@
 #include "converters/base/shown_text.h"
 #include "converters/geometry/box.h"
 #include "converters/io/centerline/read_swc.h"
+#include "converters/stages/phantom/clutter.h"
 #include "converters/stages/phantom/smooth_chain.h"
 #include "formats/case/case_file.h"
 #include "formats/container/printable.h"
@@ -135,10 +136,12 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
       {"hairpin", designHairpin},
       {"right-angle", designRightAngle},
       {"fading", designFading},
-      {"thick-slices", designThickSlices}};
+      {"thick-slices", designThickSlices},
+      {"willis", designWillis}};
   const auto found = small.find(options.name);
   const bool patient = found == small.end();
-  const int size = options.size != 0 ? options.size : patient ? 256 : 128;
+  const bool isLarge = patient || options.name == "willis";
+  const int size = options.size != 0 ? options.size : isLarge ? 256 : 128;
   const Frame frame{options.voxel, options.voxel * (size - 1)};
   if (patient && frame.extent < kSmallestPatient)
     throw Error(ErrorKind::Usage, "phantom: the volume is " + std::to_string(frame.extent) +
@@ -146,6 +149,7 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
   Scene scene;
   scene.design = patient ? designPatient(frame, options.seed, progress) : found->second(frame);
   fadeContrast(scene.design, options.fade);
+  loseFlow(clutterOf(options.clutter), options.seed, scene.design);
   scene.grid = {{size, size, size}, Vector3d::Constant(options.voxel)};
   if (options.name == "thick-slices") scene.slice = kNamedSlice;
   if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
@@ -170,6 +174,7 @@ Scene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   scene.treeSha256 = digestOf(options.tree);
   scene.design = designOf(file, options.voxel, name, progress);
   fadeContrast(scene.design, options.fade);
+  loseFlow(clutterOf(options.clutter), options.seed, scene.design);
   Box3d box;
   const formats::CenterlineTree& tree = scene.design.tree;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)

@@ -13,7 +13,6 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
-#include "converters/base/vectors.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/marching_cubes.h"
 #include "converters/stages/trees_from_surfaces/thin_voxels.h"
@@ -282,13 +281,6 @@ void dropUnused(TriangleMesh& mesh) {
     for (std::uint32_t& i : t) i = to[i];
 }
 
-/// The label at a place; 0 outside.
-std::uint8_t labelAt(const LabelMask& mask, const formats::Vec3f& place) {
-  const Vector3d at = mask.geometry.indexFromWorld(toEigen(place)).array().round();
-  if (!mask.geometry.containsIndex(at)) return 0;
-  return mask.label[mask.geometry.index(at.cast<int>())];
-}
-
 }  // namespace
 
 bool holdsLabels(const Volume& volume) {
@@ -313,7 +305,7 @@ LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::stri
   if (wanted.size() > kMostLabels)
     throw invalidInput(name + ": " + std::to_string(wanted.size()) +
                        " labels are wanted; expected at most " + std::to_string(kMostLabels));
-  LabelMask mask{volume.geometry, {}, {}, false};
+  LabelMask mask{volume.geometry, {}, {}, {}, false};
   std::visit(
       [&](const auto& voxels) {
         const std::set<std::int64_t> values = valuesOf(voxels, wanted, name);
@@ -327,6 +319,7 @@ LabelMask maskOf(const Volume& volume, const LabelNames& wanted, const std::stri
           if (!values.contains(value))
             throw invalidInput(name + ": no voxel has the label " + std::to_string(value) +
                                "; it has " + listOf(values));
+          mask.values.push_back(value);
           mask.names.push_back(text);
           places[value] = static_cast<std::uint8_t>(mask.names.size());
         }
@@ -365,20 +358,6 @@ LabelSurface surfaceOf(const LabelMask& mask, const Progress& progress) {
   if (mask.geometry.direction.determinant() < 0)
     for (Triangle& t : out.mesh.triangle) std::swap(t[1], t[2]);
   return out;
-}
-
-void nameBranches(const LabelMask& mask, formats::Case& value) {
-  std::vector<std::size_t> used(mask.names.size(), 0);
-  for (formats::Branch& branch : value.tree.branches) {
-    std::vector<std::size_t> nodes(mask.names.size() + 1, 0);
-    for (std::uint32_t i = 0; i < branch.nodeCount; ++i)
-      ++nodes[labelAt(mask, value.tree.centre[branch.firstNode + i])];
-    const auto most = std::max_element(nodes.begin() + 1, nodes.end());
-    if (*most == 0) continue;
-    const auto label = static_cast<std::size_t>(most - nodes.begin()) - 1;
-    branch.label = mask.names[label];
-    if (++used[label] > 1) branch.label.append("-").append(std::to_string(used[label]));
-  }
 }
 
 }  // namespace lumen::convert

@@ -4,27 +4,24 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "converters/base/progress.h"
 #include "converters/geometry/triangle_mesh.h"
+#include "converters/io/volume/label_table.h"
 #include "converters/voxels/volume.h"
-#include "formats/case/case.h"
 
 namespace lumen::convert {
-
-/// The names of labels by their values, which are not 0.
-using LabelNames = std::map<std::int64_t, std::string>;
 
 /// Voxels of a volume: for each the place of its label among the names, counted from 1; 0 for all
 /// others.
 struct LabelMask {
   VolumeGeometry geometry;
   std::vector<std::uint8_t> label;
-  std::vector<std::string> names;
-  bool isGrey = false;  ///< neighbours differ as the grey values of an image do
+  std::vector<std::int64_t> values;  ///< of the labels, ascending
+  std::vector<std::string> names;    ///< as many
+  bool isGrey = false;               ///< neighbours differ as the grey values of an image do
 };
 
 /// True for whole numbers whose voxels are equal to their neighbours, but at borders, as labels are:
@@ -49,9 +46,5 @@ struct LabelSurface {
 /// centres. Memory: a byte a voxel, and the surroundings of labels. The result has the same bits on
 /// any number of threads. Throws Error(Cancelled).
 LabelSurface surfaceOf(const LabelMask& mask, const Progress& progress);
-
-/// Names each branch by the label that most of its nodes lie in, "NAME", "NAME-2" and so on along
-/// the tree; one that lies in none keeps its name.
-void nameBranches(const LabelMask& mask, formats::Case& value);
 
 }  // namespace lumen::convert

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files of docs/mistakes/surfaces.md."""
 import math
+import re
 
 from fixtures import fixture
 
@@ -10,6 +11,23 @@ def labels(store):
     """The lumen of the tube as label 1."""
     store.path("case.lumen")
     store.lumen("check", "tube.nrrd", "case.lumen", "--mask", "labels.nrrd")
+
+
+@fixture("far-labels.nrrd")
+def elsewhere(store):
+    """Those labels, 900 mm to the patient's left."""
+    header, voxels = store.bytes("labels.nrrd").split(b"\n\n", 1)
+    return re.sub(rb"space origin: \([^,]*,", b"space origin: (900,", header) + b"\n\n" + voxels
+
+
+@fixture("twice.csv")
+def twice(store):
+    return b"value,name\n1,ica\n1,mca\n"
+
+
+@fixture("colours.csv")
+def colours(store):
+    return b"artery,red\nvein,blue\n"
 
 
 @fixture("open.obj")
