@@ -108,7 +108,7 @@ Json lookOnly(Json state) {
   for (Json& revision : state["revisions"]) revision = 1;
   state["revisions"]["library"] = 0;
   for (const char* const name : {"undo", "redo", "job", "saveAs"}) state[name] = nullptr;
-  state["formats"] = Json::array();
+  state["formats"] = state["proposals"] = Json::array();
   state["unsaved"] = false;
   return state;
 }

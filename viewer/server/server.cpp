@@ -170,6 +170,9 @@ private:
     });
     getSlowly("case",
               [this](const Request&, Progress& progress) { return m_session.casePack(progress); });
+    getSlowly("proposals", [this](const Request&, Progress& progress) {
+      return m_session.proposalsPack(progress);
+    });
     get("library", [this](const Request& request, Response& response) {
       answerPart(request, response, m_session.library());
     });

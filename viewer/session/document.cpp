@@ -92,6 +92,7 @@ std::size_t bytesOf(const std::vector<const Document*>& documents) {
     add(document->value);
     add(document->truth);
     add(document->seeds);
+    add(document->proposals);
     for (const OpenMesh& mesh : document->meshes) add(mesh.mesh);
   }
   return sum;

@@ -55,6 +55,8 @@ struct Document {
   std::shared_ptr<const formats::Case> value;
   std::shared_ptr<const formats::Case> truth;
   std::shared_ptr<const Seeds> seeds = std::make_shared<const Seeds>();
+  /// Vessels that were found and wait to be accepted (proposals.h): tree and wall points.
+  std::shared_ptr<const formats::Case> proposals;
   std::vector<OpenMesh> meshes;
   std::vector<OpenFile> files;
 

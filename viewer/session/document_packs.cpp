@@ -44,6 +44,12 @@ std::shared_ptr<const VolumePack> DocumentPacks::volumePack(const Moment& now, s
   return m_volume;
 }
 
+Tagged proposalsPack(const Moment& now, Progress& progress) {
+  if (!now.document.proposals) return {};
+  return tagged(std::to_string(now.parts.proposals),
+                viewer::casePack(*now.document.proposals, false, progress));
+}
+
 Tagged caseFile(const Moment& now) {
   if (!now.document.value) return {};
   const std::vector<std::byte> bytes = formats::encodeBinary(*now.document.value);

@@ -30,6 +30,9 @@ private:
   std::shared_ptr<const VolumePack> m_volume;
 };
 
+/// The proposals as a case's pack, without wall points.
+Tagged proposalsPack(const Moment& now, Progress& progress);
+
 /// The case as a file.
 Tagged caseFile(const Moment& now);
 

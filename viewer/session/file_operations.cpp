@@ -7,6 +7,7 @@
 #include "converters/base/error.h"
 #include "formats/container/printable.h"
 #include "viewer/session/conflict.h"
+#include "viewer/session/proposals.h"
 
 namespace lumen::viewer {
 
@@ -139,8 +140,12 @@ Json FileOperations::recover(const Arguments& request, const Moment& from) {
         const Document read =
             withFile(from.document, {file, name}, 0, m_workspace.options.volume, progress);
         Document document = from.document;
-        document.value = read.value;
-        document.seeds = read.seeds;
+        if (holdsProposals(file)) {
+          document.proposals = proposalsFor(from.document, read.value);
+        } else {
+          document.value = read.value;
+          document.seeds = read.seeds;
+        }
         m_workspace.commit("take " + name, from, std::move(document));
         return "this is " + name + ", which was not saved";
       });

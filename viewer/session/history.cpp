@@ -27,6 +27,7 @@ void History::replace(Document document) {
   parts.value += document.value != old.value;
   parts.volume += document.volume != old.volume;
   parts.seeds += document.seeds != old.seeds;
+  parts.proposals += document.proposals != old.proposals;
   parts.truth += document.truth != old.truth;
   parts.meshes += !sameMeshes(document, old);
   m_now.document = std::move(document);

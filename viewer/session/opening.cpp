@@ -56,12 +56,14 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
     case FileRole::Volume:
       document.volume = std::make_shared<const convert::Volume>(engine::loadVolume(
           opening.path, engine::inputFormat(opening.path, ""), arguments, progress));
+      document.proposals.reset();
       break;
     case FileRole::Case:
     case FileRole::Truth: {
       auto value = std::make_shared<const formats::Case>(
           caseOf(opening, engine::inputFormat(opening.path, ""), arguments, progress));
       (role == FileRole::Truth ? document.truth : document.value) = std::move(value);
+      if (role == FileRole::Case) document.proposals.reset();
       break;
     }
     case FileRole::Seeds:
@@ -115,9 +117,11 @@ Document withoutFile(const Document& document, int id) {
   switch (file->role) {
     case FileRole::Volume:
       result.volume.reset();
+      result.proposals.reset();
       break;
     case FileRole::Case:
       result.value.reset();
+      result.proposals.reset();
       break;
     case FileRole::Truth:
       result.truth.reset();

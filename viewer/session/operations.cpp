@@ -2,9 +2,11 @@
 #include "viewer/session/operations.h"
 
 #include <utility>
+#include <vector>
 
 #include "converters/base/error.h"
 #include "viewer/session/corrections.h"
+#include "viewer/session/proposals.h"
 #include "viewer/session/seed_changes.h"
 
 namespace lumen::viewer {
@@ -35,6 +37,9 @@ Json Operations::change(const std::string& op, const Arguments& request, const M
   if (op == "recover") return m_files.recover(request, from);
   if (op == "closeFile") return m_files.close(request, from);
   if (op == "track") return m_stages.track(request, from);
+  if (op == "find") return m_stages.find(from);
+  if (op == "accept") return m_stages.accept(request, from);
+  if (op == "reject") return reject(request, from);
   if (op == "fit") return m_stages.fit(from);
   if (auto seeds = changeSeeds(op, request, from.document)) {
     m_workspace.commit(seeds->title, from, std::move(seeds->document));
@@ -49,6 +54,13 @@ Json Operations::change(const std::string& op, const Arguments& request, const M
     return m_workspace.revision();
   }
   throw Error(ErrorKind::Usage, "there is no operation \"" + op + "\"");
+}
+
+Json Operations::reject(const Arguments& request, const Moment& from) {
+  const std::vector<bool> chosen = chosenProposals(from.document, request);
+  m_workspace.commit(titleOf("reject", *from.document.proposals, chosen), from,
+                     rejected(from.document, chosen));
+  return m_workspace.revision();
 }
 
 Json Operations::step(bool forward) {

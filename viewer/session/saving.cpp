@@ -67,7 +67,8 @@ UnsavedParts Saving::unsaved(const Document& document) const {
   // a case holds the seeds that it was tracked from
   const bool areInCase = document.fileOf(FileRole::Seeds) == nullptr && document.value != nullptr;
   const bool otherSeeds = m_seeds ? document.seeds != m_seeds : !document.seeds->empty();
-  return {document.value && document.value != m_case, otherSeeds && !areInCase};
+  return {document.value && document.value != m_case, otherSeeds && !areInCase,
+          document.proposals != nullptr};
 }
 
 fs::path Saving::checkedTarget(const Document& document, bool force) const {

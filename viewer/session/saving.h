@@ -13,6 +13,8 @@ namespace lumen::viewer {
 /// The parts of a document that no file holds.
 struct UnsavedParts {
   bool hasCase = false, hasSeeds = false;
+  /// Proposals wait: they are kept, but a document without a decision on them can be saved.
+  bool hasProposals = false;
   [[nodiscard]] bool any() const { return hasCase || hasSeeds; }
 };
 

@@ -21,9 +21,11 @@ constexpr std::size_t kMostSeeds = 10000;
 
 bool isTaken(const Document& document, const std::string& label) {
   const auto has = [&label](const auto& item) { return item.label == label; };
+  const auto isBranchOf = [&has](const std::shared_ptr<const formats::Case>& part) {
+    return part && std::any_of(part->tree.branches.begin(), part->tree.branches.end(), has);
+  };
   return std::any_of(document.seeds->begin(), document.seeds->end(), has) ||
-         (document.value && std::any_of(document.value->tree.branches.begin(),
-                                        document.value->tree.branches.end(), has));
+         isBranchOf(document.value) || isBranchOf(document.proposals);
 }
 
 std::string freeLabel(const Document& document, const std::string& stem) {

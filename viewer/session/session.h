@@ -55,6 +55,7 @@ public:
   [[nodiscard]] Tagged library() const { return m_workspace.library.pack(); }
   Tagged casePack(Progress& progress) { return m_workspace.packs.casePack(now(), progress); }
   [[nodiscard]] Tagged caseFile() const { return viewer::caseFile(now()); }
+  Tagged proposalsPack(Progress& progress) { return viewer::proposalsPack(now(), progress); }
   Tagged surfacePack(int level, bool quick);
   /// The surface of that level, once it is made. Throws Error(Cancelled).
   Tagged finishedSurface(int level, const Progress& progress);

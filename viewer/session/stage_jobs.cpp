@@ -15,6 +15,7 @@
 #include "converters/judge/compare/compare.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
+#include "viewer/session/proposals.h"
 #include "viewer/session/vessel_tracking.h"
 
 namespace lumen::viewer {
@@ -58,6 +59,7 @@ Json StageJobs::track(const Arguments& request, const Moment& from) {
         trackedFrom(from.document, seeds, workspace.tracking, workspace.options, progress);
     Document document = from.document;
     document.value = std::move(tracked.value);
+    document.proposals = proposalsFor(document, document.proposals);
     const std::string title =
         "track " +
         (seeds.size() == 1 ? seeds.front().label : counted(seeds.size(), "seed", "seeds"));
@@ -65,6 +67,38 @@ Json StageJobs::track(const Arguments& request, const Moment& from) {
     workspace.warnOfDropped(tracked.droppedArrays);
     return counted(tracked.newVessels, "vessel", "vessels") + " tracked";
   });
+}
+
+Json StageJobs::find(const Moment& from) {
+  if (!from.document.volume)
+    throw Error(ErrorKind::Usage, "there is no volume to find vessels in");
+  Workspace& workspace = m_workspace;
+  return workspace.startJob("finding vessels", true, [&workspace, from](Progress& progress) {
+    Document document = from.document;
+    document.proposals = foundFrom(document, workspace.tracking, workspace.options.track.options,
+                                   progress);
+    if (document.proposals || from.document.proposals)
+      workspace.commit("find vessels", from, document);
+    if (!document.proposals) return std::string("no vessel is found that the case lacks");
+    return counted(document.proposals->tree.branches.size(), "vessel is", "vessels are") +
+           " proposed: accept or reject them";
+  });
+}
+
+Json StageJobs::accept(const Arguments& request, const Moment& from) {
+  Workspace& workspace = m_workspace;
+  Acceptance acceptance = accepted(from.document, chosenProposals(from.document, request));
+  return workspace.startJob(
+      "fitting", true, [&workspace, from, acceptance](Progress& progress) mutable {
+        formats::Case& value = *acceptance.value;
+        if (acceptance.firstNewNode == 0)
+          convert::fit(value, engine::fitOptionsFor(value, workspace.options.fit), progress);
+        else
+          fitNewNodes(value, *from.document.value, acceptance.firstNewNode, progress);
+        workspace.commit(acceptance.title, from, acceptance.document);
+        workspace.warnOfDropped(acceptance.droppedArrays);
+        return counted(acceptance.count, "vessel", "vessels") + " accepted";
+      });
 }
 
 Json StageJobs::fit(const Moment& from) {

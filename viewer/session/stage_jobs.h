@@ -14,6 +14,10 @@ public:
   explicit StageJobs(Workspace& workspace) : m_workspace(workspace) {}
 
   Json track(const Arguments& request, const Moment& from);
+  /// Finds the vessels that the case lacks: they become the proposals.
+  Json find(const Moment& from);
+  /// Makes vessels of proposals, and fits them.
+  Json accept(const Arguments& request, const Moment& from);
   /// Fits all models anew.
   Json fit(const Moment& from);
   /// Fits the stale models of a correction, and then commits it.

@@ -7,6 +7,7 @@
 #include "converters/engine/file_format.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
+#include "viewer/session/proposals.h"
 
 namespace lumen::viewer {
 
@@ -77,6 +78,7 @@ Json revisionsJson(const Workspace& workspace, const PartRevisions& parts) {
           {"surface", surface},
           {"volume", parts.volume},
           {"seeds", parts.seeds},
+          {"proposals", parts.proposals},
           {"meshes", parts.meshes},
           {"truth", parts.truth},
           {"library", workspace.library.revision()},
@@ -104,6 +106,7 @@ Json stateJson(const Workspace& workspace) {
   json["hasTruth"] = document.truth != nullptr;
   json["meshes"] = meshesJson(document);
   json["seeds"] = seedsJson(document);
+  json["proposals"] = proposalsJson(document);
   json["undo"] = orNull(workspace.history.undoName());
   json["redo"] = orNull(workspace.history.redoName());
   json["unsaved"] = workspace.saving.unsaved(document).any();

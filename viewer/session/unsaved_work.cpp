@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kCase = ".lumen", *kSeeds = ".seeds.json";
+constexpr const char *kCase = ".lumen", *kSeeds = ".seeds.json",
+                     *kProposals = ".proposals.lumen";
 
 // Endings of two parts; of any other name the last part is its ending.
 constexpr std::array<std::string_view, 2> kDoubleEndings = {".lumen.json", ".nii.gz"};
@@ -69,6 +70,10 @@ std::vector<fs::path> unsavedOf(const fs::path& file) {
   return found;
 }
 
+bool holdsProposals(const fs::path& file) {
+  return file.filename().string().ends_with(kProposals);
+}
+
 template <class Part, class Write>
 void UnsavedWork::keepPart(fs::path& file, std::shared_ptr<const Part>& kept,
                            const std::shared_ptr<const Part>& part, const char* ending,
@@ -83,22 +88,27 @@ void UnsavedWork::keepPart(fs::path& file, std::shared_ptr<const Part>& kept,
 
 std::vector<fs::path> UnsavedWork::keep(const fs::path& place,
                                         const std::shared_ptr<const formats::Case>& value,
-                                        const std::shared_ptr<const Seeds>& seeds) {
+                                        const std::shared_ptr<const Seeds>& seeds,
+                                        const std::shared_ptr<const formats::Case>& proposals) {
   const std::lock_guard lock(m_keepMutex);
   if (place != m_place) {
     m_place = place;
     m_caseFile.clear();
     m_seedsFile.clear();
+    m_proposalsFile.clear();
     m_case = nullptr;
     m_seeds = nullptr;
+    m_proposals = nullptr;
   }
-  keepPart(m_caseFile, m_case, value, kCase, [](const formats::Case& part, const fs::path& file) {
+  const auto write = [](const formats::Case& part, const fs::path& file) {
     engine::writeCase(part, file, formats::CaseEncoding::Binary, {});
-  });
+  };
+  keepPart(m_caseFile, m_case, value, kCase, write);
+  keepPart(m_proposalsFile, m_proposals, proposals, kProposals, write);
   keepPart(m_seedsFile, m_seeds, seeds, kSeeds,
            [](const Seeds& part, const fs::path& file) { convert::writeSeeds(part, file); });
   std::vector<fs::path> copies;
-  for (const fs::path& file : {m_caseFile, m_seedsFile})
+  for (const fs::path& file : {m_caseFile, m_seedsFile, m_proposalsFile})
     if (!file.empty()) copies.push_back(file);
   return copies;
 }

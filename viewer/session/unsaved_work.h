@@ -13,10 +13,13 @@
 
 namespace lumen::viewer {
 
-/// The files that hold unsaved work of `file`: `head.v1.unsaved.lumen` and
-/// `head.v1.unsaved.seeds.json` for `head.v1.lumen`, then `head.v1.unsaved.2.lumen`; sorted by
-/// name.
+/// The files that hold unsaved work of `file`: `head.v1.unsaved.lumen`,
+/// `head.v1.unsaved.seeds.json` and `head.v1.unsaved.proposals.lumen` for `head.v1.lumen`, then
+/// `head.v1.unsaved.2.lumen`; sorted by name.
 std::vector<std::filesystem::path> unsavedOf(const std::filesystem::path& file);
+
+/// Whether a file of unsaved work holds proposals, by its name.
+bool holdsProposals(const std::filesystem::path& file);
 
 /// Writes the copies of one session, and knows those of an earlier program, which it never touches:
 /// it takes the first free name and keeps it. All calls are thread-safe.
@@ -27,7 +30,8 @@ public:
   /// Throws as the writers.
   std::vector<std::filesystem::path> keep(const std::filesystem::path& place,
                                           const std::shared_ptr<const formats::Case>& value,
-                                          const std::shared_ptr<const Seeds>& seeds);
+                                          const std::shared_ptr<const Seeds>& seeds,
+                                          const std::shared_ptr<const formats::Case>& proposals);
 
   /// Looks for copies of an earlier program beside `place`, and returns them.
   std::vector<std::filesystem::path> find(const std::filesystem::path& place);
@@ -41,10 +45,11 @@ private:
   void keepPart(std::filesystem::path& file, std::shared_ptr<const Part>& kept,
                 const std::shared_ptr<const Part>& part, const char* ending, const Write& write);
 
-  std::mutex m_keepMutex;  ///< guards the next five; never held with the other mutex
-  std::filesystem::path m_place, m_caseFile, m_seedsFile;
+  std::mutex m_keepMutex;  ///< guards the next seven; never held with the other mutex
+  std::filesystem::path m_place, m_caseFile, m_seedsFile, m_proposalsFile;
   std::shared_ptr<const formats::Case> m_case;
   std::shared_ptr<const Seeds> m_seeds;
+  std::shared_ptr<const formats::Case> m_proposals;
 
   mutable std::mutex m_foundMutex;  ///< guards the next
   std::vector<std::filesystem::path> m_found;

@@ -6,13 +6,17 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/text.h"
+#include "converters/base/vectors.h"
 #include "converters/engine/centerline_input.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/fitting/fit.h"
 #include "converters/stages/fitting/refit.h"
 #include "converters/stages/tracking/track_case.h"
 #include "converters/stages/tracking/vessel_at_click.h"
+#include "converters/stages/trees_from_surfaces/label_mesh.h"
 #include "formats/container/printable.h"
+#include "viewer/session/proposals.h"
 
 namespace lumen::viewer {
 
@@ -51,12 +55,21 @@ formats::Case trackedFurther(const convert::TrackingVolume& volume, const format
     throw failed(seeds.size() == 1 ? "the seed started no track"
                                    : "none of the seeds started a track");
   dropped = std::move(tracks.droppedArrays);
-  if (!known.models) return value;
-  std::vector<std::uint32_t> before(value.tree.nodeCount(), UINT32_MAX);
-  std::iota(before.begin(), before.begin() + tracks.firstNewNode, 0U);
-  convert::refit(value, convert::staleNodes(known, value, before),
-                 convert::recordedFitOptions(value), progress);
+  fitNewNodes(value, known, tracks.firstNewNode, progress);
   return value;
+}
+
+/// The middles of the vessels of a case, as clicks.
+Seeds clicksOn(const formats::CenterlineTree& tree) {
+  Seeds clicks;
+  for (const formats::Branch& branch : tree.branches) {
+    convert::SeedBranch click;
+    click.label = branch.label;
+    click.points.push_back(
+        {toEigen(tree.centre[branch.firstNode + branch.nodeCount / 2]), std::nullopt});
+    clicks.push_back(std::move(click));
+  }
+  return clicks;
 }
 
 }  // namespace
@@ -89,6 +102,41 @@ TrackedCase trackedFrom(const Document& document, const Seeds& seeds, TrackingCa
   const std::size_t had = document.value ? document.value->tree.branches.size() : 0;
   tracked.newVessels = tracked.value->tree.branches.size() - had;
   return tracked;
+}
+
+void fitNewNodes(formats::Case& value, const formats::Case& known, std::uint32_t firstNew,
+                 Progress& progress) {
+  if (!known.models) return;
+  std::vector<std::uint32_t> before(value.tree.nodeCount(), UINT32_MAX);
+  std::iota(before.begin(), before.begin() + firstNew, 0U);
+  convert::refit(value, convert::staleNodes(known, value, before),
+                 convert::recordedFitOptions(value), progress);
+}
+
+std::shared_ptr<const formats::Case> foundFrom(const Document& document, TrackingCache& cache,
+                                               const convert::TrackOptions& options,
+                                               Progress& progress) {
+  const std::string name = formats::printable(document.labelOf(FileRole::Volume));
+  if (convert::holdsLabels(*document.volume))
+    throw invalidInput(name + ": its voxels are labels, as of a mask; expected the intensities of an "
+                              "angiogram. `lumen convert` makes a case of a mask");
+  if (hasVessels(document)) {
+    const auto& known = *document.value;
+    const auto tracking = cache.volumeFor(document, clicksOn(known.tree), options, progress);
+    convert::AddedTracks added =
+        engine::addFound(*tracking, *document.volume, known, progress);
+    return proposalsFor(document, proposalsBehind(std::move(added.result), added.firstNewBranch));
+  }
+  std::size_t candidates = 0;
+  convert::TrackResult found =
+      engine::trackAnyFound(*document.volume, options, candidates, progress);
+  if (found.result.tree.nodeCount() == 0)
+    throw failed("no vessels are found in " + name +
+                 (candidates == 0 ? ", as nothing long and thin stands out of its noise"
+                                  : ", as no cylinder fits along any of " +
+                                        counted(candidates, "candidate", "candidates")) +
+                 "; a seed states where a vessel begins");
+  return proposalsFor(document, proposalsBehind(std::move(found.result), 0));
 }
 
 Json vesselNear(const Eigen::Vector3d& click, const Document& document, TrackingCache& cache,

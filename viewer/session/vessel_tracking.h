@@ -29,6 +29,18 @@ struct TrackedCase {
 TrackedCase trackedFrom(const Document& document, const Seeds& seeds, TrackingCache& cache,
                         const SessionOptions& options, Progress& progress);
 
+/// Fits the nodes of `value` from `firstNew` on, and those around them, as its case was fitted; none
+/// if `known`, of the nodes before, has no models.
+void fitNewNodes(formats::Case& value, const formats::Case& known, std::uint32_t firstNew,
+                 Progress& progress);
+
+/// The vessels that the volume of a document shows and its case lacks, without clicks, as proposals
+/// with names that are free. Null if the case has all. Throws Error(Failed) if the volume shows none,
+/// Error(InvalidInput) for a mask, and as the stages.
+std::shared_ptr<const formats::Case> foundFrom(const Document& document, TrackingCache& cache,
+                                               const convert::TrackOptions& options,
+                                               Progress& progress);
+
 /// {"found", "position", "direction", "radius", "reason"} of the axis near a click, mm. Throws
 /// Error(Usage) without a volume.
 Json vesselNear(const Eigen::Vector3d& click, const Document& document, TrackingCache& cache,

@@ -83,7 +83,8 @@ std::vector<std::string> Workspace::keepUnsaved() {
   const Document document = history.now().document;
   const UnsavedParts parts = saving.unsaved(document);
   return namesOf(unsavedWork.keep(saving.place(document), parts.hasCase ? document.value : nullptr,
-                                  parts.hasSeeds ? document.seeds : nullptr));
+                                  parts.hasSeeds ? document.seeds : nullptr,
+                                  parts.hasProposals ? document.proposals : nullptr));
 }
 
 std::vector<std::string> Workspace::findUnsaved() {

@@ -69,6 +69,8 @@ TEST(History, EveryChangeOfAPartCountsItsOwnRevisionAlsoWhenItIsUndoneAndDoneAga
        [](Document& d) { d.truth = std::make_shared<formats::Case>(); }},
       {&viewer::PartRevisions::volume,
        [](Document& d) { d.volume = std::make_shared<convert::Volume>(); }},
+      {&viewer::PartRevisions::proposals,
+       [](Document& d) { d.proposals = std::make_shared<formats::Case>(); }},
       {&viewer::PartRevisions::seeds,
        [](Document& d) { d.seeds = std::make_shared<viewer::Seeds>(); }},
       {&viewer::PartRevisions::meshes, [](Document& d) {

@@ -28,6 +28,16 @@ export class Actions {
   track(labels: string[] | null): Promise<boolean> {
     return this.app.perform({ op: "track", labels });
   }
+  find(): Promise<boolean> {
+    return this.app.perform({ op: "find" });
+  }
+  /** Proposals by their labels; null: all. */
+  accept(labels: string[] | null): Promise<boolean> {
+    return this.app.perform({ op: "accept", labels });
+  }
+  reject(labels: string[] | null): Promise<boolean> {
+    return this.app.perform({ op: "reject", labels });
+  }
   check(): Promise<boolean> {
     return this.app.perform({ op: "check" });
   }

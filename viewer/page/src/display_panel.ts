@@ -22,6 +22,7 @@ const kLayerTitles: [keyof Layers, string, string][] = [
   ["contours", "Outlines", "The surface's outlines in the slices"],
   ["seeds", "Seeds", "Clicks"],
   ["places", "Missing vessels", "Vessels that the check found missing"],
+  ["proposals", "Proposals", "Vessels that were found and wait to be accepted, dashed"],
   ["slices", "Slices in 3D", "The three slices as planes in the 3D view"],
 ];
 

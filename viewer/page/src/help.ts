@@ -80,6 +80,7 @@ const kGroups: Group[] = [
     "Work",
     [
       ["T", "Track all seeds that are placed"],
+      ["Shift+F", "Find the vessels that the case lacks"],
       ["K", "Check against the volume"],
       ["Enter", "Finish a vessel of several clicks"],
       ["Delete", "Delete the selected vessel"],
@@ -138,6 +139,11 @@ export function openHelp(live: boolean): void {
             ),
           ),
         ),
+    ),
+    h(
+      "p",
+      {},
+      "The confidence of a vessel is the mean of its nodes' inlier rates, from 0 to 1: the share of the wall points measured around a node that lie on its cylinder.",
     ),
     h("p", { class: "hint" }, "Not a medical device: not for clinical use."),
   );

@@ -133,6 +133,8 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolea
       return onVessel(() => void renameBranch(app, selected));
     case "t":
       return working(() => void actions.track(null));
+    case "Shift+F":
+      return working(() => void actions.find());
     case "k":
       return working(() => void actions.check());
     case "delete":

@@ -19,7 +19,7 @@ const kCastSoftware = 128,
   kCastHardware = 256; // texels along an axis for ray casting
 
 export class Loader {
-  private seen = { case: -1, surface: -1, volume: -1, distance: "" };
+  private seen = { case: -1, surface: -1, volume: -1, proposals: -1, distance: "" };
   private library: Promise<BlobLibrary | null> | null = null;
   private texture: VolumeTexture | null = null;
   private quickOf = -1;
@@ -51,6 +51,10 @@ export class Loader {
     if (r.volume !== this.seen.volume) {
       this.seen.volume = r.volume;
       jobs.push(this.takeVolume(state));
+    }
+    if ((r.proposals ?? 0) !== this.seen.proposals) {
+      this.seen.proposals = r.proposals ?? 0;
+      jobs.push(this.takeProposals(state));
     }
     await Promise.all(jobs);
     store.set({ treeRevision: state.revision });
@@ -102,6 +106,17 @@ export class Loader {
     this.app.stage.firstPicture ||= tree !== null && !state.hasVolume;
     this.settle();
     void this.openModel(tree);
+  }
+
+  private async takeProposals(state: State): Promise<void> {
+    const { store } = this.app,
+      pack = state.proposals.length > 0 ? await this.pack("proposals") : null,
+      tree = pack === null ? null : new Tree(pack),
+      { proposal } = store.get();
+    store.set({
+      proposals: tree,
+      proposal: tree?.branches.some(b => b.label === proposal) === true ? proposal : null,
+    });
   }
 
   private async openModel(tree: Tree | null): Promise<void> {

@@ -3,6 +3,7 @@
 import { Actions } from "./actions";
 import { makeBar } from "./bar";
 import { displayPanel, legend } from "./display_panel";
+import { findPanel } from "./find_panel";
 import { Flight } from "./flight";
 import { Hand } from "./hand";
 import { listenToKeys } from "./keys";
@@ -79,6 +80,7 @@ async function start(): Promise<void> {
   new TreePanel(shell.left, app);
   shell.right.append(
     ...libraryPanel(app),
+    ...findPanel(app, actions),
     ...workPanel(app, actions, hand),
     ...displayPanel(app, actions),
     new MeshLayer(app, scene).panel,
@@ -110,6 +112,8 @@ async function start(): Promise<void> {
       "pending",
       "clicks",
       "state",
+      "proposals",
+      "proposal",
     ],
     () => {
       for (const slice of slices) app.stage.invalidateOver(slice);

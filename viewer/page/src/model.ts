@@ -36,6 +36,7 @@ export interface Layers {
   seeds: boolean;
   slices: boolean;
   places: boolean;
+  proposals: boolean;
 }
 
 export interface Measurement {
@@ -51,6 +52,10 @@ export interface View {
   tree: Tree | null;
   /** Revision of the document that the tree is of; the state's may be newer while the tree is on its way. */
   treeRevision: number;
+  /** Vessels that wait to be accepted. */
+  proposals: Tree | null;
+  /** Label of the proposal that was shown last. */
+  proposal: string | null;
   surface: Surface | null;
   volume: Volume | null;
   /** Slices of the volume that can be shown. */
@@ -102,6 +107,8 @@ export const kInitial: View = {
   state: kEmptyState,
   tree: null,
   treeRevision: 0,
+  proposals: null,
+  proposal: null,
   surface: null,
   volume: null,
   volumeReady: 0,
@@ -129,6 +136,7 @@ export const kInitial: View = {
     seeds: true,
     slices: false,
     places: true,
+    proposals: true,
   },
   colourBy: "branch",
   clip: { on: false, flip: false },

@@ -3,6 +3,7 @@
 import type { OrbitCamera } from "./camera";
 import { toCss } from "./colour";
 import { colourOf, isShown, type View } from "./model";
+import { drawProposalsInScene } from "./proposal_lines";
 import { drawMeasurements, drawScaleBar, drawWire, label, wirePoints } from "./slice_overlay";
 import type { Vec3 } from "./types";
 import { dot } from "./vec";
@@ -96,6 +97,7 @@ export function drawSceneOverlay(
     return;
   }
   drawSelected(c, camera, view);
+  drawProposalsInScene(c, camera, view);
   drawPoints(c, camera, view);
   drawMeasurements(c, view, project, Infinity);
   drawWire(c, wirePoints.points, project, Infinity);

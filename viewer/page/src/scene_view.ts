@@ -76,6 +76,7 @@ export class SceneView implements StageView {
       ],
       view => this.setLooks(view),
     );
+    store.watch(["proposals", "proposal", "layers"], () => stage.invalidateOver(this));
     store.watch(
       ["selected", "crosshair", "frame", "node", "measurements", "pending", "clicks", "tool"],
       view => {

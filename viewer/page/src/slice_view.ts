@@ -3,6 +3,7 @@
 import { clearedContext } from "./overlay_canvas";
 import type { WebGLRenderer } from "three";
 import type { App } from "./model";
+import { drawProposalsInSlice } from "./proposal_lines";
 import { frameOf, type Pixel, type SliceName, type SliceProjection } from "./slice_frame";
 import { drawSliceOverlay } from "./slice_overlay";
 import { SliceMaterial } from "./slice_material";
@@ -118,6 +119,7 @@ export class SliceView implements StageView, SliceProjection {
 
   drawOver(width: number, height: number): void {
     const c = clearedContext(this.over, width, height);
+    drawProposalsInSlice(c, this, this.app.store.get());
     drawSliceOverlay(c, this, this.app.store.get(), width, height);
   }
 

@@ -124,7 +124,7 @@ export class TreePanel {
           "li",
           { class: "none", role: "none" },
           view.state.hasVolume
-            ? "No vessels yet. Place seeds in the volume and track them: tool “Seed”, key S."
+            ? "No vessels yet. Find them (Shift+F), or place seeds in the volume and track them: tool “Seed”, key S."
             : "Nothing is open.",
         ),
       );

@@ -11,6 +11,24 @@ export interface Seed {
   tracked: boolean;
 }
 
+/** A vessel that was found and waits to be accepted. */
+export interface Proposal {
+  label: string;
+  kind: string;
+  /** mm */
+  length: number;
+  /** Median, mm. */
+  radius: number;
+  /** Mean inlier rate of its nodes, in [0, 1]. */
+  confidence: number | null;
+  /** Vessel of the case, or proposal, that it leaves. */
+  parent: string | null;
+  /** Its parent is a proposal. */
+  parentWaits: boolean;
+  /** In its middle. */
+  position: Vec3;
+}
+
 export interface MissingVessel {
   position: Vec3;
   start: Vec3;
@@ -50,6 +68,7 @@ export interface Revisions {
   surface: number;
   volume: number;
   seeds: number;
+  proposals?: number;
   meshes?: number;
   truth?: number;
   distance?: number;
@@ -66,6 +85,7 @@ export interface State {
   hasTruth: boolean;
   meshes: { id: number | string; name: string }[];
   seeds: Seed[];
+  proposals: Proposal[];
   undo: string | null;
   redo: string | null;
   unsaved: boolean;
@@ -93,6 +113,7 @@ export const kEmptyState: State = {
   hasTruth: false,
   meshes: [],
   seeds: [],
+  proposals: [],
   undo: null,
   redo: null,
   unsaved: false,

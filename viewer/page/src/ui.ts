@@ -43,6 +43,7 @@ const kIcons: Record<string, string> = {
   help: "M6 6a2 2 0 1 1 2.800 1.800C8.200 8.200 8 8.600 8 9.5M8 12v.3M8 1.5a6.5 6.5 0 1 0 0 13 6.5 6.5 0 0 0 0-13",
   theme: "M8 2a6 6 0 1 0 0 12zM8 2a6 6 0 0 1 0 12",
   layout: "M2 2h5v5H2zM9 2h5v5H9zM2 9h5v5H2zM9 9h5v5H9z",
+  find: "M6.5 2a4.5 4.5 0 1 0 0 9 4.5 4.5 0 0 0 0-9M10 10l4 4M4.5 7.5l2-2 2 2",
   fit: "M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4",
   flight: "M2 8l12-6-4 12-3-5z",
   close: "M4 4l8 8M12 4l-8 8",
