@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/suggestion.h"
 
 namespace lumen {
@@ -30,13 +29,6 @@ std::optional<Number> numberIn(const std::string& text) {
   const auto [stop, error] = std::from_chars(text.data() + first, end, value);
   if (error != std::errc() || stop != end) return std::nullopt;
   return value;
-}
-
-/// Nine digits, for ranges and defaults.
-std::string shownNumber(double value) {
-  std::ostringstream text;
-  text << std::setprecision(9) << value;
-  return text.str();
 }
 
 std::string foundText(const std::string& text, const std::string& expected) {
@@ -67,7 +59,7 @@ std::string defaultOf(const OptionTarget& target) {
   return std::visit(Overloaded{[](int* value) { return std::to_string(*value); },
                                [](std::int64_t* value) { return std::to_string(*value); },
                                [](std::uint64_t* value) { return std::to_string(*value); },
-                               [](double* value) { return shownNumber(*value); },
+                               [](double* value) { return convert::numberText(*value); },
                                [](std::string* value) { return *value; },
                                [](const auto&) { return std::string(); }},
                     target);
@@ -168,10 +160,10 @@ bool NumberRange::holds(double value) const {
 std::string NumberRange::text() const {
   const bool bounded = high != std::numeric_limits<double>::max();
   if (bounded && !openLow && !openHigh)
-    return "a number from " + shownNumber(low) + " to " + shownNumber(high);
+    return "a number from " + convert::numberText(low) + " to " + convert::numberText(high);
   std::string text =
-      "a number " + (openLow ? "above " : std::string("of at least ")) + shownNumber(low);
-  if (bounded) text += (openHigh ? " and below " : " and at most ") + shownNumber(high);
+      "a number " + (openLow ? "above " : std::string("of at least ")) + convert::numberText(low);
+  if (bounded) text += (openHigh ? " and below " : " and at most ") + convert::numberText(high);
   return text;
 }
 
@@ -375,7 +367,7 @@ void OptionTable::requireValues(const std::string& subject) const {
     if (!value) continue;
     const bool isWhole = std::holds_alternative<int*>(row.target);
     const std::string text =
-        isWhole ? std::to_string(static_cast<std::int64_t>(*value)) : shownNumber(*value);
+        isWhole ? std::to_string(static_cast<std::int64_t>(*value)) : convert::numberText(*value);
     std::string fault;
     if (row.range && !row.range->holds(*value)) fault = foundText(text, row.range->text());
     if (isWhole) fault = row.faultOf(text);

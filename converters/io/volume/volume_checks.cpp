@@ -10,6 +10,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 
 namespace lumen::convert {
 namespace {
@@ -102,10 +103,7 @@ std::uint64_t chosenVolume(const fs::path& path, const std::string& sizes, std::
 }
 
 std::string longNumber(double value) {
-  std::ostringstream text;
-  text.precision(12);
-  text << value;
-  return text.str();
+  return shownNumber(value, 12);
 }
 
 }  // namespace lumen::convert
