@@ -14,7 +14,8 @@ class CheckTest : public TubeTest {
 protected:
   void SetUp() override {
     TubeTest::SetUp();
-    const Outcome made = lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json"});
+    const Outcome made =
+        lumen({"convert", "tube.nrrd", "tube.lumen", "--seeds", "seeds.json", "--seeds-only"});
     ASSERT_EQ(made.code, 0) << made.err;
   }
 };

@@ -269,7 +269,7 @@ TEST_F(TetgenTest, MeshesTheInsideOfRealVessels) {
            {"aorta/aorta.mha", "aorta.seeds.json"}, {"avf/avf.nii", "avf.seeds.json"}}) {
     if (!std::filesystem::exists(data / volume)) GTEST_SKIP() << "there is no " << data / volume;
     ASSERT_EQ(lumen({"convert", (data / volume).string(), "real.lumen", "--seeds",
-                     std::string(LUMEN_TEST_DATA) + "/" + clicks, "--quiet"})
+                     std::string(LUMEN_TEST_DATA) + "/" + clicks, "--seeds-only", "--quiet"})
                   .code,
               0);
     expectFilled("real.lumen");

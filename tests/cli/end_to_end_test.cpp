@@ -104,20 +104,21 @@ protected:
   }
 };
 
-TEST_F(ForkTest, SeedsAreHintsOnAllVessels) {
+TEST_F(ForkTest, SeedsAreHintsUnlessTheyStandAlone) {
   const Json free = converted({}), hinted = converted({"--seeds", "trunk.json"});
   EXPECT_EQ(hinted["length_mm"], free["length_mm"]);
   EXPECT_EQ(tree().branches[0].label, "trunk");
   EXPECT_GT(tree().branches.size(), 1U);
-  EXPECT_EQ(converted({"--seeds", "trunk.json"})["branches"], 1);
+  EXPECT_EQ(converted({"--seeds", "trunk.json", "--seeds-only"})["branches"], 1);
 }
 
-TEST_F(ForkTest, OnlyConnectedKeepsTheTreesOfSeedsWithAndWithoutAllVessels) {
-  EXPECT_EQ(converted({"--seeds", "trunk.json", "--only-connected"})["branches"], 1);
+TEST_F(ForkTest, OnlyConnectedKeepsTheTreesOfSeedsAndOfHints) {
+  EXPECT_EQ(converted({"--seeds", "trunk.json", "--seeds-only", "--only-connected"})["branches"],
+            1);
   EXPECT_EQ(converted({"--seeds", "seeds.json", "--only-connected"})["branches"], 2);
 }
 
-TEST_F(ForkTest, HintsOnAllVesselsGiveTheTrueForks) {
+TEST_F(ForkTest, HintsGiveTheTrueForks) {
   ASSERT_EQ(converted({"--seeds", "seeds.json"})["branches"], 2);
   const Outcome compared = lumen({"compare", "fork.lumen", "truth.lumen", "--json"});
   EXPECT_GE(Json::parse(compared.out)["overlap"].get<double>(), 0.98);

@@ -125,7 +125,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         lumen(options.lumen, folder, "phantom", "bifurcation", "fork.nrrd", "--size", "64", "--seeds", "seeds.json", "--quiet")
-        lumen(options.lumen, folder, "convert", "fork.nrrd", "fork.lumen", "--seeds", "seeds.json", "--quiet")
+        lumen(options.lumen, folder, "convert", "fork.nrrd", "fork.lumen", "--seeds", "seeds.json", "--seeds-only", "--quiet")
         lumen(options.lumen, folder, "convert", "fork.lumen", "fork.lumen.json", "--quiet")
         tree = json.loads((folder / "fork.lumen.json").read_text())["tree"]
         for out, arguments in (("metres", []), ("up", ["--up", "y", "--unit", "mm"])):

@@ -81,7 +81,7 @@ def check_split(name, program, folder, flows):
 
 def make(program, folder, design):
     lumen(program, folder, "phantom", design, f"{design}.nrrd", "--size", "64", "--seeds", f"{design}.json", "--quiet")
-    lumen(program, folder, "convert", f"{design}.nrrd", f"{design}.lumen", "--seeds", f"{design}.json", "--quiet")
+    lumen(program, folder, "convert", f"{design}.nrrd", f"{design}.lumen", "--seeds", f"{design}.json", "--seeds-only", "--quiet")
 
 
 def check(program, folder):

@@ -177,7 +177,7 @@ def broken_tetgen(program, folder, case):
 def check(program, folder, cases):
     for design, parts in (("bifurcation", 1), ("kissing", 2)):
         lumen(program, folder, "phantom", design, f"{design}.nrrd", "--size", "64", "--seeds", f"{design}.json", "--quiet")
-        lumen(program, folder, "convert", f"{design}.nrrd", f"{design}.lumen", "--seeds", f"{design}.json", "--quiet")
+        lumen(program, folder, "convert", f"{design}.nrrd", f"{design}.lumen", "--seeds", f"{design}.json", "--seeds-only", "--quiet")
         check_case(design, program, folder, f"{design}.lumen", parts)
     without_tetgen(program, folder, "bifurcation.lumen")
     broken_tetgen(program, folder, "bifurcation.lumen")

@@ -49,7 +49,7 @@ class Bench:
     def phantom(self, name):
         volume, seeds, case = (self.path(name + end) for end in (".nrrd", "-seeds.json", ".lumen"))
         self.run("phantom", name, volume, "--seeds", seeds)
-        self.run("convert", volume, case, "--seeds", seeds)
+        self.run("convert", volume, case, "--seeds", seeds, "--seeds-only")
         return case
 
     def export(self, target, case, name):

@@ -54,7 +54,7 @@ async function print(page, name) {
 
 function fork(file) {
   lumen("phantom", "bifurcation", file("fork.nrrd"), "--size", "64", "--seeds", file("fork.json"));
-  lumen("convert", file("fork.nrrd"), file("fork.lumen"), "--seeds", file("fork.json"));
+  lumen("convert", file("fork.nrrd"), file("fork.lumen"), "--seeds", file("fork.json"), "--seeds-only");
 }
 
 story("a report opens from disk without a network, and all its pictures show something", async t => {

@@ -55,7 +55,7 @@ def main():
         folder = pathlib.Path(name)
         run = lambda *a: subprocess.run([lumen, *a, "--quiet"], cwd=folder, check=True)
         run("phantom", "bifurcation", "v.nrrd", "--size", "64", "--seeds", "s.json")
-        run("convert", "v.nrrd", "c.lumen", "--seeds", "s.json")
+        run("convert", "v.nrrd", "c.lumen", "--seeds", "s.json", "--seeds-only")
         for dialect, wall, tool in itertools.product(("current", "v23.06"), ("mesh", "implicit", "grid"), ("guidewire", "coil")):
             what = f"{dialect}-{wall}-{tool}"
             run("export", "sofa", "c.lumen", what, "--dialect", dialect, "--wall", wall, "--instrument", tool)

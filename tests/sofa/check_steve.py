@@ -85,7 +85,7 @@ def signed_volume(obj):
 
 def check(program, folder):
     lumen(program, folder, "phantom", "bifurcation", "v.nrrd", "--size", "64", "--seeds", "s.json", "--quiet")
-    lumen(program, folder, "convert", "v.nrrd", "c.lumen.json", "--seeds", "s.json", "--quiet")
+    lumen(program, folder, "convert", "v.nrrd", "c.lumen.json", "--seeds", "s.json", "--seeds-only", "--quiet")
     lumen(program, folder, "export", "steve", "c.lumen.json", "out", "--quiet")
     truth = list(branches_of(json.loads((folder / "c.lumen.json").read_text())))
     out = folder / "out"

@@ -43,7 +43,7 @@ def case_file(options, folder, name):
     made = folder / f"{name}.lumen"
     if not made.exists():
         lumen(options, folder, "phantom", name, f"{name}.nrrd", "--seeds", f"{name}-seeds.json", "--quiet")
-        lumen(options, folder, "convert", f"{name}.nrrd", made.name, "--seeds", f"{name}-seeds.json", "--quiet")
+        lumen(options, folder, "convert", f"{name}.nrrd", made.name, "--seeds", f"{name}-seeds.json", "--seeds-only", "--quiet")
     return made
 
 

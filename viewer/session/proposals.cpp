@@ -137,9 +137,8 @@ Acceptance accepted(const Document& document, std::vector<bool> chosen) {
     out.value = std::make_shared<Case>(*without(found, others));
     Joints::remove(*out.value);
   }
-  recordEdit(out.value->metadata,
-             "accepted " + counted(out.count, "vessel", "vessels") +
-                 " that " + (out.count == 1 ? "was" : "were") + " found without seeds");
+  recordEdit(out.value->metadata, "accepted " + counted(out.count, "vessel", "vessels") + " that " +
+                                      (out.count == 1 ? "was" : "were") + " found without seeds");
   Case rest = found;
   Joints joints(rest);
   joints.cutOff(tree, chosen);

@@ -34,10 +34,10 @@ std::vector<bool> chosenProposals(const Document& document, const Arguments& req
 /// A document with accepted proposals, whose models are not fitted yet.
 struct Acceptance {
   Document document;
-  std::shared_ptr<formats::Case> value;  ///< the document's case
-  std::uint32_t firstNewNode = 0;        ///< nodes before it are those of the case before
-  std::size_t count = 0;                 ///< accepted vessels
-  std::string title;                     ///< for undo, such as "accept vessel-3"
+  std::shared_ptr<formats::Case> value;    ///< the document's case
+  std::uint32_t firstNewNode = 0;          ///< nodes before it are those of the case before
+  std::size_t count = 0;                   ///< accepted vessels
+  std::string title;                       ///< for undo, such as "accept vessel-3"
   std::vector<std::string> droppedArrays;  ///< node arrays without values for new nodes
 };
 

@@ -70,13 +70,12 @@ Json StageJobs::track(const Arguments& request, const Moment& from) {
 }
 
 Json StageJobs::find(const Moment& from) {
-  if (!from.document.volume)
-    throw Error(ErrorKind::Usage, "there is no volume to find vessels in");
+  if (!from.document.volume) throw Error(ErrorKind::Usage, "there is no volume to find vessels in");
   Workspace& workspace = m_workspace;
   return workspace.startJob("finding vessels", true, [&workspace, from](Progress& progress) {
     Document document = from.document;
-    document.proposals = foundFrom(document, workspace.tracking, workspace.options.track.options,
-                                   progress);
+    document.proposals =
+        foundFrom(document, workspace.tracking, workspace.options.track.options, progress);
     if (document.proposals || from.document.proposals)
       workspace.commit("find vessels", from, document);
     if (!document.proposals) return std::string("no vessel is found that the case lacks");

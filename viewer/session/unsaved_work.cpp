@@ -18,8 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kCase = ".lumen", *kSeeds = ".seeds.json",
-                     *kProposals = ".proposals.lumen";
+constexpr const char *kCase = ".lumen", *kSeeds = ".seeds.json", *kProposals = ".proposals.lumen";
 
 // Endings of two parts; of any other name the last part is its ending.
 constexpr std::array<std::string_view, 2> kDoubleEndings = {".lumen.json", ".nii.gz"};

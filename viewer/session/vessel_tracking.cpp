@@ -118,13 +118,13 @@ std::shared_ptr<const formats::Case> foundFrom(const Document& document, Trackin
                                                Progress& progress) {
   const std::string name = formats::printable(document.labelOf(FileRole::Volume));
   if (convert::holdsLabels(*document.volume))
-    throw invalidInput(name + ": its voxels are labels, as of a mask; expected the intensities of an "
-                              "angiogram. `lumen convert` makes a case of a mask");
+    throw invalidInput(name +
+                       ": its voxels are labels, as of a mask; expected the intensities of an "
+                       "angiogram. `lumen convert` makes a case of a mask");
   if (hasVessels(document)) {
     const auto& known = *document.value;
     const auto tracking = cache.volumeFor(document, clicksOn(known.tree), options, progress);
-    convert::AddedTracks added =
-        engine::addFound(*tracking, *document.volume, known, progress);
+    convert::AddedTracks added = engine::addFound(*tracking, *document.volume, known, progress);
     return proposalsFor(document, proposalsBehind(std::move(added.result), added.firstNewBranch));
   }
   std::size_t candidates = 0;

@@ -43,7 +43,7 @@ def run(*words, limit=None, folder=None):
 def phantom(lumen, folder, name, *options):
     volume, clicks = folder / f"{name}.nrrd", folder / f"{name}.seeds.json"
     run(lumen, "phantom", *options, volume, "--seeds", clicks, "--quiet")
-    run(lumen, "convert", volume, folder / f"{name}.lumen", "--seeds", clicks, "--quiet")
+    run(lumen, "convert", volume, folder / f"{name}.lumen", "--seeds", clicks, "--seeds-only", "--quiet")
     volume.unlink()
 
 
@@ -57,7 +57,7 @@ def subjects(data):
     for name, file, stem in VOLUMES:
         if (data / file).exists():
             yield name, lambda lumen, folder, name=name, file=file, stem=stem: run(
-                lumen, "convert", data / file, folder / f"{name}.lumen", "--seeds", CLICKS / f"{stem}.seeds.json", "--quiet")
+                lumen, "convert", data / file, folder / f"{name}.lumen", "--seeds", CLICKS / f"{stem}.seeds.json", "--seeds-only", "--quiet")
     for tree in sorted((data / "arteries").glob("*.swc")):
         yield tree.stem, lambda lumen, folder, tree=tree: run(lumen, "convert", tree, folder / f"{tree.stem}.lumen", "--quiet")
 

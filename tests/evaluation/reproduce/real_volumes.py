@@ -36,7 +36,7 @@ def run(*words):
 
 
 def judge(lumen, maker, volume, clicks, case):
-    answer, wall, processor = run(maker, "convert", volume, case, "--seeds", clicks, "--json")
+    answer, wall, processor = run(maker, "convert", volume, case, "--seeds", clicks, "--seeds-only", "--json")
     made = json.loads(answer)
     info = json.loads(run(lumen, "info", case, "--json")[0])
     check = json.loads(run(lumen, "check", volume, case, "--json")[0])

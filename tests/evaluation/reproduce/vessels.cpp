@@ -121,7 +121,8 @@ Result runCase(const Arguments& arguments, const std::string& subject, Progress&
     if (seed.kind == formats::BranchKind::Vessel) labels.insert(seed.label);
 
   result.track = runTimed(
-      arguments.lumen, {"track", stem + ".nrrd", own + "-track.lumen", "--seeds", clicks, "--json"},
+      arguments.lumen,
+      {"track", stem + ".nrrd", own + "-track.lumen", "--seeds", clicks, "--seeds-only", "--json"},
       own + "-track.json", own + "-track.err");
   if (arguments.fit)
     result.fit = runTimed(arguments.lumen, {"fit", own + "-track.lumen", own + ".lumen", "--json"},

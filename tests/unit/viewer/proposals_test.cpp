@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vessels that are found in a volume, wait as proposals, and are accepted or rejected.
+#include "viewer/session/proposals.h"
+
 #include <algorithm>
 #include <numeric>
 #include <set>
 
 #include "served.h"
 #include "viewer/session/proposal_joints.h"
-#include "viewer/session/proposals.h"
 
 namespace lumen::test {
 
@@ -172,7 +173,8 @@ TEST_F(ProposalsTest, RejectedOnesGoAndWhatHungOnThemWaits) {
 }
 
 TEST_F(ProposalsTest, OnlyVesselsThatTheCaseLacksAreProposed) {
-  const Json seed = {{"op", "seedAdd"}, {"label", "mine"}, {"points", {{{"position", {4, 6, 10}}}}}};
+  const Json seed = {
+      {"op", "seedAdd"}, {"label", "mine"}, {"points", {{{"position", {4, 6, 10}}}}}};
   ASSERT_EQ(perform(seed).status, 200);
   performAll({{"op", "track"}});
   const std::string before = get("case.lumen").body;
@@ -191,14 +193,15 @@ TEST_F(ProposalsTest, OnlyVesselsThatTheCaseLacksAreProposed) {
 
 TEST_F(ProposalsTest, AProposalThatASeedHasTrackedMeanwhileIsDropped) {
   find();
-  const Json seed = {{"op", "seedAdd"}, {"label", "mine"}, {"points", {{{"position", {4, 6, 12}}}}}};
+  const Json seed = {
+      {"op", "seedAdd"}, {"label", "mine"}, {"points", {{{"position", {4, 6, 12}}}}}};
   ASSERT_EQ(perform(seed).status, 200);
   performAll({{"op", "track"}});
   EXPECT_EQ(proposals().size(), 3U);
   const Json list = proposals();
-  EXPECT_TRUE(std::any_of(list.begin(), list.end(),
-                          [](const Json& each) { return each["parent"] == "mine"; }))
-      << list;
+  EXPECT_TRUE(std::any_of(list.begin(), list.end(), [](const Json& each) {
+    return each["parent"] == "mine";
+  })) << list;
 }
 
 TEST_F(ProposalsTest, NamesOfSeedsThatWaitAreNotTakenTwice) {
@@ -221,8 +224,8 @@ TEST_F(ProposalsTest, AnAcceptedTreeIsSavedWithoutTracesOfProposals) {
   ASSERT_TRUE(saved);
   EXPECT_EQ(saved->tree.branches.size(), 4U);
   EXPECT_TRUE(saved->models && saved->points);
-  EXPECT_EQ(std::count(saved->metadata.extensionsUsed.begin(),
-                       saved->metadata.extensionsUsed.end(), "LUMEN_proposal"),
+  EXPECT_EQ(std::count(saved->metadata.extensionsUsed.begin(), saved->metadata.extensionsUsed.end(),
+                       "LUMEN_proposal"),
             0);
   const auto& steps = saved->metadata.steps;
   ASSERT_EQ(steps.size(), 3U);
@@ -236,9 +239,8 @@ TEST_F(ProposalsTest, OnesThatWaitAreKeptBesideTheFileAndTakenAgain) {
   const std::string trunk = proposal(proposal(grandchild())["parent"])["parent"];
   performAll({{"op", "accept"}, {"labels", {trunk}}});
   const Json waiting = proposals();
-  ASSERT_EQ(session->keepUnsaved(),
-            (std::vector{path("tree.unsaved.lumen").string(),
-                         path("tree.unsaved.proposals.lumen").string()}));
+  ASSERT_EQ(session->keepUnsaved(), (std::vector{path("tree.unsaved.lumen").string(),
+                                                 path("tree.unsaved.proposals.lumen").string()}));
   serve({"tree.nrrd"});
   ASSERT_EQ(session->findUnsaved().size(), 2U);
   performAll({{"op", "recover"}, {"index", 0}});

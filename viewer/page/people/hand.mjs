@@ -95,5 +95,5 @@ export async function document(page) {
 /** Two vessels that touch: volume.nrrd, seeds.json and vessels.lumen. */
 export function kissing(file) {
   lumen("phantom", "kissing", file("volume.nrrd"), "--seeds", file("seeds.json"));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"));
+  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"), "--seeds-only");
 }

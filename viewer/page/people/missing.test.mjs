@@ -24,7 +24,7 @@ function half(file, name) {
   lumen("phantom", name, file("volume.nrrd"), "--seeds", file("seeds.json"));
   const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
   writeFileSync(file("one.json"), JSON.stringify({ ...seeds, branches: seeds.branches.slice(0, 1) }));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("one.json"));
+  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("one.json"), "--seeds-only");
 }
 
 story(

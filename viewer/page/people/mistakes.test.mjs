@@ -65,7 +65,7 @@ story("a vessel whose name is markup has that name, and nothing else happens", a
   const seeds = JSON.parse(readFileSync(file("seeds.json"), "utf8"));
   seeds.branches[0].label = name;
   writeFileSync(file("seeds.json"), JSON.stringify(seeds));
-  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"));
+  lumen("convert", file("volume.nrrd"), file("vessels.lumen"), "--seeds", file("seeds.json"), "--seeds-only");
   const server = await view(t, file("volume.nrrd"), file("vessels.lumen"), file("seeds.json"));
   lumen("view", file("vessels.lumen"), "--html", file("page.html"));
   for (const [i, address] of [server.address, `file://${file("page.html")}`].entries()) {

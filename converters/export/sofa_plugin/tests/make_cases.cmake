@@ -25,5 +25,5 @@ endforeach()
 
 set(phantom ${FOLDER}/unfitted)
 execute_process(COMMAND ${LUMEN} phantom tube ${phantom}.nrrd --size 48 --seeds ${phantom}.json --quiet COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${LUMEN} track ${phantom}.nrrd ${phantom}.lumen --seeds ${phantom}.json --quiet COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${LUMEN} track ${phantom}.nrrd ${phantom}.lumen --seeds ${phantom}.json --seeds-only --quiet COMMAND_ERROR_IS_FATAL ANY)
 file(WRITE ${FOLDER}/broken.lumen "no case at all, but more than nothing")
