@@ -88,14 +88,14 @@ TEST_F(ProposalsTest, ConfidenceIsTheMeanOfTheNodesInlierRatesAndRadiusTheirMedi
   const auto rate = pack.array<float>("inlierRate"), radius = pack.array<float>("radius");
   const Json list = proposals();
   for (std::size_t b = 0; b < list.size(); ++b) {
-    const std::size_t first = pack.json["branches"][b]["firstNode"],
-                      count = pack.json["branches"][b]["nodeCount"];
+    const std::ptrdiff_t first = pack.json["branches"][b]["firstNode"],
+                         count = pack.json["branches"][b]["nodeCount"];
     const double sum = std::accumulate(rate.begin() + first, rate.begin() + first + count, 0.0);
     EXPECT_NEAR(list[b]["confidence"].get<double>(), sum / static_cast<double>(count), 1e-5);
     const double middle = list[b]["radius"];
     const auto thinner = std::count_if(radius.begin() + first, radius.begin() + first + count,
                                        [middle](float r) { return r < middle - 1e-6; });
-    EXPECT_LE(2 * thinner, static_cast<std::ptrdiff_t>(count));
+    EXPECT_LE(2 * thinner, count);
   }
 }
 
