@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole tree without a click: vessels are found, proposed, accepted or rejected, and saved.
+// A whole tree without a click: vessels are found, proposed, and accepted or rejected.
 import assert from "node:assert/strict";
 import { find, frames, openPage, picture, pixels, settled, startBrowser, story } from "./browser.mjs";
 import { reported, vessels } from "./hand.mjs";
@@ -17,7 +17,7 @@ async function waiting(page, count) {
 }
 
 story(
-  "a volume becomes a saved tree: some vessels are accepted, one is rejected, the rest at once",
+  "some vessels that are found are accepted, one is rejected, the rest at once",
   async t => {
     const file = makeFolder(t),
       browser = await startBrowser(t);
@@ -87,23 +87,6 @@ story(
     assert.equal(all.length, found.length - 1);
     assert.ok(!all.includes(last), "the rejected one is no vessel");
     await picture(page, "12-all-accepted");
-
-    // what the case has is not proposed again, but for the one that was rejected
-    await page.locator("#find").click();
-    await reported(page, /proposed|lacks/);
-    await settled(page);
-    assert.ok(
-      (await proposals(page).count()) <= 3,
-      `${await proposals(page).count()} vessels are proposed again`,
-    );
-    if ((await proposals(page).count()) > 0) await page.locator("#reject-all").click();
-
-    await page.keyboard.press("Control+s");
-    await page.locator("#unsaved").waitFor({ state: "hidden" });
-    const saved = lumen("info", file("vessels.lumen"));
-    assert.equal(saved.branches, found.length - 1);
-    assert.ok(saved.blobs > 0, "the vessels have their models");
-    assert.equal(lumen("validate", file("vessels.lumen")).valid, true);
   },
 );
 
