@@ -16,79 +16,76 @@ async function waiting(page, count) {
   await settled(page);
 }
 
-story(
-  "some vessels that are found are accepted, one is rejected, the rest at once",
-  async t => {
-    const file = makeFolder(t),
-      browser = await startBrowser(t);
-    lumen("phantom", "patient", file("angiogram.nrrd"), "--size", "128");
-    const server = await view(t, file("angiogram.nrrd"), file("vessels.lumen")),
-      page = await openPage(t, browser, server.address);
-    await settled(page);
-    await page.locator("#find-about").filter({ hasText: "without a click" }).waitFor();
-    await picture(page, "12-opened");
+story("some vessels that are found are accepted, one is rejected, the rest at once", async t => {
+  const file = makeFolder(t),
+    browser = await startBrowser(t);
+  lumen("phantom", "patient", file("angiogram.nrrd"), "--size", "128");
+  const server = await view(t, file("angiogram.nrrd"), file("vessels.lumen")),
+    page = await openPage(t, browser, server.address);
+  await settled(page);
+  await page.locator("#find-about").filter({ hasText: "without a click" }).waitFor();
+  await picture(page, "12-opened");
 
-    await page.keyboard.press("Shift+F");
-    await reported(page, /vessels are proposed/);
-    await settled(page);
-    const found = await labels(page);
-    assert.ok(found.length >= 10, `${found.length} vessels are proposed`);
-    assert.deepEqual(await vessels(page), [], "nothing is part of the case yet");
-    assert.equal(await page.locator("#save").isDisabled(), true);
-    await picture(page, "12-proposed");
-    for (const each of ["#view-scene", "#view-axial"]) {
-      const { count } = find(await pixels(page, each), dashed);
-      assert.ok(count > 20, `${count} pixels of proposals in ${each}`);
-    }
+  await page.keyboard.press("Shift+F");
+  await reported(page, /vessels are proposed/);
+  await settled(page);
+  const found = await labels(page);
+  assert.ok(found.length >= 10, `${found.length} vessels are proposed`);
+  assert.deepEqual(await vessels(page), [], "nothing is part of the case yet");
+  assert.equal(await page.locator("#save").isDisabled(), true);
+  await picture(page, "12-proposed");
+  for (const each of ["#view-scene", "#view-axial"]) {
+    const { count } = find(await pixels(page, each), dashed);
+    assert.ok(count > 20, `${count} pixels of proposals in ${each}`);
+  }
 
-    // a click in the list leads to the place, and marks it
-    const chosen = proposal(page, found[2]);
-    await chosen.locator(".link").click();
-    await frames(page);
-    assert.match(await chosen.getAttribute("class"), /chosen/);
-    const figures = await chosen.locator(".figures").textContent();
-    const [, confidence] = /confidence ([01]\.\d\d)/.exec(figures) ?? [];
-    assert.ok(Number(confidence) > 0 && Number(confidence) <= 1, figures);
-    await picture(page, "12-shown");
+  // a click in the list leads to the place, and marks it
+  const chosen = proposal(page, found[2]);
+  await chosen.locator(".link").click();
+  await frames(page);
+  assert.match(await chosen.getAttribute("class"), /chosen/);
+  const figures = await chosen.locator(".figures").textContent();
+  const [, confidence] = /confidence ([01]\.\d\d)/.exec(figures) ?? [];
+  assert.ok(Number(confidence) > 0 && Number(confidence) <= 1, figures);
+  await picture(page, "12-shown");
 
-    // one that hangs on another that waits takes it along
-    const child = page.locator("#proposal-list .item").filter({
-      has: page.getByRole("button", { name: /and its parents/ }),
-    });
-    const label = await child.first().getAttribute("data-label"),
-      parent = (await child.first().locator(".note").textContent()).replace("on ", "");
-    await proposal(page, label)
-      .getByRole("button", { name: `Accept ${label}` })
-      .click();
-    await reported(page, /accepted/);
-    await settled(page);
-    const accepted = await vessels(page);
-    assert.ok(accepted.includes(label) && accepted.includes(parent), `${accepted} with ${label}, ${parent}`);
-    await waiting(page, found.length - accepted.length);
-    await picture(page, "12-one-accepted");
+  // one that hangs on another that waits takes it along
+  const child = page.locator("#proposal-list .item").filter({
+    has: page.getByRole("button", { name: /and its parents/ }),
+  });
+  const label = await child.first().getAttribute("data-label"),
+    parent = (await child.first().locator(".note").textContent()).replace("on ", "");
+  await proposal(page, label)
+    .getByRole("button", { name: `Accept ${label}` })
+    .click();
+  await reported(page, /accepted/);
+  await settled(page);
+  const accepted = await vessels(page);
+  assert.ok(accepted.includes(label) && accepted.includes(parent), `${accepted} with ${label}, ${parent}`);
+  await waiting(page, found.length - accepted.length);
+  await picture(page, "12-one-accepted");
 
-    // undo brings it back among the proposals; redo takes it again
-    await page.locator("#undo").click();
-    await waiting(page, found.length);
-    assert.deepEqual(await vessels(page), []);
-    assert.deepEqual(await labels(page), found);
-    await page.locator("#redo").click();
-    await waiting(page, found.length - accepted.length);
+  // undo brings it back among the proposals; redo takes it again
+  await page.locator("#undo").click();
+  await waiting(page, found.length);
+  assert.deepEqual(await vessels(page), []);
+  assert.deepEqual(await labels(page), found);
+  await page.locator("#redo").click();
+  await waiting(page, found.length - accepted.length);
 
-    const last = (await labels(page)).at(-1);
-    await proposal(page, last)
-      .getByRole("button", { name: `Reject ${last}` })
-      .click();
-    await waiting(page, found.length - accepted.length - 1);
-    await page.locator("#accept-all").click();
-    await page.locator("#proposal-list").waitFor({ state: "hidden" });
-    await settled(page);
-    const all = await vessels(page);
-    assert.equal(all.length, found.length - 1);
-    assert.ok(!all.includes(last), "the rejected one is no vessel");
-    await picture(page, "12-all-accepted");
-  },
-);
+  const last = (await labels(page)).at(-1);
+  await proposal(page, last)
+    .getByRole("button", { name: `Reject ${last}` })
+    .click();
+  await waiting(page, found.length - accepted.length - 1);
+  await page.locator("#accept-all").click();
+  await page.locator("#proposal-list").waitFor({ state: "hidden" });
+  await settled(page);
+  const all = await vessels(page);
+  assert.equal(all.length, found.length - 1);
+  assert.ok(!all.includes(last), "the rejected one is no vessel");
+  await picture(page, "12-all-accepted");
+});
 
 story("finding is cancelled, and what cannot be found is reported", async t => {
   const file = makeFolder(t),
