@@ -149,8 +149,8 @@ function plain(e: KeyboardEvent, app: App, actions: Actions, hand: Hand): boolea
           if (node >= 0) void app.perform({ op: "cut", node });
         }),
       );
-    case "enter":
-      return working(() => void hand.finish());
+    case "enter": // without clicks that wait it presses the button that has the keys
+      return store.get().clicks.length > 0 && working(() => void hand.finish());
     case "escape":
       return giveUp(app, actions, hand);
     default:
