@@ -2,6 +2,7 @@
 /** Proposed vessels over slices and over the 3D view: dashed lines in a colour that no vessel has. */
 import type { OrbitCamera } from "./camera";
 import type { View } from "./model";
+import { strokeAxis } from "./scene_lines";
 import type { SliceProjection } from "./slice_frame";
 import { label } from "./slice_overlay";
 import type { Branch, Tree } from "./tree";
@@ -51,20 +52,11 @@ export function drawProposalsInSlice(c: CanvasRenderingContext2D, slice: SlicePr
 
 /** In 3D, also through walls: they are no part of the surface yet. */
 export function drawProposalsInScene(c: CanvasRenderingContext2D, camera: OrbitCamera, view: View): void {
-  c.lineJoin = "round";
   eachShown(view, (tree, branch, isChosen) => {
     c.setLineDash(kDash);
     c.strokeStyle = isChosen ? kChosen : kColour;
     c.lineWidth = isChosen ? 3 : 1.75;
-    c.beginPath();
-    let open = false;
-    for (const node of tree.nodesOf(branch)) {
-      const p = camera.project(tree.position(node));
-      if (p !== null && open) c.lineTo(p.x, p.y);
-      else if (p !== null) c.moveTo(p.x, p.y);
-      open = p !== null;
-    }
-    c.stroke();
+    strokeAxis(c, camera, tree, branch);
     c.setLineDash([]);
     const middle = camera.project(tree.position(branch.firstNode + (branch.nodeCount >> 1)));
     if (isChosen && middle !== null) label(c, branch.label, middle.x + 9, middle.y - 9, kColour);

@@ -4,6 +4,7 @@ import type { OrbitCamera } from "./camera";
 import { toCss } from "./colour";
 import { colourOf, isShown, type View } from "./model";
 import { drawProposalsInScene } from "./proposal_lines";
+import { strokeAxis } from "./scene_lines";
 import { drawMeasurements, drawScaleBar, drawWire, label, wirePoints } from "./slice_overlay";
 import type { Vec3 } from "./types";
 import { dot } from "./vec";
@@ -72,16 +73,7 @@ function drawSelected(c: CanvasRenderingContext2D, camera: OrbitCamera, view: Vi
   if (tree === null || branch === undefined || !isShown(view, selected)) return;
   c.strokeStyle = toCss(colourOf(view, selected).map(x => 0.3 * x + 0.7) as [number, number, number], 0.95);
   c.lineWidth = 1.5;
-  c.lineJoin = "round";
-  c.beginPath();
-  let open = false;
-  for (const node of tree.nodesOf(branch)) {
-    const p = camera.project(tree.position(node));
-    if (p !== null && open) c.lineTo(p.x, p.y);
-    else if (p !== null) c.moveTo(p.x, p.y);
-    open = p !== null;
-  }
-  c.stroke();
+  strokeAxis(c, camera, tree, branch);
 }
 
 export function drawSceneOverlay(
