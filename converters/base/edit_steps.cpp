@@ -2,10 +2,9 @@
 #include "converters/base/edit_steps.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "formats/view/limits.h"
 
 namespace lumen {
@@ -21,10 +20,10 @@ void recordEdit(formats::Metadata& metadata, const std::string& sentence) {
     steps.push_back({kEditStep, "lumen " LUMEN_VERSION, {}});
   }
   auto& done = steps.back().parameters;
-  std::array<char, 16> number{};
-  for (std::size_t n = done.size() + 1; number[0] == 0 || done.contains(number.data()); ++n)
-    std::snprintf(number.data(), number.size(), "%04zu", n);
-  done[number.data()] = sentence;
+  std::string number;
+  for (std::size_t n = done.size() + 1; number.empty() || done.contains(number); ++n)
+    number = paddedNumber(n, 4);
+  done[number] = sentence;
 }
 
 const formats::Step* lastStep(const formats::Metadata& metadata, const std::string& name) {

@@ -62,7 +62,7 @@ std::string dataAddress(std::string_view type, std::string_view bytes) {
   return address;
 }
 
-std::string addressOf(std::string_view path) {
+std::string urlAddress(std::string_view path) {
   constexpr const char* kDigits = "0123456789ABCDEF";
   const std::string_view unreserved = kUnreserved;
   std::string address;

@@ -24,7 +24,7 @@ std::string dataAddress(std::string_view type, std::string_view bytes);
 
 /// A path as a relative address: all but letters, digits, "-", ".", "_", "~" and "/"
 /// percent-encoded (RFC 3986). Fit for an attribute.
-std::string addressOf(std::string_view path);
+std::string urlAddress(std::string_view path);
 
 /// JSON (UTF-8) as a value in a script, inside of an HTML page or not: "<", ">", "&" and line
 /// separators become escapes, which only strings of JSON can hold.

@@ -1,15 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in the text files of other programs, whatever the locale of a person; zero has no sign.
+// Numbers as texts, equal in every locale. A zero has no sign but in shortestText().
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
-namespace lumen::convert {
+namespace lumen {
 
-/// At most `digits` significant digits; nine read back as the same float.
+/// At most `digits` significant digits, for the files of other programs; nine read back as the same
+/// float.
 std::string numberText(double value, int digits = 9);
 
-/// `decimals` decimals, for people.
-std::string fixedText(double value, int decimals);
+/// At most `digits` significant digits, for people.
+std::string shownNumber(double value, int digits = 6);
 
-}  // namespace lumen::convert
+/// At least nine significant digits, and as many as read back as the same double.
+std::string exactText(double value);
+
+/// The shortest text that reads back as the same number, with an exponent where that is shorter.
+std::string shortestText(float value);
+std::string shortestText(double value);
+
+/// `decimals` decimals; "-" for an empty or non-finite value.
+std::string fixedText(std::optional<double> value, int decimals);
+
+/// `value` with three significant digits, as a person reads it: "3614", "61.2", "0.52"; "?" for one
+/// that is not finite.
+std::string shownFigure(double value);
+
+/// "1.2 MB"; decimal units, as files are sold.
+std::string shownBytes(std::uint64_t bytes);
+
+/// `digits` digits or more, with zeros in front: "007".
+std::string paddedNumber(std::uint64_t value, std::size_t digits);
+
+}  // namespace lumen

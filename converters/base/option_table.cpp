@@ -59,7 +59,7 @@ std::string defaultOf(const OptionTarget& target) {
   return std::visit(Overloaded{[](int* value) { return std::to_string(*value); },
                                [](std::int64_t* value) { return std::to_string(*value); },
                                [](std::uint64_t* value) { return std::to_string(*value); },
-                               [](double* value) { return convert::numberText(*value); },
+                               [](double* value) { return numberText(*value); },
                                [](std::string* value) { return *value; },
                                [](const auto&) { return std::string(); }},
                     target);
@@ -160,10 +160,10 @@ bool NumberRange::holds(double value) const {
 std::string NumberRange::text() const {
   const bool bounded = high != std::numeric_limits<double>::max();
   if (bounded && !openLow && !openHigh)
-    return "a number from " + convert::numberText(low) + " to " + convert::numberText(high);
+    return "a number from " + numberText(low) + " to " + numberText(high);
   std::string text =
-      "a number " + (openLow ? "above " : std::string("of at least ")) + convert::numberText(low);
-  if (bounded) text += (openHigh ? " and below " : " and at most ") + convert::numberText(high);
+      "a number " + (openLow ? "above " : std::string("of at least ")) + numberText(low);
+  if (bounded) text += (openHigh ? " and below " : " and at most ") + numberText(high);
   return text;
 }
 
@@ -367,7 +367,7 @@ void OptionTable::requireValues(const std::string& subject) const {
     if (!value) continue;
     const bool isWhole = std::holds_alternative<int*>(row.target);
     const std::string text =
-        isWhole ? std::to_string(static_cast<std::int64_t>(*value)) : convert::numberText(*value);
+        isWhole ? std::to_string(static_cast<std::int64_t>(*value)) : numberText(*value);
     std::string fault;
     if (row.range && !row.range->holds(*value)) fault = foundText(text, row.range->text());
     if (isWhole) fault = row.faultOf(text);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts, numbers and points of files, as they appear in messages.
+// Texts and points of files, as they appear in messages.
 #pragma once
 
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include <Eigen/Core>
 
+#include "converters/base/number_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -18,13 +17,6 @@ inline std::string quotedText(const std::string& text) {
   if (text.size() <= shown) return std::string("\"").append(formats::printable(text)).append("\"");
   while (shown > 0 && (static_cast<unsigned char>(text[shown]) & 0xC0U) == 0x80U) --shown;
   return std::string("\"").append(formats::printable(text.substr(0, shown))).append("...\"");
-}
-
-/// At most `digits` significant digits, as a stream writes them, for people.
-inline std::string shownNumber(double value, int digits = 6) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return text.data();
 }
 
 inline std::string vectorText(const Eigen::Vector3d& v) {

@@ -54,7 +54,7 @@ ExportResult exportCase(const ExportTarget& target, const formats::Case& source,
   frame.unit = choice(options.unit, target.units, kOption.unit.shown(), unitName, target.name);
   frame.axes = choice(options.axes, target.axes, kOption.up.shown(), upName, target.name);
   ExportResult result = target.write({source, options, frame, progress}, options);
-  result.files.push_back({"README.md", readmeOf(target, frame, result), "", ""});
+  result.files.push_back({"README.md", readmeText(target, frame, result), "", ""});
   result.files.push_back(
       {"lumen-export.json", manifestOf(target, frame, source, texts, result), "", ""});
   return result;

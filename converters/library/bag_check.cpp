@@ -40,10 +40,10 @@ struct BagCheck::State {
     LineComparison file(folder, path, progress);
     file.expect(expected);
     file.finish();
-    tell(file, FaultCode::Bag, path, faults);
+    report(file, FaultCode::Bag, path, faults);
   }
-  static void tell(const LineComparison& file, FaultCode code, const std::string& path,
-                   FaultList& faults) {
+  static void report(const LineComparison& file, FaultCode code, const std::string& path,
+                     FaultList& faults) {
     if (file.isOther()) faults.add({code, "", path, file.found(), file.expected()});
   }
 
@@ -85,8 +85,8 @@ void BagCheck::finish(FaultList& faults) {
     state.manifest.skip("  " + kRootCrate);
   }
   state.manifest.finish();
-  State::tell(state.manifest, FaultCode::Bag, kManifestFile, faults);
-  State::tell(state.crate, FaultCode::Crate, kRootCrate, faults);
+  State::report(state.manifest, FaultCode::Bag, kManifestFile, faults);
+  State::report(state.crate, FaultCode::Crate, kRootCrate, faults);
 }
 
 }  // namespace lumen::convert

@@ -26,7 +26,7 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-constexpr std::size_t kMostFaultsTold = 20;
+constexpr std::size_t kMostFaultsReported = 20;
 constexpr std::array<std::string_view, 4> kOwnColumns = {"input", "seeds", "id", "targets"};
 constexpr std::array<std::string_view, 13> kAboutColumns = {
     "title",   "description", "anatomy", "codes",  "laterality", "modality",        "synthetic",
@@ -165,10 +165,10 @@ void requireDifferentIds(const std::vector<BuildRow>& rows, std::vector<std::str
 
 [[noreturn]] void refuse(const std::string& name, const std::vector<std::string>& faults) {
   std::string text = name + ": " + faults.front();
-  for (std::size_t i = 1; i < std::min(faults.size(), kMostFaultsTold); ++i)
+  for (std::size_t i = 1; i < std::min(faults.size(), kMostFaultsReported); ++i)
     text += "\n" + name + ": " + faults[i];
-  if (faults.size() > kMostFaultsTold)
-    text += "\nand " + std::to_string(faults.size() - kMostFaultsTold) + " more";
+  if (faults.size() > kMostFaultsReported)
+    text += "\nand " + std::to_string(faults.size() - kMostFaultsReported) + " more";
   throw invalidInput(text);
 }
 

@@ -106,7 +106,7 @@ PlannedRow planRow(const BuildRow& row, const LibraryFile& library, const BuildO
                    const Progress& progress) {
   PlannedRow plan;
   plan.row = &row;
-  plan.recipe = recipeOf(row, options.version, library.licence, progress);
+  plan.recipe = makeRecipe(row, options.version, library.licence, progress);
   plan.id = row.id.empty() ? "case-" + plan.recipe.input.substr(0, kShortDigest) : row.id;
   plan.folder =
       fs::absolute(options.work) / (plan.id + "-" + plan.recipe.tree.substr(0, kShortDigest));

@@ -81,7 +81,7 @@ private:
     return result;
   }
 
-  /// Tells why a file is not had; false if it is.
+  /// Adds the fault of a file that is missing or cannot be read; false if there is none.
   bool isNotHad(const PlainRead& read, const std::string& path) {
     if (read.fault == PlainFault::None) return false;
     const FaultCode code = read.fault == PlainFault::Missing ? FaultCode::FileMissing

@@ -38,17 +38,17 @@ void sortCases(LibraryFile& library, FaultList& faults) {
   std::unordered_set<std::string> seen;
   std::vector<LibraryEntry> kept;
   std::string last;
-  bool isTold = false;
+  bool isReported = false;
   for (LibraryEntry& entry : library.cases) {
     if (!seen.insert(entry.id).second) {
       faults.add({FaultCode::LibraryIdTwice, entry.id, kLibraryFile,
                   "the id " + quotedText(entry.id) + " again", "each id once"});
       continue;
     }
-    if (entry.id < last && !isTold) {
+    if (entry.id < last && !isReported) {
       faults.add({FaultCode::LibraryOrder, entry.id, kLibraryFile,
                   quotedText(entry.id) + " after " + quotedText(last), "cases sorted by id"});
-      isTold = true;
+      isReported = true;
     }
     last = entry.id;
     kept.push_back(std::move(entry));

@@ -36,18 +36,18 @@ public:
   void compare(const std::string& what, const std::optional<double>& found,
                const std::optional<double>& expected) {
     if (found.has_value() != expected.has_value() || (found && !isSame(*found, *expected)))
-      tell(what + " " + (found ? shownNumber(*found) : "null"),
-           expected ? shownNumber(*expected) : "null");
+      report(what + " " + (found ? shownNumber(*found) : "null"),
+             expected ? shownNumber(*expected) : "null");
   }
   void compare(const std::string& what, std::size_t found, std::size_t expected) {
-    if (found != expected) tell(what + " " + std::to_string(found), std::to_string(expected));
+    if (found != expected) report(what + " " + std::to_string(found), std::to_string(expected));
   }
   void compare(const std::string& what, const Eigen::Vector3d& found,
                const Eigen::Vector3d& expected) {
-    if (!isSame(found, expected)) tell(what + " " + vectorText(found), vectorText(expected));
+    if (!isSame(found, expected)) report(what + " " + vectorText(found), vectorText(expected));
   }
   void compare(const std::string& what, const std::string& found, const std::string& expected) {
-    if (found != expected) tell(what + " " + quotedText(found), quotedText(expected));
+    if (found != expected) report(what + " " + quotedText(found), quotedText(expected));
   }
   void compare(const std::string& what, const std::vector<CasePlace>& found,
                const std::vector<CasePlace>& expected) {
@@ -63,7 +63,7 @@ public:
     }
   }
 
-  void tell(const std::string& found, const std::string& expected) {
+  void report(const std::string& found, const std::string& expected) {
     m_faults.add({FaultCode::CaseFigures, m_id, m_path, found, expected + ", as the case gives"});
   }
 
@@ -83,7 +83,7 @@ void checkFigures(const formats::Case& value, const CaseRecord& record, const st
     Progress quiet;  // one of many cases at once: their stages are not shown
     describe(value, "", made, quiet);
   } catch (const Error& error) {
-    return figures.tell("figures", std::string("none (") + error.what() + ")");
+    return figures.report("figures", std::string("none (") + error.what() + ")");
   }
   const CaseFigures &found = record.figures, &expected = made.figures;
   using Number = std::optional<double>;

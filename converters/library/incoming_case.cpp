@@ -45,7 +45,7 @@ fs::path IncomingCase::newPath(const std::string& path) const {
 void IncomingCase::note(const std::string& path, const std::string& role,
                         const std::string& target) {
   const FileDigest digest = digestOfFile(folder() / path);
-  record.files.push_back({path, role, target, mediaTypeOf(path), digest.bytes, digest.sha256});
+  record.files.push_back({path, role, target, mediaType(path), digest.bytes, digest.sha256});
 }
 
 void IncomingCase::add(const std::string& path, const std::string& role, std::string_view bytes,
@@ -67,7 +67,7 @@ void IncomingCase::addFile(const std::string& path, const std::string& role,
   note(path, role, "");
 }
 
-std::string mediaTypeOf(const std::string& path) {
+std::string mediaType(const std::string& path) {
   static const std::map<std::string, const char*> kTypes = {
       {"csv", "text/csv"},        {"glb", "model/gltf-binary"}, {"gltf", "model/gltf+json"},
       {"html", "text/html"},      {"jpg", "image/jpeg"},        {"json", "application/json"},

@@ -43,6 +43,6 @@ private:
 };
 
 /// Media type by the ending of a file's name; "application/octet-stream" for one that is not known.
-std::string mediaTypeOf(const std::string& path);
+std::string mediaType(const std::string& path);
 
 }  // namespace lumen::convert

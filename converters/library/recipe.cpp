@@ -73,8 +73,8 @@ std::string digestOfInput(const fs::path& input, const Progress& progress) {
   return digestOfFile(input).sha256;
 }
 
-Recipe recipeOf(const BuildRow& row, const std::string& version, const std::string& shared,
-                const Progress& progress) {
+Recipe makeRecipe(const BuildRow& row, const std::string& version, const std::string& shared,
+                  const Progress& progress) {
   Recipe recipe;
   recipe.input = digestOfInput(row.input, progress);
   const nlohmann::json tree = {

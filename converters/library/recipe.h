@@ -25,7 +25,7 @@ struct Recipe {
 
 /// `version`: of lumen. `shared`: facts that all rows have in common, such as the licence of the
 /// library.
-Recipe recipeOf(const BuildRow& row, const std::string& version, const std::string& shared,
-                const Progress& progress);
+Recipe makeRecipe(const BuildRow& row, const std::string& version, const std::string& shared,
+                  const Progress& progress);
 
 }  // namespace lumen::convert

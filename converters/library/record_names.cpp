@@ -77,8 +77,8 @@ std::string missingStatement(const CaseAbout& about) {
   const bool lacksConsent = about.consent.empty();
   const OptionName& option = lacksConsent ? kOption.consent : kOption.deidentification;
   return std::string("no statement of ") + (lacksConsent ? "consent" : "de-identification") +
-         " for a case that is not said to be synthetic; " + option.shown() + " gives one, " +
-         kOption.synthetic.shown() + " says that no patient is behind the case";
+         " for a case that is not stated to be synthetic; " + option.shown() + " gives one, " +
+         kOption.synthetic.shown() + " states that no patient is behind the case";
 }
 
 std::vector<std::pair<const char*, const std::string*>> textsToLookAt(const CaseAbout& about) {

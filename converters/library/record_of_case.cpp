@@ -67,7 +67,7 @@ CaseFigures figuresOf(const formats::Case& source, Progress& progress) {
   }
   if (source.models)
     figures.reachable =
-        asFloat(formats::reachabilityOf(tree, formats::blendedFieldOf(source), [&progress] {
+        asFloat(formats::measureReachability(tree, formats::caseField(source), [&progress] {
                   progress.check();
                 }).reachable);
   return figures;
@@ -79,7 +79,7 @@ std::vector<CasePlace> insertionsOf(const CenterlineTree& tree) {
   for (const formats::Branch& branch : tree.branches) {
     if (branch.kind != formats::BranchKind::Vessel || branch.parentNode >= 0) continue;
     try {
-      const Insertion entry = insertionOf(tree, branch.label, 0);
+      const Insertion entry = findInsertion(tree, branch.label, 0);
       places.push_back({branch.label, "", asFloats(entry.position), asFloats(entry.direction),
                         asFloat(entry.radius)});
     } catch (const Error& error) {

@@ -27,7 +27,7 @@ inline field::ModelsView modelsViewOf(const BlobbyModels& models) {
 }
 
 /// The field of a valid case that has models.
-inline field::BlendedField blendedFieldOf(const Case& value) {
+inline field::BlendedField caseField(const Case& value) {
   return {treeViewOf(value.tree), modelsViewOf(*value.models)};
 }
 

@@ -24,8 +24,9 @@ field::Vec centreOf(const CenterlineTree& tree, std::uint32_t node) {
 /// A pushed point and its cursor.
 class Pushed {
 public:
-  Pushed(const CenterlineTree& tree, const field::BlendedField& field, const TellClosedPlace& tell)
-      : m_tree(tree), m_field(field), m_tell(tell) {}
+  Pushed(const CenterlineTree& tree, const field::BlendedField& field,
+         const ReportClosedPlace& report)
+      : m_tree(tree), m_field(field), m_report(report) {}
 
   /// Puts the point at a node's own centre.
   void put(std::uint32_t node) {
@@ -49,7 +50,7 @@ public:
               from.z + t * (to.z - from.z)});
       if (isInside()) continue;
       isOpen = false;
-      if (!tell(node)) break;
+      if (!report(node)) break;
     }
     return isOpen;
   }
@@ -57,7 +58,9 @@ public:
   [[nodiscard]] bool isInside() const {
     return m_field.blended<1>(m_place, m_cursor).value > m_field.level();
   }
-  [[nodiscard]] bool tell(std::uint32_t node) const { return m_tell({node, m_place, m_cursor}); }
+  [[nodiscard]] bool report(std::uint32_t node) const {
+    return m_report({node, m_place, m_cursor});
+  }
   [[nodiscard]] std::uint32_t cursor() const { return m_cursor; }
 
 private:
@@ -68,7 +71,7 @@ private:
 
   const CenterlineTree& m_tree;
   const field::BlendedField& m_field;
-  const TellClosedPlace& m_tell;
+  const ReportClosedPlace& m_report;
   field::Vec m_place{};
   std::uint32_t m_cursor = 0;
 };
@@ -76,14 +79,14 @@ private:
 }  // namespace
 
 void findClosedPlaces(const CenterlineTree& tree, const field::BlendedField& field,
-                      const TellClosedPlace& tell, const std::function<void()>& check) {
+                      const ReportClosedPlace& report, const std::function<void()>& check) {
   std::vector<std::uint32_t> cursor(tree.nodeCount());
-  Pushed point(tree, field, tell);
+  Pushed point(tree, field, report);
   for (std::uint32_t node = 0; node < cursor.size(); ++node) {
     if (check) check();
     if (tree.parent[node] == kNoParent) {
       point.put(node);
-      if (!point.isInside()) static_cast<void>(point.tell(node));
+      if (!point.isInside()) static_cast<void>(point.report(node));
     } else if (!point.along(node, cursor[static_cast<std::size_t>(tree.parent[node])])) {
       point.put(node);
     }
@@ -91,8 +94,8 @@ void findClosedPlaces(const CenterlineTree& tree, const field::BlendedField& fie
   }
 }
 
-Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedField& field,
-                            const std::function<void()>& check) {
+Reachability measureReachability(const CenterlineTree& tree, const field::BlendedField& field,
+                                 const std::function<void()>& check) {
   Reachability result;
   std::vector<std::optional<std::size_t>> barrier(
       tree.nodeCount());            // the barrier between a node and its root

@@ -22,7 +22,7 @@ struct ClosedPlace {
 };
 
 /// Receives a closed place; returns whether it wants the next ones of the same edge.
-using TellClosedPlace = std::function<bool(const ClosedPlace&)>;
+using ReportClosedPlace = std::function<bool(const ClosedPlace&)>;
 
 /// Pushes a point from every root along every edge, in node order, and reports where it is outside.
 /// A step is at most a 32nd of the edge's lesser radius, but an edge has at most 512 steps. The
@@ -30,7 +30,7 @@ using TellClosedPlace = std::function<bool(const ClosedPlace&)>;
 /// root is tested at its centre. The case is valid and has models. `check`, if there is one, is
 /// called before each node and may throw to end the search. O(n) for edges as long as radii.
 void findClosedPlaces(const CenterlineTree& tree, const field::BlendedField& field,
-                      const TellClosedPlace& tell, const std::function<void()>& check = {});
+                      const ReportClosedPlace& report, const std::function<void()>& check = {});
 
 /// An edge, from a node's parent to the node, that no point can be pushed along.
 struct Barrier {
@@ -48,7 +48,7 @@ struct Reachability {
 
 /// Reachable lengths and barriers by findClosedPlaces(), whose conditions and cost apply. An edge
 /// that is closed anywhere is not reachable at all.
-Reachability reachabilityOf(const CenterlineTree& tree, const field::BlendedField& field,
-                            const std::function<void()>& check = {});
+Reachability measureReachability(const CenterlineTree& tree, const field::BlendedField& field,
+                                 const std::function<void()>& check = {});
 
 }  // namespace lumen::formats

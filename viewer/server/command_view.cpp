@@ -92,7 +92,7 @@ private:
     for (const std::string& file : m_files) {
       std::error_code ignored;
       if (!fs::exists(file, ignored)) continue;
-      const FileRole role = roleOf({file, file});
+      const FileRole role = openingRole({file, file});
       if (role == FileRole::Volume)
         content |= engine::inputContent(engine::inputFormat(file, ""), false);
       if (role == FileRole::Mesh) content |= engine::kMeshes;
@@ -130,7 +130,7 @@ private:
     for (const FileRole wanted :
          {FileRole::Volume, FileRole::Case, FileRole::Mesh, FileRole::Seeds})
       for (const std::string& file : m_files)
-        if (file != output && roleOf({file, file}) == wanted)
+        if (file != output && openingRole({file, file}) == wanted)
           openOne(session, file, wanted, around);
     if (output) session.saveTo(*output);
   }
@@ -151,7 +151,7 @@ private:
     for (const std::string& file : m_files) {
       std::error_code ignored;
       if (fs::exists(file, ignored)) {
-        const FileRole role = roleOf({file, file});
+        const FileRole role = openingRole({file, file});
         hasVolume = hasVolume || role == FileRole::Volume;
         hasCase = hasCase || role == FileRole::Case;
       } else if (!output && (file.ends_with(".lumen") || file.ends_with(".lumen.json"))) {

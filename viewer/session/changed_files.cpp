@@ -8,7 +8,7 @@ namespace lumen::viewer {
 bool ChangedFiles::look(const Document& document) {
   std::set<int> changed;
   for (const OpenFile& file : document.files)
-    if (!file.path.empty() && stampOf(file.path) != file.stamp) changed.insert(file.id);
+    if (!file.path.empty() && readFileStamp(file.path) != file.stamp) changed.insert(file.id);
   const std::lock_guard lock(m_mutex);
   if (changed == m_ids) return false;
   m_ids = std::move(changed);

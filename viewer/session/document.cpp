@@ -63,7 +63,7 @@ std::string roleName(FileRole role) {
   return "mesh";
 }
 
-FileStamp stampOf(const std::filesystem::path& file) {
+FileStamp readFileStamp(const std::filesystem::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return {};
   return {std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec,

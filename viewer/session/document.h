@@ -31,7 +31,7 @@ struct FileStamp {
 };
 
 /// Zeros for a file that is not there.
-FileStamp stampOf(const std::filesystem::path& file);
+FileStamp readFileStamp(const std::filesystem::path& file);
 
 struct OpenFile {
   int id = 0;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/file_format.h"
 #include "converters/engine/mesh_options.h"
@@ -16,12 +17,6 @@ namespace lumen::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string textOf(const fs::path& file) {
-  auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw failed(bytes.error().message);
-  return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
-}
 
 /// The options of `lumen convert` that concern a mesh or an encoding.
 engine::OutputOptions outputOptions(const SavingOptions& options) {
@@ -48,7 +43,7 @@ const engine::FileFormat& writableFormat(const std::string& name) {
 std::string encodedSeeds(const Seeds& seeds, DroppedFiles& places) {
   const auto file = places.placeFor("seeds.json");
   convert::writeSeeds(seeds, file->path());
-  return textOf(file->path());
+  return readWholeFile(file->path(), "document");
 }
 
 }  // namespace
@@ -68,7 +63,7 @@ std::string encoded(const Document& document, const std::string& format,
   } else {
     writer.writeCase(*document.value, file->path(), output, progress);
   }
-  return textOf(file->path());
+  return readWholeFile(file->path(), "document");
 }
 
 }  // namespace lumen::viewer

@@ -96,7 +96,7 @@ Json FileOperations::reload(const Arguments& request, const Moment& from) {
 
 void FileOperations::reloadFile(const OpenFile& file, const Moment& from, Progress& progress) {
   const Opening opening{file.path, file.label, false, file.role == FileRole::Truth};
-  if (const FileRole role = roleOf(opening); role != file.role)
+  if (const FileRole role = openingRole(opening); role != file.role)
     throw invalidInput(file.label + ": it was " + roleName(file.role) + ", and is " +
                        roleName(role) + " now; open it by itself");
   // a mesh is added to the others, other parts replace the one before

@@ -51,7 +51,7 @@ void dropFiles(Document& document, FileRole role) {
 
 Document add(Document document, const Opening& opening, FileRole role, int id,
              const engine::VolumeArguments& arguments, Progress& progress) {
-  const FileStamp stamp = stampOf(opening.path);
+  const FileStamp stamp = readFileStamp(opening.path);
   switch (role) {
     case FileRole::Volume:
       document.volume = std::make_shared<const convert::Volume>(engine::loadVolume(
@@ -85,7 +85,7 @@ Document add(Document document, const Opening& opening, FileRole role, int id,
 
 }  // namespace
 
-FileRole roleOf(const Opening& opening) {
+FileRole openingRole(const Opening& opening) {
   engine::requireInput(opening.path, "file");
   if (convert::contentOf(opening.path).kind == convert::ContentKind::Seeds) return FileRole::Seeds;
   const engine::FileFormat& format = engine::inputFormat(opening.path, "");
@@ -105,7 +105,7 @@ FileRole roleOf(const Opening& opening) {
 
 Document withFile(const Document& document, const Opening& opening, int id,
                   const engine::VolumeArguments& volume, Progress& progress) {
-  return add(document, opening, roleOf(opening), id, volume, progress);
+  return add(document, opening, openingRole(opening), id, volume, progress);
 }
 
 Document withoutFile(const Document& document, int id) {

@@ -20,7 +20,7 @@ struct Opening {
 
 /// The role of the file, by its content and the ending of its name. Throws Error(Unsupported) for a
 /// file that lumen does not read and Error(InvalidInput) for one that is not there.
-FileRole roleOf(const Opening& opening);
+FileRole openingRole(const Opening& opening);
 
 /// The document with one more file, as number `id`. A volume, a case, a truth or seeds replace
 /// those that were open; meshes are added. A centerline becomes a case, and is fitted. Throws as

@@ -34,7 +34,7 @@ int parentOf(const CenterlineTree& tree, const formats::Branch& branch) {
 std::shared_ptr<const Case> without(Case value, const std::vector<bool>& goes) {
   if (std::find(goes.begin(), goes.end(), false) == goes.end()) return nullptr;
   const std::vector<formats::Step> steps = value.metadata.steps;
-  convert::deleteBranches(value, goes);
+  convert::leaveOutBranches(value, goes);
   value.metadata.steps = steps;
   return std::make_shared<const Case>(std::move(value));
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 void Saving::saveTo(const fs::path& file) {
   const std::lock_guard lock(m_mutex);
   m_target = fs::absolute(file);
-  m_stamp = stampOf(m_target);
+  m_stamp = readFileStamp(m_target);
 }
 
 void Saving::saveNowhere(const fs::path& place) {
@@ -28,7 +28,7 @@ void Saving::saveNowhere(const fs::path& place) {
 
 void Saving::acceptTarget(const fs::path& file) {
   const std::lock_guard lock(m_mutex);
-  if (fs::absolute(file) == m_target) m_stamp = stampOf(m_target);
+  if (fs::absolute(file) == m_target) m_stamp = readFileStamp(m_target);
 }
 
 void Saving::holdCase(std::shared_ptr<const formats::Case> value) {
@@ -74,7 +74,7 @@ UnsavedParts Saving::unsaved(const Document& document) const {
 fs::path Saving::checkedTarget(const Document& document, bool force) const {
   const std::lock_guard lock(m_mutex);
   const fs::path file = lockedTarget(document);
-  if (!file.empty() && stampOf(file) != m_stamp && !force)
+  if (!file.empty() && readFileStamp(file) != m_stamp && !force)
     throw Conflict(file.filename().string() +
                    " was changed by another program since it was read; saving would undo that");
   if (file.empty() || !document.value)
@@ -91,11 +91,11 @@ fs::path Saving::save(Document& document, bool force) {
     convert::writeSeeds(*document.seeds, seeds->path);
   for (OpenFile& open : document.files)
     if ((open.role == FileRole::Case || open.role == FileRole::Seeds) && !open.path.empty())
-      open.stamp = stampOf(open.path);
+      open.stamp = readFileStamp(open.path);
   const std::lock_guard lock(m_mutex);
   m_case = document.value;
   m_seeds = document.seeds;
-  m_stamp = stampOf(file);
+  m_stamp = readFileStamp(file);
   return file;
 }
 

@@ -54,7 +54,7 @@ void removeFile(fs::path& file) {
 
 }  // namespace
 
-std::vector<fs::path> unsavedOf(const fs::path& file) {
+std::vector<fs::path> findUnsavedWork(const fs::path& file) {
   std::vector<fs::path> found;
   const fs::path folder = file.parent_path();
   const std::string begin = stem(file) + ".";
@@ -113,7 +113,7 @@ std::vector<fs::path> UnsavedWork::keep(const fs::path& place,
 }
 
 std::vector<fs::path> UnsavedWork::find(const fs::path& place) {
-  std::vector<fs::path> found = unsavedOf(place);
+  std::vector<fs::path> found = findUnsavedWork(place);
   const std::lock_guard lock(m_foundMutex);
   return m_found = std::move(found);
 }

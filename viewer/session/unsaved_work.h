@@ -16,7 +16,7 @@ namespace lumen::viewer {
 /// The files that hold unsaved work of `file`: `head.v1.unsaved.lumen`,
 /// `head.v1.unsaved.seeds.json` and `head.v1.unsaved.proposals.lumen` for `head.v1.lumen`, then
 /// `head.v1.unsaved.2.lumen`; sorted by name.
-std::vector<std::filesystem::path> unsavedOf(const std::filesystem::path& file);
+std::vector<std::filesystem::path> findUnsavedWork(const std::filesystem::path& file);
 
 /// Whether a file of unsaved work holds proposals, by its name.
 bool holdsProposals(const std::filesystem::path& file);

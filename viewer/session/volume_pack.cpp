@@ -55,7 +55,7 @@ VolumePack::VolumePack(std::shared_ptr<const convert::Volume> volume, const std:
   }
   const Eigen::Vector3d origin = geometry.worldFromIndex(first);
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> direction = geometry.direction;
-  const auto window = windowOf();
+  const auto window = greyRange();
   PackWriter pack;
   pack.set("size", m_size);
   pack.set("spacing", {spacing.x(), spacing.y(), spacing.z()});
@@ -117,7 +117,7 @@ void VolumePack::chooseScale() {
   if (high > low) m_scale = (high - low) / (m_bytes == 1 ? 255 : 65535);
 }
 
-std::pair<double, double> VolumePack::windowOf() const {
+std::pair<double, double> VolumePack::greyRange() const {
   return std::visit(
       [](const auto& voxels) -> std::pair<double, double> {
         std::vector<double> sample;

@@ -37,7 +37,7 @@ public:
 
 private:
   [[nodiscard]] std::string slices(int first, int count) const;
-  [[nodiscard]] std::pair<double, double> windowOf() const;
+  [[nodiscard]] std::pair<double, double> greyRange() const;
   void chooseScale();
   void choosePlace(const VolumeSending& sending);
 

@@ -34,7 +34,7 @@ struct Colours {
 
 std::vector<Light> lightOf(const SurfaceMesh& values, const ColorScale& scale) {
   std::vector<Light> colours;
-  for (const Color& c : colorsOf(values, scale))
+  for (const Color& c : vertexColors(values, scale))
     colours.emplace_back(float(c[0]) / 65535, float(c[1]) / 65535, float(c[2]) / 65535);
   return colours;
 }
@@ -67,8 +67,8 @@ Colours coloursOf(const formats::CenterlineTree& tree, ColorBy by) {
     return {{tree.nodeCount(), Light(kVessel[0], kVessel[1], kVessel[2])}, {}};
   if (by == ColorBy::Confidence && tree.inlierRate.empty())
     throw invalidInput(kOption.colour.shown() +
-                       " confidence: the case says of no node how much of its wall was found, as "
-                       "cases that were not tracked do not; expected vessel, branch or radius");
+                       " confidence: no node of the case states how much of its wall was found, as "
+                       "in cases that were not tracked; expected vessel, branch or radius");
   SurfaceMesh nodes;
   nodes.position.resize(tree.nodeCount());
   nodes.radius = tree.radius;
@@ -112,7 +112,7 @@ Picture CasePainter::background(const PictureOptions& options, const Camera& cam
   unturned.turn = 0;
   const Camera coarse = cameraFor(m_source.tree, framingOf(unturned)).scaled(kCoarse);
   const GreyWindow window = windowOf(m_projector->greatest(coarse, progress));
-  return greysOf(m_projector->greatest(camera, progress), camera.width, camera.height, window);
+  return greyPicture(m_projector->greatest(camera, progress), camera.width, camera.height, window);
 }
 
 Picture CasePainter::draw(const PictureOptions& options, Progress& progress) const {

@@ -32,7 +32,7 @@ int roomForMarks(int width, int height) {
   return 28 * letterScale(width, height);
 }
 
-ScaleBar scaleBarOf(const Camera& camera) {
+ScaleBar makeScaleBar(const Camera& camera) {
   const double most = 0.2 * camera.width / camera.scale;
   const double power = std::pow(10, std::floor(std::log10(most)));
   ScaleBar bar{power, 0};
@@ -43,7 +43,7 @@ ScaleBar scaleBarOf(const Camera& camera) {
 }
 
 void drawScaleBar(Picture& picture, const Camera& camera, const Rgb& ink) {
-  const ScaleBar bar = scaleBarOf(camera);
+  const ScaleBar bar = makeScaleBar(camera);
   const int scale = letterScale(picture), x = 8 * scale, y = picture.height - 8 * scale;
   picture.fill(x, y - scale, x + bar.pixels, y, ink);
   picture.fill(x, y - 3 * scale, x + scale, y + 2 * scale, ink);

@@ -22,7 +22,7 @@ struct ScaleBar {
   int pixels = 0;
 };
 /// The longest that takes at most a fifth of the picture's width.
-ScaleBar scaleBarOf(const Camera& camera);
+ScaleBar makeScaleBar(const Camera& camera);
 
 /// The bar in the lower left corner, with its length.
 void drawScaleBar(Picture& picture, const Camera& camera, const Rgb& ink);

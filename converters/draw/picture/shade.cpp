@@ -68,7 +68,8 @@ std::uint8_t codedOf(float light) {
   return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-std::vector<float> occlusionOf(const TracedSurface& surface, const Camera& camera, double reach) {
+std::vector<float> computeOcclusion(const TracedSurface& surface, const Camera& camera,
+                                    double reach) {
   std::vector<float> sky(surface.depth.size(), 1);
   tbb::parallel_for(0, surface.height, [&](int y) {
     for (int x = 0; x < surface.width; ++x) {
@@ -88,7 +89,7 @@ std::vector<float> occlusionOf(const TracedSurface& surface, const Camera& camer
 
 Picture shade(const TracedSurface& surface, const Camera& camera, const std::vector<Light>& colours,
               const Picture& background, int samples) {
-  const std::vector<float> sky = occlusionOf(surface, camera, 0.02 * surface.width);
+  const std::vector<float> sky = computeOcclusion(surface, camera, 0.02 * surface.width);
   std::array<float, 256> linear{};
   for (std::size_t i = 0; i < linear.size(); ++i)
     linear[i] = linearOf(static_cast<std::uint8_t>(i));

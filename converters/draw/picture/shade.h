@@ -22,7 +22,8 @@ std::uint8_t codedOf(float light);
 /// Share of the sky that each pixel sees, 0 to 1: less in forks, between vessels, and behind
 /// others. It follows from the depths around the pixel, within `reach` pixels (L. Bavoil, M. Sainz,
 /// Image-space horizon-based ambient occlusion, 2008, in few directions).
-std::vector<float> occlusionOf(const TracedSurface& surface, const Camera& camera, double reach);
+std::vector<float> computeOcclusion(const TracedSurface& surface, const Camera& camera,
+                                    double reach);
 
 /// The picture of a surface that has `samples` times `samples` pixels for each of the background's:
 /// lit from the upper left in front, with the colour of each node, over the background. Its bits do

@@ -217,8 +217,8 @@ GreyWindow windowOf(std::vector<float> projection) {
   return {black, white > black ? white : black + 1};
 }
 
-Picture greysOf(const std::vector<float>& projection, int width, int height,
-                const GreyWindow& window) {
+Picture greyPicture(const std::vector<float>& projection, int width, int height,
+                    const GreyWindow& window) {
   Picture picture(width, height, {0, 0, 0});
   for (std::size_t i = 0; i < projection.size(); ++i) {
     const float share = (projection[i] - window.black) / (window.white - window.black);

@@ -39,7 +39,7 @@ struct GreyWindow {
 GreyWindow windowOf(std::vector<float> projection);
 
 /// A projection as a picture; black beside the volume.
-Picture greysOf(const std::vector<float>& projection, int width, int height,
-                const GreyWindow& window);
+Picture greyPicture(const std::vector<float>& projection, int width, int height,
+                    const GreyWindow& window);
 
 }  // namespace lumen::convert

@@ -2,8 +2,6 @@
 #include "converters/draw/report/axis.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 namespace lumen::convert {
@@ -25,17 +23,6 @@ Axis axisTo(double end, int most) {
   axis.digits = std::max(0, -power);
   for (int i = 0; i * step <= axis.end * (1 + 1e-12); ++i) axis.marks.push_back(i * step);
   return axis;
-}
-
-std::string decimal(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 400> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, digits)
-          .ptr;
-  std::string result(text.data(), end);
-  if (result.find_first_not_of("-0.") == result.npos && result[0] == '-') result.erase(0, 1);
-  return result;
 }
 
 }  // namespace lumen::convert

@@ -2,7 +2,6 @@
 // The axis of a plot.
 #pragma once
 
-#include <string>
 #include <vector>
 
 namespace lumen::convert {
@@ -17,8 +16,5 @@ struct Axis {
 /// The axis with one mark besides 0 at least, and at most `most`, which is at least 3. An `end`
 /// that is not above 0, or is not finite, becomes 1.
 Axis axisTo(double end, int most);
-
-/// Fixed-point number, in any locale; "-" for a value that is not finite.
-std::string decimal(double value, int digits);
 
 }  // namespace lumen::convert

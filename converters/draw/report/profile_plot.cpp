@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "converters/base/number_text.h"
 #include "converters/draw/overlay/overlay.h"
 #include "converters/draw/report/axis.h"
 
@@ -97,11 +98,11 @@ private:
     std::string text;
     for (const double mark : m_up.marks) {
       if (mark > 0) text += line("grid", kLeft, y(mark), kRight, y(mark));
-      text += label("end-left", kLeft - 8, y(mark) + 9, decimal(mark, m_up.digits));
+      text += label("end-left", kLeft - 8, y(mark) + 9, fixedText(mark, m_up.digits));
     }
     for (const double mark : m_across.marks) {
       text += line("axis", x(mark), kBottom, x(mark), kBottom + 8);
-      text += label("middle", x(mark), kBottom + kMarksBelow, decimal(mark, m_across.digits));
+      text += label("middle", x(mark), kBottom + kMarksBelow, fixedText(mark, m_across.digits));
     }
     return text + line("axis", kLeft, kBottom, kRight, kBottom) +
            line("axis", kLeft, kTop, kLeft, kBottom);
@@ -176,8 +177,8 @@ Markup confidenceBars(const ConfidenceShares& shares) {
     inside += "<rect class=\"bar\" x=\"" + number(left + 5) + "\" y=\"" + number(top) +
               "\" width=\"" + number(pitch - 10) + "\" height=\"" + number(kFoot - top) + "\"/>" +
               label("middle", left + pitch / 2, top - 8,
-                    decimal(100 * length / std::max(shares.total, 1e-30), 1) + " %") +
-              label("middle", left, kFoot + 36, decimal(0.1 * i, 1));
+                    fixedText(100 * length / std::max(shares.total, 1e-30), 1) + " %") +
+              label("middle", left, kFoot + 36, fixedText(0.1 * i, 1));
   }
   inside += label("middle", kFrom + pitch * classes, kFoot + 36, "1.0") +
             label("middle", kFrom + pitch * classes / 2, kFoot + 76, "confidence (inlier rate)") +

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/draw/report/report_page.h"
@@ -53,12 +53,12 @@ Markup wallFacts(const CheckReport& report, const formats::CenterlineTree& tree)
   const std::array<double, 4> lengths = lengthsOf(tree, report);
   const double length = lengths[0] + lengths[1] + lengths[2] + lengths[3];
   const auto inBoth = [&](double mm) {
-    return text(fixed(mm, 3) + " mm, " + fixed(mm / voxel, 2) + " voxels");
+    return text(fixedText(mm, 3) + " mm, " + fixedText(mm / voxel, 2) + " voxels");
   };
   const double whole = report.shownLength + report.missingLength();
   return factList(
-      {{"One voxel", text(fixed(voxel, 3) + " mm; blur taken as " +
-                          fixed(report.options.pointSpread, 3) + " mm")},
+      {{"One voxel", text(fixedText(voxel, 3) + " mm; blur taken as " +
+                          fixedText(report.options.pointSpread, 3) + " mm")},
        {"Samples of the wall",
         text(std::to_string(o.samples) + " judged; " + std::to_string(o.beside) +
              " beside other vessels, " + std::to_string(o.outside) + " outside of the volume")},
@@ -74,8 +74,9 @@ Markup wallFacts(const CheckReport& report, const formats::CenterlineTree& tree)
        {"not judged", text(percentText(share(lengths[0], length)))},
        {"Lumen that is dark",
         text(percentText(share(report.dark.volume, report.lumenVolume)) + " of its volume")},
-       {"Vessels in the case", text(fixed(report.shownLength, 1) + " of " + fixed(whole, 1) +
-                                    " mm, " + percentText(share(report.shownLength, whole)))}});
+       {"Vessels in the case",
+        text(fixedText(report.shownLength, 1) + " of " + fixedText(whole, 1) + " mm, " +
+             percentText(share(report.shownLength, whole)))}});
 }
 
 Markup wallTable(const CheckReport& report, const formats::CenterlineTree& tree) {
@@ -93,9 +94,9 @@ Markup wallTable(const CheckReport& report, const formats::CenterlineTree& tree)
   std::size_t number = 1;
   const auto row = [&](const Markup& no, const Markup& label, const Offsets& o) {
     const double voxel = report.voxelSize;
-    table.row({no, label, text(std::to_string(o.samples)), text(fixed(o.median, 3)),
-               text(fixed(o.median / voxel, 2)), text(fixed(o.absoluteMedian / voxel, 2)),
-               text(fixed(o.absoluteP90 / voxel, 2)), text(percentText(o.beyondVoxel)),
+    table.row({no, label, text(std::to_string(o.samples)), text(fixedText(o.median, 3)),
+               text(fixedText(o.median / voxel, 2)), text(fixedText(o.absoluteMedian / voxel, 2)),
+               text(fixedText(o.absoluteP90 / voxel, 2)), text(percentText(o.beyondVoxel)),
                text(percentText(o.noEdge)), text(percentText(o.wrongPolarity)),
                text(std::to_string(o.beside))});
   };
@@ -112,8 +113,8 @@ Markup regionTable(const char* id, const convert::Regions& regions,
   for (std::size_t i = 0; i < std::min(kPlacesListed, regions.regions.size()); ++i) {
     const convert::Region& region = regions.regions[i];
     std::vector<Markup> cells = placeCells(tree, region.node, region.position);
-    cells.push_back(text(fixed(region.volume, 1)));
-    cells.push_back(text(fixed(region.radius, 1)));
+    cells.push_back(text(fixedText(region.volume, 1)));
+    cells.push_back(text(fixedText(region.radius, 1)));
     table.row(cells);
   }
   Markup result = table.markup();
@@ -145,7 +146,7 @@ Markup shortEnds(const CheckReport& report, const formats::CenterlineTree& tree)
   for (std::size_t i = 0; i < std::min(kPlacesListed, ends.size()); ++i) {
     std::vector<Markup> cells = placeCells(tree, ends[i].node, toEigen(tree.centre[ends[i].node]));
     cells.push_back(text(ends[i].first ? "first" : "last"));
-    cells.push_back(text(fixed(ends[i].goesOn, 0)));
+    cells.push_back(text(fixedText(ends[i].goesOn, 0)));
     table.row(cells);
   }
   content += table.markup();
@@ -170,8 +171,8 @@ Markup missingVessels(const CheckReport& report, const formats::CenterlineTree& 
       std::vector<Markup> cells =
           placeCells(tree, vessels[i].path.front().node, middleOf(vessels[i]));
       cells.insert(cells.begin(), text(std::to_string(i + 1)));
-      cells.push_back(text(fixed(vessels[i].length, 1)));
-      cells.push_back(text(fixed(vessels[i].radius, 1)));
+      cells.push_back(text(fixedText(vessels[i].length, 1)));
+      cells.push_back(text(fixedText(vessels[i].radius, 1)));
       table.row(cells);
     }
     content += table.markup();

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "converters/base/html.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/table.h"
@@ -88,7 +88,8 @@ std::string extentText(const formats::CenterlineTree& tree) {
       high = std::max(high, tree.centre[n].*part + tree.radius[n]);
     }
     words += std::string(words.empty() ? "" : "; ") + axis + " " +
-             fixed(static_cast<double>(low), 1) + " to " + fixed(static_cast<double>(high), 1);
+             fixedText(static_cast<double>(low), 1) + " to " +
+             fixedText(static_cast<double>(high), 1);
   }
   return words + " mm, LPS";
 }
@@ -110,8 +111,9 @@ std::string vesselsText(const formats::CenterlineTree& tree) {
 
 std::string fitText(const CaseInfo& info) {
   if (!info.errorOfFit) return "not known: it needs wall points and models";
-  return "median " + fixed(info.errorOfFit->median, 3) + ", 90 % below " +
-         fixed(info.errorOfFit->p90, 3) + ", greatest " + fixed(info.errorOfFit->max, 3) + " mm";
+  return "median " + fixedText(info.errorOfFit->median, 3) + ", 90 % below " +
+         fixedText(info.errorOfFit->p90, 3) + ", greatest " + fixedText(info.errorOfFit->max, 3) +
+         " mm";
 }
 
 void addAgreement(const ReportFacts& facts, Facts& list) {
@@ -122,10 +124,11 @@ void addAgreement(const ReportFacts& facts, Facts& list) {
   }
   const convert::CheckReport& report = *facts.volume->check;
   const double voxel = report.voxelSize;
-  list.emplace_back("Wall and volume",
-                    text("median offset " + fixed(report.offsets.median / voxel, 2) +
-                         " voxels, 90 % within " + fixed(report.offsets.absoluteP90 / voxel, 2) +
-                         ", " + percentText(report.offsets.beyondVoxel) + " beyond a voxel"));
+  list.emplace_back(
+      "Wall and volume",
+      text("median offset " + fixedText(report.offsets.median / voxel, 2) +
+           " voxels, 90 % within " + fixedText(report.offsets.absoluteP90 / voxel, 2) + ", " +
+           percentText(report.offsets.beyondVoxel) + " beyond a voxel"));
   list.emplace_back(
       "Vessels of the volume in the case",
       text(percentText(share(report.shownLength, report.shownLength + report.missingLength())) +
@@ -136,24 +139,25 @@ Markup summary(const ReportFacts& facts) {
   const CaseInfo& info = facts.info;
   const formats::CenterlineTree& tree = facts.value.tree;
   Facts list = {{"Vessels", text(vesselsText(tree))},
-                {"Length", text(fixed(info.length, 1) + " mm")}};
-  list.emplace_back("Radius", text(info.radius ? fixed(info.radius->min, 2) + " to " +
-                                                     fixed(info.radius->max, 2) + " mm"
+                {"Length", text(fixedText(info.length, 1) + " mm")}};
+  list.emplace_back("Radius", text(info.radius ? fixedText(info.radius->min, 2) + " to " +
+                                                     fixedText(info.radius->max, 2) + " mm"
                                                : "-"));
   list.emplace_back("Reachable for a tool", text(reachText(info.reach)));
-  list.emplace_back("Confidence, mean",
-                    text(tree.inlierRate.empty()
-                             ? "not recorded"
-                             : fixed(convert::confidenceShares(tree).mean, 2) + " (inlier rate)"));
+  list.emplace_back(
+      "Confidence, mean",
+      text(tree.inlierRate.empty()
+               ? "not recorded"
+               : fixedText(convert::confidenceShares(tree).mean, 2) + " (inlier rate)"));
   list.emplace_back("Error of fit", text(fitText(info)));
   addAgreement(facts, list);
   list.emplace_back("Extent", text(extentText(tree)));
   list.emplace_back("Made of", text(counted(info.nodes, "node", "nodes") + ", " +
                                     counted(info.points, "wall point", "wall points") + ", " +
                                     counted(info.blobs.value_or(0), "blob", "blobs")));
-  list.emplace_back(
-      "Voxel of the source",
-      text(info.metadata.voxelSize ? fixed(*info.metadata.voxelSize, 3) + " mm" : "not recorded"));
+  list.emplace_back("Voxel of the source",
+                    text(info.metadata.voxelSize ? fixedText(*info.metadata.voxelSize, 3) + " mm"
+                                                 : "not recorded"));
   list.emplace_back(
       "Warnings",
       text(facts.warnings() == 0 ? "none" : std::to_string(facts.warnings()) + ", listed below"));
@@ -225,7 +229,7 @@ Markup projection(const ReportFacts& facts) {
   for (const DrawnView& view : facts.volume->projections)
     figures += pngFigure(view.png, text(view.title),
                          "Projection of the volume with the centerlines, " + view.title,
-                         "style=\"width: " + fixed(scale * view.width, 1) + "mm\"");
+                         "style=\"width: " + fixedText(scale * view.width, 1) + "mm\"");
   content += element("div", figures, "class=\"panels\"");
   return section("projection", kTitle, content);
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Provenance of a case in a report: steps with their parameters, source, digests.
-#include <array>
 #include <cstddef>
 #include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/report_page.h"
 #include "formats/case/enum_names.h"
@@ -127,8 +126,9 @@ Markup provenanceSection(const ReportFacts& facts) {
   addVolume(facts, list);
   list.emplace_back("Models", models(facts.value));
   if (const auto& rounded = metadata.pointQuantisation)
-    list.emplace_back("Wall points", text("rounded to " + std::to_string(rounded->bits) +
-                                          " bits, steps of " + fixed(rounded->step, 6) + " mm"));
+    list.emplace_back("Wall points",
+                      text("rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
+                           fixedText(rounded->step, 6) + " mm"));
   for (const std::string& array : facts.info.nodeArrays)
     list.emplace_back("Node array", name(array));
   for (const std::string& extension : metadata.extensionsUsed)

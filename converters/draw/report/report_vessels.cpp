@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/draw/report/profile_plot.h"
 #include "converters/draw/report/report_page.h"
@@ -89,9 +89,9 @@ Markup branchSection(const ReportFacts& facts) {
     const BranchInfo& info = facts.info.branches[b];
     table.row({text(std::to_string(numbers[b])), name(info.label), text(info.kind),
                text(parentText(tree, tree.branches[b], numbers)), text(std::to_string(info.nodes)),
-               text(fixed(info.length, 1)), text(fixed(info.radius.mean, 2)),
-               text(fixed(info.radius.min, 2)), text(fixed(info.radius.max, 2)),
-               text(fixed(info.inlierRate, 2)), text(stopText(info.stopReason))});
+               text(fixedText(info.length, 1)), text(fixedText(info.radius.mean, 2)),
+               text(fixedText(info.radius.min, 2)), text(fixedText(info.radius.max, 2)),
+               text(fixedText(info.inlierRate, 2)), text(stopText(info.stopReason))});
   }
   Markup content = paragraph(
       "Each vessel stands before those that leave it. From: the number of the vessel that it "
@@ -134,9 +134,9 @@ Markup confidenceSection(const ReportFacts& facts) {
       "The inlier rate of a node is the share of the places on the wall found around it that lie "
       "within a tenth of the "
       "radius of its cylinder. By length its mean is " +
-      fixed(shares.mean, 2) + ".";
+      fixedText(shares.mean, 2) + ".";
   if (const auto rate = acceptedRate(facts.value.metadata))
-    words += " Tracking took a cylinder at once at a rate of " + fixed(*rate, 2) +
+    words += " Tracking took a cylinder at once at a rate of " + fixedText(*rate, 2) +
              ", and none below half of that.";
   Markup content = paragraph(words);
   Markup pair = element("figure", convert::confidenceBars(shares));

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/text.h"
 
@@ -100,18 +99,16 @@ std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTre
     return static_cast<double>(radius) < spacing;
   });
   if (lost == 0) return {};
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << "the grid's samples are " << spacing
-       << " mm apart, too wide for the vessels at "
-       << counted(static_cast<std::size_t>(lost), "node", "nodes") << " of " << tree.nodeCount()
-       << "; " << kOption.grid.shown() << " takes a smaller distance";
-  return {text.str()};
+  return {"the grid's samples are " + fixedText(spacing, 2) +
+          " mm apart, too wide for the vessels at " +
+          counted(static_cast<std::size_t>(lost), "node", "nodes") + " of " +
+          std::to_string(tree.nodeCount()) + "; " + kOption.grid.shown() +
+          " takes a smaller distance"};
 }
 
 void refuseSpacing(double spacing, const std::string& what) {
-  std::ostringstream text;
-  text << kOption.grid.shown() << " " << spacing << ": " << what << "; choose a wider spacing";
-  throw Error(ErrorKind::Usage, text.str());
+  throw Error(ErrorKind::Usage, kOption.grid.shown() + " " + shownNumber(spacing) + ": " + what +
+                                    "; choose a wider spacing");
 }
 
 Lattice latticeOver(const PlaceBox& box, double margin, double spacing) {

@@ -95,8 +95,8 @@ std::string endsTable(const ExportFrame& frame, const std::vector<NamedEnd>& end
 
 }  // namespace
 
-std::string readmeOf(const TargetRow& target, const ExportFrame& frame,
-                     const ExportResult& result) {
+std::string readmeText(const TargetRow& target, const ExportFrame& frame,
+                       const ExportResult& result) {
   std::string text = "# Vessels for " + std::string(target.title) + "\n\n" + result.start;
   text += "\n## Files\n\n" + filesTable(result);
   text += "\n## Units and frame\n\nLengths are in " + std::string(unitName(frame.unit)) +

@@ -10,7 +10,8 @@
 namespace lumen::convert {
 
 /// README.md: title, how to start, files, units and frame, named ends.
-std::string readmeOf(const TargetRow& target, const ExportFrame& frame, const ExportResult& result);
+std::string readmeText(const TargetRow& target, const ExportFrame& frame,
+                       const ExportResult& result);
 
 /// lumen-export.json, spec/export.md, with all files of `result`. Equal folders give equal bytes.
 std::string manifestOf(const TargetRow& target, const ExportFrame& frame,

@@ -62,7 +62,7 @@ std::vector<std::uint32_t> widestWay(const CenterlineTree& tree, std::uint32_t f
 
 }  // namespace
 
-Insertion insertionOf(const CenterlineTree& tree, const std::string& label, double clearance) {
+Insertion findInsertion(const CenterlineTree& tree, const std::string& label, double clearance) {
   Insertion result;
   result.branch = branchToEnter(tree, label);
   const auto way = widestWay(tree, tree.branches[result.branch].firstNode);

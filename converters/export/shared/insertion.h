@@ -23,8 +23,8 @@ struct Insertion {
 /// vessel that is a root; so far in that no end of the vessel is within `clearance`, mm, of it.
 /// Throws Error(Usage), with the labels that there are, for a label that no branch has, and
 /// Error(InvalidInput) for a case without a tree and for a lumen that is narrower than `clearance`.
-Insertion insertionOf(const formats::CenterlineTree& tree, const std::string& label,
-                      double clearance);
+Insertion findInsertion(const formats::CenterlineTree& tree, const std::string& label,
+                        double clearance);
 
 /// Turns the x axis to `direction`, by the least angle.
 Eigen::Quaterniond turnTo(const Eigen::Vector3d& direction);

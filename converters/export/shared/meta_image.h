@@ -17,7 +17,7 @@ std::string metaImageHeader(const Lattice& lattice, const std::string& type,
 
 /// The distances times `factor`, little-endian.
 template <class T>
-std::string distancesOf(const DistanceGrid& grid, double factor) {
+std::string distanceBytes(const DistanceGrid& grid, double factor) {
   static_assert(std::endian::native == std::endian::little, "the file has the machine's numbers");
   std::string bytes(grid.values.size() * sizeof(T), '\0');
   for (std::size_t i = 0; i < grid.values.size(); ++i) {

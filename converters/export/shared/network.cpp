@@ -55,7 +55,7 @@ public:
     for (FlowTree& tree : m_made.trees)
       if (tree.inlets.empty()) addInlet(tree);
     nameEnds();
-    tellSacs();
+    reportSacs();
     return std::move(m_made);
   }
 
@@ -249,7 +249,7 @@ private:
             ": nothing can flow in here, since its vessels have no end to flow out of");
   }
 
-  void tellSacs() {
+  void reportSacs() {
     for (const Branch& branch : m_tree.branches) {
       if (branch.kind != BranchKind::Aneurysm) continue;
       const auto first = m_next.begin() + branch.firstNode;
@@ -302,7 +302,7 @@ std::vector<NamedEnd> endsOf(const FlowNetwork& network) {
   return ends;
 }
 
-std::string summaryOf(const FlowNetwork& network) {
+std::string networkSummary(const FlowNetwork& network) {
   std::size_t inlets = 0, outlets = 0;
   for (const FlowTree& tree : network.trees) {
     inlets += tree.inlets.size();

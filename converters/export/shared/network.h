@@ -66,7 +66,7 @@ FlowNetwork flowNetwork(const formats::CenterlineTree& tree);
 std::vector<NamedEnd> endsOf(const FlowNetwork& network);
 
 /// Numbers of segments, junctions, inlets, outlets and trees: a sentence for the answer.
-std::string summaryOf(const FlowNetwork& network);
+std::string networkSummary(const FlowNetwork& network);
 
 /// Integrals along a segment, in SI units, by blood.h.
 struct Lumped {

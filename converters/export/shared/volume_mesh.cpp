@@ -2,7 +2,6 @@
 #include "converters/export/shared/volume_mesh.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <span>
@@ -12,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/run_program.h"
 #include "converters/geometry/disjoint_sets.h"
@@ -28,12 +28,11 @@ using Corners = std::array<std::uint32_t, 3>;
 /// A piecewise linear complex as TetGen reads it, counted from 0.
 void writeComplex(const SurfaceMesh& surface, const std::filesystem::path& path) {
   std::string text = std::to_string(surface.position.size()) + " 3 0 0\n";
-  std::array<char, 120> line{};
   for (std::size_t v = 0; v < surface.position.size(); ++v) {
     const Float3& p = surface.position[v];
-    std::snprintf(line.data(), line.size(), "%zu %.9g %.9g %.9g\n", v, double{p[0]}, double{p[1]},
-                  double{p[2]});
-    text += line.data();
+    text += std::to_string(v);
+    for (const float coordinate : p) text.append(" ").append(numberText(double{coordinate}));
+    text += '\n';
   }
   text += std::to_string(surface.triangle.size()) + " 0\n";
   for (const Triangle& t : surface.triangle)

@@ -155,7 +155,7 @@ public:
         m_node(file.points.size(), formats::kNoParent) {}
 
   formats::Case make() {
-    const std::vector<CenterlineChain> chains = chainsOf(m_file);
+    const std::vector<CenterlineChain> chains = centerlineChains(m_file);
     if (chains.empty()) throw invalidInput(m_name + ": has no points");
     for (const CenterlineChain& chain : chains) add(chain, chains);
     closeLoops();

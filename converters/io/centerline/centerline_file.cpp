@@ -77,7 +77,7 @@ std::size_t CenterlineFile::radiiMissing() const {
       points.begin(), points.end(), [](const CenterlinePoint& p) { return !(p.radius > 0); }));
 }
 
-std::vector<CenterlineChain> chainsOf(const CenterlineFile& file) {
+std::vector<CenterlineChain> centerlineChains(const CenterlineFile& file) {
   const Merged merged(file);
   std::vector<CenterlineChain> chains;
   struct Start {

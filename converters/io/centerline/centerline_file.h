@@ -54,6 +54,6 @@ struct CenterlineChain {
 /// with it. At a fork the child of the same vessel continues the chain; where the file names no
 /// vessels the widest child does, and the one that turns least wins a tie; the others begin new
 /// chains. Points at the place of a root without other children are a chain of one point.
-std::vector<CenterlineChain> chainsOf(const CenterlineFile& file);
+std::vector<CenterlineChain> centerlineChains(const CenterlineFile& file);
 
 }  // namespace lumen::convert

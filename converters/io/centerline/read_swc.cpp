@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/parsed_number.h"
 #include "converters/io/centerline/fill_radii.h"
-#include "converters/io/centerline/read_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -293,7 +293,7 @@ CenterlineFile parseSwc(std::string_view text, const std::string& name) {
 }
 
 CenterlineFile readSwc(const fs::path& file) {
-  return parseSwc(readCenterlineText(file, "SWC"), file.string());
+  return parseSwc(readWholeFile(file, "centerline", kMostText), file.string());
 }
 
 }  // namespace lumen::convert

@@ -16,11 +16,11 @@
 #include <Eigen/Core>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/parsed_number.h"
 #include "converters/base/text.h"
 #include "converters/io/centerline/fill_radii.h"
 #include "converters/io/centerline/join_curves.h"
-#include "converters/io/centerline/read_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -346,7 +346,7 @@ CenterlineFile parseTre(std::string_view text, const std::string& name) {
 }
 
 CenterlineFile readTre(const fs::path& file) {
-  return parseTre(readCenterlineText(file, "tubes"), file.string());
+  return parseTre(readWholeFile(file, "centerline", kMostText), file.string());
 }
 
 }  // namespace lumen::convert

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/io/centerline/fill_radii.h"
 #include "converters/io/centerline/join_curves.h"
-#include "converters/io/centerline/read_text.h"
 #include "converters/io/vtk/vtk_xml.h"
 #include "formats/container/printable.h"
 
@@ -171,7 +171,7 @@ CenterlineFile parseVtpCenterline(std::string_view text, const std::string& name
 }
 
 CenterlineFile readVtpCenterline(const fs::path& file) {
-  return parseVtpCenterline(readCenterlineText(file, "VTK's XML"), file.string());
+  return parseVtpCenterline(readWholeFile(file, "centerline", kMostText), file.string());
 }
 
 }  // namespace lumen::convert

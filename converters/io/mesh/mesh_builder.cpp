@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/io/mesh/mesh_builder.h"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -42,11 +41,9 @@ std::string quotedText(std::string_view text) {
 void MeshBuilder::refusePoint(const Eigen::Vector3d& point, const std::string& place) const {
   for (Eigen::Index a = 0; a < 3; ++a) {
     if (std::abs(point[a]) <= kLargestCoordinate) continue;
-    std::ostringstream found;
-    found << "the "
-          << "xyz"[a] << " of a point is " << point[a]
-          << "; expected a finite number, at most 1e12";
-    refuseMesh(m_name, place, found.str());
+    refuseMesh(m_name, place,
+               std::string("the ") + "xyz"[a] + " of a point is " + shownNumber(point[a]) +
+                   "; expected a finite number, at most 1e12");
   }
   std::abort();  // only called for invalid points
 }

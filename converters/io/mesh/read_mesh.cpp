@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/io/mesh/read_mesh.h"
 
-#include <fstream>
-#include <system_error>
-
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/io/mesh/read_gltf.h"
 #include "converters/io/mesh/read_obj.h"
 #include "converters/io/mesh/read_ply.h"
@@ -36,15 +34,7 @@ MeshFile parseMesh(std::string_view bytes, const fs::path& file, MeshFormat form
 }
 
 MeshFile readMesh(const fs::path& file, MeshFormat format) {
-  const std::string name = formats::printable(file.string());
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error) throw invalidInput(name + ": cannot be read (" + error.message() + ")");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-    throw invalidInput(name + ": cannot be read");
-  return parseMesh(bytes, file, format);
+  return parseMesh(readWholeFile(file, "mesh"), file, format);
 }
 
 }  // namespace lumen::convert

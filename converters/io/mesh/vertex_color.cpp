@@ -72,7 +72,7 @@ ColorScale scaleOf(const SurfaceMesh& surface, ColorBy by) {
   return {by, *low, *high};
 }
 
-std::vector<Color> colorsOf(const SurfaceMesh& surface, const ColorScale& scale) {
+std::vector<Color> vertexColors(const SurfaceMesh& surface, const ColorScale& scale) {
   std::vector<Color> colors;
   colors.reserve(surface.position.size());
   if (scale.by == ColorBy::Branch)

@@ -29,9 +29,9 @@ ColorScale scaleOf(const SurfaceMesh& surface, ColorBy by);
 /// The colour of each vertex: viridis, from dark blue to yellow, for confidence, and for the
 /// logarithm of the radius; one of seven hues for a branch, repeated after every seventh. All
 /// colours are distinguishable with any kind of colour vision.
-std::vector<Color> colorsOf(const SurfaceMesh& surface, const ColorScale& scale);
+std::vector<Color> vertexColors(const SurfaceMesh& surface, const ColorScale& scale);
 
-/// The name of the colour scheme that colorsOf() applies.
+/// The name of the colour scheme that vertexColors() applies.
 const char* colorMapName(ColorBy by);
 
 }  // namespace lumen::convert

@@ -28,8 +28,8 @@ VertexStream streamOf(VertexStream stream, std::span<const MeshPart> parts, Valu
 
 }  // namespace
 
-std::vector<VertexStream> streamsOf(const SurfaceMesh& surface, std::span<const MeshPart> parts,
-                                    const ColorScale& scale) {
+std::vector<VertexStream> vertexStreams(const SurfaceMesh& surface, std::span<const MeshPart> parts,
+                                        const ColorScale& scale) {
   const auto of = [&](const auto& values) {
     return [&values](const MeshPart& part, std::size_t i) { return values[part.vertex[i]]; };
   };
@@ -50,8 +50,8 @@ std::vector<VertexStream> streamsOf(const SurfaceMesh& surface, std::span<const 
     streams.push_back(streamOf({"_CONFIDENCE", kFloat, 1, false, 4, kShareExponent}, parts,
                                of(surface.confidence)));
   if (scale.by != ColorBy::None)
-    streams.push_back(
-        streamOf({"COLOR_0", kUnsignedShort, 4, true, 8, 0}, parts, of(colorsOf(surface, scale))));
+    streams.push_back(streamOf({"COLOR_0", kUnsignedShort, 4, true, 8, 0}, parts,
+                               of(vertexColors(surface, scale))));
   return streams;
 }
 

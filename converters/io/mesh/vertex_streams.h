@@ -30,7 +30,7 @@ struct VertexStream {
 /// POSITION (mm, LPS), NORMAL, _RADIUS (mm), _BRANCH (index of the label; none if there are over
 /// 65536 branches, as glTF has no attribute of larger integers), _CONFIDENCE if it is known, and
 /// COLOR_0 if `scale` asks for it.
-std::vector<VertexStream> streamsOf(const SurfaceMesh& surface, std::span<const MeshPart> parts,
-                                    const ColorScale& scale);
+std::vector<VertexStream> vertexStreams(const SurfaceMesh& surface, std::span<const MeshPart> parts,
+                                        const ColorScale& scale);
 
 }  // namespace lumen::convert

@@ -244,7 +244,7 @@ private:
     Level level{surface, partsOf(surface, m_options.per), {}};
     if (!m_options.draco)
       for (MeshPart& part : level.parts) orderForDrawing(part);
-    level.streams = streamsOf(surface, level.parts, m_scale);
+    level.streams = vertexStreams(surface, level.parts, m_scale);
     if (m_layout)
       std::erase_if(level.streams, [](const VertexStream& stream) {
         return stream.name != "POSITION" && stream.name != "NORMAL";

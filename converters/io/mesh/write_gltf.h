@@ -26,7 +26,7 @@ constexpr std::array<double, 16> kGltfFromLps = {0.001, 0,     0,      0,  //
 /// millimetres, or one for each branch, named by its label. A mesh has one primitive for each group
 /// of faces, whose `extras` state its name, number and kind; its vertices are its own, so that flat
 /// ends have edges, and lie exactly where those of its neighbours do. Vertices have the attributes
-/// that streamsOf() lists; a mesh's `extras` state their units, the branches' labels, and the
+/// that vertexStreams() lists; a mesh's `extras` state their units, the branches' labels, and the
 /// meaning of colours. Coarser levels are nodes outside of the scene that MSFT_lod names.
 ///
 /// Throws Error(Unsupported) above 2 GiB of vertex data, Error(InvalidInput) if the quantity to

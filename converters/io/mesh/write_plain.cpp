@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/plain_names.h"
 
@@ -33,19 +33,11 @@ void putVector(std::string& out, const Float3& v) {
   for (std::size_t a = 0; a < 3; ++a) put(out, v[a]);
 }
 
-// The shortest decimal that reads back as the same number.
-template <class T>
-void putNumber(std::string& out, T value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-  out.append(digits, static_cast<std::size_t>(end - digits));
-}
-
 void putLine(std::string& out, const char* keyword, const Float3& v) {
   out += keyword;
   for (std::size_t a = 0; a < 3; ++a) {
     out += ' ';
-    putNumber(out, v[a]);
+    out += shortestText(v[a]);
   }
   out += '\n';
 }
@@ -73,9 +65,9 @@ constexpr const char* kFrame = "millimetres, LPS: +x left, +y posterior, +z supe
 
 void putCorner(std::string& out, std::size_t vertex, std::size_t normal) {
   out += ' ';
-  putNumber(out, vertex + 1);
+  out += std::to_string(vertex + 1);
   out += "//";
-  putNumber(out, normal + 1);
+  out += std::to_string(normal + 1);
 }
 
 std::string encodeBinaryStl(const SurfaceMesh& surface) {

@@ -2,12 +2,12 @@
 #include "converters/io/seeds/seeds.h"
 
 #include <algorithm>
-#include <fstream>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/parsed_number.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/text.h"
@@ -24,23 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using formats::printable;
-
-constexpr std::uintmax_t kMaxBytes = 64u << 20;
-
-std::string readText(const fs::path& file) {
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  if (error)
-    throw invalidInput(printable(file.string()) + ": cannot be read (" + error.message() + ")");
-  if (size > kMaxBytes)
-    throw invalidInput(printable(file.string()) + ": has " + std::to_string(size) +
-                       " bytes; expected at most 64 MiB of seeds");
-  std::string text(static_cast<std::size_t>(size), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream.read(text.data(), static_cast<std::streamsize>(size)))
-    throw invalidInput(printable(file.string()) + ": cannot be read");
-  return text;
-}
 
 /// The name of `file` without ".mrk.json" or its extension.
 std::string stemOf(const fs::path& file) {
@@ -81,7 +64,7 @@ std::vector<SeedBranch> parseText(const std::string& text, const fs::path& file,
 }  // namespace
 
 std::vector<SeedBranch> readSeeds(const fs::path& file, const SeedReading& reading) {
-  return checkedSeeds(parseText(readText(file), file, reading), file);
+  return checkedSeeds(parseText(readWholeFile(file, "seeds file", kMostText), file, reading), file);
 }
 
 void writeSeeds(const std::vector<SeedBranch>& seeds, const fs::path& file) {

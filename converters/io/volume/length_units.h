@@ -11,7 +11,7 @@
 namespace lumen::convert {
 
 /// Millimetres of the unit `name`, such as "mm", "Metres" or "um"; empty if it is unknown.
-inline std::optional<double> millimetresOf(const std::string& name) {
+inline std::optional<double> millimetresPer(const std::string& name) {
   static const std::map<std::string, double> known = {
       {"mm", 1},           {"millimeter", 1},   {"millimetre", 1},    {"cm", 10},
       {"centimeter", 10},  {"centimetre", 10},  {"dm", 100},          {"m", 1000},

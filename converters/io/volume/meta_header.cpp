@@ -126,7 +126,7 @@ StatedGeometry metaGeometry(const TextHeader& header, const std::vector<std::int
   }
   const std::string unit = header.text(kUnits);
   if (unit.empty() || unit == "?") return stated;
-  stated.unit = millimetresOf(unit);
+  stated.unit = millimetresPer(unit);
   if (!stated.unit && !options.unit)
     assumptions.push_back(
         "its DistanceUnits are " + cited(unit) +

@@ -91,8 +91,8 @@ void settleGeometry(OpenNifti& file, const fs::path& path, const ReadVolumeOptio
   const StatedGeometry stated = niftiGeometry(file.header, options, path, file.assumptions);
   const std::size_t before = file.assumptions.size();
   file.geometry = settledGeometry(stated, options, path, file.assumptions);
-  const bool told = file.assumptions.size() > before;  // the unknown unit is reported
-  if (!told && !stated.unit && !options.unit && !options.spacing)
+  const bool isReported = file.assumptions.size() > before;  // the unknown unit is reported
+  if (!isReported && !stated.unit && !options.unit && !options.spacing)
     file.assumptions.push_back(
         "its header states no unit of length that NIfTI has (xyzt_units is " +
         std::to_string(file.header.unitCode) +

@@ -122,9 +122,9 @@ double distanceOf(const Transform& one, const Transform& other, const NiftiHeade
   return furthest;
 }
 
-void tellDisagreement(const Transform& used, const char* name, const Transform& other,
-                      const char* otherName, const NiftiHeader& header,
-                      std::vector<std::string>& assumptions) {
+void reportDisagreement(const Transform& used, const char* name, const Transform& other,
+                        const char* otherName, const NiftiHeader& header,
+                        std::vector<std::string>& assumptions) {
   const double apart = distanceOf(used, other, header);
   const double tolerance = kAgree * vectorOf(header.pixdim).minCoeff();
   if (!(apart > tolerance)) return;
@@ -147,7 +147,7 @@ const Transform* chosenTransform(const Transform& sform, const Transform& qform,
   const char* const secondName = prefersS ? "qform" : "sform";
   if (first.usable()) {
     if (second.usable())
-      tellDisagreement(first, firstName, second, secondName, header, assumptions);
+      reportDisagreement(first, firstName, second, secondName, header, assumptions);
     return &first;
   }
   if (second.usable()) {
@@ -160,8 +160,8 @@ const Transform* chosenTransform(const Transform& sform, const Transform& qform,
 }
 
 /// Adds an assumption if the lengths of the sform's axes contradict pixdim, which counts.
-void tellOtherSpacing(const Transform& sform, const Vector3d& spacing,
-                      std::vector<std::string>& assumptions) {
+void reportOtherSpacing(const Transform& sform, const Vector3d& spacing,
+                        std::vector<std::string>& assumptions) {
   if (!sform.usable()) return;
   const Vector3d lengths = sform.axes.colwise().norm();
   const auto off = (lengths - spacing).cwiseQuotient(spacing).cwiseAbs();
@@ -207,7 +207,7 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
         "left, posterior and superior, from an origin at its first voxel");
     return stated;
   }
-  if (!options.spacing) tellOtherSpacing(sform, geometry.spacing, assumptions);
+  if (!options.spacing) reportOtherSpacing(sform, geometry.spacing, assumptions);
   geometry.origin = kLpsFromRas.cwiseProduct(transform->offset);
   geometry.direction = kLpsFromRas.asDiagonal() * transform->axes;
   geometry.direction.colwise().normalize();

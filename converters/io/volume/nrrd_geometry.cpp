@@ -171,7 +171,7 @@ std::vector<double> unitsOf(const TextHeader& header, const std::string& field,
   for (const std::size_t number : numbers) {
     if (number >= names.size()) throw header.refusal(field, "a name in quotes for each axis");
     if (trimmed(names[number]).empty()) continue;
-    const auto unit = millimetresOf(names[number]);
+    const auto unit = millimetresPer(names[number]);
     units.push_back(unit.value_or(kNaN));
   }
   const bool known = std::none_of(units.begin(), units.end(), [](double u) { return u != u; });

@@ -80,6 +80,7 @@ public:
 private:
   std::size_t fill(char* to, std::uint64_t size) {
     m_stream.read(to, static_cast<std::streamsize>(size));
+    if (m_stream.bad()) throw invalidInput(m_path.string() + ": cannot be read to its end");
     return static_cast<std::size_t>(m_stream.gcount());
   }
   fs::path m_path;

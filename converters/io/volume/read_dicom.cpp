@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/io/volume/dicom_folder.h"
 #include "converters/io/volume/dicom_pixels.h"
@@ -109,11 +109,10 @@ double sliceSpacing(const std::vector<Slice>& slices, const fs::path& path) {
   const double usual = sorted[sorted.size() / 2];
   for (std::size_t n = 0; n < gaps.size(); ++n) {
     if (gaps[n] > 0 && std::abs(gaps[n] - usual) <= kGapTolerance * usual) continue;
-    std::ostringstream text;
-    text << path.string() << ": slices " << slices[n].name() << " and " << slices[n + 1].name()
-         << " are " << gaps[n] << " mm apart, where most are " << usual
-         << " mm; expected a regular stack with one image for each position";
-    throw invalidInput(text.str());
+    throw invalidInput(path.string() + ": slices " + slices[n].name() + " and " +
+                       slices[n + 1].name() + " are " + shownNumber(gaps[n]) +
+                       " mm apart, where most are " + shownNumber(usual) +
+                       " mm; expected a regular stack with one image for each position");
   }
   return (slices.back().position - slices.front().position) / static_cast<double>(gaps.size());
 }
@@ -152,10 +151,10 @@ VolumeGeometry stackFrames(const std::vector<Slice>& slices, const ReadVolumeOpt
                            std::vector<std::string>& assumptions) {
   const Slice& first = slices[0];
   if (!first.plane.distance && !options.spacing)
-    throw invalidInput(
-        first.image->file.string() +
-        ": does not say how far its frames are apart; expected a volume; state the spacing with " +
-        kOption.spacing.shown());
+    throw invalidInput(first.image->file.string() +
+                       ": does not state the distance between its frames; expected a volume; state "
+                       "the spacing with " +
+                       kOption.spacing.shown());
   VolumeGeometry geometry;
   geometry.spacing = pixelSpacing(first, options);
   geometry.spacing[2] = first.plane.distance.value_or(std::numeric_limits<double>::quiet_NaN());
@@ -183,7 +182,7 @@ std::vector<Slice> slicesOf(const std::vector<DicomImage>& images) {
 }
 
 /// Adds an assumption about pixels after the announced ones, which may be uncounted frames.
-void tellRest(Stack& stack) {
+void reportRest(Stack& stack) {
   for (const DicomImage& image : stack.images) {
     const std::size_t used = image.frameBytes() * image.frames;
     if (image.pixels.encapsulated || image.pixels.value.length < used + image.frameBytes())
@@ -213,7 +212,7 @@ Stack openStack(const fs::path& path, const ReadVolumeOptions& options, const Pr
                           static_cast<int>(stack.images[0].rows),
                           static_cast<int>(stack.slices.size())};
   stated.unit = 1;  // DICOM has no other unit
-  tellRest(stack);
+  reportRest(stack);
   stack.geometry = settledGeometry(stated, options, path, stack.assumptions);
   return stack;
 }

@@ -6,11 +6,11 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/io/volume/image_file.h"
 #include "converters/io/volume/nifti_file.h"
@@ -100,12 +100,10 @@ void checkValues(const std::vector<T>& voxels, const fs::path& path) {
   }
   const bool constant = std::all_of(voxels.begin(), voxels.end(),
                                     [&](T v) { return !(v < voxels[0]) && !(v > voxels[0]); });
-  if (constant) {
-    std::ostringstream text;
-    text << path.string() << ": every voxel is " << +voxels[0]
-         << "; expected an image with vessels in it";
-    throw invalidInput(text.str());
-  }
+  if (constant)
+    throw invalidInput(path.string() + ": every voxel is " +
+                       shownNumber(static_cast<double>(voxels[0])) +
+                       "; expected an image with vessels in it");
 }
 
 template <class T>

@@ -69,6 +69,7 @@ HeaderLines::HeaderLines(const std::filesystem::path& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
   m_text.resize(static_cast<std::size_t>(std::min<std::uintmax_t>(size, kMaxHeader)));
   stream.read(m_text.data(), static_cast<std::streamsize>(m_text.size()));
+  if (stream.bad()) throw invalidInput(path.string() + ": cannot be read");
   m_text.resize(static_cast<std::size_t>(stream.gcount()));
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -35,12 +34,9 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
                          ", so it is not 3-D; expected at least 2 along each of three axes");
     voxels *= geometry.size[a];
     const double spacing = geometry.spacing[static_cast<Eigen::Index>(a)];
-    if (!(std::isfinite(spacing) && spacing > 0)) {
-      std::ostringstream text;
-      text << path.string() << ": the spacing along axis " << a + 1 << " is " << spacing
-           << "; expected a positive number of mm";
-      throw invalidInput(text.str());
-    }
+    if (!(std::isfinite(spacing) && spacing > 0))
+      throw invalidInput(path.string() + ": the spacing along axis " + std::to_string(a + 1) +
+                         " is " + shownNumber(spacing) + "; expected a positive number of mm");
   }
   if (voxels > kMaxVoxels)
     throw invalidInput(path.string() + ": its header announces more than 1e11 voxels");
@@ -50,13 +46,11 @@ void checkGeometry(VolumeGeometry& geometry, const fs::path& path) {
   const double fault =
       (direction.transpose() * direction - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   // Eigen's maxCoeff() may pass over NaN
-  if (!direction.allFinite() || !(fault <= kDirectionTolerance)) {
-    std::ostringstream text;
-    text << path.string() << ": its axes' directions are not orthogonal unit vectors (off by "
-         << fault << "; expected at most " << kDirectionTolerance
-         << "); resample the volume to an orthogonal grid first";
-    throw invalidInput(text.str());
-  }
+  if (!direction.allFinite() || !(fault <= kDirectionTolerance))
+    throw invalidInput(
+        path.string() + ": its axes' directions are not orthogonal unit vectors (off by " +
+        shownNumber(fault) + "; expected at most " + shownNumber(kDirectionTolerance) +
+        "); resample the volume to an orthogonal grid first");
   if (fault > 1e-14) {
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(direction,
                                                 Eigen::ComputeFullU | Eigen::ComputeFullV);

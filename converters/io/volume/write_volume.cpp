@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <span>
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/sha256.h"
 #include "converters/io/volume/itk_image.h"
 #include "converters/io/volume/nifti_file.h"
@@ -74,8 +73,7 @@ std::string encodeVolume(const Volume& volume, VolumeFormat format, bool compres
                                                              : "mha";
   const fs::path place = fs::temp_directory_path() / (std::string("volume.") + ending);
   const formats::PendingFile pending = pendingVolume(volume, place, format, compressed, notes);
-  std::ifstream in(pending.path(), std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return readWholeFile(pending.path(), "volume");
 }
 
 void writeVolume(const Volume& volume, const fs::path& path, VolumeFormat format, bool compressed) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <sstream>
 #include <variant>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
@@ -106,10 +106,10 @@ std::string likelyReason(const Volume& volume, const formats::CenterlineTree& tr
 
 template <class Values>
 std::string listed(const Values& values) {
-  std::ostringstream text;
-  text.precision(9);
-  for (const auto value : values) text << (text.tellp() > 0 ? " " : "") << value;
-  return text.str();
+  std::string text;
+  for (const auto value : values)
+    text.append(text.empty() ? "" : " ").append(numberText(static_cast<double>(value)));
+  return text;
 }
 
 template <class Values>
@@ -167,7 +167,7 @@ CheckResult checkCase(const Volume& volume, const formats::Case& value, const Ed
   report.options = options;
   report.voxelSize = volume.geometry.voxelSize();
   report.nodesOutside = requireOverlap(volume, tree);
-  const field::BlendedField surface = formats::blendedFieldOf(value);
+  const field::BlendedField surface = formats::caseField(value);
 
   progress.begin("lumen", tree.nodeCount());
   const LumenVoxels lumen(tree, surface, volume.geometry, progress);

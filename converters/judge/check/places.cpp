@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Radii: clicks nearer to one another give no direction of a vessel.
-constexpr double kTelling = 4;
+constexpr double kLeastApart = 4;
 
 constexpr double kDarkDepth = 1, kBrightAway = 2;         // voxels: the wall's own blur and error
 constexpr std::size_t kLeastDark = 4, kLeastBright = 20;  // voxels: fewer are noise
@@ -158,7 +158,7 @@ Clicks clicksOn(const MissingVessel& vessel) {
   const Vector3d first = vessel.path[middle].position;
   Clicks clicks{{first}, vessel.radius, vessel.path.front().node};
   if (on < vessel.path.size() &&
-      (vessel.path[on].position - first).norm() > kTelling * vessel.radius)
+      (vessel.path[on].position - first).norm() > kLeastApart * vessel.radius)
     clicks.points.push_back(vessel.path[on].position);
   return clicks;
 }

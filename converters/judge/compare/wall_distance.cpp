@@ -167,7 +167,7 @@ WallComparison compareWalls(const formats::Case& found, const CenterlineTree& tr
                             Progress& progress) {
   const CenterlineTree& tree = found.tree;
   const TrueWall wall(truth);
-  const field::BlendedField field = formats::blendedFieldOf(found);
+  const field::BlendedField field = formats::caseField(found);
   const std::vector<Vector3d> rays = rayDirections();
   struct Sample {
     std::uint32_t branch;

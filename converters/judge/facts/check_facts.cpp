@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "converters/base/shown_figures.h"
+#include "converters/base/number_text.h"
 #include "converters/base/text.h"
 
 namespace lumen::convert {
@@ -22,11 +22,12 @@ double share(double part, double whole) {
 }
 
 std::string percentText(double share) {
-  return std::isfinite(share) ? fixed(100 * share, 1) + " %" : "-";
+  return std::isfinite(share) ? fixedText(100 * share, 1) + " %" : "-";
 }
 
 std::string placeText(const Eigen::Vector3d& p) {
-  return std::string("(") + fixed(p.x(), 1) + ", " + fixed(p.y(), 1) + ", " + fixed(p.z(), 1) + ")";
+  return std::string("(") + fixedText(p.x(), 1) + ", " + fixedText(p.y(), 1) + ", " +
+         fixedText(p.z(), 1) + ")";
 }
 
 std::vector<OpenEnd> endsThatStopShort(const CheckReport& report) {

@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "converters/base/number_text.h"
 #include "converters/base/privacy.h"
-#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "converters/io/content/file_content.h"
 #include "converters/judge/facts/reachable.h"
@@ -50,7 +50,7 @@ Remark remarkOf(const ClosedWay& way) {
           formats::severityName(formats::Severity::Warning),
           std::nullopt,
           pointer,
-          {{"found", fixed(way.beyond, 1)}},
+          {{"found", fixedText(way.beyond, 1)}},
           message,
           code + " at " + pointer + ": " + message};
 }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
-#include "converters/base/shown_figures.h"
 #include "converters/base/text.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
@@ -14,8 +14,8 @@ namespace lumen::convert {
 
 std::optional<Reach> reachOf(const formats::Case& value, const Progress& progress) {
   if (!value.models) return std::nullopt;
-  const auto found = formats::reachabilityOf(value.tree, formats::blendedFieldOf(value),
-                                             [&progress] { progress.check(); });
+  const auto found = formats::measureReachability(value.tree, formats::caseField(value),
+                                                  [&progress] { progress.check(); });
   Reach reach{found.reachable, found.total, {}};
   for (const formats::Barrier& barrier : found.barriers)
     reach.closed.push_back({value.tree.branches[value.tree.branch[barrier.node]].label,
@@ -27,7 +27,7 @@ std::optional<Reach> reachOf(const formats::Case& value, const Progress& progres
 
 std::string reachText(const std::optional<Reach>& reach) {
   if (!reach) return "not known, as there are no models (lumen fit makes them)";
-  return fixed(reach->length, 1) + " of " + fixed(reach->of, 1) + " mm";
+  return fixedText(reach->length, 1) + " of " + fixedText(reach->of, 1) + " mm";
 }
 
 std::string reachLine(const std::optional<Reach>& reach) {
@@ -36,9 +36,9 @@ std::string reachLine(const std::optional<Reach>& reach) {
 
 std::string closedText(const ClosedWay& way) {
   return "branch " + formats::printable(way.branch) + " is closed before node " +
-         std::to_string(way.node) + " at (" + fixed(way.position.x, 1) + ", " +
-         fixed(way.position.y, 1) + ", " + fixed(way.position.z, 1) + "): " + fixed(way.beyond, 1) +
-         " mm beyond cannot be reached";
+         std::to_string(way.node) + " at (" + fixedText(way.position.x, 1) + ", " +
+         fixedText(way.position.y, 1) + ", " + fixedText(way.position.z, 1) +
+         "): " + fixedText(way.beyond, 1) + " mm beyond cannot be reached";
 }
 
 std::vector<std::string> closedTexts(const Reach& reach) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "converters/base/html.h"
-#include "converters/base/shown_figures.h"
+#include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/library/site/case_page.h"
 #include "converters/library/site/case_texts.h"
@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 std::string fileRow(const CaseRecord& record, const RecordedFile& file) {
   std::string what = file.role;
   if (!file.target.empty()) what += " for " + file.target;
-  return "<tr><th scope=\"row\"><a href=\"../../" + addressOf(dataPath(record, file.path)) +
+  return "<tr><th scope=\"row\"><a href=\"../../" + urlAddress(dataPath(record, file.path)) +
          "\" download>" + htmlText(file.path) + "</a></th><td>" + htmlText(what) +
          "</td><td class=\"number\">" + shownBytes(file.bytes) +
          "</td><td><code class=\"digest\">" + htmlText(file.sha256) + "</code></td></tr>\n";
@@ -90,7 +90,7 @@ std::string filesSection(const CaseRecord& record) {
   std::string text =
       "<section id=\"files\"><h2>Files</h2>\n<p class=\"quiet\">" +
       counted(record.files.size(), "file", "files") + ", " + shownBytes(totalBytes(record)) +
-      ". Digests are SHA-256, as <a href=\"../../" + addressOf(dataPath(record, kRecordFile)) +
+      ". Digests are SHA-256, as <a href=\"../../" + urlAddress(dataPath(record, kRecordFile)) +
       "\">record.json</a> states them.</p>\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Files\">\n<table>\n"
       "<thead><tr><th scope=\"col\">File</th><th scope=\"col\">What</th>"

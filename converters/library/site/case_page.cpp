@@ -55,7 +55,7 @@ std::string casePage(const LibraryFile& library, const CaseRecord& record,
       record.ends, true);
   content += filesSection(record) + citeSection(library, record) + provenanceSection(record) +
              "</main>\n" + footer(library, frame.root, signature);
-  return pageOf(frame, content);
+  return pageText(frame, content);
 }
 
 }  // namespace lumen::convert

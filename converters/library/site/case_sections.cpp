@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sections that describe a case: pictures, figures, statements, places.
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "converters/base/html.h"
-#include "converters/base/shown_figures.h"
+#include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/library/site/case_page.h"
 #include "converters/library/site/case_texts.h"
@@ -18,7 +17,7 @@ namespace {
 constexpr std::size_t kOpenRows = 12;  // a longer table is closed until somebody asks for it
 
 std::string linkTo(const CaseRecord& record, const std::string& path) {
-  return "../../" + addressOf(dataPath(record, path));
+  return "../../" + urlAddress(dataPath(record, path));
 }
 
 std::string image(const CaseRecord& record, const std::string& path,
@@ -94,7 +93,7 @@ std::string codesOf(const CaseAbout& about) {
 }  // namespace
 
 std::string pictureSection(const CaseRecord& record) {
-  const CasePictures pictures = picturesOf(record);
+  const CasePictures pictures = casePictures(record);
   std::string section = "<div class=\"pictures\">\n<figure class=\"shot\" id=\"shot\">";
   section += pictures.first.empty()
                  ? "<span class=\"none\">no picture</span>"

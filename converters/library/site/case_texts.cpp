@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "converters/base/html.h"
-#include "converters/base/shown_figures.h"
+#include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/library/library_file.h"
 
@@ -29,7 +29,7 @@ std::string galleryFigures(const CaseFigures& figures) {
 std::string doiLink(const std::string& doi) {
   if (doi.empty()) return {};
   return element("a", name(doi),
-                 "rel=\"external noreferrer\" href=\"https://doi.org/" + addressOf(doi) + "\"")
+                 "rel=\"external noreferrer\" href=\"https://doi.org/" + urlAddress(doi) + "\"")
       .html;
 }
 

@@ -92,7 +92,7 @@ std::string citationText(const LibraryFile& library, const CaseRecord& record) {
       sentence(library.publisher.empty() ? yearOf(record)
                                          : printable(library.publisher) + ", " + yearOf(record));
   text += sentence(printable(record.about.licence));
-  if (!record.about.doi.empty()) return text + "https://doi.org/" + addressOf(record.about.doi);
+  if (!record.about.doi.empty()) return text + "https://doi.org/" + urlAddress(record.about.doi);
   text += "urn:uuid:";
   text += printable(library.id);
   return text;
@@ -114,7 +114,7 @@ std::string citationBibTex(const LibraryFile& library, const CaseRecord& record)
   where += revisionOf(library);
   addField(entry, "howpublished", where);
   addField(entry, "publisher", about.attribution.empty() ? "" : asOne(library.publisher));
-  addField(entry, "doi", addressOf(about.doi));
+  addField(entry, "doi", urlAddress(about.doi));
   std::string note = "Version ";
   note += std::to_string(record.version);
   note += ". Licence: ";

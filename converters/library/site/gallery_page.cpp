@@ -107,13 +107,13 @@ std::vector<std::size_t> galleryOrder(const LibraryFile& library) {
 }
 
 std::string galleryCard(const CaseRecord& record, const std::string& root) {
-  const std::string picture = picturesOf(record).thumbnail;
+  const std::string picture = casePictures(record).thumbnail;
   std::string card = "<li class=\"card\">\n<div class=\"shot\">";
   card += picture.empty() ? "<span class=\"none\">no picture</span>"
-                          : "<img src=\"" + root + addressOf(dataPath(record, picture)) +
+                          : "<img src=\"" + root + urlAddress(dataPath(record, picture)) +
                                 "\" alt=\"\" loading=\"lazy\" decoding=\"async\" width=\"500\" "
                                 "height=\"400\">";
-  card += "</div>\n<h2><a href=\"" + root + addressOf(casePagePath(record.id)) + "\">" +
+  card += "</div>\n<h2><a href=\"" + root + urlAddress(casePagePath(record.id)) + "\">" +
           htmlName(record.about.title) + "</a></h2>\n<p class=\"what\">" +
           (record.about.anatomy.empty() ? "" : htmlName(record.about.anatomy) + " · ") +
           htmlText(sideText(record.about.laterality)) + " · " +
@@ -156,7 +156,7 @@ std::string galleryPage(const LibraryFile& library, std::size_t page, const std:
       "class=\"cards\">\n" +
       cards + "</ul>\n" + pageLinks(page, pages, frame.root) + "</section>\n</main>\n" +
       footer(library, frame.root, signature);
-  return pageOf(frame, content);
+  return pageText(frame, content);
 }
 
 std::string searchRow(const CaseRecord& record) {
@@ -173,7 +173,7 @@ std::string searchRow(const CaseRecord& record) {
        printable(about.modality), about.synthetic ? 1 : 0, printable(about.licence),
        record.figures.branches, record.figures.aneurysms, rounded(record.figures.length),
        rounded(record.figures.radiusMin), rounded(record.figures.radiusMax),
-       picturesOf(record).thumbnail, trimmed(words)});
+       casePictures(record).thumbnail, trimmed(words)});
   return jsonInScript(row.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -43,7 +43,7 @@ std::string howToVerify(const LibraryFile& library, const std::string& root,
         "digests show damage, but not who published what they belong to.";
   else
     text +=
-        "A signature, <a href=\"" + root + addressOf(signature) + "\"><code>" +
+        "A signature, <a href=\"" + root + urlAddress(signature) + "\"><code>" +
         htmlText(signature) +
         "</code></a>, lay beside <code>library.json</code> when this page was made. "
         "<strong>This page has not verified it, and cannot</strong>: who changes a file can change "

@@ -16,7 +16,7 @@ constexpr const char* kPolicy =
 
 }  // namespace
 
-std::string pageOf(const PageFrame& frame, std::string_view content) {
+std::string pageText(const PageFrame& frame, std::string_view content) {
   PageHead head;
   head.policy = kPolicy;
   head.viewport = "width=device-width, initial-scale=1";

@@ -18,6 +18,6 @@ struct PageFrame {
 
 /// A whole page. It asks for nothing but files of the library, and runs no script and no style that
 /// is in itself.
-std::string pageOf(const PageFrame& frame, std::string_view content);
+std::string pageText(const PageFrame& frame, std::string_view content);
 
 }  // namespace lumen::convert

@@ -31,7 +31,7 @@ bool isShown(const RecordedFile& file) {
 
 }  // namespace
 
-CasePictures picturesOf(const CaseRecord& record) {
+CasePictures casePictures(const CaseRecord& record) {
   CasePictures pictures;
   std::vector<std::string> paths;
   std::map<std::string, std::vector<std::string>> turns;

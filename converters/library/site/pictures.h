@@ -20,6 +20,6 @@ struct CasePictures {
 /// picture.png, or by path the first that is no frame. A turntable is three or more files that
 /// differ in three digits at the end, as `lumen picture --turntable` and `lumen library add
 /// --turntable` name them.
-CasePictures picturesOf(const CaseRecord& record);
+CasePictures casePictures(const CaseRecord& record);
 
 }  // namespace lumen::convert

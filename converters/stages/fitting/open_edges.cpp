@@ -85,7 +85,7 @@ using MayOpen = std::function<bool(std::uint32_t)>;
 
 /// The blobs that open the closed edges.
 NewBlobs openingsOf(const formats::Case& value, const MayOpen& mayOpen) {
-  const field::BlendedField field = formats::blendedFieldOf(value);
+  const field::BlendedField field = formats::caseField(value);
   std::map<std::uint32_t, std::vector<Lack>> closed;  // by the edge's farther end
   formats::findClosedPlaces(value.tree, field, [&](const formats::ClosedPlace& at) {
     if (mayOpen && !mayOpen(at.node)) return false;

@@ -12,7 +12,7 @@ namespace lumen::convert {
 /// Adds blobs to the models of a fitted case wherever a point that is pushed along an edge of the
 /// tree would leave the lumen; the smallest that open a passage of four tenths of the edge's lesser
 /// radius. An edge stays closed if it is so long that following does not lead along it;
-/// reachabilityOf() reports these. `mayOpen`, if given, is asked about each edge, by its farther
+/// measureReachability() reports these. `mayOpen`, if given, is asked about each edge, by its farther
 /// end: others are left alone.
 void openEdges(formats::Case& target, const std::function<bool(std::uint32_t node)>& mayOpen = {});
 

@@ -95,7 +95,7 @@ const std::vector<std::string>& clutterNames() {
   return names;
 }
 
-std::set<Clutter> clutterOf(const std::string& list) {
+std::set<Clutter> parseClutter(const std::string& list) {
   std::set<Clutter> kinds;
   if (list.empty()) return kinds;
   const std::vector<std::string>& names = clutterNames();

@@ -58,7 +58,7 @@ void checkOptions(const PhantomOptions& options) {
   requireRange(kOption.bias, options.bias, 0, 2);
   requireRange(kOption.psf, options.psf, 0, 5);
   requireRange(kOption.fade, options.fade, 0, 1);
-  (void)clutterOf(options.clutter);
+  (void)parseClutter(options.clutter);
 }
 
 formats::Case describeTruth(const Scene& scene, const PhantomOptions& options) {
@@ -179,7 +179,7 @@ Phantom makePhantom(const PhantomOptions& options, Progress& progress) {
   checkOptions(options);
   Scene scene =
       options.tree.empty() ? sceneOfName(options, progress) : sceneOfTree(options, progress);
-  const std::set<Clutter> clutter = clutterOf(options.clutter);
+  const std::set<Clutter> clutter = parseClutter(options.clutter);
   // drawing, two passes of the blur, and the noise each report every slice
   progress.begin("phantom", 3 * static_cast<std::size_t>(scene.grid.size[2]) +
                                 static_cast<std::size_t>(scene.grid.size[1]) +

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
 
@@ -15,7 +14,6 @@
 #include "converters/io/centerline/read_swc.h"
 #include "converters/stages/phantom/clutter.h"
 #include "converters/stages/phantom/smooth_chain.h"
-#include "formats/case/case_file.h"
 #include "formats/container/printable.h"
 #include "formats/view/limits.h"
 
@@ -95,9 +93,7 @@ void checkEffort(const CenterlineFile& file, double voxel, const std::string& na
 }
 
 std::string labelOf(std::size_t index) {
-  char text[32];
-  std::snprintf(text, sizeof text, "b%03zu", index);
-  return text;
+  return std::string("b").append(paddedNumber(index, 3));
 }
 
 Design designOf(const CenterlineFile& file, double voxel, const std::string& name,
@@ -112,12 +108,6 @@ Design designOf(const CenterlineFile& file, double voxel, const std::string& nam
     builder.add(labelOf(builder.tree().branches.size()), vessel.parent, vessel.path);
   }
   return builder.design();
-}
-
-std::string digestOf(const std::filesystem::path& file) {
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(bytes.error().text());
-  return sha256(*bytes);
 }
 
 }  // namespace
@@ -149,7 +139,7 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
   Scene scene;
   scene.design = patient ? designPatient(frame, options.seed, progress) : found->second(frame);
   fadeContrast(scene.design, options.fade);
-  loseFlow(clutterOf(options.clutter), options.seed, scene.design);
+  loseFlow(parseClutter(options.clutter), options.seed, scene.design);
   scene.grid = {{size, size, size}, Vector3d::Constant(options.voxel)};
   if (options.name == "thick-slices") scene.slice = kNamedSlice;
   if (options.sliceThickness != 0) scene.slice = options.sliceThickness / options.voxel;
@@ -171,10 +161,10 @@ Scene sceneOfTree(const PhantomOptions& options, Progress& progress) {
   const CenterlineFile file = readSwc(options.tree);
   checkEffort(file, options.voxel, name);
   Scene scene;
-  scene.treeSha256 = digestOf(options.tree);
+  scene.treeSha256 = digestOfFile(options.tree).sha256;
   scene.design = designOf(file, options.voxel, name, progress);
   fadeContrast(scene.design, options.fade);
-  loseFlow(clutterOf(options.clutter), options.seed, scene.design);
+  loseFlow(parseClutter(options.clutter), options.seed, scene.design);
   Box3d box;
   const formats::CenterlineTree& tree = scene.design.tree;
   for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)

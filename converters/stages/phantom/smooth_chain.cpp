@@ -108,7 +108,7 @@ Path splined(const Path& knots, double step) {
 }  // namespace
 
 std::vector<SmoothVessel> smoothVessels(const CenterlineFile& file, double step) {
-  const std::vector<CenterlineChain> chains = chainsOf(file);
+  const std::vector<CenterlineChain> chains = centerlineChains(file);
   std::vector<Path> knots;  // each chain's own points
   std::vector<SmoothVessel> vessels;
   for (const CenterlineChain& chain : chains) {

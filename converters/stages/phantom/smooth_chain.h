@@ -15,7 +15,7 @@ struct SmoothVessel {
   Path path;                                 ///< points about `step` apart
 };
 
-/// One vessel for each chain of the file, in the order of chainsOf(). Positions are smoothed by a
+/// One vessel for each chain of the file, in the order of centerlineChains(). Positions are smoothed by a
 /// Gaussian of 1.5 samples that leaves both ends where they are, and joined by a natural cubic
 /// spline over the chord lengths; a child begins on the spline of its parent. Radii are smoothed by
 /// the same Gaussian and joined by a monotone cubic (Fritsch and Butland, "A method for

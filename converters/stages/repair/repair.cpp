@@ -40,11 +40,11 @@ void makeManifold(MeshInRepair& work, const std::string& name, const Progress& p
     const std::vector<bool> crowded = crowdedTriangles(work, again);
     if (again) dropped += work.dropTriangles(crowded);
   }
-  work.say("turned", turned, "triangle round", "triangles round");
-  work.say("cut", cut, "edge of more than two triangles", "edges of more than two triangles");
-  work.say("split", split, "point where sheets touch", "points where sheets touch");
-  work.say("dropped", dropped, "triangle at an edge that could not be cut",
-           "triangles at edges that could not be cut");
+  work.record("turned", turned, "triangle round", "triangles round");
+  work.record("cut", cut, "edge of more than two triangles", "edges of more than two triangles");
+  work.record("split", split, "point where sheets touch", "points where sheets touch");
+  work.record("dropped", dropped, "triangle at an edge that could not be cut",
+              "triangles at edges that could not be cut");
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ RepairResult repairMesh(const TriangleMesh& mesh, const std::string& name,
   RepairResult result;
   result.components = settleParts(work, name);
   fillHoles(work);
-  result.openings = boundaryLoopsOf(work);
+  result.openings = findBoundaryLoops(work);
   result.mesh = std::move(work.mesh);
   result.source = std::move(work.source);
   result.repairs = std::move(work.repairs);

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "converters/base/number_text.h"
 #include "converters/stages/repair/repair_steps.h"
 
 namespace lumen::convert {
@@ -181,7 +181,7 @@ void measureLoop(const TriangleMesh& mesh, BoundaryLoop& loop) {
   loop.radius = length > 0 ? radii / length : 0;
 }
 
-std::vector<BoundaryLoop> boundaryLoopsOf(const MeshInRepair& work) {
+std::vector<BoundaryLoop> findBoundaryLoops(const MeshInRepair& work) {
   std::vector<BoundaryLoop> loops;
   for (const auto& sides : loopSides(work)) loops.push_back(loopOf(work.mesh, sides));
   return loops;
@@ -203,11 +203,9 @@ void fillHoles(MeshInRepair& work) {
     ++filled;
   }
   if (filled == 0) return;
-  std::ostringstream text;
-  text.precision(3);
-  text << "filled " << filled << (filled == 1 ? " hole" : " holes, the widest") << " " << widest
-       << " across";
-  work.repairs.push_back(text.str());
+  work.repairs.push_back("filled " + std::to_string(filled) +
+                         (filled == 1 ? " hole" : " holes, the widest") + " " +
+                         shownNumber(widest, 3) + " across");
   work.opposite = oppositeSides(work.mesh.triangle);
 }
 

@@ -48,7 +48,7 @@ std::vector<Part> measured(const MeshInRepair& work, const std::vector<std::uint
     }
     ++p.triangles;
   }
-  for (const BoundaryLoop& loop : boundaryLoopsOf(work)) {
+  for (const BoundaryLoop& loop : findBoundaryLoops(work)) {
     const std::size_t n = loop.vertex.size();
     for (std::size_t i = 0; i < n; ++i)
       parts[partOfPoint[loop.vertex[0]]].volume +=
@@ -110,10 +110,10 @@ std::size_t settleParts(MeshInRepair& work, const std::string& name) {
     if (parts[part[t]].volume < 0) std::swap(work.mesh.triangle[t][1], work.mesh.triangle[t][2]);
   }
   work.dropTriangles(drop);
-  work.say("dropped", sheets, "part that encloses nothing", "parts that enclose nothing");
-  work.say("dropped", small, "part smaller than a hundredth of the mesh",
-           "parts smaller than a hundredth of the mesh");
-  work.say("turned", turned, "part, which was inside out", "parts, which were inside out");
+  work.record("dropped", sheets, "part that encloses nothing", "parts that enclose nothing");
+  work.record("dropped", small, "part smaller than a hundredth of the mesh",
+              "parts smaller than a hundredth of the mesh");
+  work.record("turned", turned, "part, which was inside out", "parts, which were inside out");
   dropUnusedPoints(work);
   work.opposite = oppositeSides(work.mesh.triangle);
   return kept;

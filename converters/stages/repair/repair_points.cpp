@@ -57,7 +57,7 @@ std::vector<std::uint32_t> closePoints(const std::vector<Eigen::Vector3d>& posit
 
 }  // namespace
 
-void MeshInRepair::say(const char* verb, std::size_t count, const char* one, const char* many) {
+void MeshInRepair::record(const char* verb, std::size_t count, const char* one, const char* many) {
   if (count > 0)
     repairs.push_back(std::string(verb) + " " + std::to_string(count) + " " +
                       (count == 1 ? one : many));
@@ -91,7 +91,7 @@ void mergePoints(MeshInRepair& work) {
     }
     dropUnusedPoints(work);
   }
-  work.say("merged", merged, "duplicate point", "duplicate points");
+  work.record("merged", merged, "duplicate point", "duplicate points");
 }
 
 void dropUnusedPoints(MeshInRepair& work) {
@@ -189,7 +189,7 @@ void dropDegenerate(MeshInRepair& work) {
     }
     work.dropTriangles(gone);
   }
-  work.say("dropped", dropped, "triangle without area", "triangles without area");
+  work.record("dropped", dropped, "triangle without area", "triangles without area");
 }
 
 void dropDuplicates(MeshInRepair& work) {
@@ -204,8 +204,8 @@ void dropDuplicates(MeshInRepair& work) {
   std::vector<bool> drop(sorted.size(), false);
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i].first == sorted[i - 1].first) drop[sorted[i].second] = true;
-  work.say("dropped", work.dropTriangles(drop), "triangle that was there twice",
-           "triangles that were there twice");
+  work.record("dropped", work.dropTriangles(drop), "triangle that was there twice",
+              "triangles that were there twice");
 }
 
 }  // namespace lumen::convert

@@ -20,8 +20,8 @@ struct MeshInRepair {
   std::vector<std::uint32_t> opposite;  ///< as of oppositeSides(), once it is set
   std::vector<std::string> repairs;
 
-  /// "merged 12 duplicate points"; nothing for none.
-  void say(const char* verb, std::size_t count, const char* one, const char* many);
+  /// Adds "merged 12 duplicate points" to the repairs; nothing if `count` is 0.
+  void record(const char* verb, std::size_t count, const char* one, const char* many);
   /// Drops the triangles that `drop` names, and `opposite`.
   std::size_t dropTriangles(const std::vector<bool>& drop);
 };
@@ -48,7 +48,7 @@ std::size_t splitPoints(MeshInRepair& work);
 
 // repair_holes.cpp
 /// The boundary loops of a mesh whose points have one fan each, as the triangles run.
-std::vector<BoundaryLoop> boundaryLoopsOf(const MeshInRepair& work);
+std::vector<BoundaryLoop> findBoundaryLoops(const MeshInRepair& work);
 /// Sets `centre` and `radius` of a loop.
 void measureLoop(const TriangleMesh& mesh, BoundaryLoop& loop);
 /// Fills holes; ends of vessels stay open.

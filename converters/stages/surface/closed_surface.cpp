@@ -67,7 +67,7 @@ public:
       : m_source(source),
         m_options(options),
         m_progress(progress),
-        m_blended(formats::blendedFieldOf(source)),
+        m_blended(formats::caseField(source)),
         m_field(source, m_blended, gapsOf(source, options)) {}
 
   ClosedSurface run() {
@@ -92,7 +92,7 @@ private:
     noteEnds(cutEnds(surface, m_field, m_progress));
     refine(surface, m_field, edgeOf(m_options));
     m_result.report.crossings = mendCrossings(surface, m_field, m_progress);
-    m_result.report.overlaps = overlapsOf(surface, m_field);
+    m_result.report.overlaps = findOverlaps(surface, m_field);
     for (std::string& sentence : bareStretches(surface, m_source.tree))
       m_result.report.messages.push_back(std::move(sentence));
     return surface;
@@ -123,9 +123,10 @@ private:
   }
 
   void extend(CaseSurface& surface) {
-    const std::vector<std::string> said = extendEnds(surface, m_source, m_options.extend);
+    const std::vector<std::string> reported = extendEnds(surface, m_source, m_options.extend);
     if (m_result.levels.empty())
-      m_result.report.messages.insert(m_result.report.messages.end(), said.begin(), said.end());
+      m_result.report.messages.insert(m_result.report.messages.end(), reported.begin(),
+                                      reported.end());
   }
 
   CaseSurface extract(const SheetField& field, SurfaceReport& report) {
@@ -187,7 +188,7 @@ void requireModels(const formats::Case& source) {
 
 SurfaceMesh quickSurface(const formats::Case& source, Progress& progress) {
   requireModels(source);
-  const field::BlendedField blended = formats::blendedFieldOf(source);
+  const field::BlendedField blended = formats::caseField(source);
   const SheetField field(source, blended, {gapOf(source, {}), 0, 0});
   ExtractionReport ignored;
   return toSurfaceMesh(extractSurface(field, kQuickShare, ignored, progress), field, progress);

@@ -55,7 +55,7 @@ std::vector<bool> flatGroups(const CaseSurface& surface) {
 void collapse(CaseSurface& surface, const SheetField& field, const CollapseBounds& bounds,
               const Progress& progress) {
   RemeshState state = stateOf(surface);
-  const PieceRules rules = rulesOf(surface, field, progress);
+  const PieceRules rules = pieceRules(surface, field, progress);
   TriangleList all(surface.mesh.triangle.size());
   std::iota(all.begin(), all.end(), 0U);
   std::vector<Piece> piece{cutOut(state, all)};

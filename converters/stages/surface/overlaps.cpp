@@ -9,7 +9,7 @@
 
 namespace lumen::convert {
 
-std::vector<Overlap> overlapsOf(const CaseSurface& surface, const SheetField& field) {
+std::vector<Overlap> findOverlaps(const CaseSurface& surface, const SheetField& field) {
   const std::size_t count = surface.mesh.position.size();
   std::vector<SheetSample> samples(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t v) {

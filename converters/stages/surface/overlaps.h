@@ -21,6 +21,6 @@ struct Overlap {
 
 /// The pairs of branches whose walls the surface keeps apart although the field's would overlap,
 /// the deepest first.
-std::vector<Overlap> overlapsOf(const CaseSurface& surface, const SheetField& field);
+std::vector<Overlap> findOverlaps(const CaseSurface& surface, const SheetField& field);
 
 }  // namespace lumen::convert

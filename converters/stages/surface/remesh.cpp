@@ -97,7 +97,7 @@ RemeshReport reportOf(const RemeshState& state, const PieceRules& rules) {
 
 RemeshReport remesh(CaseSurface& surface, const SheetField& field, const EdgeLength& edge,
                     Progress& progress) {
-  const PieceRules rules = rulesOf(surface, field, progress);
+  const PieceRules rules = pieceRules(surface, field, progress);
   const std::size_t vertices = surface.mesh.position.size();
   RemeshState state{surface, targetLengths(surface, field, edge), {}, {}, {}, {}};
   state.gradient.assign(vertices, Eigen::Vector3d::Zero());

@@ -116,7 +116,8 @@ void dropUnused(RemeshState& state) {
 
 }  // namespace
 
-PieceRules rulesOf(const CaseSurface& surface, const SheetField& field, const Progress& progress) {
+PieceRules pieceRules(const CaseSurface& surface, const SheetField& field,
+                      const Progress& progress) {
   PieceRules rules{field, progress, {}};
   rules.plane.resize(surface.groups.size());
   for (const SurfaceEnd& end : surface.ends)

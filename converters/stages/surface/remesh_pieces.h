@@ -20,7 +20,8 @@ struct RemeshState {
 };
 
 /// The rules of a surface: which of its groups are flat.
-PieceRules rulesOf(const CaseSurface& surface, const SheetField& field, const Progress& progress);
+PieceRules pieceRules(const CaseSurface& surface, const SheetField& field,
+                      const Progress& progress);
 
 using TriangleList = std::vector<std::uint32_t>;
 

@@ -2,14 +2,13 @@
 #include "converters/stages/surface/surface_size.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <string>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/vectors.h"
 
 namespace lumen::convert {
@@ -17,12 +16,6 @@ namespace {
 
 // The factor by which the search for an edge that is enough proceeds.
 constexpr double kCoarser = 1.1, kMostCoarse = 1e15;
-
-std::string shown(const char* format, double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 // Length of vessel between a node and its parent, mm.
 double lengthAt(const formats::CenterlineTree& tree, std::size_t node) {
@@ -42,7 +35,7 @@ EdgeLength longer(EdgeLength edge, double factor) {
 // A length rounded up to two digits.
 std::string roundedUp(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
-  return shown("%.12g", std::ceil(value / unit) * unit);
+  return shownNumber(std::ceil(value / unit) * unit, 12);
 }
 
 }  // namespace
@@ -65,9 +58,9 @@ void requireFewTriangles(const formats::CenterlineTree& tree, const EdgeLength& 
   const double expected = expectedTriangles(tree, edge, thickness);
   if (expected <= kMaxSurfaceTriangles) return;
   const std::string found =
-      "the surface would have about " + shown("%.2g", expected) + " triangles, which take " +
-      shown("%.2g", std::max(1.0, expected * kBytesPerTriangle / 1e9)) +
-      " GB while it is made; expected at most " + shown("%.2g", kMaxSurfaceTriangles) + ": ";
+      "the surface would have about " + shownNumber(expected, 2) + " triangles, which take " +
+      shownNumber(std::max(1.0, expected * kBytesPerTriangle / 1e9), 2) +
+      " GB while it is made; expected at most " + shownNumber(kMaxSurfaceTriangles, 2) + ": ";
   EdgeLength withoutSag = edge;
   withoutSag.sag = {};
   if (expectedTriangles(tree, withoutSag, thickness) <= kMaxSurfaceTriangles)

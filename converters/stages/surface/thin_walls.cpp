@@ -2,15 +2,14 @@
 #include "converters/stages/surface/thin_walls.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "converters/base/number_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -26,14 +25,13 @@ struct ThinWall {
 };
 
 std::string sentenceOf(const ThinWall& wall, const formats::CenterlineTree& tree) {
-  std::array<char, 120> text{};
-  std::snprintf(text.data(), text.size(), " is down to %.3g mm thick at (%.1f, %.1f, %.1f)",
-                wall.thickness, wall.place.x(), wall.place.y(), wall.place.z());
   std::string between = "the wall of " + formats::printable(tree.branches[wall.branch].label);
   between += " where it touches ";
   between += wall.branch == wall.other ? std::string("itself")
                                        : formats::printable(tree.branches[wall.other].label);
-  return between + text.data();
+  const Eigen::Vector3d& p = wall.place;
+  return between + " is down to " + shownNumber(wall.thickness, 3) + " mm thick at (" +
+         fixedText(p.x(), 1) + ", " + fixedText(p.y(), 1) + ", " + fixedText(p.z(), 1) + ")";
 }
 
 }  // namespace

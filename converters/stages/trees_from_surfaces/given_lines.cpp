@@ -97,7 +97,7 @@ VesselLines linesOf(const CenterlineFile& centerline, const std::string& name,
                         std::to_string(inside.size()) +
                         " points lie outside of the surface; vessels end where they leave it");
   std::vector<int> lineOfChain;
-  for (const CenterlineChain& chain : chainsOf(centerline)) {
+  for (const CenterlineChain& chain : centerlineChains(centerline)) {
     VesselLine line;
     line.parent = chain.parent < 0 ? -1 : lineOfChain[static_cast<std::size_t>(chain.parent)];
     line.point = pointsOf(centerline, chain, inside);

@@ -49,7 +49,7 @@ TEST(Html, AltTextsAreEscaped) {
 }
 
 TEST(Html, AddressesAndScriptsTakeAnyText) {
-  EXPECT_EQ(addressOf("a+b/c d\"<é"), "a%2Bb/c%20d%22%3C%C3%A9");
+  EXPECT_EQ(urlAddress("a+b/c d\"<é"), "a%2Bb/c%20d%22%3C%C3%A9");
   EXPECT_EQ(jsonInScript("[\"</script>&\xE2\x80\xA8\xE2\x80\xA9\"]"),
             "[\"\\u003c/script\\u003e\\u0026\\u2028\\u2029\"]");
 }

@@ -49,14 +49,14 @@ export class Actions {
   async save(): Promise<void> {
     const { state } = this.app.store.get();
     if (!state.hasCase) {
-      this.app.say("There is no case to save yet: track a vessel first.", "warning");
+      this.app.inform("There is no case to save yet: track a vessel first.", "warning");
       return;
     }
     if (state.saveAs === null) this.download("lumen");
     else await this.saveFile(); // the message names the file
   }
   private async saveFile(): Promise<void> {
-    const { source, store, say } = this.app;
+    const { source, store, inform } = this.app;
     try {
       await source.perform({ op: "save" }, store.get().state.revision);
     } catch (error) {
@@ -67,7 +67,7 @@ export class Actions {
         error.status !== 409 ||
         !files.some(f => f.name === saveAs && f.changed)
       ) {
-        say(text, "error");
+        inform(text, "error");
         return;
       }
       if (await askYes("Overwrite the file?", text, "Overwrite"))
@@ -89,10 +89,10 @@ export class Actions {
   async openFiles(files: File[], as: "auto" | "truth" = "auto"): Promise<void> {
     for (const file of files) {
       try {
-        this.app.say(`Opening ${file.name}…`);
+        this.app.inform(`Opening ${file.name}…`);
         await this.app.source.open(file.name, as, file);
       } catch (error) {
-        this.app.say(
+        this.app.inform(
           error instanceof Refused || error instanceof Error ? error.message : String(error),
           "error",
         );

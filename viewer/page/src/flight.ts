@@ -75,12 +75,12 @@ export class Flight {
   start(): void {
     const { tree, selected, node } = this.app.store.get();
     if (tree === null || selected < 0) {
-      this.app.say("Select the vessel to fly into first.", "warning");
+      this.app.inform("Select the vessel to fly into first.", "warning");
       return;
     }
     const nodes = tree.wayTo(selected);
     if (nodes.length < 3) {
-      this.app.say("This vessel is too short for a flight.", "warning");
+      this.app.inform("This vessel is too short for a flight.", "warning");
       return;
     }
     this.way = wayOf(

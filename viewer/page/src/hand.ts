@@ -106,33 +106,33 @@ export class Hand {
     const { app } = this,
       { store, source } = app;
     if (!source.live) {
-      app.say("This page is one file: seeds are placed in lumen view.", "warning");
+      app.inform("This page is one file: seeds are placed in lumen view.", "warning");
       return;
     }
     const { volume, state } = store.get();
     if (volume !== null && !volume.holds(p)) {
-      app.say("This place is outside of the volume.", "warning");
+      app.inform("This place is outside of the volume.", "warning");
       return;
     }
     if (!state.hasVolume) {
-      app.say("Seeds are placed in a volume: open one first.", "warning");
+      app.inform("Seeds are placed in a volume: open one first.", "warning");
       return;
     }
     let snap: Snap | null = null;
     try {
       snap = await source.snap(p);
     } catch (error) {
-      app.say(error instanceof Error ? error.message : String(error), "error");
+      app.inform(error instanceof Error ? error.message : String(error), "error");
       return;
     }
     const point = snap.found ? snap.position : p;
     if (store.get().crosshair === p) store.set({ crosshair: point }); // unless the user has gone elsewhere meanwhile
     if (!snap.found)
-      app.say(
+      app.inform(
         `${sentence(snap.reason ?? "no vessel was found near there")} The seed stays where you clicked.`,
         "warning",
       );
-    else app.say(`On the axis of a vessel, radius ${brief(snap.radius)} mm.`);
+    else app.inform(`On the axis of a vessel, radius ${brief(snap.radius)} mm.`);
     const made = { position: point, radius: snap.found ? snap.radius : null };
     if (this.seedKind === "vessel") await this.addSeed([made], "vessel");
     else store.set({ clicks: [...store.get().clicks, made] });
@@ -168,7 +168,7 @@ export class Hand {
     this.app.store.set({ crosshair: place.position });
     if (this.app.source.live && !state.seeds.some(seed => same(seed.points[0].position)))
       void this.app.perform({ op: "seedAdd", kind: "vessel", points }).then(done => {
-        if (done) this.app.say("A seed was placed there. Track it with “Track all”, key T.");
+        if (done) this.app.inform("A seed was placed there. Track it with “Track all”, key T.");
       });
   }
 
@@ -213,7 +213,7 @@ export class Hand {
     const { blob, tree } = this.app.store.get(),
       node = this.nodeAt(p, hit);
     if (tree === null || blob === null || node < 0) {
-      this.app.say("A section needs a case with models: fit it first.", "warning");
+      this.app.inform("A section needs a case with models: fit it first.", "warning");
       return;
     }
     goToNode(this.app, node);
@@ -232,7 +232,7 @@ export class Hand {
     const branch = tree.branch[node],
       [gap] = gaps(tree, blob, 1, branch);
     select(this.app, branch);
-    if (gap === undefined) this.app.say(`No other vessel comes near ${tree.branches[branch].label}.`);
+    if (gap === undefined) this.app.inform(`No other vessel comes near ${tree.branches[branch].label}.`);
     else this.showGap(gap.from, gap.to, gap.gap, tree.branches[gap.a].label, tree.branches[gap.b].label);
   }
   showGap(from: Vec3, to: Vec3, gap: number, a: string, b: string): void {
@@ -253,7 +253,7 @@ export class Hand {
     if (tree === null || !this.app.source.live) return false;
     const node = tree.nearest(p, b => (selected >= 0 ? b === selected : isShown(view, b)));
     if (node < 0 || distance(tree.position(node), p) > 2 * tree.radius[node]) {
-      this.app.say("There is no node near there; select its vessel first.", "warning");
+      this.app.inform("There is no node near there; select its vessel first.", "warning");
       return true;
     }
     goToNode(this.app, node);

@@ -65,7 +65,7 @@ export function libraryPanel(app: App): HTMLElement[] {
     }
     seen = now;
     void fetchIt().catch((error: unknown) =>
-      app.say(
+      app.inform(
         `The library could not be read: ${error instanceof Error ? error.message : String(error)}`,
         "error",
       ),
@@ -102,13 +102,13 @@ function row(app: App, each: LibraryCase, index: number, isOpen: boolean, busy: 
 
 /** Opens a case; asks first where changes of the one that is open are not saved. */
 async function openCase(app: App, index: number): Promise<void> {
-  const { source, store, say } = app;
+  const { source, store, inform } = app;
   try {
     await source.perform({ op: "openCase", index }, store.get().state.revision);
   } catch (error) {
     const text = error instanceof Error ? error.message : String(error);
     if (!(error instanceof Refused) || error.status !== 409 || !store.get().state.unsaved) {
-      say(text, "error");
+      inform(text, "error");
       return;
     }
     if (

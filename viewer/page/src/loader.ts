@@ -75,7 +75,7 @@ export class Loader {
     if (key === this.seen.distance) return;
     this.seen.distance = key;
     void this.takeDistance(surface).catch((error: unknown) =>
-      this.app.say(error instanceof Error ? error.message : String(error), "error"),
+      this.app.inform(error instanceof Error ? error.message : String(error), "error"),
     );
   }
 
@@ -120,7 +120,7 @@ export class Loader {
   }
 
   private async openModel(tree: Tree | null): Promise<void> {
-    const { store, source, say } = this.app;
+    const { store, source, inform } = this.app;
     if (tree?.hasModels !== true) {
       store.set({ blob: null });
       return;
@@ -135,7 +135,7 @@ export class Loader {
       store.set({ blob: library === null || file === null ? null : library.open(file) });
     } catch (error) {
       store.set({ blob: null });
-      say(
+      inform(
         `The probe and the wire are not available: ${error instanceof Error ? error.message : String(error)}`,
         "warning",
       );
@@ -162,7 +162,7 @@ export class Loader {
       this.showSurface(await this.pack("surface", { level: String(level) }), ofCase, live);
     } catch (error) {
       if (live())
-        this.app.say(
+        this.app.inform(
           `The surface could not be shown: ${error instanceof Error ? error.message : String(error)}`,
           "warning",
         );

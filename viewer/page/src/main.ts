@@ -40,13 +40,13 @@ function makeApp(source: Source, shell: Shell): App {
     store,
     source,
     stage: new Stage(shell.canvas),
-    say: (text, severity) => toast(shell, text, severity),
+    inform: (text, severity) => toast(shell, text, severity),
     perform: async operation => {
       try {
         await performer.perform(operation);
         return true;
       } catch (error) {
-        app.say(
+        app.inform(
           error instanceof Refused
             ? error.message
             : `The operation failed: ${error instanceof Error ? error.message : String(error)}`,

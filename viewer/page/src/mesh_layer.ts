@@ -93,7 +93,7 @@ export class MeshLayer {
       );
       this.fit(position);
     } catch (error) {
-      app.say(error instanceof Error ? error.message : String(error), "error");
+      app.inform(error instanceof Error ? error.message : String(error), "error");
     }
   }
 

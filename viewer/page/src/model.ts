@@ -158,8 +158,8 @@ export interface App {
   store: Store<View>;
   source: Source;
   stage: Stage;
-  /** Tells the user in a line that goes away, and to assistive technology. */
-  say: (text: string, severity?: "note" | "warning" | "error") => void;
+  /** Shows the user a line that goes away, and to assistive technology. */
+  inform: (text: string, severity?: "note" | "warning" | "error") => void;
   /** Changes the document and reports a refusal. True if it was done. */
   perform: (operation: { op: string; [key: string]: unknown }) => Promise<boolean>;
 }

@@ -10,7 +10,7 @@ const bytes = makePack(
   },
 );
 
-/** A pack whose only array is stored as `place` says. */
+/** A pack whose only array is stored as `place` states. */
 function coded(place: Record<string, unknown>, stored: Uint8Array): Uint8Array {
   const text = JSON.stringify({ arrays: { a: { ...place, offset: 0 } } }),
     header = Math.ceil((text.length + 4) / 8) * 8 - 4;

@@ -131,7 +131,7 @@ describe("fromBase64", () => {
   });
 });
 describe("Store", () => {
-  it("tellsOnlyWhoWatchesTheKey", () => {
+  it("callsOnlyWatchersOfTheKey", () => {
     const store = new Store({ a: 1, b: 1 }),
       seen: string[] = [];
     store.watch(["a"], v => seen.push(`a${v.a}`));

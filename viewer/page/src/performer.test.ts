@@ -9,7 +9,7 @@ beforeAll(() => {
   globalThis.window ??= globalThis as never;
 });
 
-/** A document that counts its revisions and tells them late. */
+/** A document that counts its revisions and reports them late. */
 function slowDocument(store: Store<View>): { source: Source; asked: [string, number][] } {
   const asked: [string, number][] = [];
   let now = 7;

@@ -50,7 +50,7 @@ export class Watcher {
     this.taking = this.taking
       .then(() => this.loader.take(state))
       .catch((error: unknown) =>
-        this.app.say(
+        this.app.inform(
           `Not all could be shown: ${error instanceof Error ? error.message : String(error)}`,
           "error",
         ),
@@ -80,10 +80,10 @@ export class Watcher {
         break;
       case "done":
         store.set({ job: null });
-        if (event.text !== "") this.app.say(event.text, event.ok ? "note" : "error");
+        if (event.text !== "") this.app.inform(event.text, event.ok ? "note" : "error");
         break;
       case "message":
-        this.app.say(event.text, event.severity);
+        this.app.inform(event.text, event.severity);
         break;
       case "lost":
         store.set({ lost: true });
@@ -109,7 +109,7 @@ export class Watcher {
     );
     for (const file of state.files)
       if (file.changed && !known.has(file.id))
-        this.app.say(`Another program has written ${file.name}: here it is as it was read.`, "warning");
+        this.app.inform(`Another program has written ${file.name}: here it is as it was read.`, "warning");
   }
 
   private showProgress(): void {

@@ -43,7 +43,7 @@ export class WireTool {
   place(): void {
     const { tree, blob, selected } = this.app.store.get();
     if (tree === null || blob === null) {
-      this.app.say("The wire needs a case with models: fit it first.", "warning");
+      this.app.inform("The wire needs a case with models: fit it first.", "warning");
       return;
     }
     this.remove();

@@ -152,7 +152,7 @@ function checkSection(app: App, actions: Actions, hand: Hand): HTMLElement {
       wall = state.check?.wall?.offset_mm;
     about.textContent =
       state.check === null
-        ? "Tells where the wall leaves the volume's edges, and what looks like a vessel and is none."
+        ? "Reports where the wall leaves the volume's edges, and places that look like a vessel and are none."
         : `${missing.length === 0 ? "Nothing bright is missing" : missing.length === 1 ? "One place looks like a vessel that is missing" : `${missing.length} places look like vessels that are missing`}; the wall is off the edge by ${mm(wall?.median)} (median), ${mm(wall?.p90_absolute)} (90 %).${
             state.checkIsOld ? " The case has changed since: check again." : ""
           }`;

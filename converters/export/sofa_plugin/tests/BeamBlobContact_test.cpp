@@ -196,7 +196,7 @@ TEST_F(BeamBlobContact, SticksOnAnInclineBelowTheAngleOfFriction) {
   EXPECT_NEAR(acceleration(0.3, std::atan(0.25)), 0, 0.02 * kGravity);
 }
 
-TEST_F(BeamBlobContact, SlidesOnAnInclineAsCoulombSays) {
+TEST_F(BeamBlobContact, SlidesOnAnInclineAsCoulombStates) {
   const double angle = std::atan(0.4);
   for (const double friction : {0.0, 0.1, 0.3}) {
     const double expected = kGravity * (std::sin(angle) - friction * std::cos(angle));

@@ -41,47 +41,48 @@ struct Messages : sofa::testing::BaseSimulationTest {
   }
 };
 
-void expectTold(const std::string& told, const std::string& sentence) {
-  EXPECT_NE(told.find(sentence), std::string::npos)
-      << "expected: " << sentence << "\ntold: " << told;
+void expectMessage(const std::string& messages, const std::string& sentence) {
+  EXPECT_NE(messages.find(sentence), std::string::npos)
+      << "expected: " << sentence << "\ntold: " << messages;
 }
 
-TEST_F(Messages, TellWhichCaseIsMissing) {
-  expectTold(run(withField("absent.lumen")), "absent.lumen': there is no such file");
+TEST_F(Messages, StateWhichCaseIsMissing) {
+  expectMessage(run(withField("absent.lumen")), "absent.lumen': there is no such file");
 }
 
-TEST_F(Messages, TellThatAFileIsNoCase) {
-  expectTold(run(withField("broken.lumen")), "broken.lumen' is not a case that can be used: ");
+TEST_F(Messages, StateThatAFileIsNoCase) {
+  expectMessage(run(withField("broken.lumen")), "broken.lumen' is not a case that can be used: ");
 }
 
-TEST_F(Messages, TellThatACaseHasNoModels) {
-  expectTold(run(withField("unfitted.lumen")),
-             "unfitted.lumen' has no models: 'lumen fit' makes them");
+TEST_F(Messages, StateThatACaseHasNoModels) {
+  expectMessage(run(withField("unfitted.lumen")),
+                "unfitted.lumen' has no models: 'lumen fit' makes them");
 }
 
-TEST_F(Messages, TellWhichBranchesThereAre) {
-  expectTold(run(withField("touching.lumen", "branch='carotid'")),
-             "touching.lumen' has no branch 'carotid'; it has b000, b001");
+TEST_F(Messages, StateWhichBranchesThereAre) {
+  expectMessage(run(withField("touching.lumen", "branch='carotid'")),
+                "touching.lumen' has no branch 'carotid'; it has b000, b001");
 }
 
-TEST_F(Messages, TellWhichDomainsThereAre) {
-  expectTold(run(withField("tube.lumen", "domain='global'")),
-             "domain is 'global'; expected blended or local");
+TEST_F(Messages, StateWhichDomainsThereAre) {
+  expectMessage(run(withField("tube.lumen", "domain='global'")),
+                "domain is 'global'; expected blended or local");
 }
 
-TEST_F(Messages, TellThatAContactHasNoField) {
-  expectTold(run(wire("0 0 0 1", "<BeamBlobContact radius='0.2'/>")), "no field: ");
+TEST_F(Messages, StateThatAContactHasNoField) {
+  expectMessage(run(wire("0 0 0 1", "<BeamBlobContact radius='0.2'/>")), "no field: ");
 }
 
-TEST_F(Messages, TellWhichNumbersAreAllowed) {
+TEST_F(Messages, StateWhichNumbersAreAllowed) {
   const auto with = [](const std::string& attribute) {
     return field("tube.lumen") +
            wire("0 0 0 1", "<BeamBlobContact field='@/vessel/wall' " + attribute + "/>");
   };
-  expectTold(run(with("samples='0'")), "samples is 0; expected 1 to 64");
-  expectTold(run(with("friction='-1'")), "friction is -1; expected a number from 0");
-  expectTold(run(with("alarmDistance='-0.5'")), "alarmDistance is -0.5; expected a number from 0");
-  expectTold(run(with("radius='-0.5'")), "radius is -0.5; expected a number from 0");
+  expectMessage(run(with("samples='0'")), "samples is 0; expected 1 to 64");
+  expectMessage(run(with("friction='-1'")), "friction is -1; expected a number from 0");
+  expectMessage(run(with("alarmDistance='-0.5'")),
+                "alarmDistance is -0.5; expected a number from 0");
+  expectMessage(run(with("radius='-0.5'")), "radius is -0.5; expected a number from 0");
 }
 
 }  // namespace

@@ -203,7 +203,7 @@ private:
       add(name + ".raw", std::move(bytes), "");
     };
     const std::vector<std::uint16_t> branches = branchesOf(grid);
-    addPair("distance", "MET_FLOAT", distancesOf<float>(grid, 1), kDistances);
+    addPair("distance", "MET_FLOAT", distanceBytes<float>(grid, 1), kDistances);
     addPair("branch", "MET_USHORT",
             {reinterpret_cast<const char*>(branches.data()), 2 * branches.size()}, kBranches);
   }

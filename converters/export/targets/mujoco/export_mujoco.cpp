@@ -149,14 +149,14 @@ std::string startOf(const Scene& scene) {
 ExportResult exportMujoco(const ExportInput& input) {
   const Wire thickness;
   const Insertion insertion =
-      insertionOf(input.source.tree, input.options.insert, thickness.radius * 1e3);
+      findInsertion(input.source.tree, input.options.insert, thickness.radius * 1e3);
   Solid solid = solidOf(input);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
   Wire wire = wireFor(insertion);
   // walls out of the wire's reach cost memory and time, and are most of a large tree
   solid.surface.mesh = wallsInReach(std::move(solid.surface.mesh), input.source.tree,
                                     insertion.node, wire.length() * 1e3);
-  const std::vector<SurfaceMesh> pieces = piecesOf(solid.surface.mesh, kCells, kCellRadii);
+  const std::vector<SurfaceMesh> pieces = cutIntoPieces(solid.surface.mesh, kCells, kCellRadii);
   shorten(wire, pieces, input, insertion);
   const Scene scene{input, solid, pieces.size(), insertion, wire};
 

@@ -10,7 +10,7 @@ namespace lumen::convert {
 /// scene.xml, whose wire bends by the plugin mujoco.elasticity.cable; scene-joints.xml, that scene
 /// for engines without plugins; meshes/wall_K.stl. Metres. The solid is all that is not lumen, or
 /// with a thickness in the options a wall of it, within reach of the wire. Throws as lumenSurface()
-/// and insertionOf().
+/// and findInsertion().
 ExportResult exportMujoco(const ExportInput& input);
 
 TargetRow mujocoRow();

@@ -152,7 +152,7 @@ SurfaceMesh meshOf(const Facets& facets) {
 
 }  // namespace
 
-std::vector<SurfaceMesh> piecesOf(const SurfaceMesh& mesh, std::size_t cells, double share) {
+std::vector<SurfaceMesh> cutIntoPieces(const SurfaceMesh& mesh, std::size_t cells, double share) {
   std::vector<Facets> pieces;
   split(facetsOf(mesh), cells, share, pieces);
   if (pieces.size() == 1) return {mesh};

@@ -15,6 +15,6 @@ namespace lumen::convert {
 /// would not hold the wall that is nearest. One piece if nothing needs cutting: the mesh itself. A
 /// piece holds all of the surface in its box, so the side of its nearest triangle on which a point
 /// of the box lies is the side of the surface on which it lies.
-std::vector<SurfaceMesh> piecesOf(const SurfaceMesh& mesh, std::size_t cells, double share);
+std::vector<SurfaceMesh> cutIntoPieces(const SurfaceMesh& mesh, std::size_t cells, double share);
 
 }  // namespace lumen::convert

@@ -155,7 +155,7 @@ ExportResult exportOneD(const ExportInput& input) {
   if (lengthened > 0)
     result.losses.push_back("segments that are shorter than their radius are as long as it here: " +
                             std::to_string(lengthened));
-  result.remarks = {summaryOf(network),
+  result.remarks = {networkSummary(network),
                     "stubs where more than three vessels meet: " + std::to_string(stubs)};
   return result;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/export/targets/print/three_mf.h"
 
-#include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -11,6 +9,7 @@
 #include <zlib.h>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/export/shared/export_text.h"
 
 namespace lumen::convert {
@@ -18,10 +17,7 @@ namespace lumen::convert {
 namespace {
 
 void appendFloat(std::string& text, float value) {
-  std::array<char, 32> digits{};
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value == 0 ? 0.0F : value);
-  text.append(digits.data(), end.ptr);
+  text += shortestText(value == 0 ? 0.0F : value);  // without a sign of zero
 }
 
 std::string modelOf(const SurfaceMesh& mesh, const std::string& name) {

@@ -136,7 +136,7 @@ void toV23_06(SceneItem& root) {
   for (SceneItem& child : root.children) toV23_06(child);
 }
 
-std::string pluginOf(const std::string& type) {
+std::string sofaPlugin(const std::string& type) {
   const auto found = plugins().find(type);
   if (found == plugins().end()) throw std::logic_error(type + " has no plugin");
   return std::string(found->second);
@@ -145,7 +145,7 @@ std::string pluginOf(const std::string& type) {
 void addPlugins(SceneItem& root) {
   std::set<std::string> types, names;
   collectTypes(root, types);
-  for (const std::string& type : types) names.insert(pluginOf(type));
+  for (const std::string& type : types) names.insert(sofaPlugin(type));
   names.erase("");
   std::vector<SceneItem> items;
   for (const std::string& name : names) {

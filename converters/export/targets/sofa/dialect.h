@@ -12,6 +12,6 @@ void toV23_06(SceneItem& root);
 
 /// The plugin of a component; empty for those of the core. A component that is not in the table is
 /// a mistake of this library.
-std::string pluginOf(const std::string& type);
+std::string sofaPlugin(const std::string& type);
 
 }  // namespace lumen::convert

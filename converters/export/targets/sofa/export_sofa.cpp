@@ -28,7 +28,7 @@ namespace {
 
 double insertedRadius(InstrumentKind kind) {
   double greatest = 0;
-  for (const Instrument& one : instrumentsOf(kind, 100, 1))
+  for (const Instrument& one : makeInstruments(kind, 100, 1))
     greatest = std::max(greatest, one.radius());
   return greatest;
 }
@@ -39,11 +39,11 @@ SceneInput inputOf(const ExportInput& asked, const SofaOptions& options) {
   const formats::CenterlineTree& tree = asked.source.tree;
   SceneInput input;
   input.insertion =
-      insertionOf(tree, asked.options.insert, clearanceFor(insertedRadius(options.instrument)));
+      findInsertion(tree, asked.options.insert, clearanceFor(insertedRadius(options.instrument)));
   input.branch = tree.branches[input.insertion.branch].label;
   input.instruments =
-      instrumentsOf(options.instrument, std::max(kLeast, input.insertion.way + kBehind),
-                    kCurlShare * input.insertion.radius);
+      makeInstruments(options.instrument, std::max(kLeast, input.insertion.way + kBehind),
+                      kCurlShare * input.insertion.radius);
   if (options.instrument == InstrumentKind::Coil)
     input.insertion.way = input.instruments.front().length();
   // a grid is touched at the ends of beams only, and edges of the wall pass between those; a coil,
@@ -79,7 +79,7 @@ std::string startOf(const SceneInput& input, const SofaOptions& options) {
   return exportText("sofa/README.md",
                     {{"about", about},
                      {"plugin", options.wall == WallKind::Implicit ? " -l libLumenSofa.so" : ""},
-                     {"steps", std::to_string(stepsOf(input, options))},
+                     {"steps", std::to_string(stepCount(input, options))},
                      {"plugins", pluginsOf(options.wall)},
                      {"release", options.dialect == SofaDialect::V23_06 ? "v23.06" : "v25.06"}});
 }
@@ -94,12 +94,12 @@ void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& in
   const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);
   scene.grid = {lattice.size, lattice.first, lattice.last()};
   result.losses = gridLosses(spacing, input.source.tree);
-  result.files.push_back({"wall.raw", distancesOf<double>(grid, -1),
+  result.files.push_back({"wall.raw", distanceBytes<double>(grid, -1),
                           "distances to the wall, mm, positive in the lumen, doubles, x fastest",
                           ""});
   result.files.push_back({"distance.mhd", metaImageHeader(lattice, "MET_FLOAT", "distance.raw"),
                           "the same in floats, in `distance.raw`, for a DiscreteGridField", ""});
-  result.files.push_back({"distance.raw", distancesOf<float>(grid, -1), "", ""});
+  result.files.push_back({"distance.raw", distanceBytes<float>(grid, -1), "", ""});
 }
 
 void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOptions& options) {
@@ -116,7 +116,7 @@ std::string insertedText(const SceneInput& input, const SofaOptions& options) {
   const Eigen::Vector3d& p = input.insertion.position;
   return "inserted in " + formats::printable(input.branch) + " at (" + fixedText(p.x(), 2) + ", " +
          fixedText(p.y(), 2) + ", " + fixedText(p.z(), 2) + ") mm, " +
-         std::to_string(stepsOf(input, options)) + " steps";
+         std::to_string(stepCount(input, options)) + " steps";
 }
 
 }  // namespace

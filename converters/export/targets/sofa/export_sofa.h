@@ -7,7 +7,7 @@
 
 namespace lumen::convert {
 
-/// The files, in mm and LPS. Throws as insertionOf() and lumenSurface().
+/// The files, in mm and LPS. Throws as findInsertion() and lumenSurface().
 ExportResult exportSofa(const ExportInput& input, const SofaOptions& options);
 
 TargetRow sofaRow();

@@ -90,7 +90,7 @@ int Instrument::beams() const {
   return sum;
 }
 
-std::vector<Instrument> instrumentsOf(InstrumentKind kind, double length, double curl) {
+std::vector<Instrument> makeInstruments(InstrumentKind kind, double length, double curl) {
   switch (kind) {
     case InstrumentKind::Catheter:
       return {catheter(length)};

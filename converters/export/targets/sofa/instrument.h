@@ -37,6 +37,6 @@ enum class InstrumentKind { Guidewire, Catheter, Coil };
 /// The instruments of a scene, the outermost first: a guidewire comes within a catheter. `length`,
 /// mm, is the length that can be pushed in; a coil has its own length and rests in circles of
 /// `curl`, mm.
-std::vector<Instrument> instrumentsOf(InstrumentKind kind, double length, double curl);
+std::vector<Instrument> makeInstruments(InstrumentKind kind, double length, double curl);
 
 }  // namespace lumen::convert

@@ -130,7 +130,7 @@ double clearanceFor(double radius) {
   return radius + kAlarm;
 }
 
-int stepsOf(const SceneInput& input, const SofaOptions& options) {
+int stepCount(const SceneInput& input, const SofaOptions& options) {
   return static_cast<int>(actionsOf(input, options.step).size());
 }
 
@@ -156,7 +156,8 @@ std::vector<std::string> aboutScene(const SceneInput& input, const SofaOptions& 
       "Positions are those of the case: patient coordinates, LPS, in mm. Masses are in kg and time",
       "is in s, so moduli are in kPa (kg / (mm s^2)), forces in mN and densities in kg / mm^3.",
       "The instrument advances " + numberText(options.step) + " mm in a time step of " +
-          numberText(kTimeStep) + " s, for " + std::to_string(stepsOf(input, options)) + " steps.",
+          numberText(kTimeStep) + " s, for " + std::to_string(stepCount(input, options)) +
+          " steps.",
       "Sources of the instruments' values: docs/sofa.md of lumen."};
 }
 

@@ -32,7 +32,7 @@ struct SceneInput {
 double clearanceFor(double radius);
 
 /// Number of time steps of the insertion.
-int stepsOf(const SceneInput& input, const SofaOptions& options);
+int stepCount(const SceneInput& input, const SofaOptions& options);
 
 SceneItem makeScene(const SceneInput& input, const SofaOptions& options);
 

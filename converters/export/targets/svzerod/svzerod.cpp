@@ -134,7 +134,7 @@ ExportResult exportSvZeroD(const ExportInput& input) {
   result.losses = network.messages;
   for (std::string& warning : pressureWarnings(network))
     result.losses.push_back(std::move(warning));
-  result.remarks = {summaryOf(network)};
+  result.remarks = {networkSummary(network)};
   return result;
 }
 

@@ -2,12 +2,11 @@
 #include "converters/stages/surface/patches/cell_size.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/vectors.h"
 
 namespace lumen::convert {
@@ -73,12 +72,10 @@ void checkCell(const formats::Case& source, double cell) {
   if (isFeasible(source, cell)) return;
   double enough = cell;
   while (std::isfinite(enough) && !isFeasible(source, enough)) enough *= kCoarser;
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "a cell of %g mm is too small for this case: its mesh would not fit into memory; "
-                "expected a cell of %g mm or more",
-                cell, twoDigitsUp(enough));
-  throw invalidInput(text.data());
+  throw invalidInput("a cell of " + shownNumber(cell) +
+                     " mm is too small for this case: its mesh would not fit into memory; "
+                     "expected a cell of " +
+                     shownNumber(twoDigitsUp(enough)) + " mm or more");
 }
 
 }  // namespace lumen::convert

@@ -281,7 +281,7 @@ Patches polygonise(const formats::Case& source, const PolygoniseOptions& options
   const double cell = cellOf(source, options);
   checkCell(source, cell);
   const formats::Neighbours edges(source.tree);
-  const field::BlendedField surface = formats::blendedFieldOf(source);
+  const field::BlendedField surface = formats::caseField(source);
   const Source all{source, edges, surface};
   std::vector<NodePatch> parts(source.tree.nodeCount());
   progress.begin("mesh", parts.size());

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "converters/base/shown_figures.h"
+#include "converters/base/shown_lines.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 
 #include "formats/container/printable.h"
 
@@ -20,28 +17,6 @@ std::size_t textWidth(const std::string& text) {
 }
 
 }  // namespace
-
-std::string fixed(std::optional<double> value, int digits) {
-  if (!value || !std::isfinite(*value)) return "-";
-  std::array<char, 400> text{};  // the greatest double has 309 digits
-  std::snprintf(text.data(), text.size(), "%.*f", digits, *value);
-  return text.data();
-}
-
-std::string shownFigure(double value) {
-  if (!std::isfinite(value)) return "?";
-  const double size = std::abs(value);
-  return fixed(value, size >= 99.95 ? 0 : size >= 9.995 ? 1 : 2);
-}
-
-std::string shownBytes(std::uint64_t bytes) {
-  if (bytes < 1000) return bytes == 1 ? "1 byte" : std::to_string(bytes) + " bytes";
-  double value = static_cast<double>(bytes) / 1000;
-  std::size_t unit = 0;
-  constexpr std::array<const char*, 4> kUnits = {" kB", " MB", " GB", " TB"};
-  for (; value >= 999.5 && unit + 1 < kUnits.size(); ++unit) value /= 1000;
-  return fixed(value, value >= 9.95 ? 0 : 1) + kUnits[unit];
-}
 
 Lines& Lines::add(std::string_view name, std::string_view value) {
   constexpr std::size_t kColumn = 14;
