@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# check_format.sh [--fix] [FILE...]: tells which C and C++ files clang-format-14 would lay out otherwise, all
+# check_format.sh [--fix] [FILE...]: reports the C and C++ files that clang-format-14 would lay out otherwise, all
 # tracked ones without a FILE; with --fix lays them out. Other versions of clang-format differ.
 set -euo pipefail
 fix=0
@@ -25,5 +25,5 @@ elif ! "$format" --dry-run -Werror "${files[@]}"; then
   echo "check_format.sh: tests/check_format.sh --fix lays these files out" >&2
   exit 1
 else
-  echo "${#files[@]} files are laid out as .clang-format says"
+  echo "${#files[@]} files are laid out as .clang-format states"
 fi

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/about_options.h"
 
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/library/json_values.h"
 #include "converters/library/spdx.h"
@@ -130,8 +129,8 @@ void addAboutRows(OptionTable& table, AboutArguments& about) {
   table.group("");
 }
 
-convert::CaseAbout aboutOf(const AboutArguments& arguments, const convert::CaseAbout& known,
-                           const std::string& licence) {
+convert::CaseAbout statedAbout(const AboutArguments& arguments, const convert::CaseAbout& known,
+                               const std::string& licence) {
   convert::CaseAbout about = known;
   if (!arguments.file.empty())
     about = convert::readAbout(readWholeFile(arguments.file, "file about the case"), arguments.file,
@@ -170,10 +169,9 @@ std::string revisionDay(const std::string& given) {
     day = floor<days>(sys_seconds(seconds(value)));
   }
   const year_month_day date(day);
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
-                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
-  return text.data();
+  return paddedNumber(static_cast<std::uint64_t>(static_cast<int>(date.year())), 4) + "-" +
+         paddedNumber(static_cast<unsigned>(date.month()), 2) + "-" +
+         paddedNumber(static_cast<unsigned>(date.day()), 2);
 }
 
 void addDayRow(OptionTable& table, std::string& day) {

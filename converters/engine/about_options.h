@@ -24,8 +24,8 @@ void addAboutRows(OptionTable& table, AboutArguments& about);
 /// The statements of the command line, then those of the file, then `known`; `licence` where none
 /// of them has one. Throws as convert::readAbout(), Error(InvalidInput) for a file that is not
 /// there.
-convert::CaseAbout aboutOf(const AboutArguments& arguments, const convert::CaseAbout& known,
-                           const std::string& licence);
+convert::CaseAbout statedAbout(const AboutArguments& arguments, const convert::CaseAbout& known,
+                               const std::string& licence);
 
 /// A text of `least` to `most` bytes, UTF-8 without control characters.
 ValueCheck textOf(std::size_t least, std::size_t most);

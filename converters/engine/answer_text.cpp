@@ -2,12 +2,11 @@
 #include "converters/engine/answer_text.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -26,10 +25,9 @@ std::size_t pointCount(const formats::Case& value) {
 
 Json jsonNumber(float value) {
   if (!std::isfinite(value)) return nullptr;
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  const std::string text = shortestText(value);
   double shortest = 0;
-  std::from_chars(text.data(), end, shortest);
+  std::from_chars(text.data(), text.data() + text.size(), shortest);
   return shortest;
 }
 
@@ -53,7 +51,7 @@ std::string caseLine(const std::string& file, const formats::Case& value) {
          counted(value.tree.branches.size(), "branch", "branches") + ", " +
          counted(value.tree.nodeCount(), "node", "nodes") + ", " +
          counted(pointCount(value), "point", "points") + ", " +
-         counted(blobCount(value), "blob", "blobs") + ", " + fixed(totalLength(value.tree), 1) +
+         counted(blobCount(value), "blob", "blobs") + ", " + fixedText(totalLength(value.tree), 1) +
          " mm\n";
 }
 

@@ -9,7 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "converters/base/shown_figures.h"
+#include "converters/base/number_text.h"
+#include "converters/base/shown_lines.h"
 #include "converters/base/text.h"
 #include "converters/base/tree_figures.h"
 #include "formats/case/case.h"

@@ -58,9 +58,9 @@ std::string branchTable(const convert::CaseInfo& info) {
   rows.push_back(
       {"branch", "kind", "nodes", "length", "radius", "min", "max", "inliers", "stopped by"});
   for (const auto& b : info.branches)
-    rows.push_back({b.label, b.kind, std::to_string(b.nodes), fixed(b.length, 1),
-                    fixed(b.radius.mean, 3), fixed(b.radius.min, 3), fixed(b.radius.max, 3),
-                    fixed(b.inlierRate, 2), b.stopReason});
+    rows.push_back({b.label, b.kind, std::to_string(b.nodes), fixedText(b.length, 1),
+                    fixedText(b.radius.mean, 3), fixedText(b.radius.min, 3),
+                    fixedText(b.radius.max, 3), fixedText(b.inlierRate, 2), b.stopReason});
   return alignColumns(rows);
 }
 
@@ -90,7 +90,7 @@ void addExtras(const convert::CaseInfo& info, Lines& lines) {
   if (info.links > 0) lines.add("links", std::to_string(info.links));
   if (const auto& rounded = metadata.pointQuantisation)
     lines.add("points", "rounded to " + std::to_string(rounded->bits) + " bits, steps of " +
-                            convert::shownNumber(rounded->step) + " mm");
+                            shownNumber(rounded->step) + " mm");
   for (const auto& name : info.nodeArrays) lines.add("node array", name);
   if (!metadata.parentSha256.empty()) lines.add("made from", "sha256 " + metadata.parentSha256);
   if (!metadata.note.empty()) lines.add("note", metadata.note);
@@ -129,22 +129,24 @@ Json caseInfoJson(const convert::CaseInfo& info) {
 std::string caseInfoText(const convert::CaseInfo& info) {
   Lines lines;
   std::string blobs = std::to_string(info.blobs.value_or(0));
-  if (const auto perNode = blobsPerNode(info)) blobs += " (" + fixed(perNode, 1) + " per node)";
+  if (const auto perNode = blobsPerNode(info)) blobs += " (" + fixedText(perNode, 1) + " per node)";
   lines.add("branches", std::to_string(info.branches.size()))
       .add("nodes", std::to_string(info.nodes))
       .add("points", std::to_string(info.points))
       .add("blobs", blobs)
-      .add("length", fixed(info.length, 1) + " mm");
+      .add("length", fixedText(info.length, 1) + " mm");
   lines.add("reachable", convert::reachText(info.reach));
   if (info.reach)
     for (const std::string& text : convert::closedTexts(*info.reach)) lines.add("closed", text);
   if (info.radius)
-    lines.add("radius", fixed(info.radius->min, 3) + " to " + fixed(info.radius->max, 3) + " mm");
+    lines.add("radius",
+              fixedText(info.radius->min, 3) + " to " + fixedText(info.radius->max, 3) + " mm");
   if (const auto& e = info.errorOfFit)
-    lines.add("error of fit", "median " + fixed(e->median, 4) + ", 90th percentile " +
-                                  fixed(e->p90, 4) + ", greatest " + fixed(e->max, 4) + " mm");
+    lines.add("error of fit", "median " + fixedText(e->median, 4) + ", 90th percentile " +
+                                  fixedText(e->p90, 4) + ", greatest " + fixedText(e->max, 4) +
+                                  " mm");
   if (info.metadata.voxelSize)
-    lines.add("voxel size", convert::shownNumber(*info.metadata.voxelSize) + " mm");
+    lines.add("voxel size", shownNumber(*info.metadata.voxelSize) + " mm");
   if (info.metadata.source) lines.add("source", sourceText(*info.metadata.source));
   addExtras(info, lines);
   for (const auto& step : info.metadata.steps) lines.add("step", stepText(step));

@@ -2,11 +2,10 @@
 #include "converters/engine/case_losses.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "converters/base/number_text.h"
 #include "converters/engine/answer_text.h"
 #include "converters/export/shared/tree_losses.h"
 #include "converters/stages/surface/patches/cell_size.h"
@@ -32,9 +31,7 @@ std::string subject(const std::vector<std::string>& labels) {
 /// Two digits, rounded down.
 std::string atMost(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", std::floor(value / unit) * unit);
-  return text.data();
+  return shownNumber(std::floor(value / unit) * unit);
 }
 
 /// Advice on losses at nodes of at least the radius `thinnest`, mm. `promise`: the effect of finer

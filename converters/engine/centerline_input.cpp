@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/engine/scope.h"
 #include "formats/container/printable.h"
 
@@ -24,11 +25,11 @@ std::string unitText(double unit) {
   if (unit == 1) return "mm";
   if (unit == 10) return "cm";
   if (unit == 1000) return "m";
-  return unit == 1e-3 ? "um" : fixed(unit, 6) + " mm";
+  return unit == 1e-3 ? "um" : fixedText(unit, 6) + " mm";
 }
 
 std::size_t branchCount(const convert::CenterlineFile& file) {
-  return convert::chainsOf(file).size();
+  return convert::centerlineChains(file).size();
 }
 
 std::size_t rootCount(const convert::CenterlineFile& file) {
@@ -91,11 +92,11 @@ std::string centerlineInfoText(const LoadedCenterline& centerline) {
   text << "points      " << file.points.size() << "\n"
        << "branches    " << branchCount(file) << " of " << counted(rootCount(file), "tree", "trees")
        << ", " << counted(file.links.size(), "loop", "loops") << "\n"
-       << "length      " << fixed(extent.length, 1) << " mm, within " << fixed(extent.diagonal, 1)
-       << " mm\n"
+       << "length      " << fixedText(extent.length, 1) << " mm, within "
+       << fixedText(extent.diagonal, 1) << " mm\n"
        << "radius      "
-       << (extent.most > 0 ? fixed(extent.median, 3) + " mm (" + fixed(extent.least, 3) + " to " +
-                                 fixed(extent.most, 3) + ")"
+       << (extent.most > 0 ? fixedText(extent.median, 3) + " mm (" + fixedText(extent.least, 3) +
+                                 " to " + fixedText(extent.most, 3) + ")"
                            : std::string("none"))
        << "\n"
        << "unit        " << unitText(centerline.unit) << "\n";

@@ -68,13 +68,6 @@ void writeCase(const formats::Case& value, const fs::path& file, formats::CaseEn
   if (!written) throw failed(errorText(file, written.error()));
 }
 
-std::string readText(const fs::path& file, std::string_view what) {
-  requireInput(file, what);
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(errorText(file, bytes.error()));
-  return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
-}
-
 void writeText(std::string_view text, const fs::path& file) {
   const auto written = formats::writeFileAtomically(std::as_bytes(std::span(text)), file);
   if (!written) throw failed(errorText(file, written.error()));

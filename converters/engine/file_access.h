@@ -30,10 +30,6 @@ formats::Case readParentCase(const std::filesystem::path& file);
 void writeCase(const formats::Case& value, const std::filesystem::path& file,
                formats::CaseEncoding encoding, const formats::EncodeOptions& options);
 
-/// The whole of a file that is neither a folder nor a pipe. Throws Error(InvalidInput); `what`
-/// names its role.
-std::string readText(const std::filesystem::path& file, std::string_view what);
-
 /// Writes atomically; throws Error(Failed) with the file's name.
 void writeText(std::string_view text, const std::filesystem::path& file);
 

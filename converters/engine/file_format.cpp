@@ -242,7 +242,7 @@ void refuseByContent(const fs::path& path) {
       content.kind == convert::ContentKind::Mesh ||
       content.kind == convert::ContentKind::Centerline)
     throw unsupported(path.string() + ": " + content.sentence() +
-                      ", but its name does not say so; --from says it, which takes " +
+                      ", but its name does not show it; --from states the format, one of " +
                       formatNames(canRead));
   if (content.kind != convert::ContentKind::Unknown)
     throw unsupported(path.string() + ": " + convert::notA(convert::ContentKind::Volume, path));

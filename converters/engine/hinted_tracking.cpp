@@ -47,7 +47,7 @@ std::set<std::string> rootLabels(const formats::Case& value, const TrackArgument
 void select(formats::Case& value, std::set<std::string> named, const TrackArguments& track) {
   if (!track.isOnlyConnected) return;
   named.merge(rootLabels(value, track));
-  convert::deleteBranches(value, convert::unconnectedWith(value.tree, named));
+  convert::leaveOutBranches(value, convert::unconnectedWith(value.tree, named));
 }
 
 /// Gives the remarks on ends the names that their branches have now, and drops those of branches

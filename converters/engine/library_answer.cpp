@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/library_answer.h"
 
-#include <array>
-
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
-
-std::string bytesText(std::uint64_t bytes) {
-  constexpr std::array<const char*, 5> kUnits = {"kB", "MB", "GB", "TB", "PB"};
-  if (bytes < 1000) return counted(bytes, "byte", "bytes");
-  double value = static_cast<double>(bytes) / 1000;
-  std::size_t unit = 0;
-  while (value >= 999.5 && unit + 1 < kUnits.size()) {
-    value /= 1000;
-    ++unit;
-  }
-  return fixed(value, value < 9.95 ? 1 : 0) + " " + kUnits[unit];
-}
 
 std::string goneText(const std::vector<std::string>& gone) {
   if (gone.empty()) return {};

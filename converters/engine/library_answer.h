@@ -12,9 +12,6 @@
 
 namespace lumen::engine {
 
-/// "1.2 MB"
-std::string bytesText(std::uint64_t bytes);
-
 /// The files that a change left out of a library, as a line of its own; empty if none.
 std::string goneText(const std::vector<std::string>& gone);
 

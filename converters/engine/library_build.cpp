@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/shown_text.h"
 #include "converters/base/suggestion.h"
 #include "converters/engine/about_options.h"
@@ -17,7 +18,6 @@
 #include "converters/library/build.h"
 #include "converters/library/library_file.h"
 #include "converters/library/record.h"
-#include "formats/case/case_file.h"
 #include "formats/container/printable.h"
 
 namespace lumen::engine {
@@ -104,7 +104,7 @@ Json resultJson(const RowResult& result) {
 std::string resultTable(const std::vector<RowResult>& results) {
   std::vector<std::vector<std::string>> rows{{"case", "line", "seconds", "warnings", ""}};
   for (const RowResult& result : results)
-    rows.push_back({result.id, std::to_string(result.line), fixed(result.seconds, 1),
+    rows.push_back({result.id, std::to_string(result.line), fixedText(result.seconds, 1),
                     std::to_string(result.warnings), endName(result.end)});
   std::string text = alignColumns(std::move(rows));
   for (const RowResult& result : results)
@@ -153,11 +153,7 @@ void addBuildRows(OptionTable& table, BuildArguments& arguments) {
 }
 
 std::vector<BuildRow> loadBuildList(const std::string& file) {
-  requireInput(file, "list");
-  const auto bytes = formats::readFileBytes(file);
-  if (!bytes) throw invalidInput(formats::printable(file) + ": " + bytes.error().message);
-  return convert::readBuildList({reinterpret_cast<const char*>(bytes->data()), bytes->size()},
-                                file);
+  return convert::readBuildList(readWholeFile(file, "list"), file);
 }
 
 Answer buildLibrary(const std::vector<BuildRow>& rows, const std::string& list,

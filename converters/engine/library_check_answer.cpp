@@ -73,7 +73,7 @@ std::string checkedText(const LibraryCheck& check) {
   if (check.passedOver > 0)
     text += " (" + std::to_string(check.passedOver) + " of them as they were when found whole)";
   return text + ", " + counted(check.files, "file", "files") + ", " +
-         fixed(static_cast<double>(check.bytes) / 1e6, 1) + " MB read";
+         fixedText(static_cast<double>(check.bytes) / 1e6, 1) + " MB read";
 }
 
 std::string faultCounts(const LibraryCheck& check) {

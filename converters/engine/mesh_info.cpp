@@ -37,11 +37,12 @@ void chooseUnit(MeshInfo& info, const std::string& name, const std::string& unit
   info.millimetres = guess.millimetres;
   info.unitFrom = "guess";
   if (!guess.plausible)
-    progress.warn(name + ": its size is not that of vessels in mm, cm or m; taken as mm, " +
-                  kOption.unit.shown() + " says it");
+    progress.warn(name + ": its size is not that of vessels in mm, cm or m; taken as mm; " +
+                  kOption.unit.shown() + " states the unit");
   else if (guess.millimetres != 1)
     progress.warn(name + ": its size is that of vessels in " + guess.unit +
-                  ", not in mm; taken as " + guess.unit + ", " + kOption.unit.shown() + " says it");
+                  ", not in mm; taken as " + guess.unit + "; " + kOption.unit.shown() +
+                  " states the unit");
 }
 
 Json pointJson(const Eigen::Vector3d& point, double scale) {
@@ -87,7 +88,7 @@ Json componentsJson(const MeshInfo& info) {
 
 /// mm to a hundredth, without the sign of a zero.
 std::string place(double value) {
-  return fixed(std::round(100 * value) / 100 + 0.0, 2);
+  return fixedText(std::round(100 * value) / 100 + 0.0, 2);
 }
 
 /// "no, 3 edges of more than two triangles, 1 point where sheets touch".
@@ -206,7 +207,7 @@ std::string meshInfoText(const MeshInfo& info) {
   const convert::MeshReport& r = info.report;
   const double mm = info.millimetres;
   const auto box = [&](Eigen::Index a) {
-    return convert::shownNumber(r.low[a] * mm) + " to " + convert::shownNumber(r.high[a] * mm);
+    return shownNumber(r.low[a] * mm) + " to " + shownNumber(r.high[a] * mm);
   };
   const std::optional<std::int64_t> genus = genusOf(r);
   Lines lines;
@@ -226,8 +227,8 @@ std::string meshInfoText(const MeshInfo& info) {
   lines.add("intersections", (r.allSelfIntersections ? "" : "more than ") +
                                  counted(r.selfIntersections, "pair", "pairs") + " of triangles");
   lines.add("defects", defectsText(r));
-  lines.add("area", convert::shownNumber(r.area * mm * mm) + " mm2");
-  lines.add("volume", convert::shownNumber(r.volume * mm * mm * mm) + " mm3" +
+  lines.add("area", shownNumber(r.area * mm * mm) + " mm2");
+  lines.add("volume", shownNumber(r.volume * mm * mm * mm) + " mm3" +
                           (r.closed ? "" : ", with the loops closed"));
   lines.add("box", box(0) + ", " + box(1) + ", " + box(2) + " mm");
   lines.add("groups", groupsText(info.file));

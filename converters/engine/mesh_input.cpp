@@ -85,11 +85,11 @@ std::string guessedUnit(const convert::TriangleMesh& mesh, const std::string& na
   if (!guess.plausible)
     progress.warn(name + ": taken to be in mm, although vessels of " + std::to_string(radius) +
                   " mm radius are implausible, and in cm and m, too; " + kOption.unit.shown() +
-                  " says what they are");
+                  " states the unit");
   else if (guess.millimetres != 1)
     progress.warn(name + ": taken to be in " + guess.unit + ": in mm its vessels would have " +
                   std::to_string(radius) + " mm radius; " + kOption.unit.shown() +
-                  " says what they are");
+                  " states the unit");
   return guess.unit;
 }
 

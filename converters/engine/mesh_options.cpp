@@ -2,9 +2,9 @@
 #include "converters/engine/mesh_options.h"
 
 #include <map>
-#include <sstream>
 #include <vector>
 
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/engine/scope.h"
 
@@ -27,12 +27,6 @@ void setEdge(convert::EdgeLength& edge, const std::string& text) {
 }
 
 /// "0.25r"
-std::string shareText(double share) {
-  std::ostringstream text;
-  text << share << "r";
-  return text.str();
-}
-
 void addPatchRows(OptionTable& table, OutputOptions& output) {
   table.flag("patches", output.patches,
              "Write the surface in pieces, one group of faces for each branch, which meet but are "
@@ -83,7 +77,7 @@ void addSurfaceRows(OptionTable& table, convert::ClosedSurfaceOptions& surface) 
           kOption.edge.name,
           [&surface](const Texts& texts) { setEdge(surface.edge, texts.back()); }, "LENGTH",
           "Length of edges, as a share of the vessel's radius such as 0.25r, or in mm")
-      .defaults(shareText(surface.edge.share))
+      .defaults(shownNumber(surface.edge.share) + "r")
       .without("patches");
   table
       .add(

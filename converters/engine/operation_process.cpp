@@ -4,7 +4,9 @@
 #include <system_error>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/json_place.h"
+#include "converters/base/relayed_progress.h"
 #include "converters/base/run_program.h"
 #include "converters/engine/file_access.h"
 
@@ -56,27 +58,8 @@ std::string endText(const convert::ProgramResult& result) {
 }
 
 convert::JsonFile operationJson(const fs::path& file) {
-  return convert::JsonFile(readText(file, "operation"), file);
+  return convert::JsonFile(readWholeFile(file, "operation"), file);
 }
-
-/// Passes all on, and counts warnings.
-class CountingProgress : public Progress {
-public:
-  explicit CountingProgress(Progress& shown) : m_shown(shown) {}
-  void begin(std::string_view stage, std::size_t total) override { m_shown.begin(stage, total); }
-  void advance(std::size_t units) override { m_shown.advance(units); }
-  void end() override { m_shown.end(); }
-  void detail(std::string_view message) override { m_shown.detail(message); }
-  void warn(std::string_view message) override {
-    ++m_warnings;
-    m_shown.warn(message);
-  }
-  [[nodiscard]] std::size_t warnings() const { return m_warnings; }
-
-private:
-  Progress& m_shown;
-  std::size_t m_warnings = 0;
-};
 
 }  // namespace
 
@@ -98,7 +81,7 @@ OperationEnd runInProcess(const Operation& operation, const ProcessOptions& opti
   end.code = result.code;
   if (!end.isDone) end.error = endText(result);
   if (fs::exists(endFile(file), ignored)) {
-    convert::JsonFile left(readText(endFile(file), "end of an operation"), endFile(file));
+    convert::JsonFile left(readWholeFile(endFile(file), "end of an operation"), endFile(file));
     const convert::JsonPlace json(left);
     end.warnings = static_cast<std::size_t>(json.at("warnings").number());
     if (const std::string& error = json.at("error").text(); !error.empty()) end.error = error;

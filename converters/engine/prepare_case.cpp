@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
@@ -12,7 +11,9 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/privacy.h"
+#include "converters/base/relayed_progress.h"
 #include "converters/base/run_program.h"
 #include "converters/base/sha256.h"
 #include "converters/draw/picture/draw_case.h"
@@ -135,10 +136,10 @@ void addPictures(const formats::Case& value, const CaseWishes& wishes, IncomingC
     addPicture(value, viewsByName().at(view), {}, kPicture, "picture-" + view + ".png", incoming,
                progress);
   for (int frame = 0; frame < wishes.turntable; ++frame) {
-    std::array<char, 32> name{};
-    std::snprintf(name.data(), name.size(), "turntable/%03d.png", frame);
-    addPicture(value, View::Anterior, 2 * std::numbers::pi * frame / wishes.turntable, kFrame,
-               name.data(), incoming, progress);
+    std::string name = "turntable/";
+    name.append(paddedNumber(static_cast<std::uint64_t>(frame), 3)).append(".png");
+    addPicture(value, View::Anterior, 2 * std::numbers::pi * frame / wishes.turntable, kFrame, name,
+               incoming, progress);
   }
 }
 
@@ -165,18 +166,6 @@ void addExport(const std::string& name, const formats::Case& value, const std::s
     throw invalidInput(printable(file) + ": --export " + name + ": " + error.what());
   }
 }
-
-/// Passes on that the user has cancelled, and shows nothing.
-class QuietProgress : public Progress {
-public:
-  explicit QuietProgress(const Progress& asked) : m_asked(asked) {}
-  void begin(std::string_view, std::size_t) override { m_asked.check(); }
-  void advance(std::size_t) override { m_asked.check(); }
-  void end() override { m_asked.check(); }
-
-private:
-  const Progress& m_asked;
-};
 
 /// Adds pages that other commands make of the case. They see it under its id, as the name of a file
 /// may identify a patient.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/scene_input.h"
 
-#include <fstream>
-#include <system_error>
-
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/text.h"
 #include "converters/io/mesh/read_mesh.h"
 #include "converters/io/mesh/sofa_scene.h"
@@ -15,24 +13,10 @@ namespace lumen::engine {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string wholeText(const fs::path& file, const std::string& name) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::string text(error ? 0 : static_cast<std::size_t>(size), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream.read(text.data(), static_cast<std::streamsize>(text.size())))
-    throw invalidInput(name + ": cannot be read");
-  return text;
-}
-
-}  // namespace
-
 convert::MeshFile readSceneMesh(const fs::path& file, const SceneArguments& arguments) {
   const std::string name = formats::printable(file.string());
   const std::vector<convert::SofaLoader> loaders =
-      convert::sofaLoaders(wholeText(file, name), name);
+      convert::sofaLoaders(readWholeFile(file, "scene"), name);
   const convert::SofaLoader& loader = convert::vesselLoader(loaders, arguments.mesh, name);
   const fs::path mesh =
       convert::detachedFiles(file, convert::namesOfList({loader.filename}),

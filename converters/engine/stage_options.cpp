@@ -200,13 +200,13 @@ void addMeshRows(OptionTable& table, MeshArguments& mesh) {
              "(.mrk.json, or a folder of them) [found inside of the mesh]");
   table
       .add("centerline-frame", &mesh.centerlineFrame, "FRAME",
-           "Axes of --centerline: lps, or ras, whose x and y are negated [as its file says, or "
+           "Axes of --centerline: lps, or ras, whose x and y are negated [as its file states, or "
            "those of the mesh]")
       .among(kPatientFrames)
       .onlyWith("centerline");
   table
       .add("centerline-unit", &mesh.centerlineUnit, "UNIT",
-           "Unit of --centerline: mm, cm, m or um [as its file says, or that of the mesh]")
+           "Unit of --centerline: mm, cm, m or um [as its file states, or that of the mesh]")
       .among(wordsOf(millimetresByUnit()))
       .onlyWith("centerline");
   table

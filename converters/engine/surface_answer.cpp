@@ -59,7 +59,7 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
   if (report->roundedEnds > 0)
     text += ", " + counted(report->roundedEnds, "rounded end", "rounded ends");
   if (!report->errors.empty() && report->errors.front() >= 0)
-    text += ", within " + fixed(report->errors.front(), 4) + " mm of that with all triangles";
+    text += ", within " + fixedText(report->errors.front(), 4) + " mm of that with all triangles";
   text += "\n";
   constexpr std::size_t kMost = 5;
   const auto& branches = value.tree.branches;
@@ -67,8 +67,8 @@ std::string surfaceLines(const std::optional<convert::SurfaceReport>& report,
     const convert::Overlap& o = report->overlaps[i];
     text += (i == 0 ? "overlap      " : "             ") +
             formats::printable(branches[o.branch].label) + " and " +
-            formats::printable(branches[o.other].label) + " by up to " + fixed(2 * o.depth, 2) +
-            " mm at " + convert::placeText(o.place) + "; kept " + fixed(report->gap, 3) +
+            formats::printable(branches[o.other].label) + " by up to " + fixedText(2 * o.depth, 2) +
+            " mm at " + convert::placeText(o.place) + "; kept " + fixedText(report->gap, 3) +
             " mm apart\n";
   }
   if (report->overlaps.size() > kMost)

@@ -30,9 +30,9 @@ Json endJson(const convert::TrackEnd& end) {
 std::string endLine(const convert::TrackEnd& end) {
   const Eigen::Vector3d& p = end.position;
   return "the " + std::string(end.isStart ? "start" : "tip") + " of " +
-         formats::printable(end.label) + " at (" + fixed(p.x(), 1) + ", " + fixed(p.y(), 1) + ", " +
-         fixed(p.z(), 1) + "): a lumen leads on for at least " + fixed(end.goesOn, 1) +
-         " mm, which no cylinder fits\n";
+         formats::printable(end.label) + " at (" + fixedText(p.x(), 1) + ", " +
+         fixedText(p.y(), 1) + ", " + fixedText(p.z(), 1) + "): a lumen leads on for at least " +
+         fixedText(end.goesOn, 1) + " mm, which no cylinder fits\n";
 }
 
 }  // namespace

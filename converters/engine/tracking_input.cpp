@@ -9,6 +9,8 @@
 #include "converters/base/shown_text.h"
 #include "converters/engine/file_access.h"
 #include "converters/io/seeds/place_seeds.h"
+#include "converters/stages/editing/find_inlets.h"
+#include "converters/stages/editing/inlets.h"
 #include "converters/stages/editing/untangle.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/tracking/click_light.h"
@@ -35,8 +37,8 @@ Result readAs(Result (*read)(const std::filesystem::path&, const convert::ReadVo
   }
 }
 
-void tellAssumptions(const std::filesystem::path& file, const std::vector<std::string>& assumptions,
-                     Progress& progress) {
+void reportAssumptions(const std::filesystem::path& file,
+                       const std::vector<std::string>& assumptions, Progress& progress) {
   for (const std::string& assumption : assumptions)
     progress.warn(file.string() + ": " + assumption);
 }
@@ -92,7 +94,7 @@ void reportRefused(convert::TrackRemarks& remarks, Progress& progress) {
 convert::VolumeHeader loadVolumeHeader(const std::filesystem::path& file, const FileFormat& format,
                                        const VolumeArguments& volume, Progress& progress) {
   convert::VolumeHeader header = readAs(format.readVolumeHeader, file, volume, progress);
-  tellAssumptions(file, header.assumptions, progress);
+  reportAssumptions(file, header.assumptions, progress);
   return header;
 }
 
@@ -101,7 +103,7 @@ convert::Volume readVolumeFile(const std::filesystem::path& file, const FileForm
   progress.begin("reading", 0);
   convert::Volume result = readAs(format.readVolume, file, volume, progress);
   progress.end();
-  tellAssumptions(file, result.assumptions, progress);
+  reportAssumptions(file, result.assumptions, progress);
   return result;
 }
 
@@ -142,7 +144,9 @@ convert::TrackResult trackAnyFound(const convert::Volume& volume,
   const convert::FoundVessels found = convert::findVessels(volume, options.dark, progress);
   candidates = found.courses.size();
   if (found.courses.empty()) return {};
-  convert::TrackResult result = convert::trackCourses(volume, found.courses, options, progress);
+  convert::TrackResult result = convert::trackCourses(
+      volume, found.courses, [&](const Eigen::Vector3d& point) { return found.isBone(point); },
+      options, progress);
   reportRefused(result, progress);
   if (result.result.tree.nodeCount() == 0) return result;
   const convert::Surrounding around{
@@ -150,14 +154,22 @@ convert::TrackResult trackAnyFound(const convert::Volume& volume,
       [&](const Eigen::Vector3d& point) { return volume.geometry.containsWorld(point); }};
   for (const Eigen::Vector3d& place : convert::untangle(result.result, around))
     progress.detail("one vessel goes on at " + convert::vectorText(place) + " mm");
+  const std::vector<Eigen::Vector3d> inlets =
+      convert::furtherInlets(result.result.tree, around.isInside);
+  convert::beginAt(result.result, inlets);
+  for (const Eigen::Vector3d& place : inlets)
+    progress.detail("blood comes in at " + convert::vectorText(place) + " mm, too");
   return result;
 }
 
 convert::AddedTracks addFound(const convert::TrackingVolume& tracking,
                               const convert::Volume& volume, const formats::Case& known,
                               Progress& progress) {
-  const auto courses = convert::findVessels(volume, tracking.options().dark, progress).courses;
-  convert::AddedTracks added = convert::trackCoursesIntoCase(tracking, known, courses, progress);
+  const convert::FoundVessels found =
+      convert::findVessels(volume, tracking.options().dark, progress);
+  convert::AddedTracks added = convert::trackCoursesIntoCase(
+      tracking, known, found.courses,
+      [&](const Eigen::Vector3d& point) { return found.isBone(point); }, progress);
   reportRefused(added, progress);
   return added;
 }

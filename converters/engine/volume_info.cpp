@@ -23,9 +23,10 @@ std::string pixelTypeName() {
 
 template <std::size_t N>
 std::string joined(const std::array<double, N>& values, std::size_t first, std::size_t count) {
-  std::ostringstream text;
-  for (std::size_t i = first; i < first + count; ++i) text << (i > first ? "  " : "") << values[i];
-  return text.str();
+  std::string text;
+  for (std::size_t i = first; i < first + count; ++i)
+    text.append(i > first ? "  " : "").append(shownNumber(values[i]));
+  return text;
 }
 
 }  // namespace
@@ -89,8 +90,8 @@ std::string volumeInfoText(const VolumeInfo& info) {
        << header.voxelBytes << " bytes of voxels in " << header.storedBytes << " bytes\n";
   if (info.values)
     text << "pixel type  " << info.values->pixelType << "\n"
-         << "values      " << convert::shownNumber(info.values->min) << " to "
-         << convert::shownNumber(info.values->max) << "\n"
+         << "values      " << shownNumber(info.values->min) << " to "
+         << shownNumber(info.values->max) << "\n"
          << "sha256      " << info.values->sha256 << "\n";
   else
     text << "values      not read; --voxels reads them\n";

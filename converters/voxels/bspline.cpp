@@ -177,18 +177,20 @@ void interpolate(const Block& block, std::size_t count, float* out) {
 
 struct BsplineVolume::Bricks {
   const Volume& volume;
+  VolumeGeometry geometry;        ///< in place of the volume's
   std::array<int, 3> lastCell{};  ///< cells are 0 .. lastCell; a single voxel still makes one cell
   std::array<int, 3> count{};     ///< bricks along each axis
   std::array<Taps, 3> taps;
   std::vector<std::atomic<float*>> coefficients;
   std::atomic<std::size_t> built{0};
 
-  Bricks(const Volume& v, const Eigen::Vector3d& smoothing) : volume(v) {
+  Bricks(const Volume& v, const VolumeGeometry& g, const Eigen::Vector3d& smoothing)
+      : volume(v), geometry(g) {
     std::size_t total = 1;
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<Eigen::Index>(a);
-      taps[a] = makeTaps(smoothing[axis] / v.geometry.spacing[axis]);
-      lastCell[a] = std::max(v.geometry.size[a] - 2, 0);
+      taps[a] = makeTaps(smoothing[axis] / g.spacing[axis]);
+      lastCell[a] = std::max(g.size[a] - 2, 0);
       count[a] = (lastCell[a] >> kBrickShift) + 1;
       total *= static_cast<std::size_t>(count[a]);
     }
@@ -228,7 +230,7 @@ const float* BsplineVolume::Bricks::build(std::size_t id) {
 template <class T>
 void BsplineVolume::Bricks::filter(const std::vector<T>& voxels, const std::array<int, 3>& low,
                                    float* out) const {
-  const auto& size = volume.geometry.size;
+  const auto& size = geometry.size;
   std::array<std::array<std::size_t, kPadded>, 3> source;
   for (std::size_t a = 0; a < 3; ++a)
     for (int i = 0; i < kPadded; ++i)
@@ -254,11 +256,14 @@ void BsplineVolume::Bricks::filter(const std::vector<T>& voxels, const std::arra
 }
 
 BsplineVolume::BsplineVolume(const Volume& volume, const Eigen::Vector3d& smoothing)
-    : m_bricks(std::make_unique<Bricks>(volume, smoothing)) {}
+    : BsplineVolume(volume, volume.geometry, smoothing) {}
+BsplineVolume::BsplineVolume(const Volume& volume, const VolumeGeometry& geometry,
+                             const Eigen::Vector3d& smoothing)
+    : m_bricks(std::make_unique<Bricks>(volume, geometry, smoothing)) {}
 BsplineVolume::~BsplineVolume() = default;
 
 const VolumeGeometry& BsplineVolume::geometry() const {
-  return m_bricks->volume.geometry;
+  return m_bricks->geometry;
 }
 
 std::size_t BsplineVolume::coefficientBytes() const {
@@ -266,7 +271,7 @@ std::size_t BsplineVolume::coefficientBytes() const {
 }
 
 float BsplineVolume::sample(const Eigen::Vector3d& index) const {
-  const auto& g = m_bricks->volume.geometry;
+  const auto& g = m_bricks->geometry;
   if (!g.containsIndex(index)) return std::numeric_limits<float>::quiet_NaN();
   std::array<int, 3> cell{};
   for (int a = 0; a < 3; ++a) {
@@ -303,7 +308,7 @@ void BsplineVolume::sampleLine(const Eigen::Vector3d& startIndex, const Eigen::V
     const auto e = static_cast<Eigen::Index>(a);
     line.start[a] = startIndex[e];
     line.step[a] = stepIndex[e];
-    line.highest[a] = m_bricks->volume.geometry.size[a] - 1;
+    line.highest[a] = m_bricks->geometry.size[a] - 1;
   }
   line.lastCell = m_bricks->lastCell;
   line.bricks = m_bricks->count;

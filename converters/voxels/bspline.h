@@ -28,6 +28,9 @@ class BsplineVolume {
 public:
   explicit BsplineVolume(const Volume& volume,
                          const Eigen::Vector3d& smoothing = Eigen::Vector3d::Zero());
+  /// The voxels as if `geometry`, of the same size, were theirs.
+  BsplineVolume(const Volume& volume, const VolumeGeometry& geometry,
+                const Eigen::Vector3d& smoothing);
   ~BsplineVolume();
   BsplineVolume(const BsplineVolume&) = delete;
   BsplineVolume& operator=(const BsplineVolume&) = delete;

@@ -133,8 +133,9 @@ bool VesselPaths::isVessel(VesselPath& path) const {
     }
   }
   const double parent = depthAt(0);
-  path.isSac =
-      deepest > kSac * neckThere && length < 6 * deepest && !leavesVolume(path.voxels.back());
+  // both depths are known to half a voxel
+  path.isSac = deepest > kSac * neckThere + m_set.geometry().voxelSize() && length < 6 * deepest &&
+               !leavesVolume(path.voxels.back());
   const double least = std::max({path.isSac ? deepest : 2 * deepest, m_leastOfParent * parent,
                                  kLeastVoxels * m_set.geometry().voxelSize()});
   return length > least;

@@ -119,7 +119,7 @@ TEST_F(CenterlineTest, UnitAndFrameAreTheUsersToSay) {
       true);
 }
 
-TEST_F(CenterlineTest, LinksThatAreLostAreTold) {
+TEST_F(CenterlineTest, LinksThatAreLostAreReported) {
   ASSERT_EQ(lumen({"convert", "tree.swc", "a.lumen.json"}).code, 0);
   json value = json::parse(read("a.lumen.json"));
   value["tree"]["links"] = {{0, 60}};

@@ -96,7 +96,7 @@ protected:
 
 private:
   void expectOnField(const std::string& name, const reproduce::WrittenSurface& surface) {
-    const field::BlendedField blended = formats::blendedFieldOf(m_source);
+    const field::BlendedField blended = formats::caseField(m_source);
     const convert::SheetField field(m_source, blended, {m_said["gap_mm"].get<double>(), 0, 0});
     m_facts = reproduce::distanceFrom(field, surface);
     EXPECT_GT(m_facts.rays, 0U) << name;

@@ -14,7 +14,7 @@ public:
 
 /// Report on a branch whose losses are at nodes of a quarter of a millimetre or more, which
 /// cells up to a millimetre resolve.
-std::string saidOf(double cell, bool hasSurface) {
+std::string reportedFor(double cell, bool hasSurface) {
   convert::Patches patches;
   patches.surface.labels = {"thin"};
   patches.losses = {{9, hasSurface ? 100U : 0U, 2, 5, 0.25}};
@@ -25,12 +25,12 @@ std::string saidOf(double cell, bool hasSurface) {
 
 TEST(LossReport, AsksForFinerCellsOnlyWhereTheseWereTooCoarse) {
   for (const bool hasSurface : {false, true}) {
-    const std::string coarse = saidOf(1.5, hasSurface);
+    const std::string coarse = reportedFor(1.5, hasSurface);
     EXPECT_NE(coarse.find("cells of 1.5 mm are too coarse there: --cell 1 or less"),
               std::string::npos)
         << coarse;
     for (const double cell : {1.0, 0.5}) {
-      const std::string fine = saidOf(cell, hasSurface);
+      const std::string fine = reportedFor(cell, hasSurface);
       EXPECT_NE(fine.find("finer cells do not help"), std::string::npos) << fine;
       EXPECT_EQ(fine.find("--cell"), std::string::npos) << fine;
     }

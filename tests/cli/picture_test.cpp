@@ -134,7 +134,7 @@ TEST_F(PictureTest, ACaseWithoutModelsOrConfidenceSaysSoAndNamesTheFile) {
   ASSERT_EQ(lumen({"convert", "line.swc", "line.lumen"}).code, 0);
   const Outcome plain = lumen({"picture", "line.lumen", "line.png", "--colour", "confidence"});
   EXPECT_EQ(plain.code, 3);
-  EXPECT_NE(plain.err.find("line.lumen: --colour confidence: the case says of no node"),
+  EXPECT_NE(plain.err.find("line.lumen: --colour confidence: no node of the case states"),
             std::string::npos)
       << plain.err;
   EXPECT_FALSE(exists("line.png"));

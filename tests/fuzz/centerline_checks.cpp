@@ -28,7 +28,7 @@ void checkPoints(const convert::CenterlineFile& file, bool hasRadii) {
 }
 
 void checkChains(const convert::CenterlineFile& file) {
-  const std::vector<convert::CenterlineChain> chains = convert::chainsOf(file);
+  const std::vector<convert::CenterlineChain> chains = convert::centerlineChains(file);
   std::vector<bool> seen(file.points.size(), false);
   for (std::size_t c = 0; c < chains.size(); ++c) {
     expect(!chains[c].points.empty(), "chains have a point");

@@ -39,7 +39,7 @@ void compareView(const Case& value, const CaseView& view) {
 }
 
 void pushThrough(const Case& value) {
-  const Reachability found = reachabilityOf(value.tree, blendedFieldOf(value));
+  const Reachability found = measureReachability(value.tree, caseField(value));
   double sum = found.reachable;
   for (const Barrier& barrier : found.barriers) {
     expect(barrier.node < value.tree.nodeCount(), "a barrier is at a node");

@@ -3,7 +3,7 @@ lumen_test(report_test
   LIBS lumen_report
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/html_test.cpp
-    ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/shown_figures_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/base/number_text_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/axis_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/table_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/report/profile_plot_test.cpp

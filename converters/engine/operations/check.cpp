@@ -29,10 +29,10 @@ std::vector<std::string> offsetsRow(const std::string& label, const convert::Off
                                     double voxel) {
   return {label,
           std::to_string(o.samples),
-          fixed(o.median, 3),
-          fixed(o.median / voxel, 2),
-          fixed(o.absoluteMedian / voxel, 2),
-          fixed(o.absoluteP90 / voxel, 2),
+          fixedText(o.median, 3),
+          fixedText(o.median / voxel, 2),
+          fixedText(o.absoluteMedian / voxel, 2),
+          fixedText(o.absoluteP90 / voxel, 2),
           convert::percentText(o.beyondVoxel),
           convert::percentText(o.noEdge),
           convert::percentText(o.wrongPolarity),
@@ -54,7 +54,7 @@ std::string firstLines(const List& list, const std::string& singular, const std:
 
 /// "1.5 mm3 ", "1520 mm3"
 std::string volumeText(double mm3) {
-  return fixed(mm3, mm3 < 100 ? 1 : 0) + " mm3";
+  return fixedText(mm3, mm3 < 100 ? 1 : 0) + " mm3";
 }
 
 std::string darkText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
@@ -77,20 +77,21 @@ std::string endsText(const convert::CheckReport& report, const formats::Centerli
                       return printable(convert::labelOf(tree, end.node)) +
                              (end.first ? " begins at " : " ends at ") +
                              convert::placeText(toEigen(tree.centre[end.node])) +
-                             ", and the vessel goes on for about " + fixed(end.goesOn, 0) + " mm";
+                             ", and the vessel goes on for about " + fixedText(end.goesOn, 0) +
+                             " mm";
                     });
 }
 
 std::string missingText(const convert::CheckReport& report, const formats::CenterlineTree& tree) {
   const double missing = report.missingLength(), whole = report.shownLength + missing;
-  return "the case has " + fixed(report.shownLength, 1) + " of " + fixed(whole, 1) + " mm (" +
-         convert::percentText(convert::share(report.shownLength, whole)) +
+  return "the case has " + fixedText(report.shownLength, 1) + " of " + fixedText(whole, 1) +
+         " mm (" + convert::percentText(convert::share(report.shownLength, whole)) +
          ") of the vessels that are connected with it in the volume\n" +
          firstLines(report.missing.vessels, "shorter vessel is not in the case",
                     "shorter vessels are not in the case",
                     [&](const convert::MissingVessel& vessel) {
-                      return "a vessel of " + fixed(vessel.length, 1) + " mm and radius " +
-                             fixed(vessel.radius, 1) + " mm at " +
+                      return "a vessel of " + fixedText(vessel.length, 1) + " mm and radius " +
+                             fixedText(vessel.radius, 1) + " mm at " +
                              convert::placeText(convert::middleOf(vessel)) + ", beside " +
                              printable(convert::labelOf(tree, vessel.path.front().node)) +
                              ", is not in the case";
@@ -116,8 +117,9 @@ std::string checkText(const convert::CheckReport& report, const formats::Centerl
          "the model\nis too wide; median and 90th percentile of its size in voxels. Shares of the "
          "samples: farther than\na voxel, without an edge, dark inside and bright outside. Beside: "
          "samples where another part of the\ntree begins, not judged. One voxel is " +
-         fixed(report.voxelSize, 3) + " mm; blur taken as " + fixed(report.options.pointSpread, 3) +
-         " mm.\n\n" + darkText(report, tree) + endsText(report, tree) + missingText(report, tree);
+         fixedText(report.voxelSize, 3) + " mm; blur taken as " +
+         fixedText(report.options.pointSpread, 3) + " mm.\n\n" + darkText(report, tree) +
+         endsText(report, tree) + missingText(report, tree);
 }
 
 class CheckCommand : public Command {

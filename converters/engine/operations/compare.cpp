@@ -18,18 +18,18 @@ std::vector<std::string> scoreRow(const std::string& label, const convert::Cente
   const convert::Quantiles none{NAN, NAN, NAN};
   const convert::Quantiles& q = wall ? *wall : none;
   return {label,
-          fixed(score.overlap, 3),
-          fixed(score.overlapUntilFirstError, 3),
-          fixed(score.averageInside, 3),
-          fixed(score.assd, 3),
-          fixed(score.assdLimited, 3),
-          fixed(score.radiusBias, 3),
-          fixed(score.radiusRms, 3),
-          fixed(score.missed, 1),
-          fixed(score.falseLength, 1),
-          fixed(q.median, 3),
-          fixed(q.p90, 3),
-          fixed(q.max, 3)};
+          fixedText(score.overlap, 3),
+          fixedText(score.overlapUntilFirstError, 3),
+          fixedText(score.averageInside, 3),
+          fixedText(score.assd, 3),
+          fixedText(score.assdLimited, 3),
+          fixedText(score.radiusBias, 3),
+          fixedText(score.radiusRms, 3),
+          fixedText(score.missed, 1),
+          fixedText(score.falseLength, 1),
+          fixedText(q.median, 3),
+          fixedText(q.p90, 3),
+          fixedText(q.max, 3)};
 }
 
 std::string comparisonText(const convert::Comparison& comparison) {

@@ -68,7 +68,7 @@ public:
     requireInScope(*around.table, {}, around.progress);
     const convert::CaseAbout known = completeWishes(library, *around.table);
     const convert::IncomingCase incoming =
-        prepareCase(m_case, aboutOf(m_about, known, before.licence), m_wishes, library, around);
+        prepareCase(m_case, statedAbout(m_about, known, before.licence), m_wishes, library, around);
     convert::LibraryChange change(library, around.progress);
     if (!m_wishes.replace) convert::requireNewId(change.library(), incoming.record.id);
     change.put(incoming.record, incoming.folder());
@@ -141,7 +141,7 @@ private:
     return {std::move(json), formats::printable(m_library) + ": " + entry.id + ", version " +
                                  std::to_string(entry.version) + ": " +
                                  counted(entry.files, "file", "files") + ", " +
-                                 bytesText(entry.bytes) + "\n" + goneText(change.gone())};
+                                 shownBytes(entry.bytes) + "\n" + goneText(change.gone())};
   }
 
   std::string m_library, m_case, m_day;

@@ -31,8 +31,8 @@ public:
       cases.push_back(caseLineJson(record, entry.bytes));
       rows.push_back({record.id, std::to_string(record.version),
                       std::to_string(record.figures.branches - record.figures.aneurysms),
-                      fixed(record.figures.length, 1), bytesText(entry.bytes), record.about.licence,
-                      record.about.title});
+                      fixedText(record.figures.length, 1), shownBytes(entry.bytes),
+                      record.about.licence, record.about.title});
     }
     Json json = librarySummary(library);
     json["cases"] = std::move(cases);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen library sample: a library of synthetic patients, to try things on.
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/engine/file_access.h"
 #include "converters/engine/library_build.h"
@@ -20,9 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string patientName(int number) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "patient-%02d", number);
-  return text.data();
+  return std::string("patient-").append(paddedNumber(static_cast<std::uint64_t>(number), 2));
 }
 
 class LibrarySampleCommand : public Command {

@@ -113,10 +113,10 @@ private:
     json["seeds"] = phantom.seeds.size();
     return {std::move(json), m_output + ": " + std::to_string(size[0]) + " x " +
                                  std::to_string(size[1]) + " x " + std::to_string(size[2]) +
-                                 " voxels of " + fixed(phantom.volume.geometry.voxelSize(), 3) +
+                                 " voxels of " + fixedText(phantom.volume.geometry.voxelSize(), 3) +
                                  " mm, " + std::to_string(phantom.truth.tree.branches.size()) +
-                                 " true branches, " + fixed(totalLength(phantom.truth.tree), 1) +
-                                 " mm\n"};
+                                 " true branches, " +
+                                 fixedText(totalLength(phantom.truth.tree), 1) + " mm\n"};
   }
 
   convert::PhantomOptions m_options;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen picture: a case as a PNG.
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/draw/picture/draw_case.h"
 #include "converters/engine/answer_text.h"
@@ -41,10 +40,9 @@ constexpr int kMostFrames = 360;                      // one for each degree
 
 /// "head.png" and 3 give "head-003.png".
 std::string frameName(const std::string& file, int frame) {
-  std::array<char, 16> number{};
-  std::snprintf(number.data(), number.size(), "-%03d", frame);
   const std::size_t dot = file.rfind('.');
-  return file.substr(0, dot) + number.data() + file.substr(dot);
+  return file.substr(0, dot) + "-" + paddedNumber(static_cast<std::uint64_t>(frame), 3) +
+         file.substr(dot);
 }
 
 /// Files that appear together, when all of them are written: until then none of them does.

@@ -7,6 +7,7 @@
 #include "converters/stages/editing/checks.h"
 #include "converters/stages/editing/draft.h"
 #include "converters/stages/editing/edit.h"
+#include "converters/stages/editing/selection.h"
 #include "formats/case/enum_names.h"
 
 namespace lumen::convert {
@@ -23,31 +24,27 @@ std::string countText(std::size_t count) {
 
 Change deleteBranch(Case& target, std::uint32_t branch, Hanging hanging) {
   requireBranch(target, branch);
-  Draft draft(target);
-  std::vector<bool> goes(draft.branches.size(), false);
+  const formats::CenterlineTree& tree = target.tree;
+  std::vector<bool> goes(tree.branches.size(), false);
+  goes[branch] = true;
   std::size_t hangs = 0;
-  for (std::uint32_t b = branch; b < draft.branches.size(); ++b) {
-    const std::uint32_t parent = draft.branches[b].parent;
-    const bool isBelow = parent != kNoNode && goes[draft.branchOf(parent)];
-    goes[b] = b == branch || (isBelow && hanging == Hanging::Go);
-    if (!isBelow) continue;
+  for (std::size_t b = branch + 1; b < goes.size(); ++b) {
+    const std::int32_t parent = tree.branches[b].parentNode;
+    if (parent == formats::kNoParent || !goes[tree.branch[static_cast<std::size_t>(parent)]])
+      continue;
     ++hangs;
-    if (!goes[b]) draft.branches[b].parent = kNoNode;
+    goes[b] = hanging == Hanging::Go;
   }
   std::string sentence = "deleted " + quoted(target, branch);
   if (hangs > 0 && hanging == Hanging::Go)
     sentence += " and " + countText(hangs) + " that hung on it";
   else if (hangs > 0)
     sentence += "; " + countText(hangs) + " that hung on it stayed";
-  std::vector<DraftBranch> kept;
-  for (std::uint32_t b = 0; b < draft.branches.size(); ++b)
-    if (!goes[b]) kept.push_back(std::move(draft.branches[b]));
-  if (kept.empty())
+  if (std::find(goes.begin(), goes.end(), false) == goes.end())
     throw invalidInput("nothing would be left without " + quoted(target, branch) +
-                       (target.tree.branches.size() > 1 ? " and what hangs on it" : "") +
+                       (goes.size() > 1 ? " and what hangs on it" : "") +
                        "; expected a case that keeps at least one branch");
-  draft.branches = std::move(kept);
-  return draft.finish(target, sentence);
+  return deleteBranches(target, goes, sentence);
 }
 
 Change cutBefore(Case& target, std::uint32_t node, Rest rest, const std::string& label) {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "converters/base/edit_steps.h"
-#include "converters/base/shown_figures.h"
+#include "converters/base/number_text.h"
 #include "converters/base/statistics.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
@@ -97,7 +97,7 @@ bool hangsOn(const CenterlineTree& tree, std::uint32_t branch, std::uint32_t abo
 }
 
 std::string millimetres(double length) {
-  return fixed(length, 1) + " mm";
+  return fixedText(length, 1) + " mm";
 }
 
 /// From hints to the case, one kind of statement after the other.
@@ -310,7 +310,7 @@ private:
                    return placeIn(tree(), b, p.position).has_value();
                  });
         });
-    deleteBranches(m_case, goes);
+    leaveOutBranches(m_case, goes);
   }
 
   void giveRest() {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "converters/base/error.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/stages/editing/checks.h"
 #include "converters/stages/editing/draft.h"
@@ -76,10 +76,7 @@ formats::Vec3f courseAt(const Draft& draft, const Place& place) {
 }
 
 std::string placeText(const Vector3d& p, double radius) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), "(%.6g, %.6g, %.6g) mm and a radius of %.4g mm", p.x(),
-                p.y(), p.z(), radius);
-  return text.data();
+  return vectorText(p) + " mm and a radius of " + shownNumber(radius, 4) + " mm";
 }
 
 }  // namespace

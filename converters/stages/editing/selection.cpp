@@ -20,9 +20,8 @@ std::uint32_t above(const formats::CenterlineTree& tree, std::uint32_t branch) {
 
 }  // namespace
 
-void deleteBranches(formats::Case& target, const std::vector<bool>& goes) {
-  const auto count = static_cast<std::size_t>(std::count(goes.begin(), goes.end(), true));
-  if (count == 0) return;
+Change deleteBranches(formats::Case& target, const std::vector<bool>& goes,
+                      const std::string& sentence) {
   Draft draft(target);
   std::vector<DraftBranch> kept;
   for (std::uint32_t b = 0; b < draft.branches.size(); ++b) {
@@ -31,7 +30,12 @@ void deleteBranches(formats::Case& target, const std::vector<bool>& goes) {
     if (!goes[b]) kept.push_back(std::move(branch));
   }
   draft.branches = std::move(kept);
-  draft.finish(target, "left out " + counted(count, "vessel", "vessels"));
+  return draft.finish(target, sentence);
+}
+
+void leaveOutBranches(formats::Case& target, const std::vector<bool>& goes) {
+  const auto count = static_cast<std::size_t>(std::count(goes.begin(), goes.end(), true));
+  if (count > 0) deleteBranches(target, goes, "left out " + counted(count, "vessel", "vessels"));
 }
 
 std::vector<bool> unconnectedWith(const formats::CenterlineTree& tree,

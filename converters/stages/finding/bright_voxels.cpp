@@ -11,6 +11,7 @@
 
 #include "converters/base/statistics.h"
 #include "converters/stages/finding/background.h"
+#include "converters/stages/finding/faded_lumen.h"
 #include "converters/stages/finding/ridges.h"
 
 namespace lumen::convert {
@@ -24,7 +25,7 @@ constexpr double kMostLumen = 0.1;   // share of a volume that vessels may fill
 constexpr double kFewRidges = 0.05;
 /// Multiples of the usual ridge: a vessel has one voxel of the latter at least, and goes on through
 /// voxels of the former. In white noise one voxel of 1000 exceeds 3.2, and none of 885,000 5.6.
-constexpr float kWeakRidge = 4, kStrongRidge = 8;
+constexpr float kWeakRidge = 3.2F, kStrongRidge = 8;
 /// Share of the contrast of wide vessels: no wall is found on a thin vessel that is fainter.
 constexpr float kFaintest = 0.05F;
 /// Strength of the ridge of a thin vessel as a share of its contrast, at the scale that suits it.
@@ -214,6 +215,21 @@ void growIntoWeak(const CellBox& cells, std::vector<std::uint8_t>& mark, const P
   }
 }
 
+/// Marks the lumen of wide vessels where they are less bright than the rest.
+void markFaded(const Volume& volume, const Background& background, float sign, float contrast,
+               std::vector<std::uint8_t>& mark, const Progress& progress) {
+  Excess excess{volume.geometry.cells(), std::vector<float>(mark.size()), [&](const Cell& cell) {
+                  return static_cast<float>(kAboveNoise) * background.noiseAt(cell);
+                }};
+  forEachExcess(volume, background, sign, progress,
+                [&](int, std::size_t i, float value) { excess.value[i] = value; });
+  std::vector<bool> isLumen(mark.size());
+  for (std::size_t i = 0; i < mark.size(); ++i) isLumen[i] = mark[i] == kLumen;
+  growIntoFaded(excess, contrast, isLumen, progress);
+  for (std::size_t i = 0; i < mark.size(); ++i)
+    if (isLumen[i]) mark[i] = kLumen;
+}
+
 }  // namespace
 
 BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& progress) {
@@ -232,6 +248,7 @@ BrightVoxels findBrightVoxels(const Volume& volume, bool dark, const Progress& p
   forEachExcess(volume, background, sign, progress, [&](int, std::size_t i, float value) {
     if (value > half) mark[i] = kLumen;
   });
+  markFaded(volume, background, sign, contrast, mark, progress);
   const std::vector<float> strength = ridgeStrength(volume, sign, progress);
   const UsualRidges usual(cells, strength, mark, progress);
   const float faintRidge = kFaintest * kRidgeShare * contrast;

@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
 #include <string>
 #include <utility>
+#include <variant>
 
+#include "converters/stages/finding/bone.h"
 #include "converters/stages/finding/bright_voxels.h"
 #include "converters/voxels/depth.h"
+#include "converters/voxels/grid_geometry.h"
 #include "converters/voxels/vessel_paths.h"
 
 namespace lumen::convert {
@@ -18,6 +23,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kLeastPart = 27;  // voxels: fewer are a speck
 constexpr double kLeastLength = 10;     // voxels of the longest vessel of a tree
 constexpr double kLeastOfParent = 1;    // of the parent's depth: less is a bump on its wall
+constexpr int kMostPasses = 10;         // of which each takes bone away
 constexpr int kSmoothing = 6;           // passes of (1, 2, 1)/4 over a course
 constexpr double kSacStep = 0.5;        // radii from one point of an aneurysm to the next
 
@@ -30,13 +36,24 @@ public:
         m_paths(set, m_depths, m_isOpen, progress, kLeastOfParent),
         m_progress(progress) {}
 
-  std::vector<SeedBranch> find() {
+  /// The voxels that are no vessels' (boneVoxels()). Call it first.
+  std::vector<bool> findPaths(std::span<const std::size_t> bone,
+                              const std::function<float(std::size_t)>& brightness) {
     std::vector<bool> isSeen(m_set.size(), false);
+    std::vector<VesselPath> all;
     for (std::uint32_t i = 0; i < m_set.size(); ++i) {
       if (isSeen[i]) continue;
       const std::vector<std::uint32_t> part = partOf(i, isSeen);
-      if (part.size() >= kLeastPart) addTree(i);
+      if (part.size() < kLeastPart) continue;
+      m_trees.push_back(m_paths.find(m_paths.widestTip(i, m_progress), m_progress));
+      all.insert(all.end(), m_trees.back().begin(), m_trees.back().end());
     }
+    return boneVoxels({m_set, m_depths, all, brightness}, bone, m_progress);
+  }
+
+  /// The courses along the paths that findPaths() found.
+  std::vector<SeedBranch> courses() {
+    for (const std::vector<VesselPath>& tree : m_trees) addTree(tree);
     return std::move(m_out);
   }
 
@@ -59,9 +76,7 @@ private:
     return part;
   }
 
-  void addTree(std::uint32_t voxel) {
-    const std::vector<VesselPath> paths =
-        m_paths.find(m_paths.widestTip(voxel, m_progress), m_progress);
+  void addTree(const std::vector<VesselPath>& paths) {
     const std::size_t first = m_out.size();
     for (const VesselPath& path : paths) {
       SeedBranch course = courseOf(path, first);
@@ -120,16 +135,17 @@ private:
   VesselPaths::IsOpen m_isOpen = [](const Vector3d&, const Vector3d&) { return true; };
   VesselPaths m_paths;
   Progress& m_progress;
+  std::vector<std::vector<VesselPath>> m_trees;
   std::vector<SeedBranch> m_out;
 };
 
 }  // namespace
 
-bool FoundVessels::isLumen(const Vector3d& point) const {
+bool FoundVessels::isIn(const std::vector<std::size_t>& voxels, const Vector3d& point) const {
   const Vector3d at = geometry.indexFromWorld(point);
   const Cell cell = at.array().round().cast<int>().matrix();
   return geometry.cells().contains(cell) &&
-         std::binary_search(lumen.begin(), lumen.end(), geometry.cells().index(cell));
+         std::binary_search(voxels.begin(), voxels.end(), geometry.cells().index(cell));
 }
 
 FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
@@ -137,9 +153,33 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   BrightVoxels bright = findBrightVoxels(volume, dark, progress);
   progress.detail("lumen: " + std::to_string(bright.indices.size()) + " voxels, contrast " +
                   std::to_string(bright.contrast) + ", noise " + std::to_string(bright.noise));
-  FoundVessels found{volume.geometry, bright.indices, {}};
-  const VoxelSet set(volume.geometry, std::move(bright.indices));
-  found.courses = CourseFinder(set, progress).find();
+  const auto brightness = [&](std::size_t i) {
+    return std::visit(
+        [&](const auto& voxels) { return (dark ? -1.0F : 1.0F) * static_cast<float>(voxels[i]); },
+        volume.voxels);
+  };
+  const VolumeGeometry grid = gridGeometry(volume.geometry);
+  FoundVessels found;
+  found.geometry = volume.geometry;
+  found.lumen = std::move(bright.indices);
+  for (int pass = 0;; ++pass) {
+    const VoxelSet set(grid, std::move(found.lumen));
+    CourseFinder finder(set, progress);
+    const std::vector<bool> isBone = finder.findPaths(found.bone, brightness);
+    found.lumen.clear();
+    for (std::uint32_t i = 0; i < set.size(); ++i)
+      (!isBone.empty() && isBone[i] ? found.bone : found.lumen).push_back(set.index(i));
+    std::sort(found.bone.begin(), found.bone.end());
+    if (!isBone.empty() && pass < kMostPasses) continue;
+    found.courses = finder.courses();
+    break;
+  }
+  for (SeedBranch& course : found.courses)
+    for (SeedPoint& point : course.points)
+      point.position = inFrame(grid, volume.geometry, point.position);
+  if (!found.bone.empty())
+    progress.detail("bone, or other bright tissue without background around it: " +
+                    std::to_string(found.bone.size()) + " voxels");
   progress.end();
   return found;
 }

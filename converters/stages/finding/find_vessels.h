@@ -17,10 +17,16 @@ namespace lumen::convert {
 struct FoundVessels {
   VolumeGeometry geometry;
   std::vector<std::size_t> lumen;  ///< indices of voxels, ascending
+  std::vector<std::size_t> bone;   ///< the same, of bright tissue that is no vessel
   std::vector<SeedBranch> courses;
 
-  /// Whether the voxel around a point, mm, LPS, is one of them.
-  [[nodiscard]] bool isLumen(const Eigen::Vector3d& point) const;
+  /// Whether the voxel around a point, mm, LPS, is one of these.
+  [[nodiscard]] bool isLumen(const Eigen::Vector3d& point) const { return isIn(lumen, point); }
+  [[nodiscard]] bool isBone(const Eigen::Vector3d& point) const { return isIn(bone, point); }
+
+private:
+  [[nodiscard]] bool isIn(const std::vector<std::size_t>& voxels,
+                          const Eigen::Vector3d& point) const;
 };
 
 /// The courses of all vessels that a volume shows: one seed for each, parents first, whose points

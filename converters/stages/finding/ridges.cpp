@@ -11,6 +11,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "converters/voxels/grid_geometry.h"
+
 namespace lumen::convert {
 namespace {
 
@@ -122,7 +124,7 @@ Eigen::Matrix3f hessianAt(const Brick& brick, std::size_t i, const Eigen::Vector
 }  // namespace
 
 std::vector<float> ridgeStrength(const Volume& volume, float sign, const Progress& progress) {
-  const VolumeGeometry& geometry = volume.geometry;
+  const VolumeGeometry geometry = gridGeometry(volume.geometry);
   const CellBox cells = geometry.cells();
   const double voxel = geometry.voxelSize();
   const Eigen::Vector3f spacing = geometry.spacing.cast<float>();

@@ -18,8 +18,6 @@ using Eigen::Vector3d;
 /// The first trial radius at a click and the bound on them, in voxels, and the ratio of one to the
 /// next. A cylinder is found if its radius is between a half and three halves of the trial's.
 constexpr double kFirstTrialVoxels = 1.25, kLastTrialVoxels = 24, kTrialRatio = 1.5;
-/// A start whose wall is seen by more than this share of the rays needs no larger trial.
-constexpr double kSeenWallShare = 0.5;
 
 /// A start nearer to the parent's axis than this share of its radius is in its lumen.
 constexpr double kInLumenShare = 0.75;

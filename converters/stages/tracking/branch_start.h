@@ -13,6 +13,9 @@
 
 namespace lumen::convert {
 
+/// A start whose wall is seen by more than this share of the rays is sure: it needs no larger trial.
+constexpr double kSeenWallShare = 0.5;
+
 /// The first nodes of a branch, away from its parent, or the reason for their absence.
 struct BranchStart {
   std::vector<TrackedNode> nodes;

@@ -14,6 +14,7 @@
 #include "converters/geometry/box.h"
 #include "converters/stages/tracking/aneurysm.h"
 #include "converters/stages/tracking/nodes_along.h"
+#include "converters/stages/tracking/path_rules.h"
 
 namespace lumen::convert {
 namespace {
@@ -22,11 +23,10 @@ using Eigen::Vector3d;
 using formats::NodeOrigin;
 using formats::StopReason;
 
-constexpr double kThinnestVoxels = 1;  // voxels: what is thinner is blurred to that
-constexpr double kLeastFitted = 0.5;   // share of the nodes of a vessel that are cylinders
+constexpr double kThinnestVoxels = 1;     // voxels: what is thinner is blurred to that
+constexpr double kLeastFitted = 1.0 / 3;  // share of the nodes of a vessel that are cylinders
 constexpr std::size_t kFewestFitted = 4;
 constexpr double kShortestVoxels = 4;  // length of a vessel beyond the wall that it leaves
-constexpr double kAtFaceRadii = 1.5;   // an end this near to a face has left the volume
 
 bool isFitted(const TrackedNode& node) {
   return node.origin != NodeOrigin::Bridged;

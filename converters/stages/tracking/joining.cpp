@@ -21,8 +21,6 @@ using Eigen::Vector3d;
 /// An edge longer than the first share of the mean height and the second of the lesser radius is a
 /// gap.
 constexpr double kGapHeights = 1.25, kGapRadii = 1.0;
-/// Nodes at an end of a track from which the levels of its lumen are taken.
-constexpr std::size_t kLevelNodes = 12;
 /// A path longer than this many straight distances leads along other vessels.
 constexpr double kLongestDetour = 2.5;
 /// Distance around the ends in which a path is searched for, in straight distances and at least in

@@ -20,6 +20,9 @@ struct LumenLevels {
   double middle = 0, wall = 0;
 };
 
+/// Nodes at a place of a track from which the levels of its lumen are taken.
+constexpr std::size_t kLevelNodes = 12;
+
 /// Medians over nodes: of the intensity at their centres, and at their wall points. Both zero if
 /// none has wall points.
 LumenLevels levelsOf(const BsplineVolume& volume, std::span<const TrackedNode> nodes);

@@ -180,7 +180,9 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
   return "a cylinder fits";
 }
 
-NodeFit fitNode(TrackRun& run, const NodeGuess& guess, double minRate) {
+namespace {
+
+NodeFit fitToLumen(TrackRun& run, const NodeGuess& guess, double minRate) {
   NodeFit first = fitToWall(run, guess, minRate);
   if (!first.node) return first;
   WallSupport support =
@@ -204,6 +206,17 @@ NodeFit fitNode(TrackRun& run, const NodeGuess& guess, double minRate) {
     next.radius = std::min(support.radius, kNarrowerShare * next.radius);
   }
   return first;
+}
+
+}  // namespace
+
+NodeFit fitNode(TrackRun& run, const NodeGuess& guess, double minRate) {
+  const PlaceTest& isNoVessel = run.context.isNoVessel;
+  if (!isNoVessel) return fitToLumen(run, guess, minRate);
+  if (isNoVessel(guess.centre)) return {};
+  NodeFit fit = fitToLumen(run, guess, minRate);
+  if (fit.node && isNoVessel(fit.node->centre)) return {};
+  return fit;
 }
 
 }  // namespace lumen::convert

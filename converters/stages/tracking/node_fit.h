@@ -26,7 +26,7 @@ struct NodeGuess {
 
 /// The stage that the search for a node reached; each value is nearer to success than those before.
 enum class FitStage : std::uint8_t {
-  OutsideVolume,  ///< the guess lies outside of the volume
+  OutsideVolume,  ///< the guess lies outside of the volume, or where no vessel is
   FewWalls,       ///< fewer than kFewestCandidates rays met a wall, or one wall
   LowRate,        ///< the best cylinder has too few inliers
   DarkInside,     ///< a cylinder fits, but much of its inside is no lumen
@@ -56,7 +56,7 @@ double leastInlierRate(const TrackOptions& options);
 
 /// Fits a node of at least `minRate` to a guess; where its wall is not supported by the volume (see
 /// wall_support.h), to the lumen that it holds instead. Empty if the guess or the fit lies outside
-/// of the volume, if the fit cannot be distinguished from noise, or if no supported one is found.
+/// of the volume or where the context knows of no vessel, if the fit cannot be distinguished from noise, or if no supported one is found.
 NodeFit fitNode(TrackRun& run, const NodeGuess& guess, double minRate);
 
 }  // namespace lumen::convert

@@ -22,9 +22,6 @@ constexpr double kChordRadii = 1.5;
 /// Nodes at the start of a track at which no chord begins: they were fitted without a course.
 constexpr std::size_t kUnsettledNodes = 3;
 
-/// A poor fit wider than this many recent radii holds two vessels.
-constexpr double kSwollenRadii = 1.5;
-
 /// A centre within this share of an earlier node's radius is back in its lumen.
 constexpr double kBackShare = 0.75;
 /// The longest track that a bend makes, in straight distances beyond a radius (half a circle is

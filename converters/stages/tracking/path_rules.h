@@ -13,6 +13,16 @@
 
 namespace lumen::convert {
 
+/// A poor fit wider than this many radii of the vessel beside it holds two vessels.
+constexpr double kSwollenRadii = 1.5;
+/// Radii before a face of the volume within which a track is at it: the rays see half of the wall,
+/// and the centre stalls there.
+constexpr double kAtFaceRadii = 1.5;
+/// Least strength of a vessel beyond a gap or a tip, as a share of the recent mean.
+constexpr double kLikeStrength = 0.5;
+/// Width of a vessel beyond a gap or a tip, in last radii. Narrowing is usual, growing is not.
+constexpr double kNarrowestBeyond = 0.6, kWidestBeyond = 1.5;
+
 /// Means over the last nodes of a track.
 struct RecentMeans {
   double inlierRate = 0, strength = 0, radius = 0;

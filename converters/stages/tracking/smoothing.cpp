@@ -136,21 +136,22 @@ Eigen::Vector3d smoothingAlongAxes(const VolumeGeometry& geometry, double smooth
   return out;
 }
 
-SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                              const TrackOptions& options, const Progress& progress) {
-  const double voxel = volume.geometry.voxelSize();
-  const double most = BsplineVolume::kMostSmoothing * volume.geometry.spacing.minCoeff();
+SmoothedVolume smoothForNoise(const Volume& volume, const VolumeGeometry& geometry,
+                              const std::vector<SeedBranch>& seeds, const TrackOptions& options,
+                              const Progress& progress) {
+  const double voxel = geometry.voxelSize();
+  const double most = BsplineVolume::kMostSmoothing * geometry.spacing.minCoeff();
   const auto smoothed = [&](double smoothing) {
     auto spline = std::make_unique<BsplineVolume>(
-        volume, smoothingAlongAxes(volume.geometry, smoothing, options.evenBlur));
+        volume, geometry, smoothingAlongAxes(geometry, smoothing, options.evenBlur));
     const double floor = noiseFloor(*spline, options, progress);
     return SmoothedVolume{std::move(spline), smoothing, floor};
   };
   SmoothedVolume out = smoothed(std::min(options.smoothing.value_or(0.0), most));
   if (options.smoothing || out.noiseFloor == 0) return out;
-  const double contrast =
-      contrastAtClicks(BsplineVolume(volume, Eigen::Vector3d::Constant(std::min(voxel, most))),
-                       seeds, options, progress);
+  const double contrast = contrastAtClicks(
+      BsplineVolume(volume, geometry, Eigen::Vector3d::Constant(std::min(voxel, most))), seeds,
+      options, progress);
   if (contrast == 0) return out;
   const auto enough = [&](const SmoothedVolume& candidate) {
     // the steepest slope of a straight edge

@@ -44,8 +44,9 @@ struct SmoothedVolume {
 /// or else by the least amount, in steps up to 1.25 voxels, that makes the wall of a vessel of the
 /// clicks' contrast six times as strong as noise; not at all if more is needed, since the clicks
 /// then lie on nothing that can be distinguished from noise. The seeds are needed for their
-/// contrast only.
-SmoothedVolume smoothForNoise(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                              const TrackOptions& options, const Progress& progress);
+/// contrast only. `geometry`: that of the volume, or another frame of it, in which the seeds are.
+SmoothedVolume smoothForNoise(const Volume& volume, const VolumeGeometry& geometry,
+                              const std::vector<SeedBranch>& seeds, const TrackOptions& options,
+                              const Progress& progress);
 
 }  // namespace lumen::convert

@@ -25,15 +25,9 @@ constexpr double kBeyondRadii[] = {7, 14}, kBeyondVoxels = 6;
 constexpr double kNearTipRadii = 3;
 /// Radii beyond the tip within which a path may enter another vessel.
 constexpr double kThroughRadii = 3;
-/// Nodes at a tip from which the levels of its lumen are taken.
-constexpr std::size_t kLevelNodes = 12;
-/// Radius at the end of a path, in last radii.
-constexpr double kNarrowest = 0.6, kWidest = 1.5;
 /// Share of the nodes along a path that must have been fitted, and the number of last ones.
 constexpr double kFittedShare = 0.3;
 constexpr std::size_t kLastFittedNodes = 3;
-/// Least strength of the nodes found, as a share of the strength before.
-constexpr double kLikeStrength = 0.5;
 /// Radii of a tip's own rounded end: a lumen that is visible for less has ended.
 constexpr double kRoundEndRadii = 3.5;
 /// Nodes that may be given up at a tip that has strayed into another vessel.
@@ -103,10 +97,10 @@ void sortStraightestFirst(std::vector<Path>& paths, const Vector3d& course) {
 bool appendAlongPath(TrackRun& run, std::vector<TrackedNode>& nodes, std::span<const Path> paths) {
   const double radius = nodes.back().radius;
   for (const Path& path : paths) {
-    const double end = std::clamp(path.breadth, kNarrowest * radius, kWidest * radius);
+    const double end = std::clamp(path.breadth, kNarrowestBeyond * radius, kWidestBeyond * radius);
     auto found = nodesAlong(run, path.points, radius, end, nullptr);
     if (!isSameVessel(nodes, found)) {
-      if (path.breadth < kWidest * radius) continue;
+      if (path.breadth < kWidestBeyond * radius) continue;
       auto last = fitEnd(run, path);
       if (!last) continue;
       found.push_back(std::move(*last));

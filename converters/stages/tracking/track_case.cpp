@@ -13,6 +13,7 @@
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/tracking/corrections.h"
 #include "converters/stages/tracking/follow_courses.h"
+#include "converters/stages/tracking/grid_frame.h"
 #include "converters/stages/tracking/sac_walls.h"
 #include "converters/stages/tracking/track_by_depth.h"
 #include "converters/stages/tracking/tree_joins.h"
@@ -50,15 +51,17 @@ using TrackBranches = void (*)(const TrackContext&, TrackedTree&, Progress&);
 /// Tracks the seeds of a tree that are not known, and joins and corrects their branches. Known
 /// branches get wall points only, where new aneurysms open into them. Returns the shape by which
 /// walls were corrected. Throws Error(Cancelled).
-WallShape trackTree(const TrackingVolume& volume, TrackBranches trackBranches, TrackedTree& tree,
-                    Progress& progress) {
-  const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress);
+WallShape trackTree(const TrackingVolume& volume, TrackBranches trackBranches,
+                    const PlaceTest& isNoVessel, TrackedTree& tree, Progress& progress) {
+  const TrackContext context(volume.spline(), volume.options(), volume.noiseFloor(), progress,
+                             isNoVessel);
   progress.begin("track", tree.seeds.size() - tree.known);
   trackBranches(context, tree, progress);
-  extendTips(context, tree);
+  const bool isFound = trackBranches == followCourses;
+  isFound ? trimTips(context, tree) : extendTips(context, tree);
   joinTree(context, tree);
   reviewWalls(context, tree);
-  if (trackBranches == followCourses) dropUnsupported(tree);
+  if (isFound) dropUnsupported(tree);
   progress.end();
   const WallShape shape = volume.wallShape() ? *volume.wallShape() : wallShapeOf(volume, tree);
   const std::vector<TrackedBranch> before(
@@ -156,11 +159,18 @@ void dropOtherArrays(AddedTracks& out) {
 namespace {
 
 TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                    const TrackOptions& options, TrackBranches trackBranches, Progress& progress) {
-  const TrackingVolume tracking(volume, seeds, options, progress);
-  TrackedTree tree{seeds};
+                    const TrackOptions& options, TrackBranches trackBranches,
+                    const PlaceTest& isNoVessel, Progress& progress) {
+  const GridFrame frame(volume.geometry);
+  const TrackingVolume tracking(volume, frame, seeds, options, progress);
+  TrackedTree tree{frame.toGrid(seeds)};
   TrackOptions used = tracking.options();
-  used.pointSpread = trackTree(tracking, trackBranches, tree, progress).pointSpread;
+  PlaceTest inGrid;
+  if (isNoVessel)
+    inGrid = [&](const Eigen::Vector3d& point) { return isNoVessel(frame.toWorld(point)); };
+  used.pointSpread = trackTree(tracking, trackBranches, inGrid, tree, progress).pointSpread;
+  for (TrackedBranch& branch : tree.branches) frame.toWorld(branch);
+  tree.seeds = seeds;
 
   TrackResult out{remarksOn(tree), caseOfTracks(tree)};
   out.result.metadata.voxelSize = volume.geometry.voxelSize();
@@ -173,26 +183,27 @@ TrackResult newCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
 
 TrackResult trackCase(const Volume& volume, const std::vector<SeedBranch>& seeds,
                       const TrackOptions& options, Progress& progress) {
-  return newCase(volume, seeds, options, trackByDepth, progress);
+  return newCase(volume, seeds, options, trackByDepth, {}, progress);
 }
 
 TrackResult trackCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
-                         const TrackOptions& options, Progress& progress) {
-  return newCase(volume, courses, options, followCourses, progress);
+                         const PlaceTest& isNoVessel, const TrackOptions& options,
+                         Progress& progress) {
+  return newCase(volume, courses, options, followCourses, isNoVessel, progress);
 }
 
 namespace {
 
 /// Tracks the seeds behind the known ones of `tree` into a case of the known ones.
 AddedTracks intoCase(const TrackingVolume& volume, const formats::Case& known, TrackedTree& tree,
-                     TrackBranches trackBranches, Progress& progress) {
+                     TrackBranches trackBranches, const PlaceTest& isNoVessel, Progress& progress) {
   AddedTracks out;
   out.result = known;
   out.firstNewNode = static_cast<std::uint32_t>(known.tree.nodeCount());
   out.firstNewBranch = static_cast<std::uint32_t>(tree.known);
   const std::size_t added = tree.seeds.size() - tree.known;
   if (added == 0) return out;
-  trackTree(volume, trackBranches, tree, progress);
+  trackTree(volume, trackBranches, isNoVessel, tree, progress);
   static_cast<TrackRemarks&>(out) = remarksOn(tree);
   if (out.failures.size() == added) return out;
   out.changed = replacePoints(tree, out.result);
@@ -230,7 +241,7 @@ AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& kno
   requireNewLabels(known, seeds);
   TrackedTree tree = trackedTreeOf(known);
   appendParentsFirst(seeds, tree.seeds);
-  AddedTracks out = intoCase(volume, known, tree, trackByDepth, progress);
+  AddedTracks out = intoCase(volume, known, tree, trackByDepth, {}, progress);
   for (std::size_t i = tree.known; i < tree.branches.size(); ++i)
     if (!tree.branches[i].nodes.empty()) recordEdit(out.result.metadata, sentenceOn(tree.seeds[i]));
   requireValid(out.result);
@@ -238,12 +249,13 @@ AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& kno
 }
 
 AddedTracks trackCoursesIntoCase(const TrackingVolume& volume, const formats::Case& known,
-                                 const std::vector<SeedBranch>& courses, Progress& progress) {
+                                 const std::vector<SeedBranch>& courses,
+                                 const PlaceTest& isNoVessel, Progress& progress) {
   TrackedTree tree = trackedTreeOf(known);
   std::vector<SeedBranch> stretches = stretchesOutside(courses, tree);
   nameAnew(known, stretches);
   tree.seeds.insert(tree.seeds.end(), stretches.begin(), stretches.end());
-  AddedTracks out = intoCase(volume, known, tree, followCourses, progress);
+  AddedTracks out = intoCase(volume, known, tree, followCourses, isNoVessel, progress);
   const std::size_t found = out.result.tree.branches.size() - known.tree.branches.size();
   if (found > 0)
     recordEdit(out.result.metadata,

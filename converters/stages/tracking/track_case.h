@@ -10,6 +10,7 @@
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/stages/tracking/track_options.h"
+#include "converters/stages/tracking/track_run.h"
 #include "converters/stages/tracking/tracked_tree.h"
 #include "converters/stages/tracking/tracking_volume.h"
 #include "converters/voxels/volume.h"
@@ -29,10 +30,11 @@ TrackResult trackCase(const Volume& volume, const std::vector<SeedBranch>& seeds
 
 /// Fits vessels along courses: the points of each seed, with radii, lead along the whole vessel, from
 /// its parent's axis to its tip. Vessels whose walls the volume does not show are left out, as
-/// failures; tips are extended as those of clicked vessels are. The result does not depend on the
+/// failures. No node is put where `isNoVessel`. The result does not depend on the
 /// number of threads. Throws as trackCase() does.
 TrackResult trackCourses(const Volume& volume, const std::vector<SeedBranch>& courses,
-                         const TrackOptions& options, Progress& progress);
+                         const PlaceTest& isNoVessel, const TrackOptions& options,
+                         Progress& progress);
 
 struct AddedTracks : TrackRemarks {
   /// The known nodes and branches, under their indices, and the new ones behind them. New nodes
@@ -59,6 +61,7 @@ AddedTracks trackIntoCase(const TrackingVolume& volume, const formats::Case& kno
 /// the stretches that the case does not have. New vessels are named vessel-N by numbers that the
 /// case does not use. Throws as trackIntoCase() does.
 AddedTracks trackCoursesIntoCase(const TrackingVolume& volume, const formats::Case& known,
-                                 const std::vector<SeedBranch>& courses, Progress& progress);
+                                 const std::vector<SeedBranch>& courses,
+                                 const PlaceTest& isNoVessel, Progress& progress);
 
 }  // namespace lumen::convert

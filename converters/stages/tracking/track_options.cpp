@@ -9,12 +9,12 @@ namespace lumen::convert {
 namespace {
 
 constexpr NumberRange kShare{0, 1};
-constexpr NumberRange kOpenShare{0, 1, true};
+constexpr NumberRange kOpenRange{0, 1, true};
 constexpr int kMostTrials = 1000000;
 
 void addSearchRows(TrackOptions& o, OptionTable& table) {
   table.add(kOption.inlierRate.name, &o.inlierRate, "SHARE", "Inlier rate that accepts a cylinder")
-      .in(kOpenShare)
+      .in(kOpenRange)
       .recorded();
   table
       .add("inlier-band", &o.inlierBand, "SHARE",

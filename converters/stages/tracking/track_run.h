@@ -2,7 +2,9 @@
 // Data and buffers that the steps of tracking hand on to one another.
 #pragma once
 
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,15 +20,19 @@
 
 namespace lumen::convert {
 
+/// Whether a place, mm, LPS, is known to be no vessel. An empty one knows of none.
+using PlaceTest = std::function<bool(const Eigen::Vector3d&)>;
+
 /// Data that all tracks of one volume share. Any number of threads may read one. The referenced
 /// objects must outlive it.
 struct TrackContext {
   TrackContext(const BsplineVolume& theVolume, const TrackOptions& theOptions, double theNoiseFloor,
-               const Progress& theProgress)
+               const Progress& theProgress, PlaceTest theNoVessel = {})
       : volume(theVolume),
         options(theOptions),
         noiseFloor(theNoiseFloor),
         progress(theProgress),
+        isNoVessel(std::move(theNoVessel)),
         search(theOptions),
         rays(icosphere(icosphereOrder(theOptions.rays))) {}
 
@@ -34,6 +40,7 @@ struct TrackContext {
   const TrackOptions& options;
   double noiseFloor;  ///< see smoothing.h
   const Progress& progress;
+  PlaceTest isNoVessel;
   CylinderSearch search;
   std::vector<Eigen::Vector3d> rays;  ///< unit directions
 };

@@ -20,19 +20,14 @@ namespace {
 using Eigen::Vector3d;
 using formats::StopReason;
 
-/// Radii before a face of the volume within which a track is at it: the rays see half of the wall,
-/// and the centre stalls there.
-constexpr double kAtFaceRadii = 1.5;
 /// Radii from the goal's axis at which a track back has arrived: in its lumen, or at its wall.
 constexpr double kArrivedRadii = 2.0;
 /// A track back that is longer than this many straight distances leads along other vessels.
 constexpr double kLongestDetour = 3.0;
 
-/// Least inlier rate and strength beyond a gap, as shares of the recent means. A find must be
-/// nearly as good a cylinder as the vessel was; its contrast may fall by more.
-constexpr double kLikeRate = 0.8, kLikeStrength = 0.5;
-/// Width of the vessel beyond a gap, in last radii. Narrowing is usual, growing is not.
-constexpr double kNarrowest = 0.6, kWidest = 1.5;
+/// Least inlier rate beyond a gap, as a share of the recent mean. A find must be nearly as good a
+/// cylinder as the vessel was; its contrast may fall by more.
+constexpr double kLikeRate = 0.8;
 /// Recent radii: a shorter gap is bridged in any direction of the vessel beyond it.
 constexpr double kShortGapRadii = 2.0;
 /// Cosine of 40 degrees, the largest angle between the bridge and a vessel beyond a gap; and of 50,
@@ -56,7 +51,8 @@ struct Likeness {
 
   [[nodiscard]] bool holds(const TrackedNode& node) const {
     return node.strength >= kLikeStrength * mean.strength &&
-           node.radius >= kNarrowest * last.radius && node.radius <= kWidest * last.radius;
+           node.radius >= kNarrowestBeyond * last.radius &&
+           node.radius <= kWidestBeyond * last.radius;
   }
   [[nodiscard]] bool onCourse(const TrackedNode& node) const {
     const Vector3d bridge = node.centre - last.centre;

@@ -38,8 +38,11 @@ void checkVoxels(const Eigen::Vector3d& spacing) {
 /// Vessels have the other sign than stated if their contrast is this many times as large with it.
 constexpr double kOtherSignContrasts = 4.0;
 
-void warnOfOtherSign(const Volume& volume, const std::vector<SeedBranch>& seeds,
-                     const TrackOptions& options, Progress& progress) {
+/// Throws where a volume and options cannot serve, and warns of clicks on the other sign.
+void checkAndWarn(const Volume& volume, const std::vector<SeedBranch>& seeds,
+                  const TrackOptions& options, Progress& progress) {
+  options.check(volume.geometry.spacing.minCoeff());
+  checkVoxels(volume.geometry.spacing);
   const Eigen::Vector3d& spacing = volume.geometry.spacing;
   const double most = BsplineVolume::kMostSmoothing * spacing.minCoeff();
   const BsplineVolume spline(
@@ -140,7 +143,7 @@ TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracke
     : m_options(optionsFor(tracked)) {
   m_options.check(volume.geometry.spacing.minCoeff());
   checkVoxels(volume.geometry.spacing);
-  m_smoothed = smoothForNoise(volume, clicksOf(tracked), m_options, progress);
+  m_smoothed = smoothForNoise(volume, volume.geometry, clicksOf(tracked), m_options, progress);
   m_options.smoothing = m_smoothed.smoothing;
   m_wallShape = wallShapeOf(*this, trackedTreeOf(tracked));
   if (!m_options.pointSpread) return;
@@ -151,12 +154,23 @@ TrackingVolume::TrackingVolume(const Volume& volume, const formats::Case& tracke
 TrackingVolume::TrackingVolume(const Volume& volume, const std::vector<SeedBranch>& clicks,
                                const TrackOptions& options, Progress& progress)
     : m_options(options) {
-  m_options.check(volume.geometry.spacing.minCoeff());
-  checkVoxels(volume.geometry.spacing);
-  warnOfOtherSign(volume, clicks, options, progress);
-  m_smoothed = smoothForNoise(volume, clicks, options, progress);
+  checkAndWarn(volume, clicks, options, progress);
+  prepare(volume, volume.geometry, clicks, progress);
+}
+
+TrackingVolume::TrackingVolume(const Volume& volume, const GridFrame& frame,
+                               const std::vector<SeedBranch>& clicks, const TrackOptions& options,
+                               Progress& progress)
+    : m_options(options) {
+  checkAndWarn(volume, clicks, options, progress);
+  prepare(volume, frame.geometry(), frame.toGrid(clicks), progress);
+}
+
+void TrackingVolume::prepare(const Volume& volume, const VolumeGeometry& geometry,
+                             const std::vector<SeedBranch>& clicks, const Progress& progress) {
+  m_smoothed = smoothForNoise(volume, geometry, clicks, m_options, progress);
   m_options.smoothing = m_smoothed.smoothing;
-  if (options.pointSpread) m_wallShape = WallShape{*options.pointSpread, 0};
+  if (m_options.pointSpread) m_wallShape = WallShape{*m_options.pointSpread, 0};
 }
 
 }  // namespace lumen::convert

@@ -9,6 +9,7 @@
 #include "converters/base/progress.h"
 #include "converters/io/seeds/seeds.h"
 #include "converters/stages/tracking/corrections.h"
+#include "converters/stages/tracking/grid_frame.h"
 #include "converters/stages/tracking/smoothing.h"
 #include "converters/stages/tracking/track_options.h"
 #include "converters/stages/tracking/tracked_tree.h"
@@ -28,6 +29,10 @@ public:
   /// Prepares a volume without a case: smoothed as the noise around these clicks requires.
   TrackingVolume(const Volume& volume, const std::vector<SeedBranch>& clicks,
                  const TrackOptions& options, Progress& progress);
+  /// The same in the frame of its grid, from which results are to be turned back.
+  TrackingVolume(const Volume& volume, const GridFrame& frame,
+                 const std::vector<SeedBranch>& clicks, const TrackOptions& options,
+                 Progress& progress);
 
   [[nodiscard]] const BsplineVolume& spline() const { return *m_smoothed.spline; }
   [[nodiscard]] const VolumeGeometry& geometry() const { return spline().geometry(); }
@@ -38,6 +43,9 @@ public:
   [[nodiscard]] const std::optional<WallShape>& wallShape() const { return m_wallShape; }
 
 private:
+  void prepare(const Volume& volume, const VolumeGeometry& geometry,
+               const std::vector<SeedBranch>& clicks, const Progress& progress);
+
   TrackOptions m_options;
   SmoothedVolume m_smoothed;
   std::optional<WallShape> m_wallShape;

@@ -230,12 +230,30 @@ void joinLevel(const Vessels& vessels, const std::vector<int>& levels, int level
 
 }  // namespace
 
+namespace {
+
+bool isBothWays(const TrackedBranch& branch) {
+  return branch.parentBranch < 0 && branch.startReason != StopReason::Unknown;
+}
+
+}  // namespace
+
+void trimTips(const TrackContext& context, TrackedTree& tree) {
+  const Vessels vessels(context, tree);
+  for (const std::size_t i : vessels.newMembers()) {
+    dropDome(vessels[i]);
+    if (isBothWays(vessels[i])) {
+      turnRound(vessels[i]);
+      dropDome(vessels[i]);
+      turnRound(vessels[i]);
+    }
+    dropTurnedBack(vessels[i]);
+  }
+}
+
 void extendTips(const TrackContext& context, TrackedTree& tree) {
   const Vessels vessels(context, tree);
   extendTipsIf(context, vessels, [](const TrackedBranch&) { return true; });
-  const auto isBothWays = [](const TrackedBranch& branch) {
-    return branch.parentBranch < 0 && branch.startReason != StopReason::Unknown;
-  };
   for (const std::size_t i : vessels.newMembers()) {
     dropDome(vessels[i]);
     if (isBothWays(vessels[i])) turnRound(vessels[i]);

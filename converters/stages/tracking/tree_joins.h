@@ -13,6 +13,11 @@ namespace lumen::convert {
 /// branches stay as they are. Throws Error(Cancelled).
 void extendTips(const TrackContext& context, TrackedTree& tree);
 
+/// Drops what is no vessel at the tips of all new vessels: domes, and nodes that turn back. The tips
+/// of courses stay there, as these lead as far as the volume shows vessels: what a walk finds beyond
+/// hangs on its random samples.
+void trimTips(const TrackContext& context, TrackedTree& tree);
+
 /// Makes one lumen of each tree: fills the gaps of all vessels, leads children to the axis of their
 /// parents, and joins roots to another tree to which the lumen leads. Known branches, which are
 /// joined already, stay as they are. Throws Error(Cancelled).

@@ -21,9 +21,8 @@ constexpr double kAsideVoxels = 2;
 /// is sure.
 constexpr double kNarrowVoxels[] = {1.25, 1.875, 2.8125, 4.21875, 6.328125};
 constexpr double kWideVoxels[] = {9.4921875, 14.23828125, 21.357421875};
-/// An accepted cylinder whose wall is seen by more than the first share of the rays is sure; one
-/// seen by the second share is no part of a wider vessel's wall.
-constexpr double kSeenWallShare = 0.5, kOwnWallShare = 0.25;
+/// An accepted cylinder whose wall is seen by this share of the rays is no part of a wider vessel's.
+constexpr double kOwnWallShare = 0.25;
 
 /// The search for the vessel under one click.
 class Search {

@@ -11,6 +11,7 @@
 
 #include "converters/base/statistics.h"
 #include "converters/stages/tracking/node_fit.h"
+#include "converters/stages/tracking/path_rules.h"
 #include "converters/stages/tracking/wall_section.h"
 
 namespace lumen::convert {
@@ -18,8 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A node wider than this many radii of the vessel on either side is swollen (as in section 1.5).
-constexpr double kSwollenRadii = 1.5;
 /// Length of the vessel on either side from which the expected radius is taken, in radii of the
 /// node. A bulge that is longer than it is wide is therefore expected.
 constexpr double kSideRadii = 4;

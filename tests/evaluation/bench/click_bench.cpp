@@ -60,7 +60,7 @@ void again(const TrackingVolume& volume, const formats::Case& whole, const std::
   refit(out, stale, recordedFitOptions(out), silent);
   const double fitting = since(clock);
   const bool isNew = tracks.firstNewBranch < out.tree.branches.size();
-  const auto reach = formats::reachabilityOf(out.tree, formats::blendedFieldOf(out));
+  const auto reach = formats::measureReachability(out.tree, formats::caseField(out));
   std::printf(
       "%-12s %5.1f -> %5.1f mm, parent %5d; delete %5.1f refit %5.0f (%zu) click %5.1f%s track "
       "%6.0f "

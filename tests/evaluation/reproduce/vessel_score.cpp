@@ -127,7 +127,7 @@ VesselScore scoreVessels(const formats::Case& found, const formats::Case& truth,
   scoreTruth(found.tree, truth.tree, clicked, voxel, score);
   scoreFound(found.tree, truth.tree, voxel, score);
   if (found.models) {
-    const auto reach = formats::reachabilityOf(found.tree, formats::blendedFieldOf(found));
+    const auto reach = formats::measureReachability(found.tree, formats::caseField(found));
     score.reachable = reach.reachable;
     score.reachableOf = reach.total;
   }

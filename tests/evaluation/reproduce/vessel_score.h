@@ -31,7 +31,7 @@ struct VesselScore {
   double length = 0;   ///< of the case's axes
   double falseLength =
       0;  ///< of that, farther than half a voxel from the lumen of every true vessel
-  double reachable = 0, reachableOf = 0;  ///< formats::reachabilityOf()
+  double reachable = 0, reachableOf = 0;  ///< formats::measureReachability()
   double wallMedian = 0, radiusBias = 0;  ///< convert::compareCases()
   std::vector<Piece> uncovered, wrong;    ///< longest first
 };

@@ -133,7 +133,7 @@ TEST(RealCenterlines, SlicersCurvesOfAFolderAreOneTreeWithTheirLoops) {
   std::size_t roots = 0;
   for (const CenterlinePoint& point : file.points) roots += point.parent == kNoPoint ? 1 : 0;
   EXPECT_EQ(roots, 1U);
-  EXPECT_EQ(chainsOf(file).size(), 25U);
+  EXPECT_EQ(centerlineChains(file).size(), 25U);
   EXPECT_EQ(file.links.size(), 1U);  // both vertebral arteries end in the basilar artery
   EXPECT_TRUE(formats::validate(caseOfCenterline(file, "curves")));
 }
@@ -142,7 +142,7 @@ TEST(RealCenterlines, VmtksLinesOfTheAortaAreOneTreeWhetherSplitOrNot) {
   for (const char* name : {"aorta/aorta-centerline.vtp", "aorta/aorta-centerline-branches.vtp"}) {
     if (!std::filesystem::exists(kShared / name)) GTEST_SKIP() << name << " is missing";
     const CenterlineFile file = readVtpCenterline(kShared / name);
-    EXPECT_EQ(chainsOf(file).size(), 2U) << name;
+    EXPECT_EQ(centerlineChains(file).size(), 2U) << name;
     EXPECT_NEAR(extentOf(file).most, 7.578, 1e-3) << name;
   }
 }

@@ -11,7 +11,7 @@ using Indices = std::vector<std::int32_t>;
 TEST(Chains, AtAForkTheWidestChildGoesOn) {
   const CenterlineFile file = parseSwc(
       "1 0 0 0 0 2 -1\n2 0 1 0 0 2 1\n3 0 2 0 0 1 2\n4 0 1 1 0 1.5 2\n5 0 1 2 0 1.5 4\n", "t");
-  const std::vector<CenterlineChain> chains = chainsOf(file);
+  const std::vector<CenterlineChain> chains = centerlineChains(file);
   ASSERT_EQ(chains.size(), 2U);
   EXPECT_EQ(chains[0].points, (Indices{0, 1, 3, 4}));
   EXPECT_EQ(chains[1].points, Indices{2});
@@ -22,7 +22,7 @@ TEST(Chains, AtAForkTheWidestChildGoesOn) {
 TEST(Chains, OfEquallyWideChildrenTheOneThatTurnsLeastGoesOn) {
   const CenterlineFile file =
       parseSwc("1 0 0 0 0 2 -1\n2 0 1 0 0 2 1\n3 0 1 1 0 1 2\n4 0 2 0.1 0 1 2\n", "t");
-  const std::vector<CenterlineChain> chains = chainsOf(file);
+  const std::vector<CenterlineChain> chains = centerlineChains(file);
   ASSERT_EQ(chains.size(), 2U);
   EXPECT_EQ(chains[0].points, (Indices{0, 1, 3}));
   EXPECT_EQ(chains[1].points, Indices{2});
@@ -34,7 +34,7 @@ TEST(Chains, APointAtThePlaceOfItsParentIsOneWithIt) {
       "1 0 0 0 0 2 -1\n2 0 0 0 0 2 1\n3 0 1 0 0 2 2\n4 0 1 0 0 1 3\n5 0 1 1 0 1 4\n"
       "6 0 2 0 0 2 3\n7 0 0 0 0 1 1\n8 0 -1 0 0 1 7\n",
       "t");
-  const std::vector<CenterlineChain> chains = chainsOf(file);
+  const std::vector<CenterlineChain> chains = centerlineChains(file);
   ASSERT_EQ(chains.size(), 3U);
   EXPECT_EQ(chains[0].points, (Indices{0, 2, 5}));
   EXPECT_EQ(chains[1].points, Indices{7});
@@ -48,7 +48,7 @@ TEST(Chains, EveryRootBeginsATreeAndParentsComeFirst) {
       "1 0 0 0 0 1 -1\n2 0 9 0 0 1 -1\n3 0 1 0 0 1 1\n4 0 9 1 0 1 2\n5 0 8 0 0 0.5 2\n6 0 7 0 0 "
       "0.5 5\n7 0 8 1 0 0.4 5\n",
       "t");
-  const std::vector<CenterlineChain> chains = chainsOf(file);
+  const std::vector<CenterlineChain> chains = centerlineChains(file);
   ASSERT_EQ(chains.size(), 4U);
   EXPECT_EQ(chains[0].parent, -1);
   EXPECT_EQ(chains[1].parent, -1);
@@ -59,7 +59,7 @@ TEST(Chains, EveryRootBeginsATreeAndParentsComeFirst) {
 }
 
 TEST(Chains, ALoneRootIsAChainOfOnePoint) {
-  const std::vector<CenterlineChain> chains = chainsOf(parseSwc("1 0 0 0 0 1 -1\n", "t"));
+  const std::vector<CenterlineChain> chains = centerlineChains(parseSwc("1 0 0 0 0 1 -1\n", "t"));
   ASSERT_EQ(chains.size(), 1U);
   EXPECT_EQ(chains[0].points, Indices{0});
 }

@@ -31,7 +31,7 @@ TEST(JoinCurves, LinesFromARootToItsTipsHaveTheTrunkOnce) {
   const CenterlineFile file = joinCurves({left, right});
   EXPECT_EQ(file.points.size(), 11U + 5 + 5);
   EXPECT_EQ(rootsOf(file), 1U);
-  const auto chains = chainsOf(file);
+  const auto chains = centerlineChains(file);
   ASSERT_EQ(chains.size(), 2U);
   EXPECT_EQ(chains[1].parentSample, 10U);
 }
@@ -50,7 +50,7 @@ TEST(JoinCurves, ACurveHangsOnTheOneInWhoseLumenItBegins) {
       joinCurves({straight({5.2, 0.6, 0}, 5, {0, 1, 0}, 0.4), straight({0, 0, 0}, 11, {1, 0, 0}),
                   straight({5, 1.4, 3}, 5, {0, 1, 0}, 0.4)});
   EXPECT_EQ(rootsOf(file), 2U);  // the third begins in none
-  const auto chains = chainsOf(file);
+  const auto chains = centerlineChains(file);
   ASSERT_EQ(chains.size(), 3U);
   EXPECT_EQ(chains[0].points.size(), 11U);
   EXPECT_EQ(chains[1].parent, 0);

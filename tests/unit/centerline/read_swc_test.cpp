@@ -157,7 +157,7 @@ TEST(ReadSwc, AFileThatIsNotThereIsNamed) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);
-    EXPECT_EQ(std::string(error.what()).rfind("no-such.swc: cannot be read", 0), 0U);
+    EXPECT_EQ(std::string(error.what()).rfind("no-such.swc: there is no such centerline", 0), 0U);
   }
 }
 
@@ -170,7 +170,7 @@ TEST(ReadSwc, RealTreesAreRead) {
     ++files;
     const CenterlineFile file = readSwc(entry.path());
     EXPECT_GT(file.points.size(), 1000U);
-    const std::vector<CenterlineChain> chains = chainsOf(file);
+    const std::vector<CenterlineChain> chains = centerlineChains(file);
     EXPECT_GT(chains.size(), 70U);
     EXPECT_LT(chains.size(), 140U);
   }

@@ -38,7 +38,7 @@ Fitted fitted(const std::string& name, int size) {
 /// For each branch the signed distances of its wall's samples from the true wall, mm, positive where
 /// the model is too wide.
 std::vector<std::vector<double>> trueErrors(const Fitted& f, double spacing) {
-  const field::BlendedField surface = formats::blendedFieldOf(f.value);
+  const field::BlendedField surface = formats::caseField(f.value);
   const TubeTreeDistance wall(f.phantom.truth.tree);
   const WallSampler sampler(f.value.tree, surface, spacing);
   std::vector<std::vector<double>> errors(f.value.tree.branches.size());
@@ -70,13 +70,13 @@ void expectAgreement(const Fitted& f) {
   EXPECT_GE(compared, std::min<std::size_t>(errors.size(), 2));
 }
 
-TEST(TrueWall, OfTheTubeIsWhereTheOffsetSays) {
+TEST(TrueWall, OfTheTubeIsWhereTheOffsetStates) {
   expectAgreement(fitted("tube", 64));
 }
-TEST(TrueWall, OfTheBifurcationIsWhereTheOffsetSays) {
+TEST(TrueWall, OfTheBifurcationIsWhereTheOffsetStates) {
   expectAgreement(fitted("bifurcation", 96));
 }
-TEST(TrueWall, OfAPatientIsWhereTheOffsetSays) {
+TEST(TrueWall, OfAPatientIsWhereTheOffsetStates) {
   expectAgreement(fitted("patient", 128));
 }
 

@@ -28,7 +28,7 @@ double power(const CenterlineTree& tree, std::size_t node, const Vec& p) {
 
 /// The field of a case; one without blobs, to find nodes by, where it has no models.
 BlendedField fieldOf(const Case& value) {
-  if (value.models) return blendedFieldOf(value);
+  if (value.models) return caseField(value);
   BlobbyModels none;
   none.offset.assign(value.tree.nodeCount() + 1, 0);
   return {treeViewOf(value.tree), modelsViewOf(none)};

@@ -211,7 +211,7 @@ TEST(Selection, KeepsTheTreesOfNamedBranches) {
   addBeads(value, "other", alongX(0, 0.5F, 9, 30), 1);
   value.models.reset();
   Case connected = value;
-  deleteBranches(connected, unconnectedWith(connected.tree, {"vessel-3"}));
+  leaveOutBranches(connected, unconnectedWith(connected.tree, {"vessel-3"}));
   EXPECT_EQ(connected.tree.branches.size(), 3U);
 }
 

@@ -41,7 +41,7 @@ std::vector<std::uint32_t> staleAfter(const Case& before, const AddedTracks& tra
 void expectReachable(const Case& value) {
   const auto valid = formats::validate(value);
   ASSERT_TRUE(valid) << valid.error().text();
-  const auto reach = formats::reachabilityOf(value.tree, formats::blendedFieldOf(value));
+  const auto reach = formats::measureReachability(value.tree, formats::caseField(value));
   EXPECT_EQ(reach.reachable, reach.total);
 }
 
@@ -146,7 +146,7 @@ TEST(Corrections, LeaveATreeThatIsReachableOnceWhatTheyChangedIsFitted) {
   fitted(setKind(value, 0, formats::BranchKind::Aneurysm));
 }
 
-TEST(Corrections, MakeTheVesselAsWideAsAMovedNodeSays) {
+TEST(Corrections, MakeTheVesselAsWideAsAMovedNodeStates) {
   const Fork fork;
   Progress silent;
   Case value = fork.value;
@@ -155,7 +155,7 @@ TEST(Corrections, MakeTheVesselAsWideAsAMovedNodeSays) {
   const Change change = moveNode(value, node, toEigen(value.tree.centre[node]), radius);
   refit(value, change.stale, recordedFitOptions(value), silent);
   // the wall at the node, in the middle between where it was and is said to be, or farther
-  const auto field = formats::blendedFieldOf(value);
+  const auto field = formats::caseField(value);
   const Eigen::Vector3d centre = toEigen(value.tree.centre[node]);
   const auto [u, v] = planeBasis(toEigen(value.tree.direction[node]));
   int within = 0;

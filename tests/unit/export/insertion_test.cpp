@@ -24,7 +24,7 @@ CenterlineTree fork() {
 }
 
 TEST(Insertion, LiesAsFarInsideTheRootAsItNeedsAndFollowsTheWidestVessel) {
-  const Insertion in = insertionOf(fork(), "", 1.5);
+  const Insertion in = findInsertion(fork(), "", 1.5);
   EXPECT_EQ(in.branch, 0U);
   EXPECT_EQ(in.position, Eigen::Vector3d(0, 0, 2));
   EXPECT_EQ(in.direction, Eigen::Vector3d::UnitZ());
@@ -34,14 +34,14 @@ TEST(Insertion, LiesAsFarInsideTheRootAsItNeedsAndFollowsTheWidestVessel) {
 }
 
 TEST(Insertion, IsAtTheBranchThatIsNamed) {
-  const Insertion in = insertionOf(fork(), "sac", 0.5);
+  const Insertion in = findInsertion(fork(), "sac", 0.5);
   EXPECT_EQ(in.branch, 3U);
   EXPECT_EQ(in.position, Eigen::Vector3d(0, 6, 20));
 }
 
 TEST(Insertion, RefusesALabelThatNoBranchHasAndTellsThose) {
   try {
-    insertionOf(fork(), "trunc", 0.5);
+    findInsertion(fork(), "trunc", 0.5);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::Usage);
@@ -51,7 +51,7 @@ TEST(Insertion, RefusesALabelThatNoBranchHasAndTellsThose) {
 
 TEST(Insertion, RefusesAVesselThatIsTooNarrow) {
   try {
-    insertionOf(fork(), "thin", 0.5);
+    findInsertion(fork(), "thin", 0.5);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::InvalidInput);

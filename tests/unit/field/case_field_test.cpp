@@ -41,7 +41,7 @@ Case smallCase() {
 
 TEST(CaseField, TheLocalFieldIsTheReferencesOwn) {
   const Case value = smallCase();
-  const field::BlendedField blended = blendedFieldOf(value);
+  const field::BlendedField blended = caseField(value);
   for (std::uint32_t node = 0; node < 4; ++node) {
     const FieldValue expected = evaluateField(*value.models, node, {0.4, 0.5, 0.6});
     const field::Jet<1> found = blended.local({0.4, 0.5, 0.6}, node);
@@ -51,7 +51,7 @@ TEST(CaseField, TheLocalFieldIsTheReferencesOwn) {
 }
 
 TEST(CaseField, ParentsAndLinksAreEdges) {
-  const field::BlendedField blended = blendedFieldOf(smallCase());
+  const field::BlendedField blended = caseField(smallCase());
   const auto around = blended.neighbours(0);
   EXPECT_EQ(std::vector(around.begin(), around.end()), (std::vector<std::uint32_t>{1, 2, 3}));
 }
@@ -59,7 +59,7 @@ TEST(CaseField, ParentsAndLinksAreEdges) {
 TEST(CaseField, AViewOfTheCaseGivesTheSame) {
   const Case value = smallCase();
   const CaseAsView asView(value);
-  const field::BlendedField expected = blendedFieldOf(value);
+  const field::BlendedField expected = caseField(value);
   const field::BlendedField found(treeViewOf(asView.view()), modelsViewOf(*asView.view().models));
   for (std::uint32_t node = 0; node < 4; ++node)
     EXPECT_EQ(found.blended({0.7, 0.5, 0.1}, node).value,

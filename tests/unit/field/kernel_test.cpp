@@ -77,7 +77,7 @@ TYPED_TEST(KernelFormulas, BeyondItsReachPhiIsNoMoreThanTheShare) {
     EXPECT_LE(TypeParam::phi(TypeParam::reach(ratio)), (1 + 1e-14) / ratio) << ratio;
 }
 
-TYPED_TEST(KernelFormulas, TheLevelTransformFallsAsItsSlopeSays) {
+TYPED_TEST(KernelFormulas, TheLevelTransformFallsAsItsSlopeStates) {
   for (const double f : {0.02, 0.1, 0.8}) {
     const auto h = [](double at) { return TypeParam::level(at, 1 / at, 0.0); };
     const double slope = (h(f * (1 + kStep)) - h(f * (1 - kStep))) / (2 * kStep * f);

@@ -2,7 +2,9 @@
 #include "converters/stages/finding/find_vessels.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -72,6 +74,98 @@ TEST(FindVessels, AVesselOfAFifthOfTheContrastIsFound) {
   EXPECT_LT(
       std::min(distanceFrom(courses[0], {46, 46, 32}), distanceFrom(courses[1], {46, 46, 32})),
       1.5);
+}
+
+TEST(FindVessels, AWideVesselThatFadesIsFoundToItsEnd) {
+  Volume volume = drawVolume(96, 1, [](const Vector3d& p) {
+    return std::min(capsule(p, {24, 24, 4}, {24, 24, 92}, 5),
+                    capsule(p, {70, 70, 4}, {70, 70, 92}, 5));
+  });
+  // the first one keeps a fifth of its brightness at its end
+  const CellBox cells = volume.geometry.cells();
+  cells.forEach([&](const Cell& cell) {
+    std::int16_t& voxel = std::get<std::vector<std::int16_t>>(volume.voxels)[cells.index(cell)];
+    if (cell[0] < 48 && cell[2] > 32)
+      voxel = static_cast<std::int16_t>(voxel * (112 - cell[2]) / 80);
+  });
+  const auto courses = find(volume);
+  ASSERT_EQ(courses.size(), 2U);
+  for (const SeedBranch& course : courses) {
+    const bool fades = course.points[0].position.x() < 48;
+    const double at = fades ? 24 : 70;
+    EXPECT_LT(distanceFrom(course, {at, at, 88}), 4) << (fades ? "the fading one" : "the other");
+  }
+}
+
+/// Struts and pores of equal width, by a gyroid of a period of 10 mm.
+double sponge(const Vector3d& p) {
+  const Vector3d a = 0.2 * std::numbers::pi * p;
+  return -2 * (std::sin(a.x()) * std::cos(a.y()) + std::sin(a.y()) * std::cos(a.z()) +
+               std::sin(a.z()) * std::cos(a.x()));
+}
+
+double box(const Vector3d& p, const Vector3d& centre, const Vector3d& half) {
+  return ((p - centre).cwiseAbs() - half).maxCoeff();
+}
+
+FoundVessels findBeside(const std::function<double(const Vector3d&)>& bone) {
+  const Volume volume = drawVolume(80, 1, [&](const Vector3d& p) {
+    return std::min(capsule(p, {15, 40, 4}, {15, 40, 76}, 2.5), bone(p));
+  });
+  Progress silent;
+  return findVessels(volume, false, silent);
+}
+
+TEST(FindVessels, APlateIsBone) {
+  const FoundVessels found = findBeside([](const Vector3d& p) {
+    return box(p, {45, 40, 40}, {2, 30, 30});
+  });
+  // its edge, as bright as a vessel, may stay
+  for (const SeedBranch& course : found.courses) EXPECT_GT(distanceFrom(course, {45, 40, 40}), 22);
+  EXPECT_LT(distanceFrom(found.courses[0], {15, 40, 40}), 1);
+  EXPECT_TRUE(found.isBone({45, 40, 40}));
+  EXPECT_TRUE(found.isLumen({15, 40, 40}));
+  EXPECT_FALSE(found.isBone({15, 40, 40}));
+}
+
+TEST(FindVessels, ASpongeInAShellIsBone) {
+  const FoundVessels found = findBeside([](const Vector3d& p) {
+    const double whole = box(p, {50, 40, 40}, {12, 30, 30});
+    return std::max(whole, std::min(sponge(p), -3 - whole));
+  });
+  double inBone = 0, points = 0;
+  for (const SeedBranch& course : found.courses)
+    for (const SeedPoint& point : course.points) {
+      ++points;
+      inBone += point.position.x() > 25 ? 1 : 0;
+    }
+  EXPECT_GT(points, 60);
+  EXPECT_LT(inBone, points);
+  EXPECT_TRUE(found.isLumen({15, 40, 40}));
+  EXPECT_TRUE(found.isBone({39, 40, 40}));
+}
+
+TEST(FindVessels, AVesselThatTouchesAPlateIsNoBone) {
+  const FoundVessels found = findBeside([](const Vector3d& p) {
+    return box(p, {20, 40, 40}, {2, 30, 15});  // its face is half a voxel from the vessel's wall
+  });
+  for (const double z : {10.0, 25.0, 40.0, 55.0, 70.0}) {
+    EXPECT_FALSE(found.isBone({15, 40, z})) << z;
+    EXPECT_TRUE(found.isLumen({15, 40, z})) << z;
+  }
+  EXPECT_TRUE(found.isBone({20, 60, 40}));
+}
+
+TEST(FindVessels, ATangleOfVesselsIsNoBone) {
+  // thin vessels side by side, four radii apart
+  const Volume volume = drawVolume(64, 1, [](const Vector3d& p) {
+    double least = capsule(p, {8, 8, 32}, {56, 8, 32}, 2);
+    for (int k = 0; k < 6; ++k)
+      least = std::min(least, capsule(p, {12.0 + 8 * k, 8, 32}, {12.0 + 8 * k, 56, 32}, 2));
+    return least;
+  });
+  Progress silent;
+  EXPECT_TRUE(findVessels(volume, false, silent).bone.empty());
 }
 
 TEST(FindVessels, NoiseHoldsNone) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "converters/base/vectors.h"
 #include "converters/judge/compare/compare.h"
 #include "converters/stages/finding/find_vessels.h"
 #include "converters/stages/phantom/phantom.h"
@@ -23,7 +24,8 @@ Phantom phantom(const std::string& name) {
 }
 
 formats::Case treeOf(const Volume& volume, Progress& progress) {
-  return trackCourses(volume, findVessels(volume, false, progress).courses, {}, progress).result;
+  return trackCourses(volume, findVessels(volume, false, progress).courses, {}, {}, progress)
+      .result;
 }
 
 struct Expected {
@@ -68,7 +70,7 @@ TEST(TrackCourses, ACandidateWithoutAWallIsNoVesselAndItsChildrenHangOnTheOneBef
                                        {course("trunk", {4, 6, 0.8}, {4, 6, 11.8}, {}),
                                         course("nothing", {4, 6, 6}, {4, 12, 6}, "trunk"),
                                         course("child", {4, 6, 6}, {10.8, 6, 8.9}, "nothing")},
-                                       {}, silent);
+                                       {}, {}, silent);
   ASSERT_EQ(out.failures.size(), 1U);
   EXPECT_EQ(out.failures[0].label, "nothing");
   const auto& tree = out.result.tree;
@@ -90,8 +92,48 @@ TEST(TrackCourses, ACandidateOnTheWallOfItsParentIsABump) {
   for (int i = 0; i <= 40; ++i) trunk.points.push_back({{6, 6, 0.8 + i * 0.275}, 1.5});
   for (int i = 0; i <= 10; ++i) bump.points.push_back({{6 + i * 0.16, 6, 6 + i * 0.1}, 1.0});
   Progress silent;
-  const TrackResult out = trackCourses(volume, {trunk, bump}, {}, silent);
+  const TrackResult out = trackCourses(volume, {trunk, bump}, {}, {}, silent);
   EXPECT_EQ(out.result.tree.branches.size(), 1U);
+}
+
+TEST(TrackCourses, ThePlaceOfAVolumeInSpaceDecidesNothing) {
+  Phantom made = phantom("companion");
+  Progress silent;
+  const VolumeGeometry before = made.volume.geometry;
+  const formats::CenterlineTree here = treeOf(made.volume, silent).tree;
+  VolumeGeometry& geometry = made.volume.geometry;
+  geometry.origin += Vector3d(-123.456789, 1e-6, 77.7);
+  geometry.direction = Eigen::AngleAxisd(0.3, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  geometry.spacing *= 1 + 1e-8;  // as a header in floats has it
+  const formats::CenterlineTree there = treeOf(made.volume, silent).tree;
+  ASSERT_EQ(there.nodeCount(), here.nodeCount());
+  EXPECT_EQ(there.parent, here.parent);
+  for (std::size_t n = 0; n < here.nodeCount(); ++n) {
+    const Vector3d index = before.indexFromWorld(toEigen(here.centre[n]));
+    EXPECT_LT((geometry.worldFromIndex(index) - toEigen(there.centre[n])).norm(), 1e-4) << n;
+    EXPECT_NEAR(there.radius[n], here.radius[n], 1e-5);
+  }
+}
+
+TEST(TrackCourses, NoNodeIsPutWhereNoVesselIs) {
+  const Volume volume = drawVolume(64, 0.2, [](const Vector3d& p) {
+    return capsule(p, {6, 6, 0.6}, {6, 6, 12}, 1.5);
+  });
+  SeedBranch course;
+  course.label = "course";
+  for (int i = 0; i <= 40; ++i) course.points.push_back({{6, 6, 0.8 + i * 0.275}, 1.5});
+  Progress silent;
+  const auto reachOf = [&](const PlaceTest& isNoVessel) {
+    double reach = 0;
+    const auto out = trackCourses(volume, {course}, isNoVessel, {}, silent).result;
+    for (const formats::Vec3f& centre : out.tree.centre)
+      reach = std::max(reach, static_cast<double>(centre.z));
+    return reach;
+  };
+  EXPECT_GT(reachOf({}), 11);
+  const double stopped = reachOf([](const Vector3d& p) { return p.z() > 7; });
+  EXPECT_GT(stopped, 5);
+  EXPECT_LE(stopped, 7);
 }
 
 TEST(TrackCoursesIntoCase, AddsWhatNoSeedHasTrackedAndKeepsTheRest) {
@@ -100,7 +142,7 @@ TEST(TrackCoursesIntoCase, AddsWhatNoSeedHasTrackedAndKeepsTheRest) {
   const TrackResult clicked = trackCase(made.volume, {made.seeds[0]}, {}, silent);
   const TrackingVolume tracking(made.volume, clicked.result, silent);
   const AddedTracks added = trackCoursesIntoCase(
-      tracking, clicked.result, findVessels(made.volume, false, silent).courses, silent);
+      tracking, clicked.result, findVessels(made.volume, false, silent).courses, {}, silent);
   const auto &before = clicked.result.tree, &after = added.result.tree;
   ASSERT_GT(after.branches.size(), before.branches.size());
   EXPECT_EQ(after.branches[0].label, made.seeds[0].label);
@@ -116,7 +158,7 @@ TEST(TrackCoursesIntoCase, AddsNothingToAWholeTree) {
   const TrackResult clicked = trackCase(made.volume, made.seeds, {}, silent);
   const TrackingVolume tracking(made.volume, clicked.result, silent);
   const AddedTracks added = trackCoursesIntoCase(
-      tracking, clicked.result, findVessels(made.volume, false, silent).courses, silent);
+      tracking, clicked.result, findVessels(made.volume, false, silent).courses, {}, silent);
   EXPECT_EQ(added.result, clicked.result);
 }
 

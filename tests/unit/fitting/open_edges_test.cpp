@@ -27,7 +27,7 @@ Case closedTube(float y = 0) {
 }
 
 double missing(const Case& value) {
-  const auto found = formats::reachabilityOf(value.tree, formats::blendedFieldOf(value));
+  const auto found = formats::measureReachability(value.tree, formats::caseField(value));
   return found.total - found.reachable;
 }
 
@@ -74,7 +74,7 @@ TEST(OpenEdges, AddsToTheNodesOfTheEdgeAndChangesNothingElse) {
 TEST(OpenEdges, StaysWithinTheTube) {
   Case value = closedTube();
   openEdges(value);
-  const field::BlendedField field = formats::blendedFieldOf(value);
+  const field::BlendedField field = formats::caseField(value);
   for (double x = 5; x <= 7.4; x += 0.05)
     for (int i = 0; i < 16; ++i) {
       const double angle = 0.3926991 * i;
@@ -93,7 +93,7 @@ TEST(OpenEdges, MakesNoBulgeOfAThinVessel) {
   ASSERT_GT(missing(value), 1);
   openEdges(value);
   EXPECT_EQ(missing(value), 0);
-  const field::BlendedField field = formats::blendedFieldOf(value);
+  const field::BlendedField field = formats::caseField(value);
   for (double x = 1; x <= 1.42; x += 0.02) {
     const field::Vec wall{x, 0.21, 0};
     EXPECT_LT(field.blended(wall, field.follow(wall, x < 1.21 ? 10 : 11)).value, field.level())
@@ -115,7 +115,7 @@ TEST(OpenEdges, KeepsVesselsThatTouchApart) {
   const std::uint32_t other = addBeads(value, "b", alongX(0, 0.5F, 40, 2), 1);
   openEdges(value);
   EXPECT_EQ(missing(value), 0);
-  const field::BlendedField field = formats::blendedFieldOf(value);
+  const field::BlendedField field = formats::caseField(value);
   // across the place where they touch, beside the opening, from either side
   for (const bool upwards : {true, false}) {
     std::uint32_t cursor = upwards ? 10 : other + 12;

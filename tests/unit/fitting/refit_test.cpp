@@ -86,7 +86,7 @@ TEST(Refit, GivesTheWallThatTheWholeFitGave) {
   const Case before = value;
   const Nodes due = someNodes(value);
   refitSome(value, due);
-  const auto was = formats::blendedFieldOf(before), is = formats::blendedFieldOf(value);
+  const auto was = formats::caseField(before), is = formats::caseField(value);
   const auto& points = *value.points;
   for (const std::uint32_t node : due)
     for (std::uint32_t k = points.offset[node]; k < points.offset[node + 1]; ++k) {
@@ -113,7 +113,7 @@ TEST(Refit, ThreadsMakeNoDifference) {
 TEST(Refit, KeepsTheTreeReachable) {
   Case value = fittedShape("bifurcation");
   refitSome(value, someNodes(value));
-  const auto reach = formats::reachabilityOf(value.tree, formats::blendedFieldOf(value));
+  const auto reach = formats::measureReachability(value.tree, formats::caseField(value));
   EXPECT_EQ(reach.reachable, reach.total);
 }
 

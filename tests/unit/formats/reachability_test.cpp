@@ -18,7 +18,7 @@ using test::noBeads;
 
 Reachability reach(const Case& value) {
   EXPECT_TRUE(validate(value));
-  return reachabilityOf(value.tree, blendedFieldOf(value));
+  return measureReachability(value.tree, caseField(value));
 }
 
 /// Eleven beads of radius 1 along x, half a radius apart, and as many beyond a gap of that length.
@@ -115,8 +115,8 @@ Case hairpinWithGap() {
 
 TEST(Reachability, IsNotOpenedByAnotherStretchOfTheTree) {
   const Case value = hairpinWithGap();
-  const field::BlendedField field = blendedFieldOf(value);
-  const Reachability found = reachabilityOf(value.tree, field);
+  const field::BlendedField field = caseField(value);
+  const Reachability found = measureReachability(value.tree, field);
   ASSERT_EQ(found.barriers.size(), 1U);
   const Barrier& barrier = found.barriers[0];
   EXPECT_EQ(barrier.node, 41U + 1 + 17);
@@ -127,7 +127,7 @@ TEST(Reachability, IsNotOpenedByAnotherStretchOfTheTree) {
 TEST(ClosedPlaces, HaveTheCursorThatFollowedFromTheRoot) {
   const Case value = hairpinWithGap();
   std::vector<ClosedPlace> closed;
-  findClosedPlaces(value.tree, blendedFieldOf(value), [&](const ClosedPlace& place) {
+  findClosedPlaces(value.tree, caseField(value), [&](const ClosedPlace& place) {
     closed.push_back(place);
     return true;
   });
@@ -145,7 +145,7 @@ TEST(ClosedPlaces, AreBoundedOnAnEdgeThatIsLongBeyondReason) {
   addBeads(value, "a", {{0, 0, 0}, {3e38F, 0, 0}}, 1e-30F);
   std::size_t told = 0, checked = 0;
   findClosedPlaces(
-      value.tree, blendedFieldOf(value),
+      value.tree, caseField(value),
       [&](const ClosedPlace&) {
         ++told;
         return true;
@@ -158,7 +158,7 @@ TEST(ClosedPlaces, AreBoundedOnAnEdgeThatIsLongBeyondReason) {
 TEST(ClosedPlaces, AreGivenUpWhenTheCheckThrows) {
   const Case value = beadsWithGap(3);
   const auto stop = [] { throw std::runtime_error("stop"); };
-  EXPECT_THROW(reachabilityOf(value.tree, blendedFieldOf(value), stop), std::runtime_error);
+  EXPECT_THROW(measureReachability(value.tree, caseField(value), stop), std::runtime_error);
 }
 
 }  // namespace

@@ -78,17 +78,17 @@ TEST_F(RecipeTest, AHeaderIsAlsoWhatItsVoxelsAreIn) {
 TEST_F(RecipeTest, WhatTheTreeComesFromAndWhatIsToldAreTwoDigests) {
   BuildRow row;
   row.input = write("a.nrrd", "voxels");
-  const Recipe first = recipeOf(row, "1", "CC0-1.0", {});
+  const Recipe first = makeRecipe(row, "1", "CC0-1.0", {});
   row.about = "{\"title\": \"A\"}";
-  const Recipe told = recipeOf(row, "1", "CC0-1.0", {});
+  const Recipe told = makeRecipe(row, "1", "CC0-1.0", {});
   EXPECT_EQ(told.tree, first.tree);
   EXPECT_NE(told.all, first.all);
   row.options["--rays"] = "42";
-  const Recipe tracked = recipeOf(row, "1", "CC0-1.0", {});
+  const Recipe tracked = makeRecipe(row, "1", "CC0-1.0", {});
   EXPECT_NE(tracked.tree, told.tree);
   EXPECT_NE(tracked.all, told.all);
-  EXPECT_NE(recipeOf(row, "2", "CC0-1.0", {}).tree, tracked.tree);
-  EXPECT_NE(recipeOf(row, "1", "CC-BY-4.0", {}).all, tracked.all);
+  EXPECT_NE(makeRecipe(row, "2", "CC0-1.0", {}).tree, tracked.tree);
+  EXPECT_NE(makeRecipe(row, "1", "CC-BY-4.0", {}).all, tracked.all);
 }
 
 TEST_F(RecipeTest, WhatCannotBeReadIsAnError) {

@@ -196,7 +196,7 @@ TEST(SitePicturesTest, TurntablesAreToldFromOtherPictures) {
        {"left.png", "picture.png", "turn-000.png", "turn-001.png", "turn-002.png", "view-001.png"})
     record.files.push_back({path, "picture", "", "image/png", 1, ""});
   record.files.push_back({"a.svg", "picture", "", "image/svg+xml", 1, ""});  // could hold a script
-  const CasePictures pictures = picturesOf(record);
+  const CasePictures pictures = casePictures(record);
   EXPECT_EQ(pictures.first, "picture.png");
   EXPECT_EQ(pictures.frames,
             (std::vector<std::string>{"turn-000.png", "turn-001.png", "turn-002.png"}));
@@ -209,14 +209,14 @@ TEST(SitePicturesTest, WhatLibraryAddMakesHasItsPlaces) {
   for (const char* const path : {"picture-anterior.png", "picture-left.png", "thumbnail.png",
                                  "turntable/000.png", "turntable/001.png", "turntable/002.png"})
     record.files.push_back({path, "picture", "", "image/png", 1, ""});
-  const CasePictures pictures = picturesOf(record);
+  const CasePictures pictures = casePictures(record);
   EXPECT_EQ(pictures.first, "picture-anterior.png");
   EXPECT_EQ(pictures.thumbnail, "thumbnail.png");
   EXPECT_EQ(pictures.frames, (std::vector<std::string>{"turntable/000.png", "turntable/001.png",
                                                        "turntable/002.png"}));
   EXPECT_EQ(pictures.others, (std::vector<std::string>{"picture-left.png"}));
   record.files = {{"thumbnail.png", "picture", "", "image/png", 1, ""}};
-  EXPECT_EQ(picturesOf(record).first, "thumbnail.png");
+  EXPECT_EQ(casePictures(record).first, "thumbnail.png");
 }
 
 TEST(SiteCitationTest, NamesCaseVersionLibraryAndAddress) {

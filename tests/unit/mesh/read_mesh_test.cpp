@@ -377,7 +377,7 @@ TEST(ReadMesh, AFileThatIsNotThereIsNamed) {
     readMesh("no/such.stl", MeshFormat::Stl);
     ADD_FAILURE();
   } catch (const Error& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with("no/such.stl: cannot be read"));
+    EXPECT_TRUE(std::string(error.what()).starts_with("no/such.stl: there is no such mesh"));
   }
 }
 

@@ -66,14 +66,14 @@ bool isInTube(const Float3& p) {
 
 TEST(WallPieces, ASurfaceThatFitsIsLeftAsItIs) {
   const SurfaceMesh mesh = tube();
-  const auto pieces = piecesOf(mesh, 64, 0.4);  // 25.6 long
+  const auto pieces = cutIntoPieces(mesh, 64, 0.4);  // 25.6 long
   ASSERT_EQ(pieces.size(), 1U);
   EXPECT_EQ(pieces[0].position, mesh.position);
 }
 
 TEST(WallPieces, EachFitsAndTogetherTheyAreTheSurface) {
   const SurfaceMesh mesh = tube();
-  const auto pieces = piecesOf(mesh, 16, 0.4);  // 6.4 long
+  const auto pieces = cutIntoPieces(mesh, 16, 0.4);  // 6.4 long
   EXPECT_GE(pieces.size(), 4U);
   double area = 0;
   for (const SurfaceMesh& piece : pieces) {
@@ -86,7 +86,7 @@ TEST(WallPieces, EachFitsAndTogetherTheyAreTheSurface) {
 }
 
 TEST(WallPieces, TrianglesOfPiecesLookOutwardsAsBefore) {
-  for (const SurfaceMesh& piece : piecesOf(tube(), 16, 0.4))
+  for (const SurfaceMesh& piece : cutIntoPieces(tube(), 16, 0.4))
     for (const Triangle& t : piece.triangle) {
       Eigen::Vector3d outwards = corner(piece, t[0]) + corner(piece, t[1]) + corner(piece, t[2]);
       outwards.x() = 0;

@@ -138,13 +138,13 @@ TEST(Clutter, IsEqualOnAnyNumberOfThreads) {
 TEST(Clutter, RefusesUnknownKindsAndThoseNamedTwice) {
   for (const char* const list : {"bones", "bone,", "bone,bone", ","}) {
     try {
-      (void)clutterOf(list);
+      (void)parseClutter(list);
       ADD_FAILURE() << list;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::Usage) << list;
     }
   }
-  EXPECT_EQ(clutterOf("void,bone").size(), 2U);
+  EXPECT_EQ(parseClutter("void,bone").size(), 2U);
 }
 
 TEST(Willis, HasThreeInletsAndThreeLinks) {

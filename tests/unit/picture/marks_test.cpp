@@ -20,13 +20,13 @@ Camera cameraOf(double scale) {
 }
 
 TEST(Marks, TheBarIsTheLongestRoundLengthInAFifthOfTheWidth) {
-  EXPECT_DOUBLE_EQ(scaleBarOf(cameraOf(1)).length, 200);
-  EXPECT_DOUBLE_EQ(scaleBarOf(cameraOf(1.01)).length, 100);
-  EXPECT_DOUBLE_EQ(scaleBarOf(cameraOf(3.9)).length, 50);
-  EXPECT_DOUBLE_EQ(scaleBarOf(cameraOf(300)).length, 0.5);
+  EXPECT_DOUBLE_EQ(makeScaleBar(cameraOf(1)).length, 200);
+  EXPECT_DOUBLE_EQ(makeScaleBar(cameraOf(1.01)).length, 100);
+  EXPECT_DOUBLE_EQ(makeScaleBar(cameraOf(3.9)).length, 50);
+  EXPECT_DOUBLE_EQ(makeScaleBar(cameraOf(300)).length, 0.5);
 }
 
-TEST(Marks, TheDrawnBarIsAsLongAsItSays) {
+TEST(Marks, TheDrawnBarIsAsLongAsItStates) {
   const Camera camera = cameraOf(3.9);
   Picture picture(camera.width, camera.height, kPaper);
   drawScaleBar(picture, camera, kInk);

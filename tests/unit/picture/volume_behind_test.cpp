@@ -130,7 +130,7 @@ TEST(GreyWindow, IsFromTheMedianToTheHighestThousandth) {
   EXPECT_EQ(window.black, 500);
   EXPECT_EQ(window.white, 999);
   EXPECT_LT(windowOf({5, 5, 5}).black, windowOf({5, 5, 5}).white);
-  const Picture picture = greysOf({-INFINITY, 400, 2000}, 3, 1, window);
+  const Picture picture = greyPicture({-INFINITY, 400, 2000}, 3, 1, window);
   EXPECT_EQ(picture.pixels[0], (Rgb{0, 0, 0}));
   EXPECT_EQ(picture.pixels[1], (Rgb{0, 0, 0}));
   EXPECT_EQ(picture.pixels[2], (Rgb{190, 190, 190}));

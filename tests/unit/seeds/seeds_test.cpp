@@ -278,7 +278,7 @@ TEST_F(Seeds, WrittenSeedsAreReadBackExactly) {
   EXPECT_EQ(seeds[1].parent, ica.label);
 }
 
-TEST_F(Seeds, OptionsSayWhatCoordinatesAreWhateverTheFileSays) {
+TEST_F(Seeds, OptionsStateTheFrameOfCoordinatesWhateverTheFileStates) {
   const auto seeds = readSeeds(file(R"({"label": "a", "points": [[1, 2, 3]], "radius": 2})"),
                                {SeedSystem::Ras, 1000.0});
   EXPECT_EQ(seeds[0].points[0].position, Vector3d(-1000, -2000, 3000));

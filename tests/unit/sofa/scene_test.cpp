@@ -18,7 +18,7 @@ SceneInput input(InstrumentKind kind, double way = 60) {
   result.insertion.direction = {0, 0, 1};
   result.insertion.way = way;
   result.branch = "a \"--\" <b>";
-  result.instruments = instrumentsOf(kind, way + 20, 4);
+  result.instruments = makeInstruments(kind, way + 20, 4);
   result.high = {10, 10, 10};
   return result;
 }
@@ -58,7 +58,7 @@ TEST(Scene, HasARestShapeAndForcesForEachInstrument) {
     EXPECT_EQ(count(scene, "AdaptiveBeamForceFieldAndMass"), instruments);
     // frames for all beams of all instruments
     int beams = 0;
-    for (const Instrument& instrument : instrumentsOf(kind, 80, 4)) beams += instrument.beams();
+    for (const Instrument& instrument : makeInstruments(kind, 80, 4)) beams += instrument.beams();
     EXPECT_EQ(valueOf(scene, "RegularGridTopology", "nx"), std::to_string(beams + 1));
   }
 }
@@ -67,7 +67,7 @@ TEST(Scene, OnlyTheFirstSectionOfAnInstrumentIsStraight) {
   // SOFA v25.06 puts a straight section that is not the first in the wrong place
   for (const auto kind :
        {InstrumentKind::Guidewire, InstrumentKind::Catheter, InstrumentKind::Coil})
-    for (const Instrument& instrument : instrumentsOf(kind, 80, 4)) {
+    for (const Instrument& instrument : makeInstruments(kind, 80, 4)) {
       ASSERT_EQ(instrument.sections.size(), 2U);
       EXPECT_EQ(instrument.sections[0].curlDiameter, 0);
       EXPECT_GT(instrument.sections[1].curlDiameter, 0);
@@ -91,7 +91,7 @@ TEST(Scene, NeitherPushesAnInstrumentOutOfItsHandleNorBeyondTheWay) {
     if (tips.size() == 2) {
       EXPECT_NEAR(tips[0], 30, 1.0);
     }
-    EXPECT_EQ(stepsOf(in, {.instrument = kind, .step = 0.5}),
+    EXPECT_EQ(stepCount(in, {.instrument = kind, .step = 0.5}),
               static_cast<int>(std::count(actions.begin(), actions.end(), ' ')) + 1);
   }
 }

@@ -23,7 +23,7 @@ struct ClosedCase {
 
   explicit ClosedCase(formats::Case value)
       : source(std::move(value)),
-        blended(formats::blendedFieldOf(source)),
+        blended(formats::caseField(source)),
         field(source, blended, {.gap = 0.02}) {
     Progress silent;
     convert::ExtractionReport report;

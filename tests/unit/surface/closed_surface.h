@@ -27,7 +27,7 @@ struct FieldOfCase {
   explicit FieldOfCase(formats::Case given, double gap = 0.02)
       : kept(std::make_unique<formats::Case>(std::move(given))),
         source(*kept),
-        blended(formats::blendedFieldOf(source)),
+        blended(formats::caseField(source)),
         sheet(source, blended, {gap, 0, 0}) {}
 };
 

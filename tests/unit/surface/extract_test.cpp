@@ -27,7 +27,7 @@ struct Extracted {
 
   explicit Extracted(formats::Case value, double share = 1.0)
       : source(std::move(value)),
-        blended(formats::blendedFieldOf(source)),
+        blended(formats::caseField(source)),
         field(source, blended, {0.02, 0, 0}) {
     Progress silent;
     surface = convert::extractSurface(field, share, report, silent);

@@ -134,7 +134,7 @@ std::uint32_t leastPowerIn(const formats::Case& source, const formats::Branch& b
 
 TEST(Polygonise, VerticesLieOnTheBlendedSurface) {
   const formats::Case source = disagreeingFork();
-  const field::BlendedField surface = formats::blendedFieldOf(source);
+  const field::BlendedField surface = formats::caseField(source);
   const SurfaceMesh mesh = surfaceOf(source);
   for (std::size_t v = 0; v < mesh.position.size(); ++v) {
     const Float3& vertex = mesh.position[v];

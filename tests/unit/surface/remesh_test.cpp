@@ -266,7 +266,7 @@ TEST(Remesh, APassOverAPieceStopsWhenCancelled) {
   const FieldOfCase of(forkCase());
   CaseSurface surface = roughFork(of);
   Progress progress;
-  const PieceRules rules = rulesOf(surface, of.sheet, progress);
+  const PieceRules rules = pieceRules(surface, of.sheet, progress);
   RemeshState state{surface, std::vector<double>(surface.mesh.position.size(), 0.005), {}, {}, {},
                     {}};
   state.gradient.assign(surface.mesh.position.size(), Eigen::Vector3d::Zero());

@@ -47,7 +47,7 @@ TEST(ToSurfaceMesh, KeepsFacesAndGivesVerticesWhatTheCaseSaysOfThem) {
     source.tree.radius[i] = 1 + 0.01F * static_cast<float>(i);
     source.tree.inlierRate.push_back(0.1F * static_cast<float>(i));
   }
-  const field::BlendedField blended = formats::blendedFieldOf(source);
+  const field::BlendedField blended = formats::caseField(source);
   const SheetField field(source, blended, {});
   const CaseSurface surface = tubeSurface();
   Progress progress;

@@ -21,11 +21,13 @@ TEST(Smoothing, IsNoneWithoutNoiseAndGrowsWithIt) {
   const Volume clean = straightTube(0.6);
   const std::vector<SeedBranch> seeds{seedAt("tube", {6.4, 6.4, 6.0})};
   EXPECT_NEAR(contrastAtClicks(BsplineVolume(clean), seeds, TrackOptions{}, Progress{}), 1000, 20);
-  EXPECT_EQ(smoothForNoise(clean, seeds, TrackOptions{}, Progress{}).smoothing, 0.0);
+  EXPECT_EQ(smoothForNoise(clean, clean.geometry, seeds, TrackOptions{}, Progress{}).smoothing,
+            0.0);
   double last = 0;
   for (const double noise : {80.0, 200.0, 400.0}) {
     const double smoothing =
-        smoothForNoise(noisy(clean, noise), seeds, TrackOptions{}, Progress{}).smoothing;
+        smoothForNoise(noisy(clean, noise), clean.geometry, seeds, TrackOptions{}, Progress{})
+            .smoothing;
     EXPECT_GT(smoothing, last);
     last = smoothing;
   }

@@ -174,7 +174,7 @@ TEST_F(Dicom, FramesWithoutADistanceAreRefused) {
   DicomSlice slice;
   slice.frames = 5;
   write("a.dcm", slice.bytes());
-  expectRefused(readRefusal(directory()), {"3: ", "a.dcm", "how far its frames are apart"});
+  expectRefused(readRefusal(directory()), {"3: ", "a.dcm", "the distance between its frames"});
 }
 
 TEST_F(Dicom, TruncatedImageIsRefused) {

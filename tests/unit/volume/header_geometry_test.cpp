@@ -52,7 +52,7 @@ TEST_F(HeaderGeometry, ASpaceThatIsNoPatientsIsToldOf) {
     expectAssumes(nrrd({std::string("space: ") + space, kAxes}), {space, "LPS"});
 }
 
-TEST_F(HeaderGeometry, AMissingSpacingIsAssumedAndSaid) {
+TEST_F(HeaderGeometry, AMissingSpacingIsAssumedAndReported) {
   for (const Volume& v : {nrrd({}), nrrd({"spacings: nan nan nan"}), meta({"-ElementSpacing"})}) {
     EXPECT_EQ(v.geometry.spacing, Vector3d::Ones());
     expectAssumes(v, {"no spacing", "1 mm", "--spacing"});
@@ -111,7 +111,7 @@ TEST_F(HeaderGeometry, UnitsAreHonoured) {
   EXPECT_EQ(meta({"DistanceUnits = cm"}).geometry.spacing, Vector3d::Constant(10));
 }
 
-TEST_F(HeaderGeometry, UnknownUnitsAreAssumedToBeMmAndSaid) {
+TEST_F(HeaderGeometry, UnknownUnitsAreAssumedToBeMmAndReported) {
   expectAssumes(nrrd({"space: LPS", kAxes, R"(space units: "foot" "foot" "foot")"}),
                 {"space units", "foot", "mm", "--unit"});
   expectAssumes(meta({"DistanceUnits = parsec"}), {"DistanceUnits", "parsec", "mm", "--unit"});

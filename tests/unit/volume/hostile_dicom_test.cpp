@@ -126,7 +126,7 @@ TEST_F(HostileDicom, MoreRowsThanPixelsAreRefused) {
   expectFault(slice.bytes(), {"truncated", "7200000000 bytes", "24"});
 }
 
-TEST_F(HostileDicom, PixelsThatAreNotAnnouncedAreTold) {
+TEST_F(HostileDicom, PixelsThatAreNotAnnouncedAreReported) {
   writeSeries("a", {}, 3);
   DicomSlice slice = second();
   slice.rows = 6;

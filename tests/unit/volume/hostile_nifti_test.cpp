@@ -189,7 +189,7 @@ TEST_F(HostileNifti, TransformsThatDisagreeAreToldWithTheOneThatCounts) {
   expectAssumption(HeaderBytes().codes(1, 1).put(268, 0.01F), {});  // a hundredth of a voxel
 }
 
-TEST_F(HostileNifti, ASpacingOfTheSformThatIsNotPixdimIsTold) {
+TEST_F(HostileNifti, ASpacingOfTheSformThatIsNotPixdimIsReported) {
   const HeaderBytes header = HeaderBytes().put(280, 2.0F);
   expectAssumption(header, {"sform", "(2, 1, 1)", "pixdim", "(1, 1, 1)", "--spacing"});
   ReadVolumeOptions options;
@@ -197,7 +197,7 @@ TEST_F(HostileNifti, ASpacingOfTheSformThatIsNotPixdimIsTold) {
   expectAssumption(header, {}, options);
 }
 
-TEST_F(HostileNifti, AVolumeThatIsPlacedNowhereIsTold) {
+TEST_F(HostileNifti, AVolumeThatIsPlacedNowhereIsReported) {
   expectAssumption(HeaderBytes().codes(0, 0), {"qform_code and sform_code are 0", "origin"});
 }
 
@@ -213,7 +213,7 @@ TEST_F(HostileNifti, ExtensionsMustEndBeforeTheVoxels) {
   EXPECT_EQ(std::get<0>(readQuietly(write("v.nii", file(32))).voxels)[0], 'a');
 }
 
-TEST_F(HostileNifti, DataBehindTheVoxelsIsTold) {
+TEST_F(HostileNifti, DataBehindTheVoxelsIsReported) {
   for (const auto& file : files(HeaderBytes().text() + kEight + "w"))
     expectRefused(readQuietly(file).assumptions.at(0), {"goes on", "not read"});
 }

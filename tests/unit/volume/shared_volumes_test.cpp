@@ -24,7 +24,7 @@ TEST_F(SharedVolume, HeadersThatAttackAreRefused) {
   expectRefused(readRefusal(file("a5.mha")), {"3: ", "of 221184 bytes", "70000"});
 }
 
-TEST_F(SharedVolume, WhatIsAssumedIsSaid) {
+TEST_F(SharedVolume, AssumptionsAreReported) {
   if (!fs::exists(file("a7.nrrd"))) GTEST_SKIP() << file("a7.nrrd") << " is absent";
   const Volume metres = readQuietly(file("a7.nrrd"));
   EXPECT_EQ(metres.geometry.spacing, Eigen::Vector3d::Constant(200));

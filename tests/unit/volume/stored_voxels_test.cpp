@@ -103,7 +103,7 @@ TEST_F(StoredVoxels, AHeaderIsNotReadAsVoxels) {
       eightBytes());
 }
 
-TEST_F(StoredVoxels, CompressedSizesThatAreTooSmallAreTold) {
+TEST_F(StoredVoxels, CompressedSizesThatAreTooSmallAreReported) {
   std::string noise;
   for (unsigned i = 0; i < 4096; ++i) noise += static_cast<char>(i * i * 7919 >> 5);
   const std::string stream = asStream(noise);
@@ -120,7 +120,7 @@ TEST_F(StoredVoxels, CompressedSizesThatAreTooSmallAreTold) {
                 {"of 4096 bytes", "compressed size", std::to_string(stream.size() / 2)});
 }
 
-TEST_F(StoredVoxels, DataThatGoesOnIsTold) {
+TEST_F(StoredVoxels, DataThatGoesOnIsReported) {
   expectRest(nrrd({kOne}, eightBytes() + "i"));
   expectRest(meta({}, eightBytes() + "i"));
   expectRest(nrrd({kOne, "encoding: gzip"}, packed(eightBytes() + "i")));
