@@ -101,6 +101,13 @@ std::vector<std::uint32_t> NodeGraph::follow(std::uint32_t node,
   return nodes;
 }
 
+std::vector<std::uint32_t> NodeGraph::stretchAround(std::uint32_t node) const {
+  std::vector<std::uint32_t> nodes = follow(node, m_parent);
+  const std::vector<std::uint32_t> behind = follow(node, m_main);
+  nodes.insert(nodes.end(), behind.begin() + 1, behind.end());
+  return nodes;
+}
+
 // Children have their own main neighbours already.
 std::uint32_t NodeGraph::mainOf(std::uint32_t node) const {
   const auto into = armAlong(follow(node, m_parent));  // against the stream

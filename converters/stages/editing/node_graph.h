@@ -44,6 +44,8 @@ public:
   [[nodiscard]] std::optional<Arm> armAlong(std::span<const std::uint32_t> nodes) const;
   /// The same from an end of the graph on, as far as there is no fork, or through forks ahead.
   [[nodiscard]] std::optional<Arm> armFrom(std::uint32_t end) const;
+  /// The nodes of a vessel up to eight radii before and behind one of them, which is among them.
+  [[nodiscard]] std::vector<std::uint32_t> stretchAround(std::uint32_t node) const;
   [[nodiscard]] Eigen::Vector3d position(std::uint32_t node) const;
   [[nodiscard]] double radius(std::uint32_t node) const;  ///< mm
   /// Whether more than one vessel leads on from a node.

@@ -84,18 +84,21 @@ private:
     return ends;
   }
 
-  /// Number of nodes between a parent and the last fork of a vessel that still touches it: through
-  /// them a skeleton gets from one vessel into another that passes by.
+  /// Number of nodes between a parent and the last fork of a vessel that still touches the parent's
+  /// vessel: through them a skeleton gets from one vessel into another that passes by.
   [[nodiscard]] std::size_t stemOf(const Chain& chain) const {
     const auto arm = m_graph.armAlong(chain.nodes);
     if (!arm) return 0;
-    const Vector3d from = m_graph.position(chain.parent);
-    const double reach = kTouching * (m_graph.radius(chain.parent) + arm->radius);
+    const std::vector<std::uint32_t> parents = m_graph.stretchAround(chain.parent);
+    const auto touches = [&](std::uint32_t node) {
+      return std::any_of(parents.begin(), parents.end(), [&](std::uint32_t parent) {
+        return (m_graph.position(node) - m_graph.position(parent)).norm() <=
+               kTouching * (m_graph.radius(parent) + arm->radius);
+      });
+    };
     std::size_t stem = 0;
-    for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
-      if ((m_graph.position(chain.nodes[k]) - from).norm() > reach) break;
+    for (std::size_t k = 0; k < chain.nodes.size() && touches(chain.nodes[k]); ++k)
       if (m_graph.isFork(chain.nodes[k])) stem = k;
-    }
     return stem;
   }
 

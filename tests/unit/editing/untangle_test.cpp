@@ -72,6 +72,21 @@ TEST(Untangle, AVesselThatCrossesAnotherIsOneOfItsOwn) {
   EXPECT_GT(value.tree.nodeCount(), 81U);
 }
 
+/// A thin vessel along another that it touches. A skeleton gets from one into the other by a slanting
+/// stretch, which leaves the first far before the fork at its end.
+TEST(Untangle, AVesselAlongsideThatASlantReachesIsOneOfItsOwn) {
+  Case value = formats::test::noBeads();
+  addBeads(value, "first", alongX(-10, 0.5F, 41), 1);
+  addBeads(value, "slant", along({-3, 1, 0}, {3.5, 0.7, 0}, 7), 0.7F, 12);
+  addBeads(value, "on", along({0.5, 1.7, 0}, {1, 0, 0}, 20), 0.7F, 47);
+  addBeads(value, "back", along({-0.5, 1.7, 0}, {-1, 0, 0}, 20), 0.7F, 47);
+  value = withoutModels(value);
+  EXPECT_EQ(untangle(value, kEverywhere).size(), 1U);
+  EXPECT_EQ(faultOf(value), "");
+  ASSERT_EQ(value.tree.branches.size(), 2U);
+  EXPECT_EQ(rootsOf(value), 2U);
+}
+
 TEST(Untangle, AVesselThatLosesWhatItsBranchesCarryDivides) {
   // 1 - 2 x 0.63 ^ 3 = 0.5, the cube of 0.79
   Case value = crossing(0.79F);
