@@ -19,8 +19,16 @@ inline std::string quotedText(const std::string& text) {
   return std::string("\"").append(formats::printable(text.substr(0, shown))).append("...\"");
 }
 
-inline std::string vectorText(const Eigen::Vector3d& v) {
-  return "(" + shownNumber(v.x()) + ", " + shownNumber(v.y()) + ", " + shownNumber(v.z()) + ")";
+/// "(1, 2.5, 3)", each number with at most `digits` significant digits.
+inline std::string vectorText(const Eigen::Vector3d& v, int digits = 6) {
+  return "(" + shownNumber(v.x(), digits) + ", " + shownNumber(v.y(), digits) + ", " +
+         shownNumber(v.z(), digits) + ")";
+}
+
+/// "0.5 x 0.5 x 1", each number with at most `digits` significant digits.
+inline std::string spacingText(const Eigen::Vector3d& spacing, int digits = 6) {
+  return shownNumber(spacing.x(), digits) + " x " + shownNumber(spacing.y(), digits) + " x " +
+         shownNumber(spacing.z(), digits);
 }
 
 }  // namespace lumen::convert

@@ -12,6 +12,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
@@ -52,12 +53,6 @@ Vector3d vectorOf(const std::array<float, 3>& values) {
           static_cast<double>(values[2])};
 }
 
-std::string vectorText(const Vector3d& v) {
-  std::string text = "(";
-  text.append(longNumber(v[0])).append(", ").append(longNumber(v[1])).append(", ");
-  return text.append(longNumber(v[2])).append(")");
-}
-
 Transform sformOf(const NiftiHeader& header) {
   Transform sform;
   sform.stated = header.sformCode > NIFTI_XFORM_UNKNOWN;
@@ -87,10 +82,10 @@ Transform qformOf(const NiftiHeader& header) {
   const Vector3d quaternion = vectorOf(header.quaternion);
   qform.offset = vectorOf(header.qOffset);
   if (!quaternion.allFinite() || quaternion.norm() > kLongQuaternion)
-    qform.fault = "its qform has the quaternion (b, c, d) " + vectorText(quaternion) +
-                  ", which is no rotation";
+    qform.fault = "its qform has the quaternion (b, c, d) " +
+                  vectorText(quaternion, kHeaderDigits) + ", which is no rotation";
   else if (!qform.offset.allFinite())
-    qform.fault = "its qform has the offset " + vectorText(qform.offset);
+    qform.fault = "its qform has the offset " + vectorText(qform.offset, kHeaderDigits);
   else if (!std::isfinite(header.handedness))
     qform.fault = "its qform has the handedness (pixdim[0]) " +
                   longNumber(static_cast<double>(header.handedness));
@@ -166,9 +161,9 @@ void reportOtherSpacing(const Transform& sform, const Vector3d& spacing,
   const Vector3d lengths = sform.axes.colwise().norm();
   const auto off = (lengths - spacing).cwiseQuotient(spacing).cwiseAbs();
   if (!(off.maxCoeff() > kSameSpacing)) return;
-  assumptions.push_back("its sform has voxels " + vectorText(lengths) + " apart, its pixdim " +
-                        vectorText(spacing) + "; pixdim is used; state another with " +
-                        kOption.spacing.shown());
+  assumptions.push_back("its sform has voxels " + vectorText(lengths, kHeaderDigits) +
+                        " apart, its pixdim " + vectorText(spacing, kHeaderDigits) +
+                        "; pixdim is used; state another with " + kOption.spacing.shown());
 }
 
 /// The nearest orthogonal axes in RAS and floats; no offset.

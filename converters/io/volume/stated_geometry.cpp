@@ -5,6 +5,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
@@ -17,10 +18,6 @@ constexpr double kLeastSpacing = 1e-6, kMostSpacing = 1e4;
 // Bounds, mm, beyond which a spacing is likely to be in another unit: 5 um is a fine micro-CT, 50
 // mm no scan.
 constexpr double kLeastUsual = 5e-3, kMostUsual = 50;
-
-std::string spacingText(const Eigen::Vector3d& spacing) {
-  return longNumber(spacing[0]) + " x " + longNumber(spacing[1]) + " x " + longNumber(spacing[2]);
-}
 
 Eigen::Vector3d settledSpacing(const Eigen::Vector3d& stated, double unit, const fs::path& path,
                                std::vector<std::string>& assumptions) {
@@ -65,7 +62,7 @@ VolumeGeometry settledGeometry(const StatedGeometry& stated, const ReadVolumeOpt
   if (unusual && !options.spacing && !options.unit)
     assumptions.push_back((stated.unit ? "by the unit that its header states, its spacing is "
                                        : "its header states no unit, so its spacing is taken as ") +
-                          spacingText(geometry.spacing) +
+                          spacingText(geometry.spacing, kHeaderDigits) +
                           " mm, which is unusual; state the unit with " + kOption.unit.shown());
   checkGeometry(geometry, path);
   return geometry;

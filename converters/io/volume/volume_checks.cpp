@@ -97,7 +97,7 @@ std::uint64_t chosenVolume(const fs::path& path, const std::string& sizes, std::
 }
 
 std::string longNumber(double value) {
-  return shownNumber(value, 12);
+  return shownNumber(value, kHeaderDigits);
 }
 
 }  // namespace lumen::convert

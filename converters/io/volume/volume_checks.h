@@ -34,7 +34,10 @@ void checkRoom(const std::filesystem::path& path, double needed, double availabl
 std::uint64_t chosenVolume(const std::filesystem::path& path, const std::string& sizes,
                            std::uint64_t volumes, std::optional<int> wanted);
 
-/// At most twelve significant digits, as headers of images state lengths and sizes.
+/// Most significant digits of lengths and sizes that headers of images state.
+inline constexpr int kHeaderDigits = 12;
+
+/// A number with at most kHeaderDigits significant digits.
 std::string longNumber(double value);
 
 }  // namespace lumen::convert

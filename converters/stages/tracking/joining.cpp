@@ -2,14 +2,13 @@
 #include "converters/stages/tracking/joining.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
 
+#include "converters/base/number_text.h"
 #include "converters/stages/tracking/lumen_paths.h"
 #include "converters/stages/tracking/nodes_along.h"
 
@@ -88,11 +87,8 @@ void cutDetour(std::vector<TrackedNode>& link, TrackedBranch& branch) {
 
 /// Makes a child a root, and records the reason.
 void makeRoot(TrackedBranch& branch, const ChainPoint& parent) {
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(),
-                "its first node lies %.1f mm from it, and the volume shows no lumen between them",
-                parent.distance - parent.radius);
-  branch.unjoined = text.data();
+  branch.unjoined = "its first node lies " + fixedText(parent.distance - parent.radius, 1) +
+                    " mm from it, and the volume shows no lumen between them";
   branch.parentBranch = branch.parentNode = -1;
 }
 

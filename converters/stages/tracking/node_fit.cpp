@@ -2,12 +2,11 @@
 #include "converters/stages/tracking/node_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <utility>
 
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/statistics.h"
 #include "converters/base/vectors.h"
@@ -75,18 +74,14 @@ bool isNoise(const TrackContext& context, const TrackedNode& node) {
   return node.inlierRate < context.options.inlierRate && node.strength < leastStrength(context);
 }
 
-/// To two digits, so that a value below a limit never reads as if it reached it.
-double roundedDown(double value) {
-  return std::floor(100.0 * value + 1e-9) / 100.0;
-}
-double roundedUp(double value) {
-  return std::ceil(100.0 * value - 1e-9) / 100.0;
+/// Two decimals, rounded down, so that a value below a limit never reads as if it reached it.
+std::string roundedDown(double value) {
+  return fixedText(std::floor(100.0 * value + 1e-9) / 100.0, 2);
 }
 
-std::string formatted(const char* format, double a, double b) {
-  std::array<char, 320> text{};
-  std::snprintf(text.data(), text.size(), format, a, b);
-  return text.data();
+/// Two decimals, rounded up, so that a limit never reads as if a value below it reached it.
+std::string roundedUp(double value) {
+  return fixedText(std::ceil(100.0 * value - 1e-9) / 100.0, 2);
 }
 
 /// Fits a node to a guess, whether or not it is lumen inside.
@@ -149,31 +144,27 @@ std::string failureText(const TrackContext& context, const NodeFit& best) {
     case FitStage::OutsideVolume:
       return "there is no volume: it lies outside";
     case FitStage::FewWalls:
-      return formatted(
-                 "at most %.0f rays meet the wall of a vessel, at least %.0f are needed: does it "
-                 "lie in one, and are vessels bright (if not: ",
-                 static_cast<double>(best.walls), static_cast<double>(kFewestCandidates)) +
+      return "at most " + std::to_string(best.walls) +
+             " rays meet the wall of a vessel, at least " + std::to_string(kFewestCandidates) +
+             " are needed: does it lie in one, and are vessels bright (if not: " +
              kOption.dark.shown() + ")?";
     case FitStage::LowRate:
-      return formatted("no cylinder fits: best inlier rate %.2f, at least %.2f is needed (half of ",
-                       roundedDown(best.inlierRate), roundedUp(leastInlierRate(context.options))) +
+      return "no cylinder fits: best inlier rate " + roundedDown(best.inlierRate) + ", at least " +
+             roundedUp(leastInlierRate(context.options)) + " is needed (half of " +
              kOption.inlierRate.shown() + ")";
     case FitStage::DarkInside:
-      return formatted(
-          "a cylinder fits, but %.0f %% of what it holds is as dark as what is around it: click in "
-          "the middle of the vessel, or give its radius",
-          100.0 * best.dark, 0);
+      return "a cylinder fits, but " + fixedText(100.0 * best.dark, 0) +
+             " % of what it holds is as dark as what is around it: click in the middle of the "
+             "vessel, or give its radius";
     case FitStage::LeftVolume:
       return "a cylinder fits, but its centre lies outside of the volume: a click nearer to the "
              "axis, or with a radius, would help";
     case FitStage::Noise:
-      return formatted("a cylinder fits with an inlier rate of %.2f only, ",
-                       roundedDown(best.inlierRate), 0) +
-             formatted(
-                 "and its wall is %.2f times as strong as noise: expected at least %.2f times (",
-                 roundedDown(best.strength / context.noiseFloor),
-                 roundedUp(context.options.noiseMargin)) +
-             kOption.noiseMargin.shown() + ")";
+      return "a cylinder fits with an inlier rate of " + roundedDown(best.inlierRate) +
+             " only, and its wall is " + roundedDown(best.strength / context.noiseFloor) +
+             " times as strong as noise: expected at least " +
+             roundedUp(context.options.noiseMargin) + " times (" + kOption.noiseMargin.shown() +
+             ")";
     case FitStage::Found:
       break;
   }

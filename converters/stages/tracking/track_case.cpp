@@ -2,13 +2,12 @@
 #include "converters/stages/tracking/track_case.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "converters/base/edit_steps.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/write_volume.h"
 #include "converters/stages/tracking/corrections.h"
@@ -140,10 +139,8 @@ std::vector<std::uint32_t> replacePoints(const TrackedTree& tree, formats::Case&
 }
 
 std::string sentenceOn(const SeedBranch& seed) {
-  const Eigen::Vector3d& p = seed.points[0].position;
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), " from (%.6g, %.6g, %.6g) mm", p.x(), p.y(), p.z());
-  return "tracked " + quotedLabel(seed.label) + text.data();
+  return "tracked " + quotedLabel(seed.label) + " from " + vectorText(seed.points[0].position) +
+         " mm";
 }
 
 void dropOtherArrays(AddedTracks& out) {

@@ -2,9 +2,7 @@
 #include "converters/stages/tracking/tracking_volume.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <variant>
 
@@ -27,12 +25,10 @@ constexpr double kLargestEdgeRatio = 1000.0;
 void checkVoxels(const Eigen::Vector3d& spacing) {
   const double uneven = spacing.maxCoeff() / spacing.minCoeff();
   if (uneven <= kLargestEdgeRatio) return;
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(),
-                "the volume's voxels are %g x %g x %g mm, one edge %.3g times another; expected at "
-                "most %g times: if the spacing is wrong, ",
-                spacing.x(), spacing.y(), spacing.z(), uneven, kLargestEdgeRatio);
-  throw invalidInput(text.data() + kOption.spacing.shown() + " states it, else resample");
+  throw invalidInput("the volume's voxels are " + spacingText(spacing) + " mm, one edge " +
+                     shownNumber(uneven, 3) + " times another; expected at most " +
+                     shownNumber(kLargestEdgeRatio) + " times: if the spacing is wrong, " +
+                     kOption.spacing.shown() + " states it, else resample");
 }
 
 /// Vessels have the other sign than stated if their contrast is this many times as large with it.
