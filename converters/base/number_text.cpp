@@ -54,6 +54,10 @@ std::string fixedText(std::optional<double> value, int decimals) {
   return isZero && text[0] == '-' ? text.substr(1) : text;
 }
 
+std::string foundNumber(double value) {
+  return std::isfinite(value) ? fixedText(value, 6) : numberText(value);
+}
+
 std::string shownFigure(double value) {
   if (!std::isfinite(value)) return "?";
   const double size = std::abs(value);

@@ -25,6 +25,9 @@ std::string shortestText(double value);
 /// `decimals` decimals; "-" for an empty or non-finite value.
 std::string fixedText(std::optional<double> value, int decimals);
 
+/// Six decimals, or "nan", "inf": a number of a file in a message that refuses it.
+std::string foundNumber(double value);
+
 /// `value` with three significant digits, as a person reads it: "3614", "61.2", "0.52"; "?" for one
 /// that is not finite.
 std::string shownFigure(double value);

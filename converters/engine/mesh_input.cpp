@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/engine/file_access.h"
@@ -83,13 +84,12 @@ std::string guessedUnit(const convert::TriangleMesh& mesh, const std::string& na
   const convert::UnitGuess guess = convert::guessUnit(size);
   const double radius = 2 * std::abs(size.volume) / size.area;
   if (!guess.plausible)
-    progress.warn(name + ": taken to be in mm, although vessels of " + std::to_string(radius) +
+    progress.warn(name + ": taken to be in mm, although vessels of " + foundNumber(radius) +
                   " mm radius are implausible, and in cm and m, too; " + kOption.unit.shown() +
                   " states the unit");
   else if (guess.millimetres != 1)
     progress.warn(name + ": taken to be in " + guess.unit + ": in mm its vessels would have " +
-                  std::to_string(radius) + " mm radius; " + kOption.unit.shown() +
-                  " states the unit");
+                  foundNumber(radius) + " mm radius; " + kOption.unit.shown() + " states the unit");
   return guess.unit;
 }
 

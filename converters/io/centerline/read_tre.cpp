@@ -17,6 +17,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/number_text.h"
 #include "converters/base/parsed_number.h"
 #include "converters/base/text.h"
 #include "converters/io/centerline/fill_radii.h"
@@ -176,7 +177,7 @@ private:
 
   [[nodiscard]] double value(const std::vector<double>& row, std::size_t place) const {
     if (!(std::abs(row[place]) <= kLargestTre))
-      refuse("has the number " + std::to_string(row[place]) + "; expected -1e9 to 1e9");
+      refuse("has the number " + foundNumber(row[place]) + "; expected -1e9 to 1e9");
     return row[place];
   }
 
@@ -248,7 +249,7 @@ private:
       refuse("has " + std::to_string(numbers.size()) + " numbers; expected 3");
     for (const double number : numbers)
       if (!(std::abs(number) <= kLargestTre))
-        refuse("has the number " + std::to_string(number) + "; expected -1e9 to 1e9");
+        refuse("has the number " + foundNumber(number) + "; expected -1e9 to 1e9");
     return {numbers[0], numbers[1], numbers[2]};
   }
 

@@ -11,6 +11,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/files.h"
+#include "converters/base/number_text.h"
 #include "converters/io/centerline/fill_radii.h"
 #include "converters/io/centerline/join_curves.h"
 #include "converters/io/vtk/vtk_xml.h"
@@ -71,7 +72,7 @@ CurvePoint pointOf(const VtkPolyData& data, const VtkArray* radii, std::uint32_t
                        " is not finite or beyond 1e9; expected coordinates");
   if (!(std::abs(point.radius) <= kLargestVtp))
     throw invalidInput(name + ": the radius of point " + std::to_string(index) + " is " +
-                       std::to_string(point.radius) + "; expected a positive number up to 1e9");
+                       foundNumber(point.radius) + "; expected a positive number up to 1e9");
   point.radius = std::max(0.0, point.radius);
   return point;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "converters/base/number_text.h"
 #include "converters/io/mesh/mesh_builder.h"
 #include "converters/io/mesh/mesh_bytes.h"
 #include "converters/io/mesh/ply_header.h"
@@ -69,9 +70,8 @@ public:
                                             : "byte " + std::to_string(m_start + m_at);
   }
   static std::string shown(double value) {
-    return value == std::floor(value) && std::abs(value) < 1e15
-               ? std::to_string(static_cast<std::int64_t>(value))
-               : std::to_string(value);
+    return value == std::floor(value) && std::abs(value) < 1e15 ? fixedText(value, 0)
+                                                                : foundNumber(value);
   }
 
 private:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/text.h"
 #include "converters/io/mesh/mesh_bytes.h"
 #include "converters/io/mesh/text_cursor.h"
@@ -160,7 +161,7 @@ private:
 
   std::uint32_t indexOf(double value) const {
     if (!(value >= 0 && value < static_cast<double>(kMostNumbers) && value == std::floor(value)))
-      m_text.refuse("an index of a cell is " + std::to_string(value) +
+      m_text.refuse("an index of a cell is " + foundNumber(value) +
                     "; expected a whole number from 0 on");
     return static_cast<std::uint32_t>(value);
   }

@@ -8,12 +8,12 @@
 #include <map>
 #include <utility>
 
+#include "converters/base/number_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
 namespace {
 
-namespace fs = std::filesystem;
 using formats::printable;
 
 constexpr DicomTag kTransferSyntax = 0x00020010, kStorageClass = 0x00020002, kSeries = 0x0020000e,
@@ -202,8 +202,8 @@ DicomPlane planeOf(const Values& values) {
   plane.intercept = reader.decimal(kIntercept, "rescale intercept");
   const double slope = plane.slope.value_or(1), intercept = plane.intercept.value_or(0);
   if (slope == 0 || std::abs(slope) > kMaxScaling || std::abs(intercept) > kMaxScaling)
-    throw invalidInput("its values are rescaled by " + std::to_string(slope) + " and " +
-                       std::to_string(intercept) + " " + tagText(kSlope) +
+    throw invalidInput("its values are rescaled by " + foundNumber(slope) + " and " +
+                       foundNumber(intercept) + " " + tagText(kSlope) +
                        "; expected a slope other than 0, and both below 1e9");
   return plane;
 }
@@ -379,7 +379,7 @@ void scanInto(DicomScan& scan, DicomBytes& bytes, const Beginning& beginning) {
 
 }  // namespace
 
-DicomScan scanDicom(const fs::path& file) {
+DicomScan scanDicom(const std::filesystem::path& file) {
   DicomScan scan;
   Beginning beginning{.hasMark = true};
   try {

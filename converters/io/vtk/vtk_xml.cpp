@@ -18,6 +18,7 @@
 #include <expat.h>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/io/vtk/vtk_data.h"
 #include "formats/container/printable.h"
 
@@ -352,14 +353,14 @@ private:
     double last = 0;
     for (const double end : numbers(*ends, piece.cells[section])) {
       if (!(end >= last && end == std::floor(end) && end + double(before) < double(kMostIndices)))
-        refuse(place(*ends) + " has the value " + std::to_string(end) +
+        refuse(place(*ends) + " has the value " + foundNumber(end) +
                "; expected whole numbers that do not fall");
       last = end;
       cells.end.push_back(static_cast<std::uint32_t>(before + static_cast<std::size_t>(end)));
     }
     for (const double point : numbers(*points, static_cast<std::uint64_t>(last))) {
       if (!(point >= 0 && point < double(piece.points) && point == std::floor(point)))
-        refuse(place(*points) + " has the value " + std::to_string(point) +
+        refuse(place(*points) + " has the value " + foundNumber(point) +
                "; expected indices of the " + std::to_string(piece.points) + " points");
       cells.point.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(point)));
     }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "converters/base/number_text.h"
 #include "converters/stages/finding/bone.h"
 #include "converters/stages/finding/bright_voxels.h"
 #include "converters/voxels/depth.h"
@@ -152,7 +153,7 @@ FoundVessels findVessels(const Volume& volume, bool dark, Progress& progress) {
   progress.begin("find", 0);
   BrightVoxels bright = findBrightVoxels(volume, dark, progress);
   progress.detail("lumen: " + std::to_string(bright.indices.size()) + " voxels, contrast " +
-                  std::to_string(bright.contrast) + ", noise " + std::to_string(bright.noise));
+                  fixedText(bright.contrast, 6) + ", noise " + fixedText(bright.noise, 6));
   const auto brightness = [&](std::size_t i) {
     return std::visit(
         [&](const auto& voxels) { return (dark ? -1.0F : 1.0F) * static_cast<float>(voxels[i]); },

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 
 namespace lumen::convert {
 namespace {
@@ -225,7 +226,7 @@ Design designPatient(const Frame& frame, std::uint64_t seed, Progress& progress)
     if (build(tree, progress)) return asDesign(tree);
   }
   throw failed("phantom patient: found no tree for seed " + std::to_string(seed) + " in " +
-               std::to_string(frame.extent) + " mm; try another seed or a larger volume");
+               fixedText(frame.extent, 6) + " mm; try another seed or a larger volume");
 }
 
 }  // namespace lumen::convert

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/sha256.h"
 #include "converters/base/shown_text.h"
@@ -134,7 +135,7 @@ Scene sceneOfName(const PhantomOptions& options, Progress& progress) {
   const int size = options.size != 0 ? options.size : isLarge ? 256 : 128;
   const Frame frame{options.voxel, options.voxel * (size - 1)};
   if (patient && frame.extent < kSmallestPatient)
-    throw Error(ErrorKind::Usage, "phantom: the volume is " + std::to_string(frame.extent) +
+    throw Error(ErrorKind::Usage, "phantom: the volume is " + fixedText(frame.extent, 6) +
                                       " mm wide, expected at least 25 mm for 'patient'");
   Scene scene;
   scene.design = patient ? designPatient(frame, options.seed, progress) : found->second(frame);

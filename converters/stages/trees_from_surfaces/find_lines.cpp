@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "converters/base/number_text.h"
 #include "converters/stages/trees_from_surfaces/inside_voxels.h"
 #include "converters/stages/trees_from_surfaces/vessel_lines.h"
 #include "converters/voxels/depth.h"
@@ -50,7 +51,7 @@ public:
     if (small > 0)
       m_out.notes.push_back(std::to_string(small) + " part" + (small == 1 ? "" : "s") +
                             " of the inside smaller than " + std::to_string(kLeastPart) +
-                            " voxels of " + std::to_string(m_set.geometry().voxelSize()) +
+                            " voxels of " + fixedText(m_set.geometry().voxelSize(), 6) +
                             " mm left out");
     return std::move(m_out);
   }

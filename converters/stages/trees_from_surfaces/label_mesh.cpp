@@ -13,6 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/marching_cubes.h"
 #include "converters/stages/trees_from_surfaces/thin_voxels.h"
@@ -57,7 +58,7 @@ std::set<std::int64_t> valuesOf(const std::vector<T>& voxels, const LabelNames& 
     last = voxel;
     if constexpr (std::is_floating_point_v<T>)
       if (std::abs(voxel) > T(1 << 24) || std::round(voxel) != voxel)
-        throw invalidInput(name + ": has a voxel of " + std::to_string(voxel) +
+        throw invalidInput(name + ": has a voxel of " + foundNumber(double{voxel}) +
                            "; expected labels, which are whole numbers up to 2^24");
     const auto value = static_cast<std::int64_t>(voxel);
     if (value != 0 && (values.size() <= kMostLabels || wanted.contains(value)))

@@ -37,6 +37,12 @@ TEST(NumberText, ValuesThatAreMissingOrNotFiniteAreADash) {
   EXPECT_EQ(fixedText(std::numeric_limits<double>::infinity(), 2), "-");
 }
 
+TEST(NumberText, NumbersThatAMessageRefusesHaveSixDecimalsOrTheirName) {
+  EXPECT_EQ(foundNumber(2.5), "2.500000");
+  EXPECT_EQ(foundNumber(std::nan("")), "nan");
+  EXPECT_EQ(foundNumber(-std::numeric_limits<double>::infinity()), "-inf");
+}
+
 TEST(NumberText, SignificantDigitsEndWhereTheNumberDoes) {
   EXPECT_EQ(numberText(0.5), "0.5");
   EXPECT_EQ(numberText(1.0 / 3), "0.333333333");
