@@ -26,6 +26,13 @@ void recordEdit(formats::Metadata& metadata, const std::string& sentence) {
   done[number] = sentence;
 }
 
+std::string parameterText(const formats::ParameterValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* real = std::get_if<double>(&value)) return shownNumber(*real);
+  return std::get<std::string>(value);
+}
+
 const formats::Step* lastStep(const formats::Metadata& metadata, const std::string& name) {
   const auto& steps = metadata.steps;
   const auto found = std::find_if(steps.rbegin(), steps.rend(),

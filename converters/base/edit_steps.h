@@ -15,6 +15,9 @@ constexpr const char* kEditStep = "edit";
 /// room for another step.
 void recordEdit(formats::Metadata& metadata, const std::string& sentence);
 
+/// A parameter of a step as text: a number with at most six significant digits, "true" or "false".
+std::string parameterText(const formats::ParameterValue& value);
+
 /// The last step of the given name, or null.
 const formats::Step* lastStep(const formats::Metadata& metadata, const std::string& name);
 

@@ -5,15 +5,35 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 namespace lumen {
 
-/// At most `digits` significant digits, for the files of other programs; nine read back as the same
-/// float.
-std::string numberText(double value, int digits = 9);
+/// Significant digits that read back as the same float.
+inline constexpr int kFloatDigits = 9;
+
+/// At most `digits` significant digits, for the files of other programs.
+std::string numberText(double value, int digits = kFloatDigits);
 
 /// At most `digits` significant digits, for people.
 std::string shownNumber(double value, int digits = 6);
+
+/// All numbers of a range with `between` between them: whole numbers in full, others as
+/// shownNumber() writes them.
+template <class Numbers>
+std::string joinedNumbers(const Numbers& numbers, std::string_view between, int digits = 6) {
+  std::string text, separator;
+  for (const auto number : numbers) {
+    text += separator;
+    if constexpr (std::is_integral_v<decltype(number)>)
+      text += std::to_string(number);
+    else
+      text += shownNumber(number, digits);
+    separator = between;
+  }
+  return text;
+}
 
 /// At least nine significant digits, and as many as read back as the same double.
 std::string exactText(double value);

@@ -19,9 +19,8 @@ std::size_t textWidth(const std::string& text) {
 }  // namespace
 
 Lines& Lines::add(std::string_view name, std::string_view value) {
-  constexpr std::size_t kColumn = 14;
   std::string first = formats::printable(name);
-  first.resize(std::max(first.size() + 1, kColumn), ' ');
+  first.resize(std::max(first.size() + 1, m_column), ' ');
   return add(first + std::string(value));
 }
 

@@ -21,14 +21,20 @@ inline std::string quotedText(const std::string& text) {
 
 /// "(1, 2.5, 3)", each number with at most `digits` significant digits.
 inline std::string vectorText(const Eigen::Vector3d& v, int digits = 6) {
-  return "(" + shownNumber(v.x(), digits) + ", " + shownNumber(v.y(), digits) + ", " +
-         shownNumber(v.z(), digits) + ")";
+  return std::string("(").append(joinedNumbers(v, ", ", digits)).append(")");
+}
+
+/// "(1.0, 2.5, 3.0)", a place whose coordinates have `decimals` decimals.
+inline std::string placeText(const Eigen::Vector3d& place, int decimals = 1) {
+  std::string text = "(";
+  text.append(fixedText(place.x(), decimals)).append(", ");
+  text.append(fixedText(place.y(), decimals)).append(", ");
+  return text.append(fixedText(place.z(), decimals)).append(")");
 }
 
 /// "0.5 x 0.5 x 1", each number with at most `digits` significant digits.
 inline std::string spacingText(const Eigen::Vector3d& spacing, int digits = 6) {
-  return shownNumber(spacing.x(), digits) + " x " + shownNumber(spacing.y(), digits) + " x " +
-         shownNumber(spacing.z(), digits);
+  return joinedNumbers(spacing, " x ", digits);
 }
 
 }  // namespace lumen::convert

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/engine/case_info_answer.h"
 
-#include <sstream>
-
+#include "converters/base/edit_steps.h"
 #include "converters/base/shown_text.h"
 #include "converters/engine/reachable_answer.h"
 #include "converters/engine/volume_info.h"
@@ -65,23 +64,18 @@ std::string branchTable(const convert::CaseInfo& info) {
 }
 
 std::string stepText(const formats::Step& step) {
-  std::ostringstream text;
-  text << step.name << " (" << step.tool << ")";
-  const char* separator = ": ";
+  std::string text = step.name + " (" + step.tool + ")";
+  std::string separator = ": ";
   for (const auto& [key, value] : step.parameters) {
-    text << separator << key << " ";
-    std::visit([&](const auto& v) { text << std::boolalpha << v; }, value);
+    text += separator + key + " " + parameterText(value);
     separator = ", ";
   }
-  return text.str();
+  return text;
 }
 
 std::string sourceText(const formats::SourceVolume& source) {
-  std::ostringstream text;
-  text << source.size[0] << " x " << source.size[1] << " x " << source.size[2] << " voxels of "
-       << source.spacing[0] << " x " << source.spacing[1] << " x " << source.spacing[2]
-       << " mm, sha256 " << source.sha256;
-  return text.str();
+  return joinedNumbers(source.size, " x ") + " voxels of " + joinedNumbers(source.spacing, " x ") +
+         " mm, sha256 " + source.sha256;
 }
 
 /// Adds lines for facts that few cases have.

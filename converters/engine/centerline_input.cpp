@@ -2,7 +2,6 @@
 #include "converters/engine/centerline_input.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -88,19 +87,18 @@ convert::FitOptions fitOptionsFor(const formats::Case& value, const convert::Fit
 std::string centerlineInfoText(const LoadedCenterline& centerline) {
   const convert::CenterlineFile& file = centerline.file;
   const convert::CenterlineExtent extent = convert::extentOf(file);
-  std::ostringstream text;
-  text << "points      " << file.points.size() << "\n"
-       << "branches    " << branchCount(file) << " of " << counted(rootCount(file), "tree", "trees")
-       << ", " << counted(file.links.size(), "loop", "loops") << "\n"
-       << "length      " << fixedText(extent.length, 1) << " mm, within "
-       << fixedText(extent.diagonal, 1) << " mm\n"
-       << "radius      "
-       << (extent.most > 0 ? fixedText(extent.median, 3) + " mm (" + fixedText(extent.least, 3) +
-                                 " to " + fixedText(extent.most, 3) + ")"
-                           : std::string("none"))
-       << "\n"
-       << "unit        " << unitText(centerline.unit) << "\n";
-  return text.str();
+  Lines lines(kNarrowColumn);
+  lines.add("points", std::to_string(file.points.size()));
+  lines.add("branches", std::to_string(branchCount(file)) + " of " +
+                            counted(rootCount(file), "tree", "trees") + ", " +
+                            counted(file.links.size(), "loop", "loops"));
+  lines.add("length",
+            fixedText(extent.length, 1) + " mm, within " + fixedText(extent.diagonal, 1) + " mm");
+  lines.add("radius", extent.most > 0
+                          ? fixedText(extent.median, 3) + " mm (" + fixedText(extent.least, 3) +
+                                " to " + fixedText(extent.most, 3) + ")"
+                          : "none");
+  return lines.add("unit", unitText(centerline.unit)).text();
 }
 
 Json centerlineInfoJson(const LoadedCenterline& centerline) {

@@ -5,6 +5,7 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/judge/facts/check_facts.h"
 #include "formats/container/printable.h"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
 
@@ -28,11 +29,10 @@ Json endJson(const convert::TrackEnd& end) {
 }
 
 std::string endLine(const convert::TrackEnd& end) {
-  const Eigen::Vector3d& p = end.position;
   return "the " + std::string(end.isStart ? "start" : "tip") + " of " +
-         formats::printable(end.label) + " at (" + fixedText(p.x(), 1) + ", " +
-         fixedText(p.y(), 1) + ", " + fixedText(p.z(), 1) + "): a lumen leads on for at least " +
-         fixedText(end.goesOn, 1) + " mm, which no cylinder fits\n";
+         formats::printable(end.label) + " at " + convert::placeText(end.position) +
+         ": a lumen leads on for at least " + fixedText(end.goesOn, 1) +
+         " mm, which no cylinder fits\n";
 }
 
 }  // namespace

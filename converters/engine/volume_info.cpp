@@ -2,7 +2,7 @@
 #include "converters/engine/volume_info.h"
 
 #include <algorithm>
-#include <sstream>
+#include <span>
 #include <type_traits>
 
 #include "converters/base/shown_text.h"
@@ -21,12 +21,9 @@ std::string pixelTypeName() {
   return "float32";
 }
 
-template <std::size_t N>
-std::string joined(const std::array<double, N>& values, std::size_t first, std::size_t count) {
-  std::string text;
-  for (std::size_t i = first; i < first + count; ++i)
-    text.append(i > first ? "  " : "").append(shownNumber(values[i]));
-  return text;
+/// Three numbers from `first` on, two spaces apart.
+std::string threeOf(std::span<const double> values, std::size_t first = 0) {
+  return joinedNumbers(values.subspan(first, 3), "  ");
 }
 
 }  // namespace
@@ -79,23 +76,20 @@ Json volumeInfoJson(const VolumeInfo& info) {
 std::string volumeInfoText(const VolumeInfo& info) {
   const convert::VolumeHeader& header = info.header;
   const auto s = convert::describeGeometry(header.geometry);
-  std::ostringstream text;
-  text << "size        " << s.size[0] << " x " << s.size[1] << " x " << s.size[2] << " voxels\n"
-       << "spacing     " << joined(s.spacing, 0, 3) << " mm\n"
-       << "origin      " << joined(s.origin, 0, 3) << " mm, LPS\n"
-       << "direction   " << joined(s.direction, 0, 3) << "\n"
-       << "            " << joined(s.direction, 3, 3) << "\n"
-       << "            " << joined(s.direction, 6, 3) << "\n"
-       << "stored      " << header.storedType << ", " << header.encoding << ": "
-       << header.voxelBytes << " bytes of voxels in " << header.storedBytes << " bytes\n";
-  if (info.values)
-    text << "pixel type  " << info.values->pixelType << "\n"
-         << "values      " << shownNumber(info.values->min) << " to "
-         << shownNumber(info.values->max) << "\n"
-         << "sha256      " << info.values->sha256 << "\n";
-  else
-    text << "values      not read; --voxels reads them\n";
-  return text.str();
+  Lines lines(kNarrowColumn);
+  lines.add("size", joinedNumbers(s.size, " x ") + " voxels");
+  lines.add("spacing", threeOf(s.spacing) + " mm");
+  lines.add("origin", threeOf(s.origin) + " mm, LPS");
+  lines.add("direction", threeOf(s.direction));
+  lines.add("", threeOf(s.direction, 3));
+  lines.add("", threeOf(s.direction, 6));
+  lines.add("stored", header.storedType + ", " + header.encoding + ": " +
+                          std::to_string(header.voxelBytes) + " bytes of voxels in " +
+                          std::to_string(header.storedBytes) + " bytes");
+  if (!info.values) return lines.add("values", "not read; --voxels reads them").text();
+  lines.add("pixel type", info.values->pixelType);
+  lines.add("values", shownNumber(info.values->min) + " to " + shownNumber(info.values->max));
+  return lines.add("sha256", info.values->sha256).text();
 }
 
 }  // namespace lumen::engine

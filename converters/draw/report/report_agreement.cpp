@@ -7,6 +7,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/base/vectors.h"
 #include "converters/draw/report/report_page.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Provenance of a case in a report: steps with their parameters, source, digests.
 #include <cstddef>
-#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "converters/base/edit_steps.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/text.h"
@@ -20,23 +20,10 @@ constexpr std::size_t kMostOfAText = 400;   // bytes of a parameter on paper
 constexpr std::size_t kMostOfANote = 4000;  // bytes
 constexpr const char* kTool = "lumen " LUMEN_VERSION;
 
-/// A number with the digits that a stream writes, or a text of a case.
+/// A number, or the beginning of a text of a case.
 Markup valueText(const formats::ParameterValue& value) {
   if (const auto* words = std::get_if<std::string>(&value)) return shortened(*words, kMostOfAText);
-  std::ostringstream out;
-  std::visit([&](const auto& v) { out << std::boolalpha << v; }, value);
-  return text(out.str());
-}
-
-template <class Numbers>
-std::string spaced(const Numbers& numbers, const char* between) {
-  std::ostringstream out;
-  const char* separator = "";
-  for (const auto& number : numbers) {
-    out << separator << number;
-    separator = between;
-  }
-  return out.str();
+  return text(parameterText(value));
 }
 
 Markup digest(const std::string& sha256) {
@@ -44,11 +31,12 @@ Markup digest(const std::string& sha256) {
 }
 
 void addGeometry(const std::string& whose, const formats::SourceVolume& volume, Facts& facts) {
-  facts.emplace_back(whose + ", voxels", text(spaced(volume.size, " × ")));
-  facts.emplace_back(whose + ", spacing", text(spaced(volume.spacing, " × ") + " mm"));
+  facts.emplace_back(whose + ", voxels", text(joinedNumbers(volume.size, " × ")));
+  facts.emplace_back(whose + ", spacing", text(joinedNumbers(volume.spacing, " × ") + " mm"));
   facts.emplace_back(whose + ", origin",
-                     text(std::string("(") + spaced(volume.origin, ", ") + ") mm, LPS"));
-  facts.emplace_back(whose + ", direction", text(spaced(volume.direction, " ") + " (row by row)"));
+                     text(std::string("(") + joinedNumbers(volume.origin, ", ") + ") mm, LPS"));
+  facts.emplace_back(whose + ", direction",
+                     text(joinedNumbers(volume.direction, " ") + " (row by row)"));
   facts.emplace_back(whose + ", SHA-256 of its voxels", digest(volume.sha256));
 }
 
@@ -72,11 +60,10 @@ void addVolume(const ReportFacts& facts, Facts& list) {
 
 Markup models(const formats::Case& value) {
   if (!value.models) return text("none");
-  std::ostringstream out;
-  out << formats::enumName(formats::kKernelNames, value.models->kernel) << ", parameter "
-      << value.models->kernelParameter << ", iso-level " << value.models->isoLevel << " mm, "
-      << value.models->centre.size() << " blobs";
-  return text(out.str());
+  return text(std::string(formats::enumName(formats::kKernelNames, value.models->kernel)) +
+              ", parameter " + shownNumber(value.models->kernelParameter) + ", iso-level " +
+              shownNumber(value.models->isoLevel) + " mm, " +
+              std::to_string(value.models->centre.size()) + " blobs");
 }
 
 }  // namespace

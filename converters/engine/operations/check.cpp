@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/draw/overlay/overlay.h"
 #include "converters/engine/answer_text.h"

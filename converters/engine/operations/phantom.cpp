@@ -111,10 +111,9 @@ private:
     json["size"] = size;
     json["voxel_size_mm"] = jsonNumber(phantom.volume.geometry.voxelSize());
     json["seeds"] = phantom.seeds.size();
-    return {std::move(json), m_output + ": " + std::to_string(size[0]) + " x " +
-                                 std::to_string(size[1]) + " x " + std::to_string(size[2]) +
-                                 " voxels of " + fixedText(phantom.volume.geometry.voxelSize(), 3) +
-                                 " mm, " + std::to_string(phantom.truth.tree.branches.size()) +
+    return {std::move(json), m_output + ": " + joinedNumbers(size, " x ") + " voxels of " +
+                                 fixedText(phantom.volume.geometry.voxelSize(), 3) + " mm, " +
+                                 std::to_string(phantom.truth.tree.branches.size()) +
                                  " true branches, " +
                                  fixedText(totalLength(phantom.truth.tree), 1) + " mm\n"};
   }

@@ -8,6 +8,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/sha256.h"
+#include "converters/base/shown_text.h"
 #include "converters/export/shared/markdown_text.h"
 #include "converters/io/mesh/face_kind.h"
 #include "formats/case/binary_encode.h"
@@ -21,13 +22,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kManifestVersion = 1;  // version of spec/export.md
 constexpr int kDigits = 5;           // digits of numbers in README.md
-
-std::string tuple(const Eigen::Vector3d& v) {
-  std::string text = "(";
-  text += numberText(v.x(), kDigits) + ", " + numberText(v.y(), kDigits) + ", " +
-          numberText(v.z(), kDigits) + ")";
-  return text;
-}
 
 Json vectorJson(const Eigen::Vector3d& v) {
   // adding zero: no negative zeros, so that equal folders have equal texts
@@ -87,8 +81,9 @@ std::string endsTable(const ExportFrame& frame, const std::vector<NamedEnd>& end
                      " | direction, out of the vessel | radius, " + unit +
                      " |\n|---|---|---|---|\n";
   for (const NamedEnd& end : ends)
-    text += "| " + markdownText(end.name) + " | " + tuple(frame.position(end.position)) + " | " +
-            tuple(frame.direction(end.direction)) + " | " +
+    text += "| " + markdownText(end.name) + " | " +
+            vectorText(frame.position(end.position), kDigits) + " | " +
+            vectorText(frame.direction(end.direction), kDigits) + " | " +
             numberText(frame.length(end.radius), kDigits) + " |\n";
   return text;
 }

@@ -74,8 +74,7 @@ std::string outsideText(const Vector3d& world, const VolumeGeometry& geometry) {
   return "lies " + shownNumber((world - nearest).norm()) + " mm outside of the volume: it is at " +
          vectorText(world) + " mm LPS (voxel " + vectorText(index) +
          "), and the volume reaches from " + vectorText(low) + " to " + vectorText(high) +
-         " mm, in " + std::to_string(geometry.size[0]) + " x " + std::to_string(geometry.size[1]) +
-         " x " + std::to_string(geometry.size[2]) + " voxels";
+         " mm, in " + joinedNumbers(geometry.size, " x ") + " voxels";
 }
 
 std::string radiusText(double radius, const RadiusRange& range) {

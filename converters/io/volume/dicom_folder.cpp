@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -47,16 +47,16 @@ Folder scanFolder(const fs::path& path, const Progress& progress) {
 
 /// One line per series: number, UID, files, description, size of an image.
 std::string listing(const Folder& folder) {
-  std::ostringstream text;
+  std::string text;
   int number = 0;
   for (const auto& [uid, images] : folder.series) {
     const DicomImage& first = images[0];
-    text << "\n  " << ++number << ": " << printable(uid) << " (" << images.size()
-         << (images.size() == 1 ? " file" : " files");
-    if (!first.description.empty()) text << ", " << printable(first.description);
-    text << ", " << first.columns << " x " << first.rows << ")";
+    text += "\n  " + std::to_string(++number) + ": " + printable(uid) + " (" +
+            counted(images.size(), "file", "files");
+    if (!first.description.empty()) text += ", " + printable(first.description);
+    text += ", " + std::to_string(first.columns) + " x " + std::to_string(first.rows) + ")";
   }
-  return text.str();
+  return text;
 }
 
 std::string chooseSeries(const Folder& folder, const std::string& wanted, const fs::path& path) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/io/volume/image_header.h"
 #include "converters/io/volume/volume_checks.h"
 
@@ -19,12 +20,6 @@ struct CheckedHeader {
   VolumeHeader shown;
   StoredVoxels voxels;
 };
-
-std::string textOf(const std::vector<std::int64_t>& sizes) {
-  std::string text;
-  for (const std::int64_t size : sizes) text += (text.empty() ? "" : " x ") + std::to_string(size);
-  return text;
-}
 
 CheckedHeader checkedHeader(const fs::path& path, VolumeFormat format,
                             const ReadVolumeOptions& options, const Progress& progress) {
@@ -46,7 +41,7 @@ CheckedHeader checkedHeader(const fs::path& path, VolumeFormat format,
 }  // namespace
 
 std::array<int, 3> volumeSize(const fs::path& path, const std::vector<std::int64_t>& sizes) {
-  const std::string text = textOf(sizes);
+  const std::string text = joinedNumbers(sizes, " x ");
   double voxels = 1;
   for (const std::int64_t size : sizes) voxels *= static_cast<double>(size);
   if (sizes.size() < 3) refuseDimensions(path, static_cast<unsigned>(sizes.size()), text);
@@ -63,8 +58,8 @@ void chooseVoxels(const fs::path& path, const std::vector<std::int64_t>& sizes,
                   std::size_t voxelsOfVolume) {
   voxels.count = 1;
   for (const std::int64_t size : sizes) voxels.count *= static_cast<std::uint64_t>(size);
-  voxels.first = voxelsOfVolume * chosenVolume(path, textOf(sizes), voxels.count / voxelsOfVolume,
-                                               options.volumeIndex);
+  voxels.first = voxelsOfVolume * chosenVolume(path, joinedNumbers(sizes, " x "),
+                                               voxels.count / voxelsOfVolume, options.volumeIndex);
   voxels.wanted = voxelsOfVolume;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "converters/base/error.h"
+#include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/base/text.h"
 #include "converters/io/volume/image_header.h"
@@ -150,9 +151,7 @@ std::vector<Axis> spatialAxes(const TextHeader& header, const std::vector<std::i
   }
   while (axes.size() > 3 && (axes.back().size == 1 || !axes.back().direction)) axes.pop_back();
   if (axes.size() == 3) return axes;
-  std::string text;
-  for (const std::int64_t size : sizes) text += (text.empty() ? "" : " x ") + std::to_string(size);
-  refuseDimensions(header.path(), static_cast<unsigned>(axes.size()), text);
+  refuseDimensions(header.path(), static_cast<unsigned>(axes.size()), joinedNumbers(sizes, " x "));
 }
 
 /// The mm of the units that `field` quotes for the `numbers`; NaN for an unknown unit.

@@ -25,11 +25,6 @@ std::string percentText(double share) {
   return std::isfinite(share) ? fixedText(100 * share, 1) + " %" : "-";
 }
 
-std::string placeText(const Eigen::Vector3d& p) {
-  return std::string("(") + fixedText(p.x(), 1) + ", " + fixedText(p.y(), 1) + ", " +
-         fixedText(p.z(), 1) + ")";
-}
-
 std::vector<OpenEnd> endsThatStopShort(const CheckReport& report) {
   std::vector<OpenEnd> onward;
   for (const OpenEnd& end : report.ends)

@@ -26,9 +26,6 @@ double share(double part, double whole);
 /// A share in per cent, "2.5 %", or "-".
 std::string percentText(double share);
 
-/// A place as text, "(1.0, 2.0, 3.0)".
-std::string placeText(const Eigen::Vector3d& place);
-
 /// The ends beyond which the volume shows more of the vessel, the longest first.
 std::vector<OpenEnd> endsThatStopShort(const CheckReport& report);
 

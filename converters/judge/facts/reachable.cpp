@@ -5,6 +5,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "formats/case/case_field.h"
 #include "formats/case/reachability.h"
@@ -36,9 +37,9 @@ std::string reachLine(const std::optional<Reach>& reach) {
 
 std::string closedText(const ClosedWay& way) {
   return "branch " + formats::printable(way.branch) + " is closed before node " +
-         std::to_string(way.node) + " at (" + fixedText(way.position.x, 1) + ", " +
-         fixedText(way.position.y, 1) + ", " + fixedText(way.position.z, 1) +
-         "): " + fixedText(way.beyond, 1) + " mm beyond cannot be reached";
+         std::to_string(way.node) + " at " +
+         placeText({way.position.x, way.position.y, way.position.z}) + ": " +
+         fixedText(way.beyond, 1) + " mm beyond cannot be reached";
 }
 
 std::vector<std::string> closedTexts(const Reach& reach) {

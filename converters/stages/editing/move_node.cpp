@@ -75,7 +75,7 @@ formats::Vec3f courseAt(const Draft& draft, const Place& place) {
   return way.norm() > 0 ? toVec3f(way.normalized()) : draft.nodes[place.node].direction;
 }
 
-std::string placeText(const Vector3d& p, double radius) {
+std::string placeAndRadius(const Vector3d& p, double radius) {
   return vectorText(p) + " mm and a radius of " + shownNumber(radius, 4) + " mm";
 }
 
@@ -85,7 +85,8 @@ Change moveNode(Case& target, std::uint32_t node, const Vector3d& position, doub
   requireNode(target, node);
   if (!position.allFinite() || !(position.cwiseAbs().maxCoeff() <= kFarthest) ||
       !(static_cast<float>(radius) > 0) || !(radius <= kFarthest))
-    throw invalidInput("found " + placeText(position, radius) + " for " + nodeText(target, node) +
+    throw invalidInput("found " + placeAndRadius(position, radius) + " for " +
+                       nodeText(target, node) +
                        ", expected a position within a kilometre and a radius above 0");
   const formats::Branch& branch = target.tree.branches[target.tree.branch[node]];
   const Place place{node, branch.firstNode, branch.firstNode + branch.nodeCount};
@@ -101,8 +102,8 @@ Change moveNode(Case& target, std::uint32_t node, const Vector3d& position, doub
     draft.branches[target.tree.branch[node]].isOther = true;
     dropPoints(target, place, {before, sectionOf(draft, place)}, draft);
   }
-  return draft.finish(target,
-                      "moved " + nodeText(target, node) + " to " + placeText(position, radius));
+  return draft.finish(
+      target, "moved " + nodeText(target, node) + " to " + placeAndRadius(position, radius));
 }
 
 }  // namespace lumen::convert

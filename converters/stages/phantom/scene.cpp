@@ -52,9 +52,8 @@ VolumeGeometry gridAround(const Box3d& box, double voxel) {
     throw Error(
         ErrorKind::Usage,
         "phantom: a " + kOption.voxel.shown() + " of " + shownNumber(voxel) + " mm makes " +
-            shownNumber(size.x()) + " x " + shownNumber(size.y()) + " x " + shownNumber(size.z()) +
-            " voxels of the tree, expected at "
-            "most 536870912 in all: " +
+            joinedNumbers(size, " x ") +
+            " voxels of the tree, expected at most 536870912 in all: " +
             (workable <= 10 ? kOption.voxel.shown() + " " + shownNumber(workable) + " is enough"
                             : "lengths of the file are taken as mm"));
   }

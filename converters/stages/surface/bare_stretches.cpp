@@ -39,7 +39,8 @@ std::vector<Stretch> withoutVertices(const formats::CenterlineTree& tree,
   return found;
 }
 
-std::string placeText(const formats::Vec3f& p) {
+/// "(1, 2.5, 3)", each number with as many digits as read back the same.
+std::string exactPlace(const formats::Vec3f& p) {
   std::string text = "(";
   text.append(formats::shortText(p.x)).append(", ").append(formats::shortText(p.y));
   return text.append(", ").append(formats::shortText(p.z)).append(")");
@@ -63,8 +64,8 @@ std::vector<std::string> bareStretches(const CaseSurface& surface,
       sentences.push_back("the surface leaves out " +
                           formats::shortText(static_cast<float>(stretch.length)) +
                           " mm of branch " + formats::printable(branch.label) + ", from " +
-                          placeText(tree.centre[stretch.first]) + " to " +
-                          placeText(tree.centre[stretch.last - 1]));
+                          exactPlace(tree.centre[stretch.first]) + " to " +
+                          exactPlace(tree.centre[stretch.last - 1]));
     }
   return sentences;
 }

@@ -9,7 +9,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "converters/base/number_text.h"
+#include "converters/base/shown_text.h"
 #include "formats/container/printable.h"
 
 namespace lumen::convert {
@@ -29,9 +29,8 @@ std::string sentenceOf(const ThinWall& wall, const formats::CenterlineTree& tree
   between += " where it touches ";
   between += wall.branch == wall.other ? std::string("itself")
                                        : formats::printable(tree.branches[wall.other].label);
-  const Eigen::Vector3d& p = wall.place;
-  return between + " is down to " + shownNumber(wall.thickness, 3) + " mm thick at (" +
-         fixedText(p.x(), 1) + ", " + fixedText(p.y(), 1) + ", " + fixedText(p.z(), 1) + ")";
+  return between + " is down to " + shownNumber(wall.thickness, 3) + " mm thick at " +
+         placeText(wall.place);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/base/number_text.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +36,12 @@ TEST(NumberText, ValuesThatAreMissingOrNotFiniteAreADash) {
   EXPECT_EQ(fixedText({}, 2), "-");
   EXPECT_EQ(fixedText(std::nan(""), 2), "-");
   EXPECT_EQ(fixedText(std::numeric_limits<double>::infinity(), 2), "-");
+}
+
+TEST(NumberText, JoinedNumbersAreWholeInFullAndRealWithSixDigits) {
+  EXPECT_EQ(joinedNumbers(std::array<int, 2>{1234567, -8}, " x "), "1234567 x -8");
+  EXPECT_EQ(joinedNumbers(std::array<double, 3>{1234567, 0.5, -0.0}, ", "), "1.23457e+06, 0.5, 0");
+  EXPECT_EQ(joinedNumbers(std::array<double, 0>{}, ", "), "");
 }
 
 TEST(NumberText, NumbersThatAMessageRefusesHaveSixDecimalsOrTheirName) {

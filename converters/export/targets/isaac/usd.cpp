@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/number_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/vectors.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
@@ -22,9 +23,7 @@ namespace {
 constexpr int kSdfResolution = 256;
 
 std::string usdTuple(const Eigen::Vector3d& v) {
-  std::string text = "(";
-  text += numberText(v.x()) + ", " + numberText(v.y()) + ", " + numberText(v.z()) + ")";
-  return text;
+  return vectorText(v, kFloatDigits);
 }
 
 /// Texts of `count` entries in brackets.

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
-#include "converters/base/number_text.h"
+#include "converters/base/shown_text.h"
 #include "converters/export/shared/blood.h"
 #include "converters/io/mesh/plain_names.h"
 
@@ -58,10 +58,8 @@ private:
     for (const FlowJoint& joint : m_network.joints)
       if (joint.tree == m_tree && joint.kind == JointKind::Junction &&
           (joint.in.empty() || joint.out.empty()))
-        throw invalidInput("the vessels of a loop meet head on at (" +
-                           fixedText(joint.place.x(), 6) + ", " + fixedText(joint.place.y(), 6) +
-                           ", " + fixedText(joint.place.z(), 6) +
-                           ") mm, so which way it flows is not known; svzerod takes such loops");
+        throw invalidInput("the vessels of a loop meet head on at " + placeText(joint.place, 6) +
+                           " mm, so which way it flows is not known; svzerod takes such loops");
   }
 
   std::uint32_t addNode(const Eigen::Vector3d& place) {

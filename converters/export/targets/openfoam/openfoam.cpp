@@ -31,12 +31,12 @@ struct Patch {
   double radius = 0;               ///< m
 };
 
-std::string exact(double value) {
-  return numberText(value, 12);
-}
+/// Most significant digits of a number in a dictionary of OpenFOAM.
+constexpr int kFoamDigits = 12;
 
-std::string vectorText(const Eigen::Vector3d& v) {
-  return "(" + exact(v.x()) + " " + exact(v.y()) + " " + exact(v.z()) + ")";
+/// A vector of OpenFOAM, "(1 2.5 3)".
+std::string foamVector(const Eigen::Vector3d& v) {
+  return "(" + joinedNumbers(v, " ", kFoamDigits) + ")";
 }
 
 std::vector<Patch> patchesOf(const SurfaceMesh& mesh, const std::vector<NamedEnd>& ends) {
@@ -75,7 +75,7 @@ std::string blockMeshDict(const FoamCells& cells) {
   std::string vertices, counts;
   for (const auto& corner : std::initializer_list<Eigen::Vector3d>{
            {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}})
-    vertices += "    " + vectorText(cells.low + cells.edge() * size.cwiseProduct(corner)) + "\n";
+    vertices += "    " + foamVector(cells.low + cells.edge() * size.cwiseProduct(corner)) + "\n";
   for (const int n : cells.count) counts += (counts.empty() ? "" : " ") + std::to_string(n);
   return exportText("openfoam/blockMeshDict", {{"vertices", vertices}, {"cells", counts}});
 }
@@ -103,12 +103,12 @@ std::string snappyHexMeshDict(const std::vector<Patch>& patches, const FoamCells
     regions += "            " + patch.name + " { name " + patch.name + "; }\n";
     refined += refinement(patch, cells);
   }
-  for (const Eigen::Vector3d& p : inside) places += " (" + vectorText(p) + " none)";
+  for (const Eigen::Vector3d& p : inside) places += " (" + foamVector(p) + " none)";
   return exportText("openfoam/snappyHexMeshDict",
                     {{"regions", regions},
                      {"level", std::to_string(cells.level)},
                      {"refinements", refined},
-                     {"places", inside.size() == 1 ? "locationInMesh " + vectorText(inside.front())
+                     {"places", inside.size() == 1 ? "locationInMesh " + foamVector(inside.front())
                                                    : "locationsInMesh (" + places + " )"}});
 }
 
@@ -124,9 +124,9 @@ std::string velocity(const std::vector<Patch>& patches) {
   std::string inlets;
   for (const Patch& patch : patches)
     if (patch.kind == FaceKind::Inlet)
-      inlets += "    " + patch.name +
-                " { type flowRateInletVelocity; volumetricFlowRate constant " +
-                exact(blood::meanFlow(patch.radius)) + "; value uniform (0 0 0); }\n";
+      inlets +=
+          "    " + patch.name + " { type flowRateInletVelocity; volumetricFlowRate constant " +
+          numberText(blood::meanFlow(patch.radius), kFoamDigits) + "; value uniform (0 0 0); }\n";
   return exportText(
       "openfoam/U",
       {{"walls", forEach(patches, FaceKind::Wall, "    {end} { type noSlip; }\n")},

@@ -11,6 +11,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/base/text.h"
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/export_text.h"
@@ -113,9 +114,8 @@ void addSceneFiles(ExportResult& result, const SceneInput& input, const SofaOpti
 }
 
 std::string insertedText(const SceneInput& input, const SofaOptions& options) {
-  const Eigen::Vector3d& p = input.insertion.position;
-  return "inserted in " + formats::printable(input.branch) + " at (" + fixedText(p.x(), 2) + ", " +
-         fixedText(p.y(), 2) + ", " + fixedText(p.z(), 2) + ") mm, " +
+  return "inserted in " + formats::printable(input.branch) + " at " +
+         placeText(input.insertion.position, 2) + " mm, " +
          std::to_string(stepCount(input, options)) + " steps";
 }
 

@@ -8,6 +8,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/shown_text.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
 #include "converters/export/shared/surface.h"
@@ -19,10 +20,9 @@ namespace lumen::convert {
 
 namespace {
 
+/// A tuple of Python.
 std::string tuple(const Eigen::Vector3d& v) {
-  std::string text = "(";
-  text += numberText(v.x()) + ", " + numberText(v.y()) + ", " + numberText(v.z()) + ")";
-  return text;
+  return vectorText(v, kFloatDigits);
 }
 
 std::string moduleOf(const std::vector<BranchPath>& paths) {
