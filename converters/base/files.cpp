@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <span>
 #include <system_error>
-#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -59,7 +58,8 @@ std::string readWholeFile(const fs::path& file, std::string_view role, std::uint
   return bytes;
 }
 
-NewFile::NewFile(fs::path file) : m_file(std::move(file)), m_out(m_file, std::ios::binary) {
+NewFile::NewFile(const fs::path& file, const fs::path& target)
+    : m_target(target.empty() ? file : target), m_out(file, std::ios::binary) {
   if (!m_out) refuse();
 }
 
@@ -73,11 +73,11 @@ void NewFile::close() {
 }
 
 void NewFile::refuse() const {
-  throw failed(nameOf(m_file) + ": cannot write this file");
+  throw failed(nameOf(m_target) + ": cannot write this file");
 }
 
-void writeNewFile(std::string_view bytes, const fs::path& file) {
-  NewFile out(file);
+void writeNewFile(std::string_view bytes, const fs::path& file, const fs::path& target) {
+  NewFile out(file, target);
   out.add(bytes);
   out.close();
 }

@@ -22,23 +22,25 @@ inline constexpr std::uint64_t kMostText = std::uint64_t{64} << 20;  // bytes of
 std::string readWholeFile(const std::filesystem::path& file, std::string_view role,
                           std::uint64_t most = kAnySize);
 
-/// A new file in a folder that is not in its place yet, written piece by piece. Throws
+/// A new file that is not in its place yet, or whose folder is not, written piece by piece. Throws
 /// Error(Failed), naming the file.
 class NewFile {
 public:
-  explicit NewFile(std::filesystem::path file);
+  /// `target`: the name that a message states, where `file` has another until it is in its place.
+  explicit NewFile(const std::filesystem::path& file, const std::filesystem::path& target = {});
   void add(std::string_view bytes);
   /// Called once, after the last piece.
   void close();
 
 private:
   [[noreturn]] void refuse() const;
-  std::filesystem::path m_file;
+  std::filesystem::path m_target;
   std::ofstream m_out;
 };
 
 /// Writes a whole file, as NewFile does.
-void writeNewFile(std::string_view bytes, const std::filesystem::path& file);
+void writeNewFile(std::string_view bytes, const std::filesystem::path& file,
+                  const std::filesystem::path& target = {});
 
 /// Flushes to the disk all data written to the file system of a folder. Throws Error(Failed),
 /// naming the folder.

@@ -2,12 +2,12 @@
 // lumen export: a case as the folder of files that a simulator loads.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/option_name.h"
 #include "converters/engine/answer_text.h"
 #include "converters/engine/export_options.h"
@@ -53,10 +53,7 @@ void writeFolder(const std::vector<convert::ExportFile>& files, formats::Pending
   for (const convert::ExportFile& file : files) {
     const fs::path path = folder.path() / file.name;
     fs::create_directories(path.parent_path());
-    std::ofstream out(path, std::ios::binary);
-    out.write(file.bytes.data(), static_cast<std::streamsize>(file.bytes.size()));
-    out.close();
-    if (!out) throw failed(path.string() + ": cannot write this file");
+    writeNewFile(file.bytes, path);
   }
   const auto done = folder.commit();
   if (!done) throw failed(done.error().message);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lumen picture: a case as a PNG.
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "converters/base/error.h"
+#include "converters/base/files.h"
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
 #include "converters/draw/picture/draw_case.h"
@@ -51,11 +51,7 @@ public:
   void add(const convert::Picture& picture, const std::string& file) {
     auto pending = formats::PendingFile::beside(file);
     if (!pending) throw failed(pending.error().message);
-    const std::string png = convert::encodePng(picture);
-    std::ofstream out(pending->path(), std::ios::binary);
-    out.write(png.data(), static_cast<std::streamsize>(png.size()));
-    out.close();
-    if (!out) throw failed(formats::printable(file) + ": cannot write this file");
+    writeNewFile(convert::encodePng(picture), pending->path(), file);
     m_pending.push_back(std::move(*pending));
     m_names.push_back(file);
   }

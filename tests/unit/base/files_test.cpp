@@ -71,6 +71,15 @@ TEST_F(FilesTest, AFileThatCannotBeMadeIsAnError) {
   EXPECT_THROW(writeNewFile("a", path("no/folder")), Error);
 }
 
+TEST_F(FilesTest, AFileThatCannotBeMadeIsNamedByItsTarget) {
+  try {
+    writeNewFile("a", path("no/hidden"), "head.png");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "head.png: cannot write this file");
+  }
+}
+
 TEST_F(FilesTest, ADiskThatIsFullIsAnError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   EXPECT_THROW(writeNewFile("a", "/dev/full"), Error);
