@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/case/json_writer.h"
 
-#include <charconv>
+#include "formats/view/text_rules.h"
 
 namespace lumen::formats {
 namespace {
 
 constexpr std::size_t kLineWidth = 100;
-
-template <class Number>
-void appendNumber(std::string& text, Number value) {
-  char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
-  text.append(buffer, result.ptr);
-}
 
 void appendFloat(std::string& text, float value) {
   appendNumber(text, value + 0.0f);

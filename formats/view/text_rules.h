@@ -31,12 +31,20 @@ inline std::string at(const std::string& array, std::size_t index) {
   return array + "/" + std::to_string(index);
 }
 
+/// Appends the shortest text that reads back as `value`; "nan" and "inf" included.
+template <class Number>
+void appendNumber(std::string& text, Number value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  text.append(buffer, result.ptr);
+}
+
 /// The shortest text that reads back as `value`; "nan" and "inf" included.
 template <class Number>
 std::string shortText(Number value) {
-  char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return std::string(buffer, result.ptr);
+  std::string text;
+  appendNumber(text, value);
+  return text;
 }
 
 }  // namespace lumen::formats

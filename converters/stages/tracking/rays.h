@@ -38,8 +38,6 @@ public:
   /// length. Walls outside the volume are not found.
   void cast(const Eigen::Vector3d& centre, double length, Candidates& out);
 
-  [[nodiscard]] std::size_t rayCount() const { return m_directions.size(); }
-
 private:
   const BsplineVolume& m_volume;
   std::vector<Eigen::Vector3d> m_directions, m_indexDirections;

@@ -16,6 +16,7 @@
 #include "converters/base/number_text.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/marching_cubes.h"
+#include "converters/geometry/mesh_measures.h"
 #include "converters/stages/trees_from_surfaces/thin_voxels.h"
 
 namespace lumen::convert {
@@ -254,8 +255,8 @@ std::size_t dropCavities(TriangleMesh& mesh, const Vector3d& low, const Vector3d
   for (const Triangle& t : mesh.triangle) {
     const std::uint32_t part = parts.find(t[0]);
     const Vector3d origin = mesh.position[part];
-    volume[part] += (mesh.position[t[0]] - origin)
-                        .dot((mesh.position[t[1]] - origin).cross(mesh.position[t[2]] - origin));
+    volume[part] += tetrahedronVolume(mesh.position[t[0]] - origin, mesh.position[t[1]] - origin,
+                                      mesh.position[t[2]] - origin);
   }
   for (std::uint32_t i = 0; i < mesh.position.size(); ++i)
     if ((mesh.position[i].array() < low.array()).any() ||
