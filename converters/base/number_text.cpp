@@ -12,10 +12,10 @@ namespace {
 constexpr std::size_t kMostCharacters = 400;  // the greatest double has 309 digits
 
 /// `value` as std::to_chars() writes it in the given format.
-template <class Number, class... Format>
-std::string written(Number value, Format... format) {
+std::string written(double value, std::chars_format format, int digits) {
   std::array<char, kMostCharacters> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, format...).ptr};
+  char* const end = text.data() + text.size();
+  return {text.data(), std::to_chars(text.data(), end, value, format, digits).ptr};
 }
 
 }  // namespace
@@ -37,14 +37,6 @@ std::string exactText(double value) {
     if (read == value) break;
   }
   return text;
-}
-
-std::string shortestText(float value) {
-  return written(value);
-}
-
-std::string shortestText(double value) {
-  return written(value);
 }
 
 std::string fixedText(std::optional<double> value, int decimals) {

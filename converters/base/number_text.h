@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as texts, equal in every locale. A zero has no sign but in shortestText().
+// Numbers as texts, equal in every locale. A zero has no sign. The shortest text that reads back as
+// the same number is shortText() of formats/view/text_rules.h.
 #pragma once
 
 #include <cstdint>
@@ -37,10 +38,6 @@ std::string joinedNumbers(const Numbers& numbers, std::string_view between, int 
 
 /// At least nine significant digits, and as many as read back as the same double.
 std::string exactText(double value);
-
-/// The shortest text that reads back as the same number, with an exponent where that is shorter.
-std::string shortestText(float value);
-std::string shortestText(double value);
 
 /// `decimals` decimals; "-" for an empty or non-finite value.
 std::string fixedText(std::optional<double> value, int decimals);

@@ -8,6 +8,7 @@
 #include "converters/base/error.h"
 #include "converters/base/number_text.h"
 #include "formats/container/printable.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::engine {
 
@@ -25,7 +26,7 @@ std::size_t pointCount(const formats::Case& value) {
 
 Json jsonNumber(float value) {
   if (!std::isfinite(value)) return nullptr;
-  const std::string text = shortestText(value);
+  const std::string text = formats::shortText(value);
   double shortest = 0;
   std::from_chars(text.data(), text.data() + text.size(), shortest);
   return shortest;

@@ -12,9 +12,9 @@
 #include <Eigen/Geometry>
 
 #include "converters/base/error.h"
-#include "converters/base/number_text.h"
 #include "converters/io/mesh/mesh_parts.h"
 #include "converters/io/mesh/plain_names.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 namespace {
@@ -37,7 +37,7 @@ void putLine(std::string& out, const char* keyword, const Float3& v) {
   out += keyword;
   for (std::size_t a = 0; a < 3; ++a) {
     out += ' ';
-    out += shortestText(v[a]);
+    formats::appendNumber(out, v[a]);
   }
   out += '\n';
 }

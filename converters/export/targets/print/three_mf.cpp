@@ -9,15 +9,15 @@
 #include <zlib.h>
 
 #include "converters/base/error.h"
-#include "converters/base/number_text.h"
 #include "converters/export/shared/export_text.h"
+#include "formats/view/text_rules.h"
 
 namespace lumen::convert {
 
 namespace {
 
 void appendFloat(std::string& text, float value) {
-  text += shortestText(value == 0 ? 0.0F : value);  // without a sign of zero
+  formats::appendNumber(text, value == 0 ? 0.0F : value);  // without a sign of zero
 }
 
 std::string modelOf(const SurfaceMesh& mesh, const std::string& name) {
