@@ -39,7 +39,8 @@ convert::Volume loadVolume(const std::filesystem::path& file, const FileFormat& 
 convert::TrackResult trackFound(const convert::Volume& volume, const std::string& file,
                                 const convert::TrackOptions& options, Progress& progress);
 
-/// The same, but empty if no vessels are found. `candidates`: number of paths that might be vessels.
+/// Finds the vessels of `volume` without seeds, and tracks them; empty if none is found.
+/// `candidates`: number of paths that might be vessels.
 convert::TrackResult trackAnyFound(const convert::Volume& volume,
                                    const convert::TrackOptions& options, std::size_t& candidates,
                                    Progress& progress);

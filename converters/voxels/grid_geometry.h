@@ -12,7 +12,7 @@ namespace lumen::convert {
 /// they came in, so that these decide nothing.
 VolumeGeometry gridGeometry(const VolumeGeometry& world);
 
-/// The same place, mm, in another frame of one grid.
+/// A point, mm, in the frame `from` of a grid, in the frame `to` of that grid.
 inline Eigen::Vector3d inFrame(const VolumeGeometry& from, const VolumeGeometry& to,
                                const Eigen::Vector3d& point) {
   return to.worldFromIndex(from.indexFromWorld(point));

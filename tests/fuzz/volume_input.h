@@ -16,8 +16,8 @@ namespace lumen::fuzz {
 void readVolumeOf(const std::uint8_t* data, std::size_t size, const std::string& name,
                   convert::VolumeFormat format);
 
-/// The same for a folder with a DICOM file, or with several, between which the bytes have the word
-/// "#next-file#".
+/// Reads a folder with a DICOM file of these bytes, or with several, between which the bytes have the
+/// word "#next-file#". Stops the program as readVolumeOf() does.
 void readSeriesOf(const std::uint8_t* data, std::size_t size);
 
 }  // namespace lumen::fuzz

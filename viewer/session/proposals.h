@@ -22,8 +22,8 @@ constexpr const char* kJoinedArray = "LUMEN_proposal.joined";
 std::shared_ptr<const formats::Case> proposalsBehind(formats::Case found, std::uint32_t known);
 
 /// Proposals for a document: without those of which more than half of the nodes lie in vessels of
-/// its case, and with names that neither a vessel nor a seed has. What hung on one that is left out
-/// hangs on the case's vessel there. Null if none is left, or for null.
+/// its case, and with names that neither a vessel nor a seed has. A proposal that hung on one that is
+/// left out hangs on the case's vessel there. Null if none is left, or for null.
 std::shared_ptr<const formats::Case> proposalsFor(const Document& document,
                                                   std::shared_ptr<const formats::Case> proposals);
 
@@ -46,7 +46,8 @@ struct Acceptance {
 /// rule of the format.
 Acceptance accepted(const Document& document, std::vector<bool> chosen);
 
-/// The document without the marked proposals. What hung on them waits as trees of its own.
+/// The document without the marked proposals. Proposals that hung on them wait as trees
+/// of their own.
 Document rejected(const Document& document, const std::vector<bool>& chosen);
 
 /// "accept vessel-3" or "accept 12 vessels" of the marked proposals; `verb` begins the title.

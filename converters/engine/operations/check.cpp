@@ -156,8 +156,7 @@ public:
       throw unsupported(m_input + ": this is a " +
                         (from.kind == FormatKind::Mesh ? "mesh" : "case") +
                         "; lumen check takes the volume first, then the case");
-    const FileFormat* mask =
-        m_mask.empty() ? nullptr : &volumeOutputFormat(m_mask, "what --mask makes");
+    const FileFormat* mask = m_mask.empty() ? nullptr : &volumeOutputFormat(m_mask, "the mask");
     requireInScope(*around.table, {inputContent(from, false), kAnyContent, m_input, {}},
                    around.progress);
     checkOutputs(around);

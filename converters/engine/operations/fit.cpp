@@ -32,7 +32,7 @@ public:
 
   Answer run(Surroundings& around) override {
     requireOrder(m_input, m_output);
-    const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen fit makes");
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "the fitted tree");
     requireInput(m_input, "case file");
     requireWritable(m_output, convert::ContentKind::Case);
     around.willWrite(m_output);

@@ -37,7 +37,7 @@ public:
 
   Answer run(Surroundings& around) override {
     requireOrder(m_input, m_output);
-    const FileFormat& to = caseOutputFormat(m_output, m_to, "what lumen track makes");
+    const FileFormat& to = caseOutputFormat(m_output, m_to, "the tracked tree");
     requireInput(m_input, "volume");
     const FileFormat& from = inputFormat(m_input, m_from);
     if (from.kind != FormatKind::Volume) {

@@ -22,8 +22,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // The choice of the transform, and the required orthogonality of an sform, follow ITK's reader
-// (5.2, itkNiftiImageIO.cxx), through which most tools of the field read. That reader differs in
-// two points: it rejects an orthogonal sform whose inverse in floats is inaccurate, and leaves the
+// (5.2, itkNiftiImageIO.cxx), through which most tools of the field read. ITK's reader differs
+// in two points: it rejects an orthogonal sform whose inverse in floats is inaccurate, and leaves the
 // origin of a file in metres unconverted.
 constexpr double kOrthogonal = 1e-4;
 constexpr int kScanner = NIFTI_XFORM_SCANNER_ANAT;

@@ -24,7 +24,7 @@ struct NodePlace {
 std::optional<NodePlace> placeIn(const formats::CenterlineTree& tree, std::uint32_t branch,
                                  const Eigen::Vector3d& point);
 
-/// The same among all vessels.
+/// The nearest node of all vessels by `share`; empty if the point, mm, LPS, lies in no ball of any.
 std::optional<NodePlace> placeIn(const formats::CenterlineTree& tree, const Eigen::Vector3d& point);
 
 /// The root above a node.

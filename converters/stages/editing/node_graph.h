@@ -42,7 +42,8 @@ public:
 
   /// The stretch along nodes from their first on; empty if they are shorter than their width.
   [[nodiscard]] std::optional<Arm> armAlong(std::span<const std::uint32_t> nodes) const;
-  /// The same from an end of the graph on, as far as there is no fork, or through forks ahead.
+  /// The stretch from an end of the graph on, as far as there is no fork, or through forks ahead;
+  /// empty if it is shorter than its width.
   [[nodiscard]] std::optional<Arm> armFrom(std::uint32_t end) const;
   /// The nodes of a vessel up to eight radii before and behind one of them, which is among them.
   [[nodiscard]] std::vector<std::uint32_t> stretchAround(std::uint32_t node) const;
@@ -56,7 +57,7 @@ public:
 
   /// Removes the edge to the node that a vessel hangs on, and its first nodes, `stem`, before `node`.
   void detach(std::uint32_t node, std::span<const std::uint32_t> stem);
-  /// Joins two nodes by a bridge, or by a link behind a bridge if they hang together already.
+  /// Joins two nodes by a bridge, or by a link behind a bridge if they are connected already.
   void join(std::uint32_t a, std::uint32_t b);
   /// The ends of each tree; of a tree of one node, that.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> endsOfTrees() const;

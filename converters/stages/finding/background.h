@@ -28,7 +28,8 @@ public:
   /// Standard deviation of the noise, voxel units: the lower quartile over the blocks of 1.4826
   /// times the median absolute deviation; for voxels of whole numbers at least that of rounding.
   [[nodiscard]] float noise() const { return m_noise; }
-  /// The same around a voxel, where tissue is uneven: at least noise().
+  /// Standard deviation of the noise around a voxel, voxel units, where tissue is uneven: at least
+  /// noise().
   [[nodiscard]] float noiseAt(const Cell& cell) const;
 
 private:

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using Tissues = std::vector<PathTissue>;
 
-constexpr double kLeastExtent = 20;  // radii: paths that hang together and are bone
+constexpr double kLeastExtent = 20;  // radii: connected paths that are bone
 constexpr double kBrightest = 0.95;  // quantile of the brightness along vessels
 constexpr std::size_t kVoxelsToCheck = 1 << 14;
 

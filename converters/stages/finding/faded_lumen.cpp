@@ -113,7 +113,7 @@ std::vector<bool> grown(const Excess& excess, float contrast, const std::vector<
   return all;
 }
 
-/// Voxels that have grown and hang together.
+/// Voxels that have grown and are connected.
 struct GrownPart {
   std::vector<std::size_t> voxels;
   bool isWide = false;  ///< it is more than a rim of the lumen

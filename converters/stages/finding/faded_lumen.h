@@ -18,9 +18,10 @@ struct Excess {
 };
 
 /// Adds voxels of wide vessels that are less bright than those of the rest of the volume: from
-/// block to block of 16 voxels, those that hang together with lumen and are brighter than half of
+/// block to block of 16 voxels, those that are connected to lumen and are brighter than half of
 /// the lumen's median in their block, or in the brightest block beside it. A rim of vessels that
-/// are known is left out. `isLumen`: a flag for each voxel. `contrast`: excess of the wide vessels of the volume. Throws Error(Cancelled).
+/// are known is left out. `isLumen`: a flag for each voxel. `contrast`: excess of the wide vessels
+/// of the volume. Throws Error(Cancelled).
 void growIntoFaded(const Excess& excess, float contrast, std::vector<bool>& isLumen,
                    const Progress& progress);
 

@@ -30,7 +30,7 @@ private:
 };
 
 /// The courses of all vessels that a volume shows: one seed for each, parents first, whose points
-/// with their radii lie along it, from its parent's axis to its tip. Vessels that hang together are
+/// with their radii lie along it, from its parent's axis to its tip. Vessels that are connected are
 /// one tree, from the tip of its widest vessel. An aneurysm's points are inside of it. Radii are as
 /// coarse as the voxels; the tracker measures them. `dark`: vessels are darker than their
 /// background. Throws Error(Cancelled).

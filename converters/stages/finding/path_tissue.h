@@ -11,7 +11,7 @@
 
 namespace lumen::convert {
 
-/// What a path runs through. Unknown within the vessel at which it begins.
+/// Tissue that a path runs through. Unknown within the vessel at which it begins.
 enum class PathTissue : std::uint8_t { Unknown, Vessel, BesideBone, Bone };
 
 /// Tissue at each voxel of a path through a set of bright voxels. A vessel has background around

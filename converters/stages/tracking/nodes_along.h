@@ -18,7 +18,8 @@ namespace lumen::convert {
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,
                                     double first, double last, const TrackedBranch* parent);
 
-/// The same along a course whose expected radius is known at each of its points, mm; nodes that are
+/// Nodes along a course (mm, LPS) whose expected radius is known at each of its points, mm, strictly
+/// between its ends, half a radius apart and fitted where the volume shows a wall. Nodes that are
 /// refused are tried again with the radius of the nodes around them, and then along the curve between
 /// those that fit, on which they stay if they are bridged.
 std::vector<TrackedNode> nodesAlong(TrackRun& run, std::span<const Eigen::Vector3d> line,

@@ -29,7 +29,8 @@ public:
   /// Prepares a volume without a case: smoothed as the noise around these clicks requires.
   TrackingVolume(const Volume& volume, const std::vector<SeedBranch>& clicks,
                  const TrackOptions& options, Progress& progress);
-  /// The same in the frame of its grid, from which results are to be turned back.
+  /// Prepares a volume without a case in the frame of its grid, from which results are to be turned
+  /// back.
   TrackingVolume(const Volume& volume, const GridFrame& frame,
                  const std::vector<SeedBranch>& clicks, const TrackOptions& options,
                  Progress& progress);

@@ -174,7 +174,7 @@ def report(results):
     rows = [[name, r["said"]["openedEdges"], len(r["said"]["cuts"]), len(r["said"]["overlaps"]), r["said"]["offField"], r["said"]["roundedEnds"]]
             for name, r in results.items() if r["said"]["openedEdges"] or r["said"]["cuts"] or r["said"]["overlaps"] or r["said"]["offField"] or r["said"]["roundedEnds"]]
     if rows:
-        text += ("**What lumen said of them**\n\n"
+        text += ("**Reports of lumen on them**\n\n"
                  + table(["case", "edges opened", "handles cut", "pairs of vessels kept apart", "vertices off the field", "round ends"], rows))
     return text
 

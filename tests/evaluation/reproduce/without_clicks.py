@@ -158,7 +158,7 @@ def main():
     for name, options in CLUTTERED:
         if not names or f"clutter-{name}" in names: lines += cluttered(lumen, folder, name, options)
     lines += ["", "## Real volumes", "",
-              "*Held* is the share of the vessels that hang together with the case in the volume, by `lumen check`; *spread* that of",
+              "*Held* is the share of the vessels that are connected to the case in the volume, by `lumen check`; *spread* that of",
               "the lengths of three random seeds.", "",
               "| volume | vessels | mm | held | wall, 90 % | beyond a voxel | spread | wall clock | processor |",
               "|---|--:|--:|--:|--:|--:|--:|--:|--:|"]

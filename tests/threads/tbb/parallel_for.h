@@ -39,7 +39,7 @@ void parallel_for(Index first, Index last, const Body& body) {
   if (thrown) std::rethrow_exception(thrown);
 }
 
-/// The same: here indices are handed out one by one in any case.
+/// Ignores the partitioner, as indices are handed out one by one in any case.
 template <class Index, class Body>
 void parallel_for(Index first, Index last, const Body& body, simple_partitioner) {
   parallel_for(first, last, body);

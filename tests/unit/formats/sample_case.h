@@ -40,7 +40,7 @@ void resign(Bytes& file);
 /// The file of the rich case with `change` applied and all checksums made right again.
 Bytes tampered(const std::function<void(Bytes&)>& change);
 
-/// The same for the full case.
+/// The file of the full case with `change` applied and all checksums made right again.
 Bytes tamperedFull(const std::function<void(Bytes&)>& change);
 
 /// The name of the rule that was broken, or "OK".

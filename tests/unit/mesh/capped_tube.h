@@ -68,7 +68,7 @@ inline convert::SurfaceMesh cappedTube(const std::vector<std::string>& labels, i
   return mesh;
 }
 
-/// The same without its ends.
+/// cappedTube() without its ends.
 inline convert::SurfaceMesh openTube(const std::vector<std::string>& labels) {
   convert::SurfaceMesh mesh = cappedTube(labels);
   std::vector<convert::Triangle> triangle;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OBJ, STL and PLY. That VTK reads them, and VTP, as they were is tests/vtk/compare_meshes.py.
+// OBJ, STL and PLY. tests/vtk/compare_meshes.py checks that VTK reads them, and VTP, as they were.
 #include "converters/io/mesh/write_plain.h"
 
 #include <algorithm>

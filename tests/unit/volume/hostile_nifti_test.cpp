@@ -37,7 +37,7 @@ private:
 
 class HostileNifti : public FileTest {
 protected:
-  /// The same of the plain and of the compressed file.
+  /// Expects that the plain and the compressed file are refused with the same words.
   void expectRefusal(const HeaderBytes& header, std::vector<std::string> words,
                      const ReadVolumeOptions& options = {}) const {
     words.insert(words.begin(), {"3: ", "v.nii"});

@@ -32,7 +32,8 @@ inline std::string nrrdText(const std::vector<std::string>& lines,
   return text + "\n" + data;
 }
 
-/// The same of MetaImage, with "Key = value".
+/// A MetaImage of 2 x 2 x 2 bytes; `lines`, such as "NDims = 3", replace or add to the fields of an
+/// ordinary one, and a line such as "-NDims" takes one out.
 inline std::string metaText(const std::vector<std::string>& lines,
                             const std::string& data = eightBytes()) {
   std::vector<std::string> fields = {"ObjectType = Image",      "NDims = 3",

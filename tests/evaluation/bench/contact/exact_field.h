@@ -23,13 +23,13 @@ public:
   /// station.
   [[nodiscard]] double distance(std::uint32_t station, const double* point) const;
 
-  /// The same at the node of least power of the station's vessel: the nodes that are no farther along the
-  /// tree than four times the sum of both radii, as far as nodes can be neighbours. All others are other
-  /// vessels, however near. No walk is made.
+  /// Signed distance to the wall, mm, at the node of least power of the station's vessel: the nodes that
+  /// are no farther along the tree than four times the sum of both radii, as far as nodes can be
+  /// neighbours. All others are other vessels, however near. No walk is made.
   [[nodiscard]] double ownDistance(std::uint32_t station, const double* point) const;
 
-  /// The same of the other vessel that is nearest to a point: that of the node of least power among those
-  /// that are not of the station's vessel; that node. Infinite if there is none.
+  /// Signed distance to the wall, mm, of the other vessel that is nearest to a point: that of the node of
+  /// least power among those that are not of the station's vessel; that node. Infinite if there is none.
   struct Other {
     double distance;
     std::uint32_t node;
