@@ -9,6 +9,7 @@
 
 #include "formats/case/blobby.h"
 #include "formats/case/case.h"
+#include "formats/view/float3.h"
 
 namespace lumen {
 
@@ -18,6 +19,10 @@ inline Eigen::Vector3d toEigen(const formats::Vec3f& v) {
 
 inline Eigen::Vector3d toEigen(const formats::Vec3d& v) {
   return {v.x, v.y, v.z};
+}
+
+inline Eigen::Vector3d toEigen(const formats::Float3& v) {
+  return {v[0], v[1], v[2]};
 }
 
 inline formats::Vec3f toVec3f(const Eigen::Vector3d& v) {

@@ -20,7 +20,7 @@ std::vector<T> copied(std::span<const T> values) {
   return {values.begin(), values.end()};
 }
 
-std::vector<Vec3f> copied(std::span<const ViewVector> values) {
+std::vector<Vec3f> copied(std::span<const Float3> values) {
   std::vector<Vec3f> result(values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
     result[i] = {values[i][0], values[i][1], values[i][2]};

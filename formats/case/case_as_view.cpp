@@ -10,10 +10,10 @@
 namespace lumen::formats {
 namespace {
 
-static_assert(sizeof(Vec3f) == sizeof(ViewVector) && alignof(Vec3f) == alignof(ViewVector));
+static_assert(sizeof(Vec3f) == sizeof(Float3) && alignof(Vec3f) == alignof(Float3));
 
-std::span<const ViewVector> vectors(const std::vector<Vec3f>& values) {
-  return {reinterpret_cast<const ViewVector*>(values.data()), values.size()};
+std::span<const Float3> vectors(const std::vector<Vec3f>& values) {
+  return {reinterpret_cast<const Float3*>(values.data()), values.size()};
 }
 
 // A rate of exactly -1 is illegal, but in a record it means "no rate". It is moved to the next

@@ -189,7 +189,7 @@ std::string_view CaseView::label(const BranchView& branch) const {
 
 CaseView assembleView(const CaseChunks& chunks, Verify verify, IssueList& issues) {
   CaseView view;
-  const std::size_t nodeCount = chunks.at(chunk::kNodeCentre).stored.size() / sizeof(ViewVector);
+  const std::size_t nodeCount = chunks.at(chunk::kNodeCentre).stored.size() / sizeof(Float3);
   SpanReader reader(chunks, nodeCount, issues);
   reader.each(chunk::kNodeCentre, view.nodeCentre);
   reader.each(chunk::kNodeDirection, view.nodeDirection);

@@ -13,18 +13,16 @@
 
 #include "formats/container/container.h"
 #include "formats/view/case_chunks.h"
+#include "formats/view/float3.h"
 
 namespace lumen::formats {
-
-/// Three f32: a position (mm) or a unit direction in LPS patient coordinates.
-using ViewVector = std::array<float, 3>;
 
 /// One implicit surface per node; see BlobbyModels in formats/case/case.h.
 struct ModelView {
   std::uint8_t kernel = 0;  ///< a field::Kernel, once checked
   double kernelParameter = 0, isoLevel = 0;
   std::span<const std::uint32_t> offset;  ///< one per node, and one more
-  std::span<const ViewVector> centre;     ///< mm, LPS
+  std::span<const Float3> centre;         ///< mm, LPS
   std::span<const float> width;           ///< mm
 };
 
@@ -43,7 +41,7 @@ struct BranchView {
 struct CaseView {
   FormatVersion version;
   std::string_view metadata;  ///< JSON
-  std::span<const ViewVector> nodeCentre, nodeDirection;
+  std::span<const Float3> nodeCentre, nodeDirection;
   std::span<const float> nodeRadius, nodeHeight, nodeInlierRate;
   std::span<const std::int32_t> nodeParent;
   std::span<const std::uint32_t> nodeBranch;
@@ -52,7 +50,7 @@ struct CaseView {
   std::string_view branchLabels;
   bool hasPoints = false;
   std::span<const std::uint32_t> pointOffset;  ///< one per node, and one more
-  std::span<const ViewVector> pointPosition;
+  std::span<const Float3> pointPosition;
   std::optional<ModelView> models;
   std::vector<std::span<const std::byte>> nodeArrays;  ///< as the metadata describes them
 

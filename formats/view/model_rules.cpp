@@ -25,7 +25,7 @@ bool allFinite(std::span<const float> values) {
   return greatest < kExponentBits;
 }
 
-std::span<const float> flat(std::span<const ViewVector> vectors) {
+std::span<const float> flat(std::span<const Float3> vectors) {
   return {vectors.empty() ? nullptr : vectors.front().data(), 3 * vectors.size()};
 }
 
@@ -68,7 +68,7 @@ constexpr ValueRule kWidthRule{isPositive, ErrorCode::WidthRange, "more than 0 m
 
 constexpr double kDirectionTolerance = 1e-3;
 
-void checkDirections(std::span<const ViewVector> directions, IssueList& issues) {
+void checkDirections(std::span<const Float3> directions, IssueList& issues) {
   const std::string pointer = "/tree/direction";
   checkFinite(directions, pointer, issues);
   for (std::size_t i = 0; i < directions.size() && !issues.done(); ++i) {
@@ -146,8 +146,7 @@ void checkPositive(double value, const std::string& pointer, ErrorCode code, Iss
     issues.add(foundIssue(code, pointer, shortText(value), "more than 0"));
 }
 
-void checkFinite(std::span<const ViewVector> vectors, const std::string& pointer,
-                 IssueList& issues) {
+void checkFinite(std::span<const Float3> vectors, const std::string& pointer, IssueList& issues) {
   warnNegativeZero(flat(vectors), 3, pointer, issues);
   if (allFinite(flat(vectors))) return;
   for (std::size_t i = 0; i < vectors.size(); ++i)

@@ -48,8 +48,7 @@ void checkValues(std::span<const float> values, const std::string& pointer, cons
                  IssueList& issues);
 void checkFinite(double value, const std::string& pointer, IssueList& issues);
 void checkPositive(double value, const std::string& pointer, ErrorCode code, IssueList& issues);
-void checkFinite(std::span<const ViewVector> vectors, const std::string& pointer,
-                 IssueList& issues);
+void checkFinite(std::span<const Float3> vectors, const std::string& pointer, IssueList& issues);
 /// Whether both lengths are equal; adds an issue if not.
 bool checkLength(std::size_t found, std::size_t expected, const std::string& pointer,
                  IssueList& issues);

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "converters/base/vectors.h"
+
 namespace lumen::convert {
 
 namespace {
@@ -15,10 +17,6 @@ float single(double value) {
 
 Float3 floats(const Eigen::Vector3d& v) {
   return {single(v.x()), single(v.y()), single(v.z())};
-}
-
-Eigen::Vector3d doubles(const Float3& v) {
-  return {v[0], v[1], v[2]};
 }
 
 }  // namespace
@@ -97,8 +95,8 @@ Eigen::Matrix4d ExportFrame::matrix() const {
 }
 
 SurfaceMesh ExportFrame::of(SurfaceMesh mesh) const {
-  for (Float3& p : mesh.position) p = floats(position(doubles(p)));
-  for (Float3& n : mesh.normal) n = floats(direction(doubles(n)));
+  for (Float3& p : mesh.position) p = floats(position(toEigen(p)));
+  for (Float3& n : mesh.normal) n = floats(direction(toEigen(n)));
   for (float& r : mesh.radius) r = single(length(r));
   return mesh;
 }

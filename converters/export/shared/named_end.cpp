@@ -42,8 +42,7 @@ struct Rim {
 };
 
 Eigen::Vector3d pointOf(const SurfaceMesh& mesh, std::uint32_t vertex) {
-  const Float3& p = mesh.position[vertex];
-  return {p[0], p[1], p[2]};
+  return toEigen(mesh.position[vertex]);
 }
 
 std::vector<Rim> rimsOf(const SurfaceMesh& mesh) {

@@ -2,16 +2,16 @@
 // Surface of a case for writers of meshes.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "converters/geometry/triangle_mesh.h"
+#include "formats/view/float3.h"
 
 namespace lumen::convert {
 
-using Float3 = std::array<float, 3>;
+using formats::Float3;
 
 enum class FaceKind : std::uint8_t {
   Wall,    ///< the vessels' wall, and the sides of flow extensions

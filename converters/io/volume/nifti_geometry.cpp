@@ -13,6 +13,7 @@
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
+#include "converters/base/vectors.h"
 #include "converters/io/volume/volume_checks.h"
 
 namespace lumen::convert {
@@ -48,11 +49,6 @@ struct Transform {
   [[nodiscard]] bool usable() const { return stated && fault.empty(); }
 };
 
-Vector3d vectorOf(const std::array<float, 3>& values) {
-  return {static_cast<double>(values[0]), static_cast<double>(values[1]),
-          static_cast<double>(values[2])};
-}
-
 Transform sformOf(const NiftiHeader& header) {
   Transform sform;
   sform.stated = header.sformCode > NIFTI_XFORM_UNKNOWN;
@@ -79,8 +75,8 @@ Transform sformOf(const NiftiHeader& header) {
 Transform qformOf(const NiftiHeader& header) {
   Transform qform;
   qform.stated = header.qformCode > NIFTI_XFORM_UNKNOWN;
-  const Vector3d quaternion = vectorOf(header.quaternion);
-  qform.offset = vectorOf(header.qOffset);
+  const Vector3d quaternion = toEigen(header.quaternion);
+  qform.offset = toEigen(header.qOffset);
   if (!quaternion.allFinite() || quaternion.norm() > kLongQuaternion)
     qform.fault = "its qform has the quaternion (b, c, d) " +
                   vectorText(quaternion, kHeaderDigits) + ", which is no rotation";
@@ -105,7 +101,7 @@ Transform qformOf(const NiftiHeader& header) {
 /// spacing of pixdim.
 double distanceOf(const Transform& one, const Transform& other, const NiftiHeader& header) {
   Matrix3d difference = one.axes.colwise().normalized() - other.axes.colwise().normalized();
-  difference *= vectorOf(header.pixdim).asDiagonal();
+  difference *= toEigen(header.pixdim).asDiagonal();
   double furthest = 0;
   for (int corner = 0; corner < 8; ++corner) {
     Vector3d index;
@@ -121,7 +117,7 @@ void reportDisagreement(const Transform& used, const char* name, const Transform
                         const char* otherName, const NiftiHeader& header,
                         std::vector<std::string>& assumptions) {
   const double apart = distanceOf(used, other, header);
-  const double tolerance = kAgree * vectorOf(header.pixdim).minCoeff();
+  const double tolerance = kAgree * toEigen(header.pixdim).minCoeff();
   if (!(apart > tolerance)) return;
   assumptions.push_back("its qform (code " + std::to_string(header.qformCode) +
                         ") and its sform (code " + std::to_string(header.sformCode) +
@@ -193,7 +189,7 @@ StatedGeometry niftiGeometry(const NiftiHeader& header, const ReadVolumeOptions&
   VolumeGeometry& geometry = stated.geometry;
   stated.unit = millimetres(header.unitCode);
   geometry.size = header.size;
-  geometry.spacing = vectorOf(header.pixdim);
+  geometry.spacing = toEigen(header.pixdim);
   const Transform sform = sformOf(header), qform = qformOf(header);
   const Transform* transform = chosenTransform(sform, qform, header, path, assumptions);
   if (transform == nullptr) {

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "converters/export/targets/cathsim/wall_prisms.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include <Eigen/Geometry>
 
+#include "converters/base/vectors.h"
 #include "converters/geometry/mesh_measures.h"
 
 namespace lumen::convert {
 
 namespace {
-
-Eigen::Vector3d vectorOf(const Float3& p) {
-  return {p[0], p[1], p[2]};
-}
 
 Float3 floatsOf(const Eigen::Vector3d& v) {
   const Eigen::Vector3f f = v.cast<float>();
@@ -29,9 +25,9 @@ std::vector<Eigen::Vector3d> wallNormals(const SurfaceMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
     if (mesh.groups[mesh.group[t]].kind != FaceKind::Wall) continue;
     const auto& [a, b, c] = mesh.triangle[t];
-    const Eigen::Vector3d o = vectorOf(mesh.position[a]);
+    const Eigen::Vector3d o = toEigen(mesh.position[a]);
     const Eigen::Vector3d area =
-        (vectorOf(mesh.position[b]) - o).cross(vectorOf(mesh.position[c]) - o);
+        (toEigen(mesh.position[b]) - o).cross(toEigen(mesh.position[c]) - o);
     for (const std::uint32_t v : mesh.triangle[t]) normals[v] += area;
   }
   for (Eigen::Vector3d& normal : normals) normal.normalize();
@@ -42,7 +38,7 @@ std::vector<Float3> raised(const SurfaceMesh& mesh, double share, const InLumen&
   const std::vector<Eigen::Vector3d> normals = wallNormals(mesh);
   std::vector<Float3> upper(mesh.position.size());
   for (std::size_t v = 0; v < upper.size(); ++v) {
-    const Eigen::Vector3d foot = vectorOf(mesh.position[v]);
+    const Eigen::Vector3d foot = toEigen(mesh.position[v]);
     const auto at = [&](double height) { return floatsOf(foot + height * normals[v]); };
     double height = share * mesh.radius[v];
     constexpr int kHalvings = 6;
@@ -55,11 +51,10 @@ std::vector<Float3> raised(const SurfaceMesh& mesh, double share, const InLumen&
 
 double volumeOf(const SurfaceMesh& mesh) {
   double sum = 0;
-  const Eigen::Vector3d origin = vectorOf(mesh.position.front());
+  const Eigen::Vector3d origin = toEigen(mesh.position.front());
   for (const auto& [a, b, c] : mesh.triangle)
-    sum +=
-        tetrahedronVolume(vectorOf(mesh.position[a]) - origin, vectorOf(mesh.position[b]) - origin,
-                          vectorOf(mesh.position[c]) - origin);
+    sum += tetrahedronVolume(toEigen(mesh.position[a]) - origin, toEigen(mesh.position[b]) - origin,
+                             toEigen(mesh.position[c]) - origin);
   return sum;
 }
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "converters/base/vectors.h"
 #include "converters/geometry/mesh_measures.h"
 #include "converters/geometry/triangle_mesh.h"
 #include "converters/geometry/triangle_tree.h"
@@ -76,7 +77,7 @@ public:
 private:
   static TriangleMesh meshOf(const SurfaceMesh& piece) {
     TriangleMesh mesh;
-    for (const Float3& p : piece.position) mesh.position.emplace_back(p[0], p[1], p[2]);
+    for (const Float3& p : piece.position) mesh.position.push_back(toEigen(p));
     mesh.triangle = piece.triangle;
     return mesh;
   }

@@ -11,6 +11,7 @@
 
 #include "converters/base/number_text.h"
 #include "converters/base/option_name.h"
+#include "converters/base/vectors.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/surface.h"
 #include "converters/export/targets/print/three_mf.h"
@@ -35,7 +36,7 @@ struct Thinnest {
 /// closedSurface(): group 0 is the lumen's side, group 1 the outer one.
 Thinnest thinnestOf(const SurfaceMesh& mesh) {
   TriangleMesh outer;
-  for (const Float3& p : mesh.position) outer.position.emplace_back(p[0], p[1], p[2]);
+  for (const Float3& p : mesh.position) outer.position.push_back(toEigen(p));
   std::vector<char> isInner(mesh.position.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
     if (mesh.group[t] == 1) outer.triangle.push_back(mesh.triangle[t]);
