@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <random>
 #include <sstream>
 #include <string>
@@ -39,7 +38,7 @@ constexpr int kPoints = 100000;
 
 /// A place of a tool in a branch, near that branch's wall.
 struct Probe {
-  Place place;
+  Eigen::Vector3d place;
   std::uint32_t branch;
   double own, all;  ///< mm, of the branch, and of all vessels
   bool touching;    ///< another vessel, not near along the tree, has its wall near by
@@ -58,12 +57,12 @@ struct Case {
   }
 };
 
-double distanceOf(const Case& c, std::uint32_t branch, const Place& p) {
+double distanceOf(const Case& c, std::uint32_t branch, const Eigen::Vector3d& p) {
   return static_cast<double>(test::askBranch(c.vessels, c.regions[branch], p).distance);
 }
 
 /// Whether a branch that has no node in the region of `branch` has a wall near `p`.
-bool isTouched(const Case& c, std::uint32_t branch, const Place& p) {
+bool isTouched(const Case& c, std::uint32_t branch, const Eigen::Vector3d& p) {
   const auto& tree = c.source.tree;
   std::vector<bool> known(tree.branches.size());
   for (const std::uint32_t n : c.regions[branch]) known[tree.branch[n]] = true;
@@ -87,10 +86,7 @@ std::vector<Probe> probesOf(const Case& c) {
   while (probes.size() < kPoints) {
     const std::size_t v = random() % c.wall.position.size();
     const double along = kNear * (2 * share() - 1);
-    Place p{};
-    for (std::size_t a = 0; a < 3; ++a)
-      p[a] = static_cast<double>(c.wall.position[v][a]) +
-             along * static_cast<double>(c.wall.normal[v][a]);
+    const Eigen::Vector3d p = toEigen(c.wall.position[v]) + along * toEigen(c.wall.normal[v]);
     const std::uint32_t branch = c.source.tree.branch[c.wall.node[v]];
     const double own = distanceOf(c, branch, p);
     if (std::abs(own) > kNear) continue;
@@ -100,15 +96,11 @@ std::vector<Probe> probesOf(const Case& c) {
   return probes;
 }
 
-PlaceBox boxOf(const Case& c, const TreeRegion* region) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  PlaceBox box{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
+Box3d boxOf(const Case& c, const TreeRegion* region) {
+  Box3d box;
   for (std::size_t v = 0; v < c.wall.position.size(); ++v)
     if (!region || std::binary_search(region->begin(), region->end(), c.wall.node[v]))
-      for (std::size_t a = 0; a < 3; ++a) {
-        box.low[a] = std::min(box.low[a], static_cast<double>(c.wall.position[v][a]));
-        box.high[a] = std::max(box.high[a], static_cast<double>(c.wall.position[v][a]));
-      }
+      box.add(toEigen(c.wall.position[v]));
   return box;
 }
 

@@ -46,9 +46,7 @@ std::vector<float> sampleNodes(const GridSource& source, const Lattice& lattice,
     const auto answers = sampleRows(
         source, family.rows, family.length,
         [&](std::size_t row, std::size_t index) {
-          Place p = nodes.place(which, row, index);
-          for (std::size_t a = 0; a < 3; ++a) p[a] = lattice.first[a] + p[a] * lattice.spacing;
-          return p;
+          return Eigen::Vector3d(lattice.first + lattice.spacing * nodes.place(which, row, index));
         },
         progress);
     for (const WallDistance& answer : answers)
@@ -92,7 +90,8 @@ Cells keepBand(const std::vector<float>& values, const CdfNodes& nodes,
 void appendHead(std::string& bytes, const Lattice& lattice, const std::array<std::size_t, 3>& n,
                 double unit) {
   for (const double x : lattice.first) append(bytes, x / unit);
-  for (const double x : lattice.last()) append(bytes, x / unit);
+  const Eigen::Vector3d last = lattice.last();
+  for (const double x : last) append(bytes, x / unit);
   for (const std::size_t count : n) append(bytes, static_cast<std::uint32_t>(count));
   for (int a = 0; a < 3; ++a) append(bytes, lattice.spacing / unit);
   for (int a = 0; a < 3; ++a) append(bytes, unit / lattice.spacing);
@@ -118,7 +117,7 @@ CdfNodes::Family CdfNodes::family(std::size_t which) const {
   return {(x + 1) * (y + 1), 2 * z};
 }
 
-Place CdfNodes::place(std::size_t which, std::size_t row, std::size_t index) const {
+Eigen::Vector3d CdfNodes::place(std::size_t which, std::size_t row, std::size_t index) const {
   const auto [x, y, z] = m_cells;
   const auto number = [](std::size_t n) { return static_cast<double>(n); };
   const double along = number(index / 2) + number(1 + index % 2) / 3;

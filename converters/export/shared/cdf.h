@@ -25,7 +25,7 @@ public:
   };
   [[nodiscard]] Family family(std::size_t which) const;
   /// Place of a node, in cells from the first corner.
-  [[nodiscard]] Place place(std::size_t which, std::size_t row, std::size_t index) const;
+  [[nodiscard]] Eigen::Vector3d place(std::size_t which, std::size_t row, std::size_t index) const;
   /// The 32 nodes of a cell, in the order of Discregrid's shape functions.
   [[nodiscard]] std::array<std::uint32_t, 32> ofCell(std::size_t i, std::size_t j,
                                                      std::size_t k) const;

@@ -22,7 +22,7 @@ constexpr double kUsualSamples = 8e6;
 /// box around them shows which nodes are near.
 constexpr std::size_t kChunk = 32;
 
-void sampleChunk(const GridSource& source, std::span<const Place> points,
+void sampleChunk(const GridSource& source, std::span<const Eigen::Vector3d> points,
                  std::span<WallDistance> answers) {
   if (source.region)
     source.vessels.ofRegion(*source.region, points, source.band, answers);
@@ -37,7 +37,7 @@ std::vector<WallDistance> askRows(const GridSource& source, std::size_t rows, st
   std::vector<WallDistance> answers(rows * length);
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
     progress.check();
-    std::vector<Place> points;
+    std::vector<Eigen::Vector3d> points;
     for (std::size_t begin = 0; begin < length; begin += kChunk) {
       const std::size_t end = std::min(begin + kChunk, length);
       points.clear();
@@ -69,12 +69,12 @@ DistanceGrid askLattice(const GridSource& source, const Lattice& lattice, Progre
 
 }  // namespace
 
-Place Lattice::at(std::size_t i, std::size_t j, std::size_t k) const {
-  return {first[0] + static_cast<double>(i) * spacing, first[1] + static_cast<double>(j) * spacing,
-          first[2] + static_cast<double>(k) * spacing};
+Eigen::Vector3d Lattice::at(std::size_t i, std::size_t j, std::size_t k) const {
+  return first + spacing * Eigen::Vector3d(static_cast<double>(i), static_cast<double>(j),
+                                           static_cast<double>(k));
 }
 
-Place Lattice::last() const {
+Eigen::Vector3d Lattice::last() const {
   return at(static_cast<std::size_t>(size[0] - 1), static_cast<std::size_t>(size[1] - 1),
             static_cast<std::size_t>(size[2] - 1));
 }
@@ -84,14 +84,13 @@ std::size_t Lattice::count() const {
          static_cast<std::size_t>(size[2]);
 }
 
-double gridSpacing(double asked, const PlaceBox& box, double margin,
+double gridSpacing(double asked, const Box3d& box, double margin,
                    const formats::CenterlineTree& tree) {
   if (asked > 0) return asked;
   const double thinnest =
       static_cast<double>(*std::min_element(tree.radius.begin(), tree.radius.end()));
-  double volume = 1;
-  for (std::size_t a = 0; a < 3; ++a) volume *= box.high[a] - box.low[a] + 2 * margin;
-  return std::max(thinnest / 4, std::cbrt(volume / kUsualSamples));
+  const Eigen::Vector3d edges = (box.size().array() + 2 * margin).matrix();
+  return std::max(thinnest / 4, std::cbrt(edges.x() * edges.y() * edges.z() / kUsualSamples));
 }
 
 std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTree& tree) {
@@ -111,32 +110,32 @@ void refuseSpacing(double spacing, const std::string& what) {
                                     "; choose a wider spacing");
 }
 
-Lattice latticeOver(const PlaceBox& box, double margin, double spacing) {
+Lattice latticeOver(const Box3d& box, double margin, double spacing) {
   Lattice lattice;
   lattice.spacing = spacing;
-  for (std::size_t a = 0; a < 3; ++a) {
+  for (int a = 0; a < 3; ++a) {
     const double cells =
         std::max(1.0, std::ceil((box.high[a] - box.low[a] + 2 * margin) / spacing));
     if (cells >= std::numeric_limits<int>::max())
       refuseSpacing(spacing, "this makes more than 2147483647 samples along an axis");
-    lattice.size[a] = static_cast<int>(cells) + 1;
+    lattice.size[static_cast<std::size_t>(a)] = static_cast<int>(cells) + 1;
     lattice.first[a] = box.low[a] - margin;
   }
   return lattice;
 }
 
-Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin) {
+Lattice partOf(const Lattice& whole, const Box3d& box, double margin) {
   Lattice part = whole;
-  for (std::size_t a = 0; a < 3; ++a) {
+  for (int a = 0; a < 3; ++a) {
+    const int samples = whole.size[static_cast<std::size_t>(a)];
     const auto index = [&](double place) {
-      return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(whole.size[a] - 1)));
+      return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(samples - 1)));
     };
-    const int begin =
-        std::min(index(std::floor((box.low[a] - margin - whole.first[a]) / whole.spacing)),
-                 whole.size[a] - 2);
+    const int begin = std::min(
+        index(std::floor((box.low[a] - margin - whole.first[a]) / whole.spacing)), samples - 2);
     const int end = std::max(
         index(std::ceil((box.high[a] + margin - whole.first[a]) / whole.spacing)), begin + 1);
-    part.size[a] = end - begin + 1;
+    part.size[static_cast<std::size_t>(a)] = end - begin + 1;
     part.first[a] = whole.first[a] + begin * whole.spacing;
   }
   return part;

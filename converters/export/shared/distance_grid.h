@@ -17,26 +17,21 @@ namespace lumen::convert {
 
 /// Places of the samples of a grid, mm, LPS; axes are x, y, z.
 struct Lattice {
-  std::array<int, 3> size{};  ///< samples along x, y, z
-  Place first{};              ///< place of the first sample
-  double spacing = 0;         ///< along each axis
+  std::array<int, 3> size{};                        ///< samples along x, y, z
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();  ///< place of the first sample
+  double spacing = 0;                               ///< along each axis
 
-  [[nodiscard]] Place last() const;
-  [[nodiscard]] Place at(std::size_t i, std::size_t j, std::size_t k) const;
+  [[nodiscard]] Eigen::Vector3d last() const;
+  [[nodiscard]] Eigen::Vector3d at(std::size_t i, std::size_t j, std::size_t k) const;
   [[nodiscard]] std::size_t count() const;
 };
 
 /// Maximum number of samples of a grid that is held whole: 256 MB.
 inline constexpr std::size_t kMostGridSamples = std::size_t{1} << 25;
 
-/// A box, mm.
-struct PlaceBox {
-  Place low{}, high{};
-};
-
 /// The spacing `asked`, mm; for 0 a quarter of the tree's least radius, but at most eight million
 /// samples over the box and `margin`.
-double gridSpacing(double asked, const PlaceBox& box, double margin,
+double gridSpacing(double asked, const Box3d& box, double margin,
                    const formats::CenterlineTree& tree);
 
 /// Sentences about vessels that a grid passes over: those with less than two samples across.
@@ -44,10 +39,10 @@ std::vector<std::string> gridLosses(double spacing, const formats::CenterlineTre
 
 /// Over the box and a margin on each side. Throws Error(Usage) for more than 2^31 samples along an
 /// axis.
-Lattice latticeOver(const PlaceBox& box, double margin, double spacing);
+Lattice latticeOver(const Box3d& box, double margin, double spacing);
 
 /// The samples of `whole` that lie in the box with its margin; at least two along each axis.
-Lattice partOf(const Lattice& whole, const PlaceBox& box, double margin);
+Lattice partOf(const Lattice& whole, const Box3d& box, double margin);
 
 /// The source of the answers on a grid, and the greatest distance from the wall that is asked for.
 struct GridSource {
@@ -58,7 +53,7 @@ struct GridSource {
 };
 
 /// Place of a sample.
-using RowPlaces = std::function<Place(std::size_t row, std::size_t index)>;
+using RowPlaces = std::function<Eigen::Vector3d(std::size_t row, std::size_t index)>;
 
 /// `rows` rows of `length` samples near each other, answers[row * length + index], in parallel; the
 /// same numbers on any number of threads. Throws Error(Cancelled).

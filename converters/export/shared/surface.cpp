@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "converters/base/error.h"
+#include "converters/base/vectors.h"
 
 namespace lumen::convert {
 
@@ -47,6 +48,12 @@ WallAttempt tryWall(const ExportInput& input, const Length& usual, const Surface
     if (error.kind() != ErrorKind::Failed) throw;
     return {std::nullopt, error.what()};
   }
+}
+
+Box3d boxOf(const SurfaceMesh& mesh) {
+  Box3d box;
+  for (const Float3& p : mesh.position) box.add(toEigen(p));
+  return box;
 }
 
 }  // namespace lumen::convert

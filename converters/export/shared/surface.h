@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "converters/export/shared/target.h"
+#include "converters/geometry/box.h"
 #include "converters/io/mesh/surface_mesh.h"
 
 namespace lumen::convert {
@@ -33,5 +34,8 @@ struct WallAttempt {
 /// wallSurface(), unless it cannot be made: where vessels overlap, by the report on the lumen's
 /// surface, their walls meet. With a thickness in the options it throws as wallSurface() instead.
 WallAttempt tryWall(const ExportInput& input, const Length& usual, const SurfaceReport& lumen);
+
+/// The box of all vertices.
+Box3d boxOf(const SurfaceMesh& mesh);
 
 }  // namespace lumen::convert

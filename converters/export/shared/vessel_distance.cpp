@@ -10,7 +10,9 @@
 
 #include "blob.h"
 #include "converters/base/error.h"
+#include "converters/base/vectors.h"
 #include "formats/case/binary_encode.h"
+#include "formats/case/topology.h"
 
 namespace lumen::convert {
 
@@ -23,21 +25,20 @@ constexpr double kReach = 2;
 /// Radii along the tree within which libblob lets nodes blend.
 constexpr double kNeighbourhood = 4;
 
-Place centreOf(const formats::CenterlineTree& tree, std::uint32_t node) {
-  const formats::Vec3f& c = tree.centre[node];
-  return {c.x, c.y, c.z};
+/// Summed from x to z, as Eigen's own sum begins elsewhere.
+double squaredLength(const Eigen::Vector3d& v) {
+  return v.x() * v.x() + v.y() * v.y() + v.z() * v.z();
 }
 
 /// Squared distance from `p` to the box, and to its farthest corner.
-std::pair<double, double> squaredRange(const Place& low, const Place& high, const Place& p) {
-  double near = 0, far = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double below = low[a] - p[a], above = p[a] - high[a];
-    const double out = std::max({below, above, 0.0}), across = std::max(-below, -above);
-    near += out * out;
-    far += across * across;
-  }
-  return {near, far};
+std::pair<double, double> squaredRange(const Box3d& box, const Eigen::Vector3d& p) {
+  return {squaredLength(box.gap(p)), squaredLength((p - box.low).cwiseMax(box.high - p))};
+}
+
+/// Points as libblob takes them: three doubles each.
+const double (*coordinates(std::span<const Eigen::Vector3d> points))[3] {
+  static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
+  return reinterpret_cast<const double(*)[3]>(points.data());
 }
 
 std::unique_ptr<blob_model, void (*)(blob_model*)> openModels(const formats::Case& source) {
@@ -50,23 +51,10 @@ std::unique_ptr<blob_model, void (*)(blob_model*)> openModels(const formats::Cas
   return {model, &blob_model_close};
 }
 
-/// Edges of each node: parents, children and links.
-std::vector<std::vector<std::uint32_t>> edgesOf(const formats::CenterlineTree& tree) {
-  std::vector<std::vector<std::uint32_t>> edges(tree.nodeCount());
-  const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    edges[a].push_back(b);
-    edges[b].push_back(a);
-  };
-  for (std::uint32_t n = 0; n < tree.nodeCount(); ++n)
-    if (tree.parent[n] >= 0) join(n, static_cast<std::uint32_t>(tree.parent[n]));
-  for (const auto& link : tree.links) join(link[0], link[1]);
-  return edges;
-}
-
 }  // namespace
 
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch) {
-  const auto edges = edgesOf(tree);
+  const formats::Neighbours neighbours(tree);
   std::vector<double> left(tree.nodeCount(), -1);  // path that a node may still go on, mm
   std::deque<std::uint32_t> next;
   const formats::Branch& own = tree.branches[branch];
@@ -76,9 +64,9 @@ TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t bra
   }
   for (; !next.empty(); next.pop_front()) {
     const std::uint32_t at = next.front();
-    for (const std::uint32_t to : edges[at]) {
-      const Place a = centreOf(tree, at), b = centreOf(tree, to);
-      const double rest = left[at] - std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    for (const std::uint32_t to : neighbours.of(at)) {
+      const Eigen::Vector3d edge = toEigen(tree.centre[at]) - toEigen(tree.centre[to]);
+      const double rest = left[at] - std::hypot(edge.x(), edge.y(), edge.z());
       if (rest <= left[to] || rest < 0) continue;
       left[to] = rest;
       next.push_back(to);
@@ -95,41 +83,34 @@ VesselDistance::VesselDistance(const formats::Case& source, bool exact)
       m_model(openModels(source)),
       m_flags(exact ? BLOB_BLENDED | BLOB_DISTANCE_EXACT : BLOB_BLENDED) {
   for (const formats::Branch& branch : m_tree.branches) {
-    Box box{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
-    for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n) {
-      const Place c = centreOf(m_tree, n);
-      for (std::size_t a = 0; a < 3; ++a) {
-        box.low[a] = std::min(box.low[a], c[a] - kReach * static_cast<double>(m_tree.radius[n]));
-        box.high[a] = std::max(box.high[a], c[a] + kReach * static_cast<double>(m_tree.radius[n]));
-      }
-    }
+    Box3d box;
+    for (std::uint32_t n = branch.firstNode; n < branch.firstNode + branch.nodeCount; ++n)
+      box.add(toEigen(m_tree.centre[n]), kReach * static_cast<double>(m_tree.radius[n]));
     m_reach.push_back(box);
   }
 }
 
-double VesselDistance::power(std::uint32_t node, const Place& p) const {
-  const Place c = centreOf(m_tree, node);
-  const double x = p[0] - c[0], y = p[1] - c[1], z = p[2] - c[2];
+double VesselDistance::power(std::uint32_t node, const Eigen::Vector3d& p) const {
   const auto r = static_cast<double>(m_tree.radius[node]);
-  return x * x + y * y + z * z - r * r;
+  return squaredLength(p - toEigen(m_tree.centre[node])) - r * r;
 }
 
-bool VesselDistance::hasNodeNear(std::uint32_t branch, const Box& box, double band) const {
+bool VesselDistance::hasNodeNear(std::uint32_t branch, const Box3d& box, double band) const {
   const formats::Branch& own = m_tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
     const double reach = kReach * static_cast<double>(m_tree.radius[n]) + band;
-    if (squaredRange(box.low, box.high, centreOf(m_tree, n)).first <= reach * reach) return true;
+    if (squaredRange(box, toEigen(m_tree.centre[n])).first <= reach * reach) return true;
   }
   return false;
 }
 
-void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors,
+void VesselDistance::query(std::span<const Eigen::Vector3d> points, std::uint32_t* cursors,
                            WallDistance* answers) const {
   std::vector<blob_sample> samples(points.size());
-  blob_query_many(m_model.get(), m_flags, points.size(),
-                  reinterpret_cast<const double(*)[3]>(points.data()), cursors, samples.data());
+  blob_query_many(m_model.get(), m_flags, points.size(), coordinates(points), cursors,
+                  samples.data());
   std::vector<std::size_t> outside;
-  std::vector<Place> places;
+  std::vector<Eigen::Vector3d> places;
   std::vector<std::uint32_t> nodes;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const blob_sample& sample = samples[i];
@@ -141,17 +122,17 @@ void VesselDistance::query(std::span<const Place> points, std::uint32_t* cursors
   }
   samples.resize(outside.size());
   blob_query_many(m_model.get(), BLOB_BLENDED | BLOB_DISTANCE_EXACT, places.size(),
-                  reinterpret_cast<const double(*)[3]>(places.data()), nodes.data(),
-                  samples.data());
+                  coordinates(places), nodes.data(), samples.data());
   for (std::size_t k = 0; k < outside.size(); ++k)
     answers[outside[k]].distance = static_cast<float>(samples[k].distance);
 }
 
-void VesselDistance::takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
+void VesselDistance::takeLess(std::span<const Eigen::Vector3d> points,
+                              const std::vector<std::size_t>& chosen,
                               std::vector<std::uint32_t>& cursors,
                               std::span<WallDistance> answers) const {
   if (chosen.empty()) return;
-  std::vector<Place> places;
+  std::vector<Eigen::Vector3d> places;
   for (const std::size_t i : chosen) places.push_back(points[i]);
   std::vector<WallDistance> found(places.size());
   query(places, cursors.data(), found.data());
@@ -159,14 +140,13 @@ void VesselDistance::takeLess(std::span<const Place> points, const std::vector<s
     if (found[k].distance < answers[chosen[k]].distance) answers[chosen[k]] = found[k];
 }
 
-void VesselDistance::askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box,
-                               std::span<WallDistance> answers) const {
+void VesselDistance::askBranch(std::uint32_t branch, std::span<const Eigen::Vector3d> points,
+                               const Box3d& box, std::span<WallDistance> answers) const {
   TreeRegion near;
   const formats::Branch& own = m_tree.branches[branch];
   for (std::uint32_t n = own.firstNode; n < own.firstNode + own.nodeCount; ++n) {
     const double reach = kReach * static_cast<double>(m_tree.radius[n]);
-    if (squaredRange(box.low, box.high, centreOf(m_tree, n)).first < reach * reach)
-      near.push_back(n);
+    if (squaredRange(box, toEigen(m_tree.centre[n])).first < reach * reach) near.push_back(n);
   }
   std::vector<std::size_t> chosen;
   std::vector<std::uint32_t> cursors;
@@ -186,30 +166,25 @@ void VesselDistance::askBranch(std::uint32_t branch, std::span<const Place> poin
 
 namespace {
 
-template <class Box>
-Box boxOf(std::span<const Place> points) {
-  Box box{points.front(), points.front()};
-  for (const Place& p : points)
-    for (std::size_t a = 0; a < 3; ++a) {
-      box.low[a] = std::min(box.low[a], p[a]);
-      box.high[a] = std::max(box.high[a], p[a]);
-    }
+Box3d boxOf(std::span<const Eigen::Vector3d> points) {
+  Box3d box;
+  for (const Eigen::Vector3d& p : points) box.add(p);
   return box;
 }
 
 }  // namespace
 
-void VesselDistance::ofAll(std::span<const Place> points, double band,
+void VesselDistance::ofAll(std::span<const Eigen::Vector3d> points, double band,
                            std::span<WallDistance> answers) const {
   if (points.empty()) return;
-  const Box box = boxOf<Box>(points);
+  const Box3d box = boxOf(points);
   bool isNear = false;
   std::vector<std::uint32_t> branches;
   for (std::uint32_t b = 0; b < m_reach.size(); ++b) {
-    double gap = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-      gap = std::max({gap, m_reach[b].low[a] - box.high[a], box.low[a] - m_reach[b].high[a]});
-    isNear = isNear || (gap <= band && hasNodeNear(b, box, band));
+    const Box3d& reach = m_reach[b];
+    const double gap =
+        std::max((reach.low - box.high).maxCoeff(), (box.low - reach.high).maxCoeff());
+    isNear = isNear || (std::max(gap, 0.0) <= band && hasNodeNear(b, box, band));
     if (gap <= 0) branches.push_back(b);
   }
   if (!isNear) {
@@ -220,15 +195,15 @@ void VesselDistance::ofAll(std::span<const Place> points, double band,
   for (const std::uint32_t b : branches) askBranch(b, points, box, answers);
 }
 
-void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Place> points, double band,
-                              std::span<WallDistance> answers) const {
+void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Eigen::Vector3d> points,
+                              double band, std::span<WallDistance> answers) const {
   if (points.empty()) return;
-  const Box box = boxOf<Box>(points);
+  const Box3d box = boxOf(points);
   bool isNear = false;
   double least = kInfinite;  // no node of least power has more, anywhere in the box
   std::vector<double> lowest;
   for (const std::uint32_t n : region) {
-    const auto [near, far] = squaredRange(box.low, box.high, centreOf(m_tree, n));
+    const auto [near, far] = squaredRange(box, toEigen(m_tree.centre[n]));
     const auto r = static_cast<double>(m_tree.radius[n]);
     isNear = isNear || std::sqrt(near) <= kReach * r + band;
     least = std::min(least, far - r * r);
@@ -242,7 +217,7 @@ void VesselDistance::ofRegion(const TreeRegion& region, std::span<const Place> p
   for (std::size_t k = 0; k < region.size(); ++k)
     if (lowest[k] <= least) candidates.push_back(region[k]);
   std::vector<std::uint32_t> cursors;
-  for (const Place& p : points)
+  for (const Eigen::Vector3d& p : points)
     cursors.push_back(*std::min_element(
         candidates.begin(), candidates.end(),
         [&](std::uint32_t a, std::uint32_t b) { return power(a, p) < power(b, p); }));

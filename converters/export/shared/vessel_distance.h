@@ -2,20 +2,18 @@
 // The signed distance of a case at many points: the one source of every grid that lumen writes.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "converters/geometry/box.h"
 #include "formats/case/case.h"
 
 struct blob_model;
 
 namespace lumen::convert {
-
-using Place = std::array<double, 3>;  ///< mm, LPS
 
 /// A distance, and whose wall it is to.
 struct WallDistance {
@@ -30,7 +28,7 @@ using TreeRegion = std::vector<std::uint32_t>;
 /// distance over which nodes may blend (blob_model_neighbours()).
 TreeRegion regionOfBranch(const formats::CenterlineTree& tree, std::uint32_t branch);
 
-/// Answers of libblob. Any number of threads may ask.
+/// Answers of libblob. Places are in mm, LPS. Any number of threads may ask.
 class VesselDistance {
 public:
   /// The distance outside of the lumen is to the nearest point of the wall: libblob's
@@ -43,31 +41,30 @@ public:
   /// every branch within whose doubled radius a point lies; the least counts. `points` are near
   /// each other, such as a part of a grid's row; `answers` has one entry for each. A distance
   /// beyond `band`, mm, may be answered by the band.
-  void ofAll(std::span<const Place> points, double band, std::span<WallDistance> answers) const;
+  void ofAll(std::span<const Eigen::Vector3d> points, double band,
+             std::span<WallDistance> answers) const;
 
   /// The distance to one part of the tree: from its node of least power a cursor follows the tree,
   /// so vessels that merely touch do not count.
-  void ofRegion(const TreeRegion& region, std::span<const Place> points, double band,
+  void ofRegion(const TreeRegion& region, std::span<const Eigen::Vector3d> points, double band,
                 std::span<WallDistance> answers) const;
 
 private:
-  struct Box {
-    Place low, high;
-  };
-  void query(std::span<const Place> points, std::uint32_t* cursors, WallDistance* answers) const;
+  void query(std::span<const Eigen::Vector3d> points, std::uint32_t* cursors,
+             WallDistance* answers) const;
   /// Answers for points[chosen[k]] from the nodes cursors[k]; kept where less.
-  void takeLess(std::span<const Place> points, const std::vector<std::size_t>& chosen,
+  void takeLess(std::span<const Eigen::Vector3d> points, const std::vector<std::size_t>& chosen,
                 std::vector<std::uint32_t>& cursors, std::span<WallDistance> answers) const;
-  void askBranch(std::uint32_t branch, std::span<const Place> points, const Box& box,
+  void askBranch(std::uint32_t branch, std::span<const Eigen::Vector3d> points, const Box3d& box,
                  std::span<WallDistance> answers) const;
   /// Whether a wall of the branch may be within `band` of the box.
-  [[nodiscard]] bool hasNodeNear(std::uint32_t branch, const Box& box, double band) const;
-  [[nodiscard]] double power(std::uint32_t node, const Place& p) const;
+  [[nodiscard]] bool hasNodeNear(std::uint32_t branch, const Box3d& box, double band) const;
+  [[nodiscard]] double power(std::uint32_t node, const Eigen::Vector3d& p) const;
 
   const formats::CenterlineTree& m_tree;
   std::unique_ptr<blob_model, void (*)(blob_model*)> m_model;
   std::uint32_t m_flags;
-  std::vector<Box> m_reach;  ///< each branch's box of its nodes' balls of twice the radius
+  std::vector<Box3d> m_reach;  ///< each branch's box of its nodes' balls of twice the radius
 };
 
 }  // namespace lumen::convert

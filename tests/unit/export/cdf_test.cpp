@@ -50,7 +50,7 @@ TEST(Cdf, BulletReadsTheFieldBetweenItsNodes) {
   double worst = 0;
   for (int k = 0; k < 3000; ++k) {
     const double angle = 0.017 * k, rho = 0.9 + 0.2 * std::fmod(0.37 * k, 1.0);
-    const Place p{4 + 0.004 * k, rho * std::cos(angle), rho * std::sin(angle)};
+    const Eigen::Vector3d p{4 + 0.004 * k, rho * std::cos(angle), rho * std::sin(angle)};
     const auto said = ask(shape, p[0], p[1], p[2]);
     ASSERT_TRUE(said);
     worst = std::max(worst, std::abs(*said + static_cast<double>(askAll(vessels, p).distance)));
@@ -122,8 +122,8 @@ TEST(Cdf, BulletsSphereRestsOnTheWallInTheLumen) {
   world.addRigidBody(&body);
   for (int step = 0; step < 600; ++step) world.stepSimulation(1.0F / 120, 0);
   const btVector3 p = body.getWorldTransform().getOrigin();
-  const Place place{static_cast<double>(p.x()), static_cast<double>(p.y()),
-                    static_cast<double>(p.z())};
+  const Eigen::Vector3d place{static_cast<double>(p.x()), static_cast<double>(p.y()),
+                              static_cast<double>(p.z())};
   EXPECT_LT(place[1], -0.4) << "it fell";
   const double gap = -static_cast<double>(askAll(vessels, place).distance) - 0.4;
   EXPECT_GT(gap, -0.1) << "into the wall";

@@ -69,7 +69,7 @@ TEST(DistanceGrid, ErrsBetweenSamplesAsLinearInterpolationDoes) {
     double worst = 0;
     for (int k = 0; k < 2000; ++k) {
       const double angle = 2 * std::numbers::pi * k / 360, rho = 1 + 0.1 * std::sin(k);
-      const Place p{4 + 0.006 * k, rho * std::cos(angle), rho * std::sin(angle)};
+      const Eigen::Vector3d p{4 + 0.006 * k, rho * std::cos(angle), rho * std::sin(angle)};
       const double truth = static_cast<double>(askAll(vessels, p).distance);
       worst = std::max(worst, std::abs(trilinear(grid, p) - truth));
     }
@@ -138,7 +138,7 @@ TEST(DistanceGrid, IsTheSameOnAnyNumberOfThreads) {
 TEST(DistanceGrid, PartHasTheSamplesOfTheWhole) {
   const Lattice whole = latticeOver(kissingBox(), 0.5, 0.25);
   const Lattice part = partOf(whole, {{3, 1, -0.5}, {16, 2, 0.5}}, 0.3);
-  for (std::size_t a = 0; a < 3; ++a) {
+  for (int a = 0; a < 3; ++a) {
     const double steps = (part.first[a] - whole.first[a]) / 0.25;
     EXPECT_NEAR(steps, std::round(steps), 1e-9);
   }

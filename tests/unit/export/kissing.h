@@ -22,16 +22,17 @@ inline formats::Case kissingCase(double gap) {
 }
 
 /// Around all of that.
-inline convert::PlaceBox kissingBox() {
+inline convert::Box3d kissingBox() {
   return {{-1.5, -1.5, -1.5}, {20.5, 3, 1.5}};
 }
 
 /// Between the eight samples around a place, which is in the grid.
-inline double trilinear(const convert::DistanceGrid& grid, const convert::Place& p) {
+inline double trilinear(const convert::DistanceGrid& grid, const Eigen::Vector3d& p) {
   std::array<std::size_t, 3> cell{};
   std::array<double, 3> share{};
   for (std::size_t a = 0; a < 3; ++a) {
-    const double x = (p[a] - grid.lattice.first[a]) / grid.lattice.spacing;
+    const auto axis = static_cast<Eigen::Index>(a);
+    const double x = (p[axis] - grid.lattice.first[axis]) / grid.lattice.spacing;
     cell[a] = static_cast<std::size_t>(
         std::min(std::floor(x), static_cast<double>(grid.lattice.size[a] - 2)));
     share[a] = x - static_cast<double>(cell[a]);
@@ -53,14 +54,15 @@ inline double trilinear(const convert::DistanceGrid& grid, const convert::Place&
 }
 
 inline convert::WallDistance askAll(const convert::VesselDistance& vessels,
-                                    const convert::Place& p) {
+                                    const Eigen::Vector3d& p) {
   convert::WallDistance answer;
   vessels.ofAll({&p, 1}, 1e9, {&answer, 1});
   return answer;
 }
 
 inline convert::WallDistance askBranch(const convert::VesselDistance& vessels,
-                                       const convert::TreeRegion& region, const convert::Place& p) {
+                                       const convert::TreeRegion& region,
+                                       const Eigen::Vector3d& p) {
   convert::WallDistance answer;
   vessels.ofRegion(region, {&p, 1}, 1e9, {&answer, 1});
   return answer;

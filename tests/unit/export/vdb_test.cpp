@@ -54,8 +54,7 @@ TEST_F(VdbTest, IsALevelSetInWorldUnits) {
   EXPECT_NEAR(m_set->voxelSize().x(), kSpacing, 1e-12);
   EXPECT_FLOAT_EQ(m_set->background(), static_cast<float>(kBand));
   const openvdb::Vec3d first = m_set->indexToWorld(openvdb::Coord(0, 0, 0));
-  for (int a = 0; a < 3; ++a)
-    EXPECT_NEAR(first[a], m_lattice.first[static_cast<std::size_t>(a)], 1e-9);
+  for (int a = 0; a < 3; ++a) EXPECT_NEAR(first[a], m_lattice.first[a], 1e-9);
   EXPECT_EQ(m_about->metaValue<std::string>("unit"), "mm");
   EXPECT_EQ(m_about->metaValue<std::string>("frame"), "LPS");
 }
@@ -90,7 +89,7 @@ TEST_F(VdbTest, OfHalfFloatsIsSmallerAndRightToTheirPrecision) {
   Progress silent;
   const DistanceGrid grid = sampleGrid({m_vessels}, m_lattice, silent);
   for (double angle = 0; angle < 6; angle += 0.1) {
-    const Place p{9.3, std::cos(angle), std::sin(angle)};
+    const Eigen::Vector3d p{9.3, std::cos(angle), std::sin(angle)};
     EXPECT_NEAR(static_cast<double>(sample.wsSample({p[0], p[1], p[2]})), trilinear(grid, p),
                 1.0 / 2048);
   }

@@ -19,7 +19,7 @@ SceneInput input(InstrumentKind kind, double way = 60) {
   result.insertion.way = way;
   result.branch = "a \"--\" <b>";
   result.instruments = makeInstruments(kind, way + 20, 4);
-  result.high = {10, 10, 10};
+  result.box = {{0, 0, 0}, {10, 10, 10}};
   return result;
 }
 

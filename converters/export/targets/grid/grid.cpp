@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,11 +12,13 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/vectors.h"
 #include "converters/export/shared/cdf.h"
 #include "converters/export/shared/distance_grid.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/meta_image.h"
 #include "converters/export/shared/paths.h"
+#include "converters/export/shared/surface.h"
 #include "converters/export/shared/vdb.h"
 #include "converters/io/mesh/plain_names.h"
 #include "converters/io/volume/write_volume.h"
@@ -66,30 +67,12 @@ void requireSound(const ExportInput& input, const GridOptions& options) {
   if (wants(options, GridFormat::Vdb)) requireVdb();
 }
 
-void extend(PlaceBox& box, const Float3& p) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    box.low[a] = std::min(box.low[a], static_cast<double>(p[a]));
-    box.high[a] = std::max(box.high[a], static_cast<double>(p[a]));
-  }
-}
-
-PlaceBox emptyBox() {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  return {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
-}
-
 /// Around the walls of the vessels of a region.
-PlaceBox boxOfRegion(const SurfaceMesh& wall, const TreeRegion& region) {
-  PlaceBox box = emptyBox();
+Box3d boxOfRegion(const SurfaceMesh& wall, const TreeRegion& region) {
+  Box3d box;
   for (std::size_t v = 0; v < wall.position.size(); ++v)
     if (std::binary_search(region.begin(), region.end(), wall.node[v]))
-      extend(box, wall.position[v]);
-  return box;
-}
-
-PlaceBox boxOf(const SurfaceMesh& wall) {
-  PlaceBox box = emptyBox();
-  for (const Float3& p : wall.position) extend(box, p);
+      box.add(toEigen(wall.position[v]));
   return box;
 }
 
@@ -98,7 +81,7 @@ std::vector<GridPlan> plansOf(const ExportInput& input, const GridOptions& optio
   const SurfaceMesh wall = quickSurface(input.source, input.progress);
   if (wall.position.empty())
     throw invalidInput("the models of this case have no wall, so there is no distance to it");
-  const PlaceBox box = boxOf(wall);
+  const Box3d box = boxOf(wall);
   const double spacing = gridSpacing(input.options.spacing, box, kBorder, tree);
   const double border = (options.band ? *options.band : kBorder) + kBorderSamples * spacing;
   const Lattice whole = latticeOver(box, border, spacing);
@@ -109,8 +92,8 @@ std::vector<GridPlan> plansOf(const ExportInput& input, const GridOptions& optio
   std::vector<GridPlan> plans;
   for (std::uint32_t b = 0; b < tree.branches.size(); ++b) {
     TreeRegion region = regionOfBranch(tree, b);
-    const PlaceBox own = boxOfRegion(wall, region);
-    if (own.low[0] > own.high[0]) continue;  // it has no wall of its own
+    const Box3d own = boxOfRegion(wall, region);
+    if (own.isEmpty()) continue;  // it has no wall of its own
     plans.push_back({words[b] + ".", std::move(region), partOf(whole, own, border)});
   }
   return plans;
@@ -128,7 +111,7 @@ VolumeGeometry geometryOf(const Lattice& lattice) {
   VolumeGeometry geometry;
   geometry.size = lattice.size;
   geometry.spacing.setConstant(lattice.spacing);
-  geometry.origin = {lattice.first[0], lattice.first[1], lattice.first[2]};
+  geometry.origin = lattice.first;
   return geometry;
 }
 

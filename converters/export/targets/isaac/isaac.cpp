@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,13 +42,7 @@ const char* const kSource =
     "mu = 0.02 / mm * (HU + 1000) / 4000";
 
 DistanceGrid gridOf(const ExportInput& input, const SurfaceMesh& wall) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  PlaceBox box{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
-  for (const Float3& p : wall.position)
-    for (std::size_t a = 0; a < 3; ++a) {
-      box.low[a] = std::min(box.low[a], static_cast<double>(p[a]));
-      box.high[a] = std::max(box.high[a], static_cast<double>(p[a]));
-    }
+  const Box3d box = boxOf(wall);
   const double spacing = gridSpacing(input.options.spacing, box, kBorder, input.source.tree);
   const VesselDistance vessels(input.source);
   // farther than a voxel from the wall, a voxel is all tissue or all lumen
@@ -66,7 +59,7 @@ std::string metadataOf(const Lattice& lattice) {
   const double h = lattice.spacing;
   return Json{{"shape_zyx", shapeOf(lattice)},
               {"spacing_zyx_mm", {h, h, h}},
-              {"origin_xyz_mm", lattice.first},
+              {"origin_xyz_mm", {lattice.first.x(), lattice.first.y(), lattice.first.z()}},
               {"hu_range", {kTissueHu, kLumenHu}},
               {"mu_range", {attenuationOf(kTissueHu), attenuationOf(kLumenHu)}},
               {"source", kSource}}

@@ -2,7 +2,6 @@
 #include "converters/export/targets/isaac/usd.h"
 
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -12,6 +11,7 @@
 #include "converters/base/vectors.h"
 #include "converters/export/shared/export_text.h"
 #include "converters/export/shared/paths.h"
+#include "converters/export/shared/surface.h"
 #include "converters/io/mesh/plain_names.h"
 #include "formats/container/printable.h"
 
@@ -55,15 +55,9 @@ std::string usdWord(const std::string& name) {
 }
 
 std::string extentOf(const SurfaceMesh& mesh) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(kInfinite), high = -low;
-  for (const Float3& p : mesh.position) {
-    const Eigen::Vector3d place(p[0], p[1], p[2]);
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  }
+  const Box3d box = boxOf(mesh);
   std::string text = "[";
-  text += usdTuple(low) + ", " + usdTuple(high) + "]";
+  text += usdTuple(box.low) + ", " + usdTuple(box.high) + "]";
   return text;
 }
 

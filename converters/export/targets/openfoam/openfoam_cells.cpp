@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 
 #include "converters/base/vectors.h"
+#include "converters/export/shared/surface.h"
 #include "converters/geometry/disjoint_sets.h"
 #include "converters/geometry/triangle_tree.h"
 
@@ -23,8 +23,7 @@ constexpr double kMostInBlock = 3e5;  // cells before they are halved
 constexpr double kLayers = 8;
 
 Eigen::Vector3d at(const SurfaceMesh& surface, std::uint32_t vertex) {
-  const Float3& p = surface.position[vertex];
-  return {p[0], p[1], p[2]};
+  return toEigen(surface.position[vertex]);
 }
 
 double areaOf(const SurfaceMesh& surface) {
@@ -47,25 +46,20 @@ TriangleMesh trianglesOf(const SurfaceMesh& surface) {
 }  // namespace
 
 FoamCells foamCells(const SurfaceMesh& surface, double least) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
-  for (std::uint32_t v = 0; v < surface.position.size(); ++v) {
-    low = low.cwiseMin(at(surface, v));
-    high = high.cwiseMax(at(surface, v));
-  }
+  const Box3d box = boxOf(surface);
   FoamCells cells;
   cells.atWall = std::max(2 * least / kAcross, std::sqrt(kLayers * areaOf(surface) / kMostAtWall));
   cells.acrossThinnest = 2 * least / cells.atWall;
   // one halving at least: cells in the middle of vessels may be larger than those at walls
-  const double edge = std::max(2 * cells.atWall, std::cbrt((high - low).prod() / kMostInBlock));
+  const double edge = std::max(2 * cells.atWall, std::cbrt(box.size().prod() / kMostInBlock));
   cells.level = static_cast<int>(std::ceil(std::log2(edge / cells.atWall) - 1e-9));
   // no face of a cell may lie in a flat end, so the block begins at an uneven share of a cell
   // before the surface
   constexpr double kMargin = 1.37;
-  cells.low = low - Eigen::Vector3d::Constant(kMargin * cells.edge());
+  cells.low = box.low - Eigen::Vector3d::Constant(kMargin * cells.edge());
   for (int a = 0; a < 3; ++a)
     cells.count[static_cast<std::size_t>(a)] =
-        static_cast<int>(std::ceil((high[a] - cells.low[a]) / cells.edge() + kMargin));
+        static_cast<int>(std::ceil((box.high[a] - cells.low[a]) / cells.edge() + kMargin));
   return cells;
 }
 

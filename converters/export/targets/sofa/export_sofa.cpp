@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -56,17 +55,6 @@ SceneInput inputOf(const ExportInput& asked, const SofaOptions& options) {
   return input;
 }
 
-void setBox(SceneInput& input, const SurfaceMesh& mesh) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    input.low[a] = std::numeric_limits<double>::infinity();
-    input.high[a] = -input.low[a];
-    for (const Float3& p : mesh.position) {
-      input.low[a] = std::min<double>(input.low[a], p[a]);
-      input.high[a] = std::max<double>(input.high[a], p[a]);
-    }
-  }
-}
-
 std::string pluginsOf(WallKind wall) {
   if (wall == WallKind::Implicit)
     return ", and LumenSofa, which the folder converters/export/sofa_plugin of lumen's source "
@@ -88,9 +76,8 @@ std::string startOf(const SceneInput& input, const SofaOptions& options) {
 void addGridFiles(ExportResult& result, SceneInput& scene, const ExportInput& input) {
   // mm, and samples: distance from the wall within which contacts look for it
   constexpr double kBorder = 1, kBorderSamples = 3;
-  const PlaceBox box{scene.low, scene.high};
-  const double spacing = gridSpacing(input.options.spacing, box, kBorder, input.source.tree);
-  const Lattice lattice = latticeOver(box, kBorder + kBorderSamples * spacing, spacing);
+  const double spacing = gridSpacing(input.options.spacing, scene.box, kBorder, input.source.tree);
+  const Lattice lattice = latticeOver(scene.box, kBorder + kBorderSamples * spacing, spacing);
   const VesselDistance vessels(input.source);
   const DistanceGrid grid = sampleGrid({vessels}, lattice, input.progress);
   scene.grid = {lattice.size, lattice.first, lattice.last()};
@@ -125,7 +112,7 @@ ExportResult exportSofa(const ExportInput& input, const SofaOptions& options) {
   ExportResult result;
   SceneInput scene = inputOf(input, options);
   ExportedSurface made = lumenSurface(input);
-  setBox(scene, made.mesh);
+  scene.box = boxOf(made.mesh);
   const std::vector<std::byte> bytes = formats::encodeBinary(input.source);
   if (options.wall == WallKind::Grid) addGridFiles(result, scene, input);
   addSceneFiles(result, scene, options);

@@ -138,7 +138,7 @@ SceneItem makeScene(const SceneInput& input, const SofaOptions& options) {
   SceneItem root{"Node", ""};
   root.set("name", "root").set("dt", kTimeStep).set("gravity", "0 0 0");
   addLoop(root, options.wall, greatestRadius(input), kAlarm);
-  addView(root, input.low, input.high);
+  addView(root, input.box);
   addVessel(root, options.wall, input);
   addInstruments(root, input, options);
   if (options.dialect == SofaDialect::V23_06) toV23_06(root);

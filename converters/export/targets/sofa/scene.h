@@ -10,13 +10,15 @@
 #include "converters/export/targets/sofa/instrument.h"
 #include "converters/export/targets/sofa/scene_tree.h"
 #include "converters/export/targets/sofa/sofa_options.h"
+#include "converters/geometry/box.h"
 
 namespace lumen::convert {
 
 /// A grid of samples that a scene refers to.
 struct SceneGrid {
   std::array<int, 3> size{};
-  std::array<double, 3> first{}, last{};  ///< mm, LPS: the positions of its corner samples
+  /// mm, LPS: the positions of its corner samples
+  Eigen::Vector3d first = Eigen::Vector3d::Zero(), last = Eigen::Vector3d::Zero();
 };
 
 /// The case and the instruments of a scene.
@@ -24,8 +26,8 @@ struct SceneInput {
   Insertion insertion;
   std::string branch;  ///< its label
   std::vector<Instrument> instruments;
-  std::array<double, 3> low{}, high{};  ///< corners of a box around the vessels, mm, LPS
-  SceneGrid grid;                       ///< grid of WallKind::Grid
+  Box3d box;       ///< around the vessels, mm, LPS
+  SceneGrid grid;  ///< grid of WallKind::Grid
 };
 
 /// Distance from the wall, mm, that the insertion of instruments of such a radius needs.

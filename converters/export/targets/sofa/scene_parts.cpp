@@ -99,17 +99,13 @@ void addLoop(SceneItem& root, WallKind wall, double radius, double alarm) {
       .set("response", "FrictionContactConstraint");
 }
 
-void addView(SceneItem& root, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+void addView(SceneItem& root, const Box3d& box) {
   root.add("VisualStyle")
       .set("name", "style")
       .set("displayFlags",
            "showVisualModels hideBehaviorModels hideCollisionModels hideForceFields");
-  std::array<double, 3> middle{};
-  double extent = 1;
-  for (std::size_t a = 0; a < 3; ++a) {
-    middle[a] = (low[a] + high[a]) / 2;
-    extent = std::max(extent, high[a] - low[a]);
-  }
+  const Eigen::Vector3d middle = box.middle();
+  const double extent = std::max(1.0, box.size().maxCoeff());
   root.add("InteractiveCamera", "From the front: y is posterior, z superior")
       .set("name", "camera")
       .set("position", sceneNumbers({middle[0], middle[1] - 1.8 * extent, middle[2]}))

@@ -2,8 +2,6 @@
 // The parts of a scene, in the order of their creation. Each adds components to a node.
 #pragma once
 
-#include <array>
-
 #include "converters/export/targets/sofa/scene.h"
 
 namespace lumen::convert {
@@ -15,7 +13,7 @@ inline constexpr double kTimeStep = 0.01;
 /// radius, at which they are kept from a wall of triangles, and the alarm beyond it.
 void addLoop(SceneItem& root, WallKind wall, double radius, double alarm);
 /// Camera and light, for a box in mm, LPS.
-void addView(SceneItem& root, const std::array<double, 3>& low, const std::array<double, 3>& high);
+void addView(SceneItem& root, const Box3d& box);
 void addVessel(SceneItem& root, WallKind wall, const SceneInput& input);
 
 /// A node with the sections of an instrument.
