@@ -47,9 +47,11 @@ class Bench:
         subprocess.run([self.lumen, *arguments, "--quiet"], check=True)
 
     def phantom(self, name):
-        volume, seeds, case = (self.path(name + end) for end in (".nrrd", "-seeds.json", ".lumen"))
-        self.run("phantom", name, volume, "--seeds", seeds)
-        self.run("convert", volume, case, "--seeds", seeds, "--seeds-only")
+        """The phantom's true tubes, which stay as they are whatever the tracker does."""
+        volume, truth, line, case = (self.path(name + end) for end in (".nrrd", "-truth.lumen", ".swc", ".lumen"))
+        self.run("phantom", name, volume, "--truth", truth)
+        self.run("convert", truth, line)
+        self.run("convert", line, case)
         return case
 
     def export(self, target, case, name):

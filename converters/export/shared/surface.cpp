@@ -25,8 +25,9 @@ ExportedSurface surfaceWith(const ExportInput& input, const ClosedSurfaceOptions
 
 }  // namespace
 
-ExportedSurface lumenSurface(const ExportInput& input) {
+ExportedSurface lumenSurface(const ExportInput& input, std::optional<double> gap) {
   ClosedSurfaceOptions options = input.options.surface;
+  if (gap) options.gap = gap;
   options.thickness.reset();
   return surfaceWith(input, options);
 }

@@ -19,8 +19,9 @@ struct ExportedSurface {
   SurfaceReport report;
 };
 
-/// The lumen's surface, with the options of the input. Throws as closedSurface().
-ExportedSurface lumenSurface(const ExportInput& input);
+/// The lumen's surface, with the options of the input. Vessels that touch are drawn apart by `gap`
+/// mm, if it is stated, else by the gap of closedSurface(). Throws as closedSurface().
+ExportedSurface lumenSurface(const ExportInput& input, std::optional<double> gap = {});
 
 /// A wall around it as a solid, of the thickness in the options, or, without one, of `usual`.
 /// Throws as closedSurface(): Error(Failed) where it would meet itself.

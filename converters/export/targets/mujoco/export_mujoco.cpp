@@ -55,17 +55,19 @@ void openEnds(SurfaceMesh& mesh) {
 
 /// All that is not lumen: the lumen's surface without its flat ends, turned over. It always exists,
 /// also where vessels touch, and a wire that is pressed into it is pushed back in the right
-/// direction however deep it is; in a wall, no farther than its middle.
-Solid carvedOut(const ExportInput& input) {
-  Solid solid{lumenSurface(input), false};
+/// direction however deep it is; in a wall, no farther than its middle. Between vessels that touch
+/// the solid is as thick as the wire is wide, as the octree does not see a thinner one and the
+/// soft contact would let a wire through it.
+Solid carvedOut(const ExportInput& input, double wireWidth) {
+  Solid solid{lumenSurface(input, wireWidth), false};
   openEnds(solid.surface.mesh);
   solid.surface.mesh = turnedOver(std::move(solid.surface.mesh));
   return solid;
 }
 
-Solid solidOf(const ExportInput& input) {
+Solid solidOf(const ExportInput& input, double wireWidth) {
   const auto& thickness = input.options.surface.thickness;
-  return thickness ? Solid{wallSurface(input, *thickness), true} : carvedOut(input);
+  return thickness ? Solid{wallSurface(input, *thickness), true} : carvedOut(input, wireWidth);
 }
 
 constexpr double kLeast = 0.03, kMost = 0.08;  // m, of a wire
@@ -150,7 +152,7 @@ ExportResult exportMujoco(const ExportInput& input) {
   const Wire thickness;
   const Insertion insertion =
       findInsertion(input.source.tree, input.options.insert, thickness.radius * 1e3);
-  Solid solid = solidOf(input);
+  Solid solid = solidOf(input, 2e3 * thickness.radius);
   solid.surface.ends = plainlyNamed(std::move(solid.surface.ends));
   Wire wire = wireFor(insertion);
   // walls out of the wire's reach cost memory and time, and are most of a large tree
