@@ -8,6 +8,8 @@
 
 #include "converters/base/error.h"
 #include "converters/base/option_name.h"
+#include "converters/base/random.h"
+#include "converters/base/relayed_progress.h"
 #include "converters/base/vectors.h"
 #include "converters/engine/tracking_input.h"
 #include "converters/stages/editing/hints.h"
@@ -20,6 +22,9 @@ namespace lumen::engine {
 namespace {
 
 using convert::SeedFailure;
+
+constexpr const char* kRepeatExtension = "LUMEN_repeat";
+constexpr const char* kRepeatArray = "LUMEN_repeat.share";
 
 void append(std::vector<SeedFailure>&& from, std::vector<SeedFailure>& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
@@ -120,9 +125,11 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
 
 }  // namespace
 
-convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
-                                 const std::vector<convert::SeedBranch>& seeds,
-                                 const TrackArguments& track, Progress& progress) {
+namespace {
+
+convert::TrackResult trackOnce(const convert::Volume& volume, const std::string& file,
+                               const std::vector<convert::SeedBranch>& seeds,
+                               const TrackArguments& track, Progress& progress) {
   if (!seeds.empty() && !track.isSeedsOnly)
     return trackHinted(volume, file, seeds, track, progress);
   convert::TrackResult result = seeds.empty() ? trackFound(volume, file, track.options, progress)
@@ -130,6 +137,57 @@ convert::TrackResult trackVolume(const convert::Volume& volume, const std::strin
   apply(result.result, file, seeds, track);
   renameEnds(result.result, result.ends);
   return result;
+}
+
+/// Seeds whose points are moved by a tenth of a voxel in a random direction.
+std::vector<convert::SeedBranch> moved(std::vector<convert::SeedBranch> seeds, double voxel,
+                                       Random random) {
+  constexpr double kMovedVoxels = 0.1;
+  for (convert::SeedBranch& seed : seeds)
+    for (convert::SeedPoint& point : seed.points) {
+      const Eigen::Vector3d direction(random.normal(), random.normal(), random.normal());
+      // coordinates that the volume places are in voxels
+      const double unit = seed.frame.system == convert::SeedSystem::Voxel ? 1 : voxel;
+      point.position += kMovedVoxels * unit * direction.normalized();
+    }
+  return seeds;
+}
+
+convert::Repetition repeated(const convert::Volume& volume, const std::string& file,
+                             const std::vector<convert::SeedBranch>& seeds,
+                             const TrackArguments& track, formats::Case& judged,
+                             Progress& progress) {
+  std::vector<formats::Case> runs;
+  progress.begin("repeating", track.repeats);
+  QuietProgress quiet(progress);
+  for (std::uint64_t run = 1; run <= track.repeats; ++run) {
+    TrackArguments other = track;
+    other.options.seed += run;
+    const auto places = moved(seeds, volume.geometry.voxelSize(), Random(other.options.seed));
+    try {
+      runs.push_back(trackOnce(volume, file, places, other, quiet).result);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::Failed) throw;
+      runs.emplace_back();  // it finds nothing
+    }
+    progress.advance();
+  }
+  progress.end();
+  convert::Repetition out = convert::compareRuns(judged, runs);
+  judged.metadata.extensionsUsed.emplace_back(kRepeatExtension);
+  judged.nodeArrays.push_back({kRepeatArray, 1, "", out.nodes});
+  return out;
+}
+
+}  // namespace
+
+VolumeTracks trackVolume(const convert::Volume& volume, const std::string& file,
+                         const std::vector<convert::SeedBranch>& seeds, const TrackArguments& track,
+                         Progress& progress) {
+  VolumeTracks out{trackOnce(volume, file, seeds, track, progress), {}};
+  if (track.repeats > 0)
+    out.repetition = repeated(volume, file, seeds, track, out.result, progress);
+  return out;
 }
 
 void applyRoots(formats::Case& target, const std::string& file, const TrackArguments& track) {

@@ -2,24 +2,32 @@
 // Vessels of a volume by what it shows and by what the user states: seeds and roots.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "converters/base/progress.h"
 #include "converters/engine/stage_options.h"
 #include "converters/io/seeds/seeds.h"
+#include "converters/judge/compare/repetition.h"
 #include "converters/stages/tracking/track_case.h"
 
 namespace lumen::engine {
+
+struct VolumeTracks : convert::TrackResult {
+  std::optional<convert::Repetition> repetition;  ///< of --repeat
+};
 
 /// Tracks the vessels of `volume`, read from `file`: those of `seeds`, or all that are found where
 /// there are none or `track` wants all vessels. In the last case seeds are hints: they name what is
 /// found, divide and join it, and start tracks of their own where no vessel is. Roots and selection of
 /// `track` apply. Warnings and errors are those of trackFound() and trackSeeds(); also throws
-/// Error(Failed) for a root that lies in no vessel.
-convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
-                                 const std::vector<convert::SeedBranch>& seeds,
-                                 const TrackArguments& track, Progress& progress);
+/// Error(Failed) for a root that lies in no vessel. If `track` asks for repeats, as many runs follow
+/// with other random numbers and with clicks that are moved by a tenth of a voxel; the result states
+/// how much of it they find again, and its nodes have that as LUMEN_repeat.share.
+VolumeTracks trackVolume(const convert::Volume& volume, const std::string& file,
+                         const std::vector<convert::SeedBranch>& seeds, const TrackArguments& track,
+                         Progress& progress);
 
 /// Roots and selection of `track` for a case without seeds.
 void applyRoots(formats::Case& target, const std::string& file, const TrackArguments& track);

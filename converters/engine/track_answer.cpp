@@ -6,6 +6,7 @@
 
 #include "converters/base/option_name.h"
 #include "converters/base/shown_text.h"
+#include "converters/base/text.h"
 #include "formats/case/enum_names.h"
 #include "formats/container/printable.h"
 
@@ -36,6 +37,46 @@ std::string endLine(const convert::TrackEnd& end) {
 }
 
 }  // namespace
+
+Json repetitionJson(const std::optional<convert::Repetition>& repetition,
+                    const formats::Case& value) {
+  if (!repetition) return nullptr;
+  Json vessels = Json::array(), unstable = Json::array();
+  for (std::size_t b = 0; b < repetition->branches.size(); ++b)
+    vessels.push_back({{"branch", value.tree.branches[b].label},
+                       {"found_again", jsonNumber(static_cast<double>(repetition->branches[b]))}});
+  for (const convert::Repetition::Vessel& vessel : repetition->unstable)
+    unstable.push_back({{"branch", vessel.label.empty() ? Json(nullptr) : Json(vessel.label)},
+                        {"length_mm", jsonNumber(vessel.length)},
+                        {"runs", vessel.runs}});
+  return {{"runs", repetition->runs},
+          {"least_length_mm", jsonNumber(repetition->leastLength)},
+          {"greatest_length_mm", jsonNumber(repetition->greatestLength)},
+          {"spread_share", jsonNumber(repetition->spread())},
+          {"branches", std::move(vessels)},
+          {"unstable", std::move(unstable)}};
+}
+
+std::string repetitionLines(const std::optional<convert::Repetition>& repetition) {
+  if (!repetition) return {};
+  std::string text = "repeated     " + std::to_string(repetition->runs) +
+                     " times: " + fixedText(repetition->leastLength, 1) + " to " +
+                     fixedText(repetition->greatestLength, 1) + " mm, a spread of " +
+                     fixedText(100 * repetition->spread(), 1) + " %\n";
+  constexpr std::size_t kMostShown = 10;
+  const auto& unstable = repetition->unstable;
+  for (std::size_t i = 0; i < std::min(unstable.size(), kMostShown); ++i)
+    text += unstable[i].label.empty()
+                ? "unstable     a run has another vessel of " + fixedText(unstable[i].length, 1) +
+                      " mm\n"
+                : "unstable     " + formats::printable(unstable[i].label) + ", " +
+                      fixedText(unstable[i].length, 1) + " mm, is lacked by " +
+                      counted(unstable[i].runs, "run", "runs") + "\n";
+  if (unstable.size() > kMostShown)
+    text += "and so on for " + std::to_string(unstable.size() - kMostShown) + " more vessels; " +
+            kOption.json.shown() + " lists all\n";
+  return text;
+}
 
 Json withRemarks(Json json, const convert::TrackRemarks& remarks) {
   json["failed_seeds"] = seedRemarks(remarks.failures);

@@ -107,7 +107,7 @@ def make_cases(lumen, folder):
     go("phantom.schema.json", "phantom", "tube", "a.nii.gz", "--size", "32")
     go("seeds.schema.json", "seeds", "a.nrrd", "proposals.mrk.json")
     go("convert.schema.json", "convert", "a.nrrd", "proposed.lumen", "--seeds", "proposals.mrk.json")
-    go("convert.schema.json", "convert", "a.nrrd", "found.lumen")
+    go("convert.schema.json", "convert", "a.nrrd", "found.lumen", "--repeat", "2")
     seeds = json.loads((folder / "seeds.json").read_text())
     vessel = seeds["branches"][0]
     air = dict(vessel, label="air", points=[[1.0, 1.0, 1.0]], radius=0.3)

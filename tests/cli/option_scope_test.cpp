@@ -56,6 +56,7 @@ const std::map<std::string, std::string> kSamples = {{"from", ""},  // stated by
                                                      {"even-blur", "false"},
                                                      {"max-nodes", "1000"},
                                                      {"random-seed", "2"},
+                                                     {"repeat", "1"},
                                                      {"centerline", "truth.swc"},
                                                      {"centerline-frame", "ras"},
                                                      {"centerline-unit", "cm"},

@@ -4,6 +4,7 @@ lumen_test(compare_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/centerline_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/matching_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/repetition_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/sampled_path_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/evaluation/reproduce/vessel_score.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/compare/vessel_score_test.cpp

@@ -115,10 +115,11 @@ private:
       return made;
     }
     if (!m_seeds.empty()) warnOfVoxels(volume, m_input, progress);
-    convert::TrackResult tracked = trackVolume(volume, m_input, m_seeds, m_track, progress);
+    VolumeTracks tracked = trackVolume(volume, m_input, m_seeds, m_track, progress);
     if (!m_mask.labelMap.empty())
       nameByLabelMap(volume, m_input, m_mask, tracked.result, tracked.ends, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
+    m_repetition = std::move(tracked.repetition);
     return std::move(tracked.result);
   }
 
@@ -153,9 +154,10 @@ private:
     json["reachable"] = reachJson(reach);
     json["surface"] = surfaceJson(surface, value);
     json["mesh"] = meshFrameJson(m_meshFrame);
+    json["repeats"] = repetitionJson(m_repetition, value);
     return {withRemarks(std::move(json), m_remarks),
             caseLine(m_output, value) + meshFrameLine(m_meshFrame) + convert::reachLine(reach) +
-                surfaceLines(surface, value) + endLines(m_remarks)};
+                surfaceLines(surface, value) + repetitionLines(m_repetition) + endLines(m_remarks)};
   }
 
   std::string m_input, m_output, m_from, m_to;
@@ -170,6 +172,7 @@ private:
   Situation m_situation;
   std::vector<convert::SeedBranch> m_seeds;
   convert::TrackRemarks m_remarks;
+  std::optional<convert::Repetition> m_repetition;
 };
 
 }  // namespace
