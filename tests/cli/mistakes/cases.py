@@ -7,15 +7,15 @@ from fixtures import fixture
 
 @fixture("half.lumen")
 def half(store):
-    """The case, of which only half was copied."""
-    whole = store.bytes("case.lumen")
+    """The truth, of which only half was copied: its bytes, unlike a tracked case's, stay when the tracker changes."""
+    whole = store.bytes("truth.lumen")
     return whole[:len(whole) // 2]
 
 
 @fixture("damaged.lumen")
 def damaged(store):
-    """The case with one byte changed in the middle."""
-    bytes_ = bytearray(store.bytes("case.lumen"))
+    """The truth with one byte changed in the middle."""
+    bytes_ = bytearray(store.bytes("truth.lumen"))
     bytes_[len(bytes_) // 2] ^= 1
     return bytes(bytes_)
 
