@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --config: its syntax, and what wins.
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "tests/cli/run_lumen.h"
 
@@ -77,6 +78,27 @@ TEST_F(ConfigTest, FlagsAreSetByTrue) {
   const Outcome made = lumen({"phantom", "tube", "tube.nrrd", "--config", "c.toml"});
   EXPECT_EQ(made.code, 0);
   EXPECT_EQ(made.out + made.err, "");
+}
+
+TEST_F(ConfigTest, AnApostropheBeforeACommentIsALetter) {
+  write("c.toml", "size = 36  # it's the phantom's edge\nseeds = it's.json # that's all\n");
+  EXPECT_EQ(sizeWith({"--config", "c.toml"}), 36);
+  EXPECT_TRUE(exists("it's.json"));
+}
+
+TEST_F(ConfigTest, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  write("c.toml", "\xEF\xBB\xBFsize = 36\n");
+  EXPECT_EQ(sizeWith({"--config", "c.toml"}), 36);
+}
+
+TEST_F(ConfigTest, AFileThatDoesNotEndIsRefusedAtOnce) {
+  ASSERT_EQ(mkfifo(path("fifo").c_str(), 0600), 0);
+  for (const char* const name : {"/dev/zero", "fifo"}) {
+    const Outcome refused = lumen({"phantom", "tube", "tube.nrrd", "--config", name});
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_NE(refused.err.find("which is no regular file"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(entries(), std::vector<std::string>{"fifo"});
 }
 
 }  // namespace lumen::test

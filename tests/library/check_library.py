@@ -7,7 +7,7 @@ check_library.py LUMEN
 
 Without node_modules beside this file (npm ci) the crates are read by bag.py alone, and it is said. Exit status: 0 all held,
 1 not."""
-import json, os, pathlib, shutil, subprocess, sys, tempfile
+import fcntl, json, os, pathlib, shutil, subprocess, sys, tempfile, time
 
 sys.dont_write_bytecode = True
 import bag
@@ -185,6 +185,28 @@ def checking_meanwhile(place):
         expect(adding.wait() == 0, "an add during checks failed")
 
 
+def sharing_the_lock(place):
+    """A check reads beside other readers, and waits for a change, as a change waits for it."""
+    def begun(*words):
+        return subprocess.Popen([place.lumen, *words, "--quiet"], cwd=place.folder, env=place.environment)
+    def held(kind):
+        folder = os.open(place.folder / "lib", os.O_RDONLY)
+        fcntl.flock(folder, kind)
+        return folder
+    def expect_waiting(process, folder, what):
+        time.sleep(1)
+        expect(process.poll() is None, f"{what} does not wait")
+        os.close(folder)
+        expect(process.wait(timeout=60) == 0, f"{what} fails after it has waited")
+    reader = held(fcntl.LOCK_SH)
+    place.run("library", "check", "lib")
+    adding = begun("library", "add", "lib", "tube.lumen", "--synthetic", "--no-surface", "--picture", "none", "--id", "shared")
+    expect_waiting(adding, reader, "an add beside a reader")
+    writer = held(fcntl.LOCK_EX)
+    expect_waiting(begun("library", "check", "lib"), writer, "a check beside a change")
+    place.run("library", "check", "lib")
+
+
 def refusing(place):
     hurt = ["--consent", "Given", "--deidentification", "Done"]
     place.refused(2, "has a case later already", "add", "lib", "tube.lumen", "--synthetic", "--id", "later")
@@ -261,7 +283,7 @@ def main():
         place.run("phantom", "stenosis", "tube.nrrd", "--seeds", "tube.json", "--quiet")
         place.run("convert", "tube.nrrd", "tube.lumen", "--seeds", "tube.json", "--quiet")
         place.run("track", "tube.nrrd", "tree.lumen", "--seeds", "tube.json", "--quiet")
-        for step in (making, adding, changing, replacing, extracting, leaving, refusing, at_once, checking_meanwhile, crates):
+        for step in (making, adding, changing, replacing, extracting, leaving, refusing, at_once, checking_meanwhile, sharing_the_lock, crates):
             step(place)
     print(f"{len(failures)} failures")
     return 1 if failures else 0

@@ -48,6 +48,7 @@ lumen_test(export_test
   SOURCES
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/export_case_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/export_text_test.cpp
+    ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/hostile_labels_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/markdown_text_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/paths_test.cpp
     ${CMAKE_CURRENT_SOURCE_DIR}/unit/export/simvascular_test.cpp

@@ -2,6 +2,7 @@
 """Files of docs/mistakes/surfaces.md."""
 import math
 import re
+import struct
 
 from fixtures import fixture
 
@@ -11,6 +12,16 @@ def labels(store):
     """The lumen of the tube as label 1."""
     store.path("case.lumen")
     store.lumen("check", "tube.nrrd", "case.lumen", "--mask", "labels.nrrd")
+
+
+@fixture("angiogram.nrrd")
+def angiogram(store):
+    """The tube as an angiogram of few grey values: 0 around it, 1 to 160 in it."""
+    store.lumen("phantom", "tube", "tube.nii", "--size", "40")
+    voxels = struct.unpack("<64000h", store.folder.joinpath("tube.nii").read_bytes()[352:])
+    header = ("NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 40 40\n"
+              "space directions: (0.2,0,0) (0,0.2,0) (0,0,0.2)\nspace origin: (0,0,0)\nencoding: raw\n\n")
+    return header.encode() + bytes(min(max((v - 500) // 4, 0), 160) for v in voxels)
 
 
 @fixture("far-labels.nrrd")

@@ -154,6 +154,15 @@ TEST_F(SafetyTest, AnUnknownOptionOfADownloadIsRefusedInASentence) {
   }
 }
 
+TEST_F(SafetyTest, EdgesThatWouldFillTheMemoryAreRefused) {
+  for (const char* const query : {"glb&edge=1e-9", "stl&edge=1e-9r", "obj&edge-max=1e-9"}) {
+    const auto response = get(std::string("save?format=") + query);
+    EXPECT_EQ(response.status, 400) << query;
+    EXPECT_NE(response.body.find("the surface would have about "), std::string::npos)
+        << response.body;
+  }
+}
+
 TEST_F(SafetyTest, SlowSendersDoNotLockThePageOut) {
   constexpr int kSenders = 200;
   const int port = std::stoi(authority.substr(authority.find(':') + 1));
