@@ -19,6 +19,7 @@
 #include <openvdb/tools/Interpolation.h>
 
 #include "converters/base/error.h"
+#include "converters/base/vectors.h"
 #include "converters/export/shared/cdf.h"
 #include "converters/export/shared/vdb.h"
 #include "converters/stages/surface/closed_surface.h"
@@ -201,7 +202,7 @@ void measureCdf(const Case& c, const std::vector<Probe>& probes, double h) {
   for (const Probe& probe : probes) {
     btScalar distance = 0;
     btVector3 normal;
-    const auto at = [&](std::size_t a) { return static_cast<btScalar>(probe.place[a]); };
+    const auto at = [&](Eigen::Index a) { return static_cast<btScalar>(probe.place[a]); };
     const bool isKnown = shape.queryPoint({at(0), at(1), at(2)}, distance, normal);
     answers.push_back(isKnown ? -static_cast<double>(distance) : std::nan(""));
   }
