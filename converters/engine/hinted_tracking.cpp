@@ -125,11 +125,9 @@ convert::TrackResult trackHinted(const convert::Volume& volume, const std::strin
 
 }  // namespace
 
-namespace {
-
-convert::TrackResult trackOnce(const convert::Volume& volume, const std::string& file,
-                               const std::vector<convert::SeedBranch>& seeds,
-                               const TrackArguments& track, Progress& progress) {
+convert::TrackResult trackVolume(const convert::Volume& volume, const std::string& file,
+                                 const std::vector<convert::SeedBranch>& seeds,
+                                 const TrackArguments& track, Progress& progress) {
   if (!seeds.empty() && !track.isSeedsOnly)
     return trackHinted(volume, file, seeds, track, progress);
   convert::TrackResult result = seeds.empty() ? trackFound(volume, file, track.options, progress)
@@ -138,6 +136,8 @@ convert::TrackResult trackOnce(const convert::Volume& volume, const std::string&
   renameEnds(result.result, result.ends);
   return result;
 }
+
+namespace {
 
 /// Seeds whose points are moved by a tenth of a voxel in a random direction.
 std::vector<convert::SeedBranch> moved(std::vector<convert::SeedBranch> seeds, double voxel,
@@ -153,10 +153,14 @@ std::vector<convert::SeedBranch> moved(std::vector<convert::SeedBranch> seeds, d
   return seeds;
 }
 
-convert::Repetition repeated(const convert::Volume& volume, const std::string& file,
-                             const std::vector<convert::SeedBranch>& seeds,
-                             const TrackArguments& track, formats::Case& judged,
-                             Progress& progress) {
+}  // namespace
+
+std::optional<convert::Repetition> repeatTracks(const convert::Volume& volume,
+                                                const std::string& file,
+                                                const std::vector<convert::SeedBranch>& seeds,
+                                                const TrackArguments& track, formats::Case& judged,
+                                                Progress& progress) {
+  if (track.repeats == 0) return std::nullopt;
   std::vector<formats::Case> runs;
   progress.begin("repeating", track.repeats);
   QuietProgress quiet(progress);
@@ -165,7 +169,7 @@ convert::Repetition repeated(const convert::Volume& volume, const std::string& f
     other.options.seed += run;
     const auto places = moved(seeds, volume.geometry.voxelSize(), Random(other.options.seed));
     try {
-      runs.push_back(trackOnce(volume, file, places, other, quiet).result);
+      runs.push_back(trackVolume(volume, file, places, other, quiet).result);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Failed) throw;
       runs.emplace_back();  // it finds nothing
@@ -176,17 +180,6 @@ convert::Repetition repeated(const convert::Volume& volume, const std::string& f
   convert::Repetition out = convert::compareRuns(judged, runs);
   judged.metadata.extensionsUsed.emplace_back(kRepeatExtension);
   judged.nodeArrays.push_back({kRepeatArray, 1, "", out.nodes});
-  return out;
-}
-
-}  // namespace
-
-VolumeTracks trackVolume(const convert::Volume& volume, const std::string& file,
-                         const std::vector<convert::SeedBranch>& seeds, const TrackArguments& track,
-                         Progress& progress) {
-  VolumeTracks out{trackOnce(volume, file, seeds, track, progress), {}};
-  if (track.repeats > 0)
-    out.repetition = repeated(volume, file, seeds, track, out.result, progress);
   return out;
 }
 

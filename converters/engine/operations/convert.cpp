@@ -115,11 +115,11 @@ private:
       return made;
     }
     if (!m_seeds.empty()) warnOfVoxels(volume, m_input, progress);
-    VolumeTracks tracked = trackVolume(volume, m_input, m_seeds, m_track, progress);
+    convert::TrackResult tracked = trackVolume(volume, m_input, m_seeds, m_track, progress);
     if (!m_mask.labelMap.empty())
       nameByLabelMap(volume, m_input, m_mask, tracked.result, tracked.ends, progress);
+    m_repetition = repeatTracks(volume, m_input, m_seeds, m_track, tracked.result, progress);
     m_remarks = std::move(static_cast<convert::TrackRemarks&>(tracked));
-    m_repetition = std::move(tracked.repetition);
     return std::move(tracked.result);
   }
 

@@ -54,16 +54,18 @@ public:
     around.willWrite(m_output);
 
     const convert::Volume volume = loadVolume(m_input, from, m_volume, around.progress);
-    VolumeTracks tracked = trackVolume(volume, m_input, seeds, m_track, around.progress);
+    convert::TrackResult tracked = trackVolume(volume, m_input, seeds, m_track, around.progress);
     if (!m_labels.labelMap.empty())
       nameByLabelMap(volume, m_input, m_labels, tracked.result, tracked.ends, around.progress);
+    const auto repetition =
+        repeatTracks(volume, m_input, seeds, m_track, tracked.result, around.progress);
     to.writeCase(tracked.result, m_output, {}, around.progress);
     Json json = caseSummary(tracked.result);
     json["reachable"] = reachJson(std::nullopt);
-    json["repeats"] = repetitionJson(tracked.repetition, tracked.result);
+    json["repeats"] = repetitionJson(repetition, tracked.result);
     return {withRemarks(std::move(json), tracked),
             caseLine(m_output, tracked.result) + convert::reachLine(std::nullopt) +
-                repetitionLines(tracked.repetition) + endLines(tracked)};
+                repetitionLines(repetition) + endLines(tracked)};
   }
 
 private:

@@ -27,9 +27,9 @@ struct Repetition {
   std::vector<float> branches;  ///< for each branch: mean over its nodes
   std::vector<Vessel> unstable;
 
-  /// Greatest difference of the lengths, as a share of the least one.
+  /// Greatest difference of the lengths, as a share of the greatest one: 1 if a run finds nothing.
   [[nodiscard]] double spread() const {
-    return leastLength > 0 ? (greatestLength - leastLength) / leastLength : 0.0;
+    return greatestLength > 0 ? (greatestLength - leastLength) / greatestLength : 0.0;
   }
 };
 

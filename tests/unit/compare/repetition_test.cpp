@@ -35,6 +35,7 @@ TEST(CompareRuns, StateWhatSomeLack) {
       compareRuns(judged, std::array{judged, trunkAnd(0), Case{}, trunkAnd(10)});
   EXPECT_DOUBLE_EQ(found.leastLength, 0);  // the run that finds nothing
   EXPECT_NEAR(found.greatestLength, 30, 1e-4);
+  EXPECT_EQ(found.spread(), 1);
   EXPECT_FLOAT_EQ(found.branches[0], 0.75F);
   EXPECT_FLOAT_EQ(found.branches[1], 0.5F);
   ASSERT_EQ(found.unstable.size(), 2U);
@@ -51,7 +52,7 @@ TEST(CompareRuns, StateWhatTheJudgedCaseLacksButNotShortVessels) {
   ASSERT_EQ(found.unstable.size(), 1U);
   EXPECT_EQ(found.unstable[0].label, "");
   EXPECT_NEAR(found.unstable[0].length, 10, 1e-4);
-  EXPECT_NEAR(found.spread(), 0.5, 1e-6);
+  EXPECT_NEAR(found.spread(), 1.0 / 3, 1e-6);
 }
 
 TEST(CompareRuns, FindANodeInTheLumenAndNotBesideIt) {
